@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# Everything Grove needs comes from Debian packages (tools/packages lists them); nothing is downloaded.
+find_package(fmt REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(CBC REQUIRED IMPORTED_TARGET cbc)
+if(GROVE_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(GROVE_BUILD_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

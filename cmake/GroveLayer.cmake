@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: MIT
+add_library(grove_options INTERFACE)
+target_compile_options(grove_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+
+# grove_layer(<name> SOURCES ... [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])
+# One layer of the design as the static library grove_<name>, alias grove::<name>. Its interface is
+# include/grove/<name>/, its text src/<name>/. `cmake --build --preset release --target grove_<name>`
+# builds it alone.
+function(grove_layer name)
+  cmake_parse_arguments(LAYER "" "" "SOURCES;DEPENDS;LINK_PUBLIC;LINK_PRIVATE" ${ARGN})
+  add_library(grove_${name} STATIC ${LAYER_SOURCES})
+  add_library(grove::${name} ALIAS grove_${name})
+  target_include_directories(grove_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(grove_${name} PRIVATE grove_options ${LAYER_LINK_PRIVATE})
+  foreach(layer IN LISTS LAYER_DEPENDS)
+    target_link_libraries(grove_${name} PUBLIC grove::${layer})
+  endforeach()
+  target_link_libraries(grove_${name} PUBLIC ${LAYER_LINK_PUBLIC})
+endfunction()

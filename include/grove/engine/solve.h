@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The engine: runs the search on an instance until it is done or told to stop.
+#pragma once
+
+#include <cstdint>
+
+#include "grove/model/limits.h"
+#include "grove/model/plan.h"
+#include "grove/sequencing/rtsp.h"
+
+namespace grove {
+
+class RunObserver;  // grove/engine/run_observer.h
+
+// What a tree of the forest fixes about the agents' orders of visits.
+enum class Policy : std::uint8_t {
+  kAuto,   // the engine's choice; today kFixed
+  kFixed,  // one complete joint task sequence per tree: the paper's CTS-CBS
+};
+
+struct SolveOptions {
+  Omega omega;
+  Policy policy = Policy::kAuto;
+  RtspBackend rtsp = RtspBackend::kAuto;
+  // Breaks ties among conflicts of equal time; the same seed makes the same run, limits aside.
+  std::uint64_t seed = 0;
+};
+
+// Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower
+// bound. Single-threaded. `observer` (may be null) is told what happens, from the calling thread.
+// Throws only on lack of memory outside the search's own tables, and what the observer throws.
+Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
+               RunObserver* observer = nullptr);
+
+}  // namespace grove

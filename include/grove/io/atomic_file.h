@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Files that appear whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace grove {
+
+// Replaces the file at `path` by `content`: written beside it under a temporary name, flushed to
+// disk and renamed. On failure the old file stands, the temporary one is gone, and InputError is
+// thrown. Special files (/dev/stdout, pipes) are written to directly.
+void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+// Throws InputError when write_file_atomically(path) would fail now (no such folder, no permission,
+// a directory of that name): ask before a long run. Leaves nothing behind.
+void require_writable(const std::filesystem::path& path);
+
+}  // namespace grove

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Instances as files: *.cts.json with its map beside it, or Moving AI .scen + .map (design, section
+// 5). Every reader throws InputError on anything malformed; it never returns half an instance.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "grove/model/instance.h"
+
+namespace grove {
+
+// An instance and where it came from.
+struct LoadedInstance {
+  Instance instance;
+  std::filesystem::path map_path;     // the map file that was read
+  std::vector<std::string> warnings;  // one line each: unknown keys, unusual map characters, ...
+};
+
+// Reads a *.cts.json file and the map it names (relative to the file).
+LoadedInstance read_instance(const std::filesystem::path& path);
+
+// Classical MAPF: the first `agents` rows of a scenario as they stand, ids a0, a1, ...; no tasks.
+LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
+                                      const std::filesystem::path& map, int agents);
+
+// Writes `instance` as *.cts.json, whole or not at all; `map` is stored as it is given and should
+// be relative to the file. Throws InputError when the file cannot be written.
+void write_instance(const std::filesystem::path& path, const Instance& instance,
+                    const std::string& map);
+
+}  // namespace grove

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Plan files (design, section 5).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "grove/model/plan.h"
+
+namespace grove {
+
+// Writes `solution` whole or not at all. Throws InputError when the file cannot be written.
+void write_solution(const std::filesystem::path& path, const Instance& instance,
+                    const Solution& solution);
+
+// Reads a plan file and translates its ids with `instance`; believes every number it finds, for
+// check() to refute. Agents come back by AgentIndex whatever their order in the file; an agent that
+// the file leaves out has an empty path. Throws InputError on malformed files, unknown or repeated
+// ids. Appends to `warnings`.
+Solution read_solution(const std::filesystem::path& path, const Instance& instance,
+                       std::vector<std::string>* warnings = nullptr);
+
+}  // namespace grove

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Shortest distances on the grid, ignoring other agents.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "grove/model/instance.h"
+
+namespace grove {
+
+// Distance in steps from every cell to one target; kNever where the target cannot be reached.
+// Indexed by Cell.
+using DistanceField = std::vector<Time>;
+
+// Breadth-first search from `target`, which must be passable. O(cells).
+DistanceField distance_field(const Grid& grid, Cell target);
+
+// The fields of all cells that any agent of an instance must reach: tasks and destinations, each
+// computed once. Immutable after construction; any thread may read it.
+class DistanceFields {
+ public:
+  explicit DistanceFields(const Instance& instance);
+
+  // `target` must be the cell of a task or of a destination.
+  const DistanceField& to(Cell target) const { return *fields_[target]; }
+
+ private:
+  std::vector<std::unique_ptr<DistanceField>> fields_;  // by cell; null where nobody must go
+};
+
+}  // namespace grove

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What a run ends with: a status, perhaps a plan, always a bound (design, section 5).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grove/model/instance.h"
+#include "grove/model/omega.h"
+
+namespace grove {
+
+// Where an agent is at times 0, 1, ...: path[0] is its start and it rests on path.back() for ever.
+using Path = std::vector<Cell>;
+
+struct AgentPlan {
+  Time cost = 0;                    // when it comes to rest for ever with its tasks visited
+  std::vector<TaskIndex> sequence;  // all its tasks, in an order in which the path visits them
+  Path path;
+};
+
+struct Plan {
+  Cost cost = 0;                  // sum of the agents' costs
+  std::vector<AgentPlan> agents;  // by AgentIndex
+};
+
+enum class Status : std::uint8_t {
+  kOptimal,     // a plan, and its cost equals the lower bound
+  kBounded,     // a plan, and cost <= (1 + w) * lower bound
+  kFeasible,    // a plan, outside w
+  kInfeasible,  // proven: no plan exists
+  kUnknown,     // no plan when a limit struck
+};
+
+std::string_view to_string(Status status);
+std::optional<Status> parse_status(std::string_view text);
+
+// The status that a plan of `cost` (none: no plan) and a proven bound deserve.
+Status status_of(std::optional<Cost> cost, Cost lower_bound, Omega omega);
+
+// Numbers about a run, by name; the plan file's "stats". Units are in the names (wall_s).
+struct Stats {
+  std::map<std::string, std::int64_t> counts;
+  std::map<std::string, double> measures;
+  std::map<std::string, std::string> texts;
+};
+
+struct Solution {
+  Status status = Status::kUnknown;
+  std::optional<Plan> plan;
+  Cost lower_bound = 0;  // proven: no plan costs less. 0 and meaningless when infeasible
+  Omega omega;
+  Stats stats;
+};
+
+}  // namespace grove

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The cells one agent must visit in turn, with the distances that guide its search.
+#pragma once
+
+#include <vector>
+
+#include "grove/model/distance_field.h"
+#include "grove/model/instance.h"
+
+namespace grove {
+
+// The goals of one agent under a complete task sequence: its tasks in that order, then its
+// destination. For an MG agent the last task is the last goal. Never empty. The agent finishes when
+// it rests on the last goal having visited all before it, in order.
+class GoalSequence {
+ public:
+  // `tasks`: all the agent's tasks in the order to visit. `instance` and `distances` must outlive
+  // this.
+  GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
+               const std::vector<TaskIndex>& tasks);
+
+  Cell start() const { return start_; }
+  int size() const { return static_cast<int>(goals_.size()); }
+  Cell goal(int k) const { return goals_[k]; }
+  Cell last() const { return goals_.back(); }
+
+  // Steps from `cell` through goals k, k+1, ... to the last one, ignoring everything else: exact,
+  // so admissible and consistent. kNever or more when there is no way.
+  Time distance(Cell cell, int k) const { return (*to_goal_[k])[cell] + after_goal_[k]; }
+
+ private:
+  Cell start_;
+  std::vector<Cell> goals_;
+  std::vector<const DistanceField*> to_goal_;
+  std::vector<Time> after_goal_;  // from goal k through the rest
+};
+
+}  // namespace grove

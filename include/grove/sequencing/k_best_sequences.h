@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// One agent's sequences from the cheapest on (paper, Algorithm 2), computed as far as asked for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "grove/sequencing/rtsp.h"
+
+namespace grove {
+
+// The list of all complete sequences of one agent by cost. Rank 0 is the best. Not for two threads
+// at once.
+class KBestSequences {
+ public:
+  // `limits` must outlive the list.
+  KBestSequences(std::unique_ptr<RtspSolver> solver, const CostMatrix& matrix,
+                 const Limits& limits);
+  ~KBestSequences();
+  KBestSequences(KBestSequences&&) noexcept;
+  KBestSequences& operator=(KBestSequences&&) noexcept;
+
+  // A proven lower bound on the cost of the sequence of this rank, from what is known already;
+  // kNever when there are proven to be no more than `rank` sequences. Non-decreasing in rank.
+  // `rank` may be at most one beyond the known ones.
+  Time cost_bound(std::size_t rank) const;
+  // Is the sequence of this rank computed? Then cost_bound is its cost.
+  bool known(std::size_t rank) const;
+  // Works until `rank` is known, or its cost is proven to exceed `cutoff` (kNever: none), or it is
+  // proven not to exist, or a limit strikes. Returns cost_bound(rank).
+  Time resolve(std::size_t rank, Time cutoff);
+  // The sequence of a known rank; work of O(n^2) on the first call.
+  const Sequence& sequence(std::size_t rank);
+
+  // rTSPs solved so far.
+  std::int64_t rtsp_calls() const;
+
+ private:
+  class Partition;
+  std::unique_ptr<Partition> partition_;
+};
+
+}  // namespace grove

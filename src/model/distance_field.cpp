@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "grove/model/distance_field.h"
+
+namespace grove {
+
+DistanceField distance_field(const Grid& grid, Cell target) {
+  DistanceField distance(grid.cell_count(), kNever);
+  std::vector<Cell> queue{target};
+  queue.reserve(grid.passable_count());
+  distance[target] = 0;
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const Cell cell = queue[head];
+    for (Cell next : grid.neighbors(cell)) {
+      if (distance[next] != kNever) continue;
+      distance[next] = distance[cell] + 1;
+      queue.push_back(next);
+    }
+  }
+  return distance;
+}
+
+DistanceFields::DistanceFields(const Instance& instance) : fields_(instance.grid().cell_count()) {
+  const auto add = [&](Cell target) {
+    if (!fields_[target])
+      fields_[target] = std::make_unique<DistanceField>(distance_field(instance.grid(), target));
+  };
+  for (const Task& task : instance.tasks()) add(task.cell);
+  for (const Agent& agent : instance.agents())
+    if (agent.goal) add(*agent.goal);
+}
+
+}  // namespace grove

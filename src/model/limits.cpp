@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "grove/model/limits.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+namespace grove {
+namespace {
+
+constexpr Limits::Clock::duration kMemoryLookInterval = std::chrono::milliseconds(5);
+
+}  // namespace
+
+std::size_t resident_bytes() {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/self/statm", "r"),
+                                                             &std::fclose);
+  long total_pages = 0;
+  long resident_pages = 0;
+  if (!file || std::fscanf(file.get(), "%ld %ld", &total_pages, &resident_pages) != 2) return 0;
+  return static_cast<std::size_t>(resident_pages) *
+         static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+bool Limits::stop_requested() const {
+  if (reason() != StopReason::kNone) return true;
+  if (interrupt_ && interrupt_->load(std::memory_order_relaxed)) stop(StopReason::kInterrupt);
+  const Clock::time_point now = Clock::now();
+  if (deadline_ && now >= *deadline_) stop(StopReason::kTime);
+  if (memory_limit_ && now.time_since_epoch().count() >= next_memory_look_.load()) {
+    next_memory_look_ = (now + kMemoryLookInterval).time_since_epoch().count();
+    if (resident_bytes() > *memory_limit_) stop(StopReason::kMemory);
+  }
+  return reason() != StopReason::kNone;
+}
+
+double Limits::seconds_left() const {
+  if (!deadline_) return std::numeric_limits<double>::infinity();
+  return std::chrono::duration<double>(*deadline_ - Clock::now()).count();
+}
+
+bool Limits::memory_allows(std::size_t bytes) const {
+  return !memory_limit_ || resident_bytes() + bytes <= *memory_limit_;
+}
+
+void Limits::stop(StopReason reason) const {
+  StopReason expected = StopReason::kNone;
+  reason_.compare_exchange_strong(expected, reason);
+}
+
+}  // namespace grove

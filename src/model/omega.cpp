@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "grove/model/omega.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace grove {
+namespace {
+
+constexpr double kLargest = 1e6;
+constexpr const char* kExpected = "expected a number from 0 to 1e6 with at most 9 decimals, or inf";
+
+}  // namespace
+
+Omega Omega::from_double(double value) {
+  if (!(value >= 0 && value <= kLargest)) throw std::invalid_argument(kExpected);
+  return Omega(std::llround(value * static_cast<double>(kUnit)));
+}
+
+Omega Omega::parse(std::string_view text) {
+  if (text == "inf") return infinite();
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw std::invalid_argument(kExpected);
+  const Omega omega = from_double(value);
+  if (std::abs(omega.value() - value) > 1e-12 * (1 + value)) throw std::invalid_argument(kExpected);
+  return omega;
+}
+
+double Omega::value() const {
+  if (is_infinite()) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(billionths_) / static_cast<double>(kUnit);
+}
+
+std::string Omega::to_string() const {
+  return is_infinite() ? "inf" : fmt::format("{}", value());
+}
+
+}  // namespace grove

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "grove/model/instance.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace grove {
+namespace {
+
+using Ids = std::vector<std::string>;
+
+// . . . .
+// @ . . .
+InstanceBuilder builder() {
+  return InstanceBuilder(Grid(4, 2, {true, true, true, true, false, true, true, true}));
+}
+
+// The field of the InstanceError that `act` throws; "nothing" if it throws none.
+std::string refused_field(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InstanceError& error) {
+    EXPECT_STRNE(error.what(), "");
+    return error.field();
+  }
+  return "nothing";
+}
+
+TEST(InstanceBuilder, GivesTasksToTheirAgentsInOrder) {
+  auto b = builder();
+  b.add_agent("a", {0, 0}, Position{3, 0});
+  b.add_agent("b", {1, 0}, std::nullopt);
+  b.add_task("t0", {2, 0}, Ids{"b", "a"});
+  b.add_task("t1", {3, 1}, Ids{"a"});
+  const Instance instance = std::move(b).build();
+  EXPECT_EQ(instance.agent(0).tasks, (std::vector<TaskIndex>{0, 1}));
+  EXPECT_EQ(instance.agent(1).tasks, (std::vector<TaskIndex>{0}));
+  EXPECT_EQ(instance.task(0).agents, (std::vector<AgentIndex>{1, 0}));
+  EXPECT_FALSE(instance.agent(1).goal);
+}
+
+TEST(InstanceBuilder, AllowsTasksOnStartsAndDestinations) {
+  auto b = builder();
+  b.add_agent("a", {0, 0}, Position{3, 0});
+  b.add_agent("b", {1, 0}, Position{0, 0});
+  b.add_task("t0", {0, 0}, Ids{"b"});
+  b.add_task("t1", {3, 0}, Ids{"b"});
+  EXPECT_EQ(std::move(b).build().task_count(), 2);
+}
+
+TEST(InstanceBuilder, RefusesBadAgents) {
+  auto b = builder();
+  b.add_agent("a", {0, 0}, Position{3, 0});
+  EXPECT_EQ(refused_field([&] { b.add_agent("", {1, 0}, std::nullopt); }), "id");
+  EXPECT_EQ(refused_field([&] { b.add_agent("a", {1, 0}, std::nullopt); }), "id");
+  EXPECT_EQ(refused_field([&] { b.add_agent("b", {0, 0}, std::nullopt); }), "start");
+  EXPECT_EQ(refused_field([&] { b.add_agent("b", {0, 1}, std::nullopt); }), "start");
+  EXPECT_EQ(refused_field([&] { b.add_agent("b", {-1, 0}, std::nullopt); }), "start");
+  EXPECT_EQ(refused_field([&] { b.add_agent("b", {1, 0}, Position{3, 0}); }), "goal");
+  EXPECT_EQ(refused_field([&] { b.add_agent("b", {1, 0}, Position{4, 0}); }), "goal");
+}
+
+TEST(InstanceBuilder, RefusesBadTasks) {
+  auto b = builder();
+  b.add_agent("a", {0, 0}, Position{3, 0});
+  b.add_task("t", {1, 0}, Ids{"a"});
+  EXPECT_EQ(refused_field([&] { b.add_task("t", {2, 0}, Ids{"a"}); }), "id");
+  EXPECT_EQ(refused_field([&] { b.add_task("u", {1, 0}, Ids{"a"}); }), "cell");
+  EXPECT_EQ(refused_field([&] { b.add_task("u", {0, 1}, Ids{"a"}); }), "cell");
+  EXPECT_EQ(refused_field([&] { b.add_task("u", {2, 0}, Ids{}); }), "agents");
+  EXPECT_EQ(refused_field([&] { b.add_task("u", {2, 0}, Ids{"a", "z"}); }), "agents/1");
+  EXPECT_EQ(refused_field([&] { b.add_task("u", {2, 0}, Ids{"a", "a"}); }), "agents/1");
+}
+
+TEST(InstanceBuilder, RefusesMoreTasksThanAMaskHolds) {
+  InstanceBuilder b(Grid(70, 1, std::vector<bool>(70, true)));
+  b.add_agent("a", {0, 0}, std::nullopt);
+  for (int k = 0; k < kMaxTasksPerAgent; ++k) b.add_task("t" + std::to_string(k), {k, 0}, Ids{"a"});
+  EXPECT_EQ(refused_field([&] { b.add_task("last", {69, 0}, Ids{"a"}); }), "agents/0");
+}
+
+TEST(InstanceBuilder, RefusesInstancesWithNothingToDo) {
+  EXPECT_EQ(refused_field([] { builder().build(); }), "agents");
+  auto b = builder();
+  b.add_agent("a", {0, 0}, std::nullopt);
+  EXPECT_EQ(refused_field([&] { std::move(b).build(); }), "agents/0");
+}
+
+}  // namespace
+}  // namespace grove
