@@ -19,14 +19,24 @@ DistanceField distance_field(const Grid& grid, Cell target) {
   return distance;
 }
 
-DistanceFields::DistanceFields(const Instance& instance) : fields_(instance.grid().cell_count()) {
-  const auto add = [&](Cell target) {
+DistanceFields::DistanceFields(const Instance& instance, const Limits& limits) {
+  std::vector<Cell> targets;
+  for (const Task& task : instance.tasks()) targets.push_back(task.cell);
+  for (const Agent& agent : instance.agents())
+    if (agent.goal) targets.push_back(*agent.goal);
+
+  const auto cells = static_cast<std::size_t>(instance.grid().cell_count());
+  if (!limits.memory_allows(targets.size() * cells * sizeof(Time))) {
+    limits.memory_exhausted();
+    return;
+  }
+  fields_.resize(cells);
+  for (Cell target : targets) {
+    if (limits.stop_requested()) return;
     if (!fields_[target])
       fields_[target] = std::make_unique<DistanceField>(distance_field(instance.grid(), target));
-  };
-  for (const Task& task : instance.tasks()) add(task.cell);
-  for (const Agent& agent : instance.agents())
-    if (agent.goal) add(*agent.goal);
+  }
+  complete_ = true;
 }
 
 }  // namespace grove

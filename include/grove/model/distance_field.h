@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grove/model/instance.h"
+#include "grove/model/limits.h"
 
 namespace grove {
 
@@ -20,13 +21,19 @@ DistanceField distance_field(const Grid& grid, Cell target);
 // computed once. Immutable after construction; any thread may read it.
 class DistanceFields {
  public:
-  explicit DistanceFields(const Instance& instance);
+  // Asks `limits` for the memory and looks at them between fields; if they strike, complete() is
+  // false.
+  explicit DistanceFields(const Instance& instance, const Limits& limits = Limits());
+
+  // All fields are there. If not, to() must not be called.
+  bool complete() const { return complete_; }
 
   // `target` must be the cell of a task or of a destination.
   const DistanceField& to(Cell target) const { return *fields_[target]; }
 
  private:
   std::vector<std::unique_ptr<DistanceField>> fields_;  // by cell; null where nobody must go
+  bool complete_ = false;
 };
 
 }  // namespace grove

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Who watches a run: the log, the progress line, tests.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "grove/search/expander.h"
+#include "grove/search/node.h"
+
+namespace grove {
+
+// Where a run stands.
+struct Progress {
+  std::int64_t nodes_expanded = 0;
+  std::int64_t nodes_open = 0;
+  std::int64_t trees = 0;
+  Cost lower_bound = 0;
+  std::optional<Cost> incumbent;
+};
+
+enum class RunEvent : std::uint8_t {
+  kProgress,   // after every expansion: throttle it
+  kBound,      // the lower bound rose
+  kTree,       // a new tree was instantiated
+  kIncumbent,  // a better plan was found
+};
+
+// Does nothing; override what is of interest. Called from the thread that runs the search, between
+// two expansions: return quickly. References are valid during the call.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+
+  virtual void on_event(RunEvent /*event*/, const Progress& /*progress*/) {}
+  // The instance was seen to have no plan before any search; `reason` is a sentence.
+  virtual void on_infeasible(std::string_view /*reason*/) {}
+
+  // For tests of the search's reasoning (planted optimum): every root, every expansion with what it
+  // led to, and the bound from which on open nodes were dropped.
+  virtual void on_root(const NodePtr& /*root*/) {}
+  virtual void on_expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/) {}
+  virtual void on_pruned(Cost /*bound*/) {}
+};
+
+}  // namespace grove

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The trees of the forest, in the order of their joint sequences' costs (paper, Algorithms 1 and
+// 4).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "grove/model/limits.h"
+#include "grove/planning/conflict_avoidance_table.h"
+#include "grove/planning/low_level_search.h"
+#include "grove/search/node.h"
+#include "grove/sequencing/k_best_joint_sequences.h"
+
+namespace grove {
+
+// Instantiates one tree per joint task sequence, best first, as it is asked to. Not for two threads
+// at once.
+class Forest {
+ public:
+  // `problem` and `limits` must outlive the forest. Builds the cost matrices; tables and sequences
+  // come with the first questions.
+  Forest(const Problem& problem, RtspBackend backend, const Limits& limits);
+
+  // A proven lower bound on every plan of every tree not yet instantiated; kInfiniteCost when all
+  // are.
+  Cost next_bound() const;
+  // The root of the next tree; null when there is none or a limit struck.
+  NodePtr next_root();
+
+  // The cost of the joint sequence instantiated last; none before the first.
+  std::optional<Cost> last_cost() const { return last_cost_; }
+  std::int64_t trees() const { return trees_; }
+  std::int64_t rtsp_calls() const { return sequences_.rtsp_calls(); }
+
+ private:
+  std::shared_ptr<const AgentOrder>& slot(AgentIndex agent, std::uint32_t rank);
+  bool plan_missing_orders(const JointSequence& joint);
+  bool plan_order(AgentIndex agent, std::uint32_t rank);
+  void avoid(AgentIndex agent, const PackedPath& path);
+
+  const Problem& problem_;
+  const Limits& limits_;
+  std::vector<CostMatrix> matrices_;
+  KBestJointSequences sequences_;
+  std::optional<JointSequence> pending_;  // taken from sequences_, not yet a tree
+  std::vector<std::vector<std::shared_ptr<const AgentOrder>>> orders_;  // by agent, then rank
+  LowLevelSearch low_level_;
+  ConflictAvoidanceTable others_;
+  Path path_;
+  std::optional<Cost> last_cost_;
+  std::int64_t trees_ = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The live nodes of the forest: open, or in the hands of a worker.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "grove/search/node.h"
+
+namespace grove {
+
+// Best first: least bound, among equals the newest (which goes deep on plateaus). A node taken out
+// counts as live until it is settled, so bound() is valid while any number of workers expand. All
+// methods may be called from any thread; each holds one mutex for O(log of the distinct bounds).
+class Frontier {
+ public:
+  void push(NodePtr node);
+  // The best open node; null when none is open. The caller must settle() it, or give it back.
+  NodePtr take();
+  // A taken node has been replaced by what it led to (push that first), or pruned.
+  void settle(const NodePtr& node);
+  // A taken node goes back unexpanded.
+  void give_back(NodePtr node);
+  // Drops every open node whose bound is at least `bound`; returns how many.
+  std::size_t prune(Cost bound);
+
+  // The least bound of any live node, open or taken; kInfiniteCost when there is none.
+  Cost bound() const;
+  std::size_t open() const;
+  bool empty() const { return bound() == kInfiniteCost; }
+
+ private:
+  void push_locked(NodePtr node);
+  void release_locked(Cost bound);
+
+  mutable std::mutex mutex_;
+  std::map<Cost, std::vector<NodePtr>> open_;
+  std::map<Cost, std::size_t> taken_;  // how many nodes of each bound are in workers' hands
+  std::size_t open_count_ = 0;
+};
+
+}  // namespace grove

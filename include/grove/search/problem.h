@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What every part of the search reads and none changes.
+#pragma once
+
+#include "grove/model/distance_field.h"
+#include "grove/model/instance.h"
+
+namespace grove {
+
+// An instance with its distance fields. Immutable, shared by all threads; outlives the search.
+// Use it only if distances.complete().
+struct Problem {
+  Problem(const Instance& the_instance, const Limits& limits)
+      : instance(the_instance), distances(the_instance, limits) {}
+
+  const Instance& instance;  // owned by the caller
+  const DistanceFields distances;
+};
+
+}  // namespace grove

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Algorithm 1 of the paper, lines 9-22: validate the node's paths; on a conflict make one child for
+// each agent involved, which replans under the *child's* constraints (the paper's line 17 plans
+// under the parent's and would repeat the conflict for ever).
+#include "grove/search/expander.h"
+
+namespace grove {
+
+Expander::Expander(const Problem& problem, std::uint64_t seed)
+    : problem_(problem),
+      conflicts_(problem.instance.grid(), seed),
+      others_(problem.instance.grid()),
+      low_level_(problem.instance.grid()) {}
+
+Expansion Expander::expand(const NodePtr& node, const Limits& limits) {
+  Expansion expansion;
+  node->paths(problem_, paths_);
+  const std::optional<Conflict> conflict = conflicts_.first(paths_);
+  if (!conflict) {
+    expansion.plan = plan_at(problem_, *node);
+    return expansion;
+  }
+
+  others_.clear();
+  for (const Path& path : paths_) others_.add(path);
+  for (const AgentConstraint& added : split(*conflict)) {
+    others_.remove(paths_[added.agent]);
+    const bool done = branch(node, added, limits, expansion);
+    others_.add(paths_[added.agent]);
+    if (done) continue;
+    Expansion stopped;
+    stopped.stopped = true;
+    return stopped;
+  }
+  return expansion;
+}
+
+// Adds the child that obeys `added`, if it has a path. False when a limit struck.
+bool Expander::branch(const NodePtr& node, const AgentConstraint& added, const Limits& limits,
+                      Expansion& expansion) {
+  const AgentIndex agent = added.agent;
+  constraints_.assign(1, added.constraint);
+  node->constraints(agent, constraints_);
+
+  ++expansion.low_level_calls;
+  const LowLevelSearch::Outcome outcome =
+      low_level_.find(node->tree().orders[agent]->goals, constraints_, &others_, limits, path_);
+  if (outcome == LowLevelSearch::Outcome::kStopped) return false;
+  if (outcome == LowLevelSearch::Outcome::kInfeasible) return true;
+
+  const auto old_cost = static_cast<Cost>(paths_[agent].size());
+  const Cost cost = node->cost() - old_cost + static_cast<Cost>(path_.size());
+  expansion.children.push_back(
+      std::make_shared<Node>(node, added, PackedPath(problem_.instance.grid(), path_), cost));
+  return true;
+}
+
+}  // namespace grove

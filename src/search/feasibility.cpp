@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Three arguments, each a proof that there is no plan:
+//
+// Reach. An agent cannot visit or rest on a cell of another connected component.
+//
+// Rest. Agents rest on different cells for ever: a CTS agent on its destination, an MG agent on one
+// of its own tasks. If the bipartite graph of agents and cells to rest on has no matching that
+// covers every agent, there is no plan (Hall 1935; found by augmenting paths).
+//
+// Corridor. In a component that is a simple path agents cannot pass each other: two next to each
+// other would have to share a cell or swap. So the order along the corridor never changes; an agent
+// with r agents on one side is never nearer than r cells to that end, and destinations lie in the
+// order of the starts.
+#include "grove/search/feasibility.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace grove {
+namespace {
+
+std::string name(const Grid& grid, Cell cell) {
+  const Position p = grid.position(cell);
+  return fmt::format("[{}, {}]", p.x, p.y);
+}
+
+// The cells that an agent must stand on at some time, its start aside.
+std::vector<Cell> required_cells(const Instance& instance, const Agent& agent) {
+  std::vector<Cell> cells;
+  for (TaskIndex task : agent.tasks) cells.push_back(instance.task(task).cell);
+  if (agent.goal) cells.push_back(*agent.goal);
+  return cells;
+}
+
+std::optional<std::string> unreachable_cell(const Problem& problem) {
+  for (const Agent& agent : problem.instance.agents())
+    for (Cell cell : required_cells(problem.instance, agent))
+      if (problem.distances.to(cell)[agent.start] == kNever)
+        return fmt::format("agent '{}' cannot reach cell {}: there is no way from its start",
+                           agent.id, name(problem.instance.grid(), cell));
+  return std::nullopt;
+}
+
+// Kuhn's algorithm: agents to distinct cells to rest on.
+class RestingMatching {
+ public:
+  explicit RestingMatching(const Instance& instance) : instance_(instance) {}
+
+  bool place(AgentIndex agent) {
+    tried_.clear();
+    return augment(agent);
+  }
+
+ private:
+  std::vector<Cell> resting_cells(AgentIndex agent) const {
+    if (const auto goal = instance_.agent(agent).goal) return {*goal};
+    return required_cells(instance_, instance_.agent(agent));
+  }
+
+  bool augment(AgentIndex agent) {
+    for (Cell cell : resting_cells(agent)) {
+      if (!tried_.emplace(cell, true).second) continue;
+      const auto holder = holder_.find(cell);
+      if (holder != holder_.end() && !augment(holder->second)) continue;
+      holder_[cell] = agent;
+      return true;
+    }
+    return false;
+  }
+
+  const Instance& instance_;
+  std::map<Cell, AgentIndex> holder_;
+  std::map<Cell, bool> tried_;
+};
+
+std::optional<std::string> no_room_to_rest(const Problem& problem) {
+  RestingMatching matching(problem.instance);
+  for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
+    if (!matching.place(agent))
+      return fmt::format(
+          "the agents cannot all end on different cells: none is left for agent '{}'",
+          problem.instance.agent(agent).id);
+  return std::nullopt;
+}
+
+// The cells of the corridor that ends at `end`, in order; empty if the component is no simple path.
+std::vector<Cell> corridor_from(const Grid& grid, Cell end) {
+  std::vector<Cell> cells{end};
+  Cell previous = kNoCell;
+  while (true) {
+    const auto neighbors = grid.neighbors(cells.back());
+    if (neighbors.size() > 2) return {};
+    const auto next = std::ranges::find_if(neighbors, [&](Cell c) { return c != previous; });
+    if (next == neighbors.end()) return cells;
+    previous = cells.back();
+    cells.push_back(*next);
+  }
+}
+
+std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Cell>& corridor) {
+  const Instance& instance = problem.instance;
+  const int length = static_cast<int>(corridor.size());
+  std::map<Cell, int> place;
+  for (int i = 0; i < length; ++i) place[corridor[i]] = i;
+
+  std::vector<const Agent*> agents;
+  for (const Agent& agent : instance.agents())
+    if (place.contains(agent.start)) agents.push_back(&agent);
+  std::ranges::sort(agents, {}, [&](const Agent* agent) { return place[agent->start]; });
+
+  const int count = static_cast<int>(agents.size());
+  int last_goal = -1;
+  for (int r = 0; r < count; ++r) {
+    const Agent& agent = *agents[r];
+    for (Cell cell : required_cells(instance, agent))
+      if (place[cell] < r || place[cell] > length - (count - r))
+        return fmt::format("agent '{}' cannot get to cell {}: other agents fill the corridor",
+                           agent.id, name(instance.grid(), cell));
+    if (!agent.goal) continue;
+    if (place[*agent.goal] < last_goal)
+      return fmt::format("agent '{}' would have to pass another agent in a corridor", agent.id);
+    last_goal = place[*agent.goal];
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> stuck_in_a_corridor(const Problem& problem) {
+  const Grid& grid = problem.instance.grid();
+  for (Cell cell = 0; cell < grid.cell_count(); ++cell) {
+    if (!grid.passable(cell) || grid.neighbors(cell).size() > 1) continue;
+    const std::vector<Cell> corridor = corridor_from(grid, cell);
+    if (corridor.empty()) continue;
+    if (auto reason = stuck_in(problem, corridor)) return reason;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> evident_infeasibility(const Problem& problem) {
+  if (auto reason = unreachable_cell(problem)) return reason;
+  if (auto reason = no_room_to_rest(problem)) return reason;
+  return stuck_in_a_corridor(problem);
+}
+
+}  // namespace grove

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// A root's paths are shortest for its sequences and independent of the constraints, so they are
+// planned once per (agent, rank) and shared by all trees that use them; the first to use one plans
+// it around the other agents' paths known then, which spares the tree conflicts that are mere ties.
+#include "grove/search/forest.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace grove {
+namespace {
+
+std::vector<CostMatrix> cost_matrices(const Problem& problem) {
+  std::vector<CostMatrix> matrices;
+  for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
+    matrices.push_back(cost_matrix(problem.instance, agent, problem.distances));
+  return matrices;
+}
+
+KBestJointSequences joint_sequences(const std::vector<CostMatrix>& matrices, RtspBackend backend,
+                                    const Limits& limits) {
+  std::vector<KBestSequences> agents;
+  for (const CostMatrix& matrix : matrices)
+    agents.emplace_back(make_rtsp_solver(backend, matrix, limits), matrix, limits);
+  return KBestJointSequences(std::move(agents), limits);
+}
+
+}  // namespace
+
+Forest::Forest(const Problem& problem, RtspBackend backend, const Limits& limits)
+    : problem_(problem),
+      limits_(limits),
+      matrices_(cost_matrices(problem)),
+      sequences_(joint_sequences(matrices_, backend, limits)),
+      orders_(problem.instance.agent_count()),
+      low_level_(problem.instance.grid()),
+      others_(problem.instance.grid()) {}
+
+Cost Forest::next_bound() const {
+  const Cost rest = sequences_.lower_bound();
+  return pending_ ? std::min(pending_->cost, rest) : rest;
+}
+
+NodePtr Forest::next_root() {
+  if (!pending_) pending_ = sequences_.next();
+  if (!pending_ || !plan_missing_orders(*pending_)) return nullptr;
+
+  auto tree = std::make_shared<Tree>();
+  for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
+    tree->orders.push_back(slot(agent, pending_->ranks[agent]));
+  last_cost_ = pending_->cost;
+  pending_.reset();
+  ++trees_;
+  return std::make_shared<Node>(std::move(tree));
+}
+
+std::shared_ptr<const AgentOrder>& Forest::slot(AgentIndex agent, std::uint32_t rank) {
+  auto& ranks = orders_[agent];
+  if (ranks.size() <= rank) ranks.resize(rank + 1);
+  return ranks[rank];
+}
+
+// Plans the orders that no earlier tree used. False when a limit struck.
+bool Forest::plan_missing_orders(const JointSequence& joint) {
+  std::vector<AgentIndex> missing;
+  for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
+    if (!slot(agent, joint.ranks[agent])) missing.push_back(agent);
+  if (missing.empty()) return true;
+
+  others_.clear();
+  for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
+    if (const auto& order = slot(agent, joint.ranks[agent])) avoid(agent, order->path);
+  for (AgentIndex agent : missing)
+    if (!plan_order(agent, joint.ranks[agent])) return false;
+  return true;
+}
+
+bool Forest::plan_order(AgentIndex agent, std::uint32_t rank) {
+  const Instance& instance = problem_.instance;
+  const Sequence& sequence = sequences_.sequence(agent, rank);
+  GoalSequence goals(instance, problem_.distances, agent,
+                     tasks_in_order(instance.agent(agent), sequence));
+  const auto outcome = low_level_.find(goals, {}, &others_, limits_, path_);
+  if (outcome == LowLevelSearch::Outcome::kStopped) return false;
+  if (outcome == LowLevelSearch::Outcome::kInfeasible)
+    throw std::logic_error("internal error: a sequence of finite cost has no path");
+  PackedPath packed(instance.grid(), path_);
+  others_.add(path_);
+  slot(agent, rank) = std::make_shared<const AgentOrder>(
+      AgentOrder{{sequence, 0}, std::move(goals), std::move(packed)});
+  return true;
+}
+
+void Forest::avoid(AgentIndex agent, const PackedPath& path) {
+  path.unpack(problem_.instance.grid(), problem_.instance.agent(agent).start, path_);
+  others_.add(path_);
+}
+
+}  // namespace grove

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Why these decisions are sound, whatever the order in which nodes are expanded.
+//
+// Every plan belongs to a tree (the class of its joint sequence) and, in an instantiated tree, to a
+// live node, to a pruned one, or to one that was replaced by children which together hold every
+// plan it held (split() loses none). So at every moment each plan is (a) in a live node, (b) in a
+// tree not yet instantiated, or (c) was in a node pruned by an incumbent that cost no more than the
+// node's bound. A plan of kind (a) costs at least min(live bounds), of kind (b) at least the next
+// tree's bound, of kind (c) at least the incumbent. Hence min(live, next tree, incumbent) is a
+// lower bound on every plan; and as each such minimum was a valid bound when it was computed, so is
+// the largest so far.
+//
+// Stopping at incumbent <= (1 + w) * lower bound is the definition of w-suboptimality. If nothing
+// of kind (a) or (b) is left the bound is the incumbent itself; without one there is no plan at
+// all.
+//
+// Algorithm 4 of the paper instantiates the next tree when the popped cost exceeds (1 + w) times
+// the cost of the last one; that only delays trees, it proves nothing: the proof is the ledger's.
+// The paper's "OPEN is empty" must mean that no live node exists at all, the popped one included,
+// or every instance would get a needless second root. With w = inf only the first tree is ever
+// built (S-CBS).
+#include "grove/search/gate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "grove/model/check.h"
+
+namespace grove {
+
+bool Gate::post(Plan plan) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (incumbent_ && incumbent_->cost <= plan.cost) return false;
+  }
+  Solution claim;
+  claim.status = Status::kFeasible;
+  claim.plan = std::move(plan);
+  if (const auto violations = check(instance_, claim, 1); !violations.empty())
+    throw std::logic_error(fmt::format("internal error: a plan of the search is wrong at {}: {}",
+                                       violations[0].place, violations[0].message));
+
+  const std::lock_guard lock(mutex_);
+  if (incumbent_ && incumbent_->cost <= claim.plan->cost) return false;
+  incumbent_ = std::move(claim.plan);
+  return true;
+}
+
+void Gate::update(Cost live_bound, Cost next_tree_bound) {
+  const std::lock_guard lock(mutex_);
+  open_bound_ = std::max(open_bound_, std::min(live_bound, next_tree_bound));
+}
+
+Cost Gate::lower_bound_locked() const {
+  return incumbent_ ? std::min(open_bound_, incumbent_->cost) : open_bound_;
+}
+
+Cost Gate::lower_bound() const {
+  const std::lock_guard lock(mutex_);
+  return lower_bound_locked();
+}
+
+std::optional<Cost> Gate::incumbent_cost() const {
+  const std::lock_guard lock(mutex_);
+  return incumbent_ ? std::optional(incumbent_->cost) : std::nullopt;
+}
+
+std::optional<Plan> Gate::incumbent() const {
+  const std::lock_guard lock(mutex_);
+  return incumbent_;
+}
+
+bool Gate::finished() const {
+  const std::lock_guard lock(mutex_);
+  if (open_bound_ >= kInfiniteCost) return true;
+  return incumbent_ && omega_.accepts(incumbent_->cost, lower_bound_locked());
+}
+
+bool Gate::proven_infeasible() const {
+  const std::lock_guard lock(mutex_);
+  return !incumbent_ && open_bound_ >= kInfiniteCost;
+}
+
+bool Gate::prunes(Cost bound) const {
+  const std::lock_guard lock(mutex_);
+  return incumbent_ && bound >= incumbent_->cost;
+}
+
+bool Gate::needs_new_tree(Cost best_live, std::optional<Cost> last_tree_cost) const {
+  if (!last_tree_cost) return true;
+  if (omega_.is_infinite()) return false;
+  if (best_live >= kInfiniteCost) return true;
+  return !omega_.accepts(best_live, *last_tree_cost);
+}
+
+}  // namespace grove

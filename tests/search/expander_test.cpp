@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/expander.h"
+
+#include <gtest/gtest.h>
+
+#include "grove/search/forest.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+using testing::AgentSpec;
+
+// The root of the first tree of an instance, and an expander for it.
+struct Search {
+  Search(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents)
+      : instance(testing::instance_of(rows, agents)),
+        problem(instance, limits),
+        forest(problem, RtspBackend::kAuto, limits),
+        expander(problem, 0),
+        root(forest.next_root()) {}
+
+  Limits limits;
+  Instance instance;
+  Problem problem;
+  Forest forest;
+  Expander expander;
+  NodePtr root;
+};
+
+TEST(Expander, TurnsAConflictFreeNodeIntoItsPlan) {
+  Search s({"....", "...."}, {{{0, 0}, Position{3, 0}, {{2, 0}}}, {{0, 1}, Position{3, 1}}});
+  const Expansion expansion = s.expander.expand(s.root, s.limits);
+  ASSERT_TRUE(expansion.plan);
+  EXPECT_TRUE(expansion.children.empty());
+  EXPECT_EQ(expansion.plan->cost, s.root->cost());
+  EXPECT_EQ(expansion.plan->agents[0].path, Path({0, 1, 2, 3}));
+}
+
+TEST(Expander, MakesOneChildPerAgentUnderTheChildsConstraints) {
+  // Head on in a corridor with a bay: both agents have to give way somewhere.
+  Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
+  const Expansion expansion = s.expander.expand(s.root, s.limits);
+  ASSERT_EQ(expansion.children.size(), 2u);
+  EXPECT_FALSE(expansion.plan);
+  for (const NodePtr& child : expansion.children) {
+    EXPECT_GT(child->cost(), s.root->cost());
+    std::vector<Constraint> on_first;
+    std::vector<Constraint> on_second;
+    child->constraints(0, on_first);
+    child->constraints(1, on_second);
+    ASSERT_EQ(on_first.size() + on_second.size(), 1u);
+    const AgentIndex agent = on_first.empty() ? 1 : 0;
+    const Constraint c = on_first.empty() ? on_second[0] : on_first[0];
+    std::vector<Path> paths;
+    child->paths(s.problem, paths);
+    EXPECT_EQ(c.cell, 2);
+    EXPECT_NE(paths[agent][c.begin], c.cell);
+  }
+}
+
+TEST(Expander, LeavesOutChildrenWithoutAPath) {
+  // The second agent rests on cell 2 for ever; barring it there at the time of the conflict sends
+  // it away and back, but the first has no other way: its child waits.
+  Search s({"...."}, {{{0, 0}, Position{1, 0}}, {{3, 0}, Position{2, 0}, {{1, 0}}}});
+  const Expansion expansion = s.expander.expand(s.root, s.limits);
+  ASSERT_FALSE(expansion.children.empty());
+  for (const NodePtr& child : expansion.children) EXPECT_GE(child->bound(), s.root->bound());
+}
+
+TEST(Expander, StopsWithoutATraceWhenALimitStrikes) {
+  Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
+  s.limits.set_deadline(Limits::Clock::now());
+  const Expansion expansion = s.expander.expand(s.root, s.limits);
+  EXPECT_TRUE(expansion.stopped);
+  EXPECT_TRUE(expansion.children.empty());
+  EXPECT_FALSE(expansion.plan);
+}
+
+TEST(Expander, IsAPureFunctionOfTheNode) {
+  Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
+  const Expansion first = s.expander.expand(s.root, s.limits);
+  for (const NodePtr& child : first.children) s.expander.expand(child, s.limits);
+  const Expansion again = s.expander.expand(s.root, s.limits);
+  ASSERT_EQ(again.children.size(), first.children.size());
+  for (std::size_t k = 0; k < first.children.size(); ++k) {
+    std::vector<Path> a;
+    std::vector<Path> b;
+    first.children[k]->paths(s.problem, a);
+    again.children[k]->paths(s.problem, b);
+    EXPECT_EQ(a, b);
+  }
+}
+
+}  // namespace
+}  // namespace grove

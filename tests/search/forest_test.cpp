@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/forest.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+class ForestTest : public ::testing::Test {
+ protected:
+  // Two agents with 3 and 2 tasks: 6 * 2 = 12 trees.
+  ForestTest()
+      : instance_(testing::instance_of(
+            {".....", ".....", "....."},
+            {{{0, 0}, Position{4, 0}, {{1, 2}, {3, 1}, {2, 0}}}, {{0, 2}, {}, {{4, 2}, {2, 1}}}})),
+        problem_(instance_, limits_) {}
+
+  Limits limits_;
+  Instance instance_;
+  Problem problem_;
+};
+
+TEST_F(ForestTest, InstantiatesEveryTreeOnceInOrderOfCost) {
+  Forest forest(problem_, RtspBackend::kAuto, limits_);
+  std::set<std::pair<Sequence, Sequence>> seen;
+  Cost last = 0;
+  while (const NodePtr root = forest.next_root()) {
+    EXPECT_EQ(root->cost(), forest.last_cost());
+    EXPECT_GE(root->cost(), last);
+    EXPECT_LE(forest.next_bound() == kInfiniteCost ? 0 : last, root->cost());
+    last = root->cost();
+    EXPECT_TRUE(seen.emplace(root->tree().orders[0]->sequences.prefix,
+                             root->tree().orders[1]->sequences.prefix)
+                    .second);
+  }
+  EXPECT_EQ(seen.size(), 12u);
+  EXPECT_EQ(forest.trees(), 12);
+  EXPECT_EQ(forest.next_bound(), kInfiniteCost);
+}
+
+TEST_F(ForestTest, NextBoundNeverExceedsTheNextTree) {
+  Forest forest(problem_, RtspBackend::kAuto, limits_);
+  while (true) {
+    const Cost bound = forest.next_bound();
+    const NodePtr root = forest.next_root();
+    if (!root) break;
+    EXPECT_LE(bound, root->cost());
+  }
+}
+
+TEST_F(ForestTest, TreesShareTheOrdersTheyHaveInCommon) {
+  Forest forest(problem_, RtspBackend::kAuto, limits_);
+  std::set<const AgentOrder*> orders;
+  while (const NodePtr root = forest.next_root())
+    for (const auto& order : root->tree().orders) orders.insert(order.get());
+  EXPECT_EQ(orders.size(), 6u + 2u);
+}
+
+TEST_F(ForestTest, ALimitLosesNoTree) {
+  Forest forest(problem_, RtspBackend::kAuto, limits_);
+  const Cost first = forest.next_root()->cost();
+  limits_.set_deadline(Limits::Clock::now());
+  EXPECT_EQ(forest.next_root(), nullptr);
+  EXPECT_GE(forest.next_bound(), 0);
+  EXPECT_LT(forest.next_bound(), kInfiniteCost);
+  EXPECT_EQ(forest.last_cost(), first);
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/node.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+TEST(PackedPath, UnpacksWhatWasPacked) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 200; ++round) {
+    const int width = 1 + static_cast<int>(random() % 6);
+    const Grid grid(width, 5, std::vector<bool>(static_cast<std::size_t>(width) * 5, true));
+    Path path{static_cast<Cell>(random() % grid.cell_count())};
+    const auto steps = random() % 100;
+    for (std::size_t s = 0; s < steps; ++s) {
+      const auto neighbors = grid.neighbors(path.back());
+      const auto pick = random() % (neighbors.size() + 1);
+      path.push_back(pick < neighbors.size() ? neighbors[pick] : path.back());
+    }
+    const PackedPath packed(grid, path);
+    Path unpacked{99};
+    packed.unpack(grid, path[0], unpacked);
+    EXPECT_EQ(unpacked, path);
+    EXPECT_EQ(packed.cost(), static_cast<Time>(steps));
+  }
+}
+
+class NodeTest : public ::testing::Test {
+ protected:
+  NodeTest()
+      : instance_(testing::instance_of(
+            {"....", "...."}, {{{0, 0}, Position{2, 0}}, {{0, 1}, Position{1, 1}, {{2, 1}}}})),
+        problem_(instance_, Limits()),
+        tree_(std::make_shared<Tree>()) {
+    add_order(0, {}, {0, 1, 2});
+    add_order(1, {0}, {4, 5, 6, 5});
+    root_ = std::make_shared<Node>(tree_);
+  }
+
+  void add_order(AgentIndex agent, const Sequence& sequence, const Path& path) {
+    tree_->orders.push_back(std::make_shared<const AgentOrder>(
+        AgentOrder{{sequence, 0},
+                   GoalSequence(instance_, problem_.distances, agent,
+                                tasks_in_order(instance_.agent(agent), sequence)),
+                   PackedPath(instance_.grid(), path)}));
+  }
+
+  NodePtr child(NodePtr parent, AgentIndex agent, Time barred, const Path& path, Cost cost) {
+    return std::make_shared<Node>(std::move(parent),
+                                  AgentConstraint{agent, {1, kNoCell, barred, barred}},
+                                  PackedPath(instance_.grid(), path), cost);
+  }
+
+  Instance instance_;
+  Problem problem_;
+  std::shared_ptr<Tree> tree_;
+  NodePtr root_;
+};
+
+TEST_F(NodeTest, ChildrenTakeOverWhatTheyDoNotChange) {
+  const NodePtr first = child(root_, 0, 1, {0, 0, 1, 2}, 6);
+  const NodePtr second = child(first, 1, 7, {4, 4, 5, 6, 5}, 7);
+  const NodePtr third = child(second, 0, 2, {0, 0, 0, 1, 2}, 8);
+  std::vector<Path> paths;
+  third->paths(problem_, paths);
+  EXPECT_EQ(paths[0], Path({0, 0, 0, 1, 2}));
+  EXPECT_EQ(paths[1], Path({4, 4, 5, 6, 5}));
+  first->paths(problem_, paths);
+  EXPECT_EQ(paths[1], Path({4, 5, 6, 5}));
+
+  std::vector<Constraint> constraints;
+  third->constraints(0, constraints);
+  ASSERT_EQ(constraints.size(), 2u);
+  EXPECT_EQ(constraints[0].begin, 2);
+  EXPECT_EQ(constraints[1].begin, 1);
+}
+
+TEST_F(NodeTest, BoundIsNeverBelowTheParents) {
+  EXPECT_EQ(root_->bound(), 5);
+  const NodePtr node = child(root_, 0, 1, {0, 1}, 4);  // an impossible improvement
+  EXPECT_EQ(node->cost(), 4);
+  EXPECT_EQ(node->bound(), 5);
+}
+
+TEST_F(NodeTest, PlanNamesTasksInTheirOrder) {
+  const Plan plan = plan_at(problem_, *root_);
+  EXPECT_EQ(plan.cost, 5);
+  EXPECT_EQ(plan.agents[1].sequence, std::vector<TaskIndex>({0}));
+  EXPECT_EQ(plan.agents[1].path, Path({4, 5, 6, 5}));
+}
+
+TEST_F(NodeTest, ReleasesVeryDeepChains) {
+  NodePtr node = root_;
+  for (int depth = 0; depth < 500'000; ++depth) node = child(node, 0, 1, {0, 1, 2}, 5);
+  node.reset();
+  EXPECT_EQ(root_.use_count(), 1);
+}
+
+}  // namespace
+}  // namespace grove
