@@ -9,7 +9,8 @@ namespace grove {
 
 // Replaces the file at `path` by `content`: written beside it under a temporary name, flushed to
 // disk and renamed. On failure the old file stands, the temporary one is gone, and InputError is
-// thrown. Special files (/dev/stdout, pipes) are written to directly.
+// thrown. Special files (devices, pipes, /dev/stdout) are written to directly. A program
+// that may run under a limit on file sizes must ignore SIGXFSZ, or the signal ends it half-way.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 // Throws InputError when write_file_atomically(path) would fail now (no such folder, no permission,

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace grove {
 
@@ -13,9 +14,12 @@ namespace grove {
 // file.
 class InputError : public std::runtime_error {
  public:
-  InputError(const std::string& file, const std::string& place, const std::string& message)
-      : std::runtime_error(place.empty() ? file + ": " + message
-                                         : file + ": " + place + ": " + message) {}
+  InputError(std::string_view file, std::string_view place, std::string_view message);
 };
+
+// `text` as one printable line, whatever was in it: control characters and broken UTF-8 are written
+// as \n, \t, \x1b, ..., and what goes beyond some hundred bytes is cut off. For messages that quote
+// files.
+std::string one_line(std::string_view text);
 
 }  // namespace grove

@@ -10,6 +10,9 @@
 
 namespace grove {
 
+// The largest map that is read, in cells: some 8192 x 8192.
+inline constexpr int kMaxMapCells = 1 << 26;
+
 // Reads a .map file: four header lines (type octile, height, width, map; height and width in either
 // order), then `height` rows of `width` characters. Passable: . G S E. Blocked: @ O T W. CRLF line
 // ends and a missing last newline are accepted. Appends to `warnings` when characters other than

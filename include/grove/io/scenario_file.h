@@ -10,7 +10,8 @@
 
 namespace grove {
 
-// One row. The length column (octile distance) is not kept: it is no bound for 4-connected grids.
+// One row. The bucket is not kept, nor the length: an octile distance bounds nothing on a
+// 4-connected grid.
 struct ScenarioRow {
   int line = 0;  // in the file, from 1: for messages
   std::string map;
@@ -23,8 +24,9 @@ struct ScenarioRow {
 // All rows in file order. Throws InputError with line and column.
 std::vector<ScenarioRow> read_scenario(const std::filesystem::path& path);
 
-// Writes rows (bucket 0, length 0 is never written: the 4-connected distance stands there as given
-// in `lengths`, one per row), whole or not at all.
+// Writes `rows`, whole or not at all. `lengths`, one per row, fill the last column: the 4-connected
+// distance from start to goal, where Moving AI's own files give the octile one. The bucket is a
+// quarter of it, as theirs.
 void write_scenario(const std::filesystem::path& path, const std::vector<ScenarioRow>& rows,
                     const std::vector<Time>& lengths);
 

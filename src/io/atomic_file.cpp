@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <utility>
+
+#include "grove/io/input_error.h"
+
+namespace grove {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_to_write(const fs::path& path, int error) {
+  throw InputError(path.string(), "",
+                   "cannot be written: " + std::generic_category().message(error));
+}
+
+// An open file; closes itself.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags)
+      : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  bool is_open() const { return fd_ >= 0; }
+  int get() const { return fd_; }
+  // Some file systems report what went wrong only now.
+  bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
+
+ private:
+  int fd_;
+};
+
+bool write_all(int fd, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(fd, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+// Files to write to as they stand. /dev/stdout may well be a regular file, which others have open.
+bool is_special(const fs::path& path, const fs::file_status& status) {
+  if (!fs::exists(status)) return false;
+  const std::string name = path.lexically_normal().string();
+  return !fs::is_regular_file(status) || name == "/dev/stdout" || name == "/dev/stderr" ||
+         name.starts_with("/dev/fd/") || name.starts_with("/proc/");
+}
+
+// Where the content must go: the file behind a symbolic link. Throws when that cannot work.
+fs::path resolved(const fs::path& path, fs::file_status& status) {
+  std::error_code ignored;
+  status = fs::status(path, ignored);
+  if (path.filename().empty() || fs::is_directory(status))
+    throw InputError(path.string(), "", "cannot be written: is a directory; expected a file name");
+  if (fs::exists(status) && ::access(path.c_str(), W_OK) != 0) fail_to_write(path, errno);
+  if (is_special(path, status)) return path;
+  std::error_code error;
+  const fs::path target = fs::weakly_canonical(path, error);
+  return error ? path : target;
+}
+
+// A new, empty file beside `target`; removes itself unless it was renamed.
+class TemporaryFile {
+ public:
+  // `name` is the path as the user gave it, for messages.
+  TemporaryFile(const fs::path& target, const fs::path& name)
+      : path_(unused_name(target)), name_(name), file_(path_, O_WRONLY | O_CREAT | O_EXCL) {
+    if (!file_.is_open()) fail_to_write(name, errno);
+  }
+  ~TemporaryFile() {
+    if (!renamed_) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void copy_permissions(const fs::file_status& status) {
+    (void)::fchmod(file_.get(), static_cast<mode_t>(status.permissions()));
+  }
+
+  void write(std::string_view content) {
+    if (!write_all(file_.get(), content) || ::fsync(file_.get()) != 0) fail_to_write(name_, errno);
+    if (!file_.close()) fail_to_write(name_, errno);
+  }
+
+  void rename_to(const fs::path& target) {
+    if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write(name_, errno);
+    renamed_ = true;
+  }
+
+ private:
+  // Process numbers come again, after a crash or in a container; the clock does not.
+  static fs::path unused_name(const fs::path& target) {
+    static std::atomic<unsigned> count{0};
+    const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+    return target.parent_path() / fmt::format(".grove-{}-{}-{}.tmp", ::getpid(), now, count++);
+  }
+
+  fs::path path_;
+  fs::path name_;
+  Descriptor file_;
+  bool renamed_ = false;
+};
+
+void write_directly(const fs::path& path, std::string_view content) {
+  // Appending: a shell's redirection may already hold the output of others.
+  Descriptor file(path, O_WRONLY | O_APPEND | O_NOCTTY);
+  if (!file.is_open() || !write_all(file.get(), content) || !file.close())
+    fail_to_write(path, errno);
+}
+
+// After a crash of the machine either name must lead to a whole file.
+void flush_directory(const fs::path& directory) {
+  const Descriptor handle(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);
+  if (handle.is_open()) (void)::fsync(handle.get());
+}
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+  fs::file_status status;
+  const fs::path target = resolved(path, status);
+  if (is_special(path, status)) return write_directly(path, content);
+  TemporaryFile file(target, path);
+  if (fs::exists(status)) file.copy_permissions(status);
+  file.write(content);
+  file.rename_to(target);
+  flush_directory(target.parent_path());
+}
+
+void require_writable(const fs::path& path) {
+  fs::file_status status;
+  const fs::path target = resolved(path, status);
+  if (!is_special(path, status)) const TemporaryFile probe(target, path);
+}
+
+}  // namespace grove

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/instance_file.h"
+
+#include <fmt/format.h>
+
+#include "grove/io/atomic_file.h"
+#include "grove/io/input_error.h"
+#include "grove/io/map_file.h"
+#include "grove/io/scenario_file.h"
+#include "json_value.h"
+#include "json_writer.h"
+
+namespace grove {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+// Runs `add`; tells where in the file the rule was broken that an InstanceError reports.
+template <typename Add>
+void at_place_of(const JsonValue& value, Add add) {
+  try {
+    add();
+  } catch (const InstanceError& error) {
+    value.fail(error.what(), error.field());
+  }
+}
+
+void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
+  const std::string id = agent.member("id").text();
+  const Position start = agent.member("start").position();
+  std::optional<Position> goal;
+  if (const auto value = agent.find("goal")) goal = value->position();
+  at_place_of(agent, [&] { builder.add_agent(id, start, goal); });
+}
+
+void add_task(InstanceBuilder& builder, const JsonValue& task) {
+  const std::string id = task.member("id").text();
+  const Position cell = task.member("cell").position();
+  const std::vector<std::string> agents = task.member("agents").texts();
+  at_place_of(task, [&] { builder.add_task(id, cell, agents); });
+}
+
+void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unknown) {
+  const JsonValue agents = root.member("agents");
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    add_agent(builder, agents.element(i));
+    unknown.look_at(agents.element(i), {"id", "start", "goal"});
+  }
+  const JsonValue tasks = root.member("tasks");
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    add_task(builder, tasks.element(i));
+    unknown.look_at(tasks.element(i), {"id", "cell", "agents"});
+  }
+}
+
+void require_same_map(const std::string& file, const ScenarioRow& row,
+                      const std::filesystem::path& map, const Grid& grid) {
+  const std::string place = fmt::format("line {}", row.line);
+  if (std::filesystem::path(row.map).filename() != map.filename())
+    throw InputError(file, place,
+                     fmt::format("the row is for map '{}'; expected '{}'", one_line(row.map),
+                                 one_line(map.filename().string())));
+  if (row.width != grid.width() || row.height != grid.height())
+    throw InputError(file, place,
+                     fmt::format("the row is for a map of {} x {} cells; expected {} x {}",
+                                 row.width, row.height, grid.width(), grid.height()));
+}
+
+void add_row(InstanceBuilder& builder, const std::string& file, const ScenarioRow& row,
+             const std::string& id) {
+  try {
+    builder.add_agent(id, row.start, row.goal);
+  } catch (const InstanceError& error) {
+    throw InputError(file, fmt::format("line {}, {}", row.line, error.field()), error.what());
+  }
+}
+
+OrderedJson cell_json(const Grid& grid, Cell cell) {
+  const Position p = grid.position(cell);
+  return {p.x, p.y};
+}
+
+OrderedJson agent_json(const Instance& instance, const Agent& agent) {
+  OrderedJson json{{"id", agent.id}, {"start", cell_json(instance.grid(), agent.start)}};
+  if (agent.goal) json["goal"] = cell_json(instance.grid(), *agent.goal);
+  return json;
+}
+
+OrderedJson task_json(const Instance& instance, const Task& task) {
+  OrderedJson ids = OrderedJson::array();
+  for (AgentIndex agent : task.agents) ids.push_back(instance.agent(agent).id);
+  return {{"id", task.id}, {"cell", cell_json(instance.grid(), task.cell)}, {"agents", ids}};
+}
+
+}  // namespace
+
+LoadedInstance read_instance(const std::filesystem::path& path) {
+  const JsonDocument document(path);
+  const JsonValue root = document.root();
+  std::vector<std::string> warnings;
+  UnknownKeys unknown(path.string(), &warnings);
+  unknown.look_at(root, {"map", "agents", "tasks"});
+
+  const JsonValue map = root.member("map");
+  if (map.text().empty()) map.fail_expected("the name of a map file");
+  std::filesystem::path map_path = path.parent_path() / map.text();
+  InstanceBuilder builder(read_map(map_path, &warnings));
+  add_all(builder, root, unknown);
+  std::optional<Instance> instance;
+  at_place_of(root, [&] { instance = std::move(builder).build(); });
+  return {*std::move(instance), std::move(map_path), std::move(warnings)};
+}
+
+LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
+                                      const std::filesystem::path& map, int agents) {
+  const std::string file = scenario.string();
+  const std::vector<ScenarioRow> rows = read_scenario(scenario);
+  if (agents < 1) throw InputError(file, "", "expected at least one agent");
+  if (rows.size() < static_cast<std::size_t>(agents))
+    throw InputError(
+        file, "",
+        fmt::format("has {} rows; expected at least {}, one per agent", rows.size(), agents));
+  std::vector<std::string> warnings;
+  const Grid grid = read_map(map, &warnings);
+  InstanceBuilder builder(grid);
+  for (int i = 0; i < agents; ++i) {
+    require_same_map(file, rows[i], map, grid);
+    add_row(builder, file, rows[i], fmt::format("a{}", i));
+  }
+  return {std::move(builder).build(), map, std::move(warnings)};
+}
+
+void write_instance(const std::filesystem::path& path, const Instance& instance,
+                    const std::string& map) {
+  OrderedJson agents = OrderedJson::array();
+  for (const Agent& agent : instance.agents()) agents.push_back(agent_json(instance, agent));
+  OrderedJson tasks = OrderedJson::array();
+  for (const Task& task : instance.tasks()) tasks.push_back(task_json(instance, task));
+  write_file_atomically(path, dump_by_lines({{"map", map}, {"agents", agents}, {"tasks", tasks}}));
+}
+
+}  // namespace grove

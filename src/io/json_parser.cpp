@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The parser is nlohmann's; what it hands over is put together here, because its own document
+// builder accepts any depth and lets a repeated key silently win over the first.
+#include "json_parser.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "grove/io/input_error.h"
+#include "text_file.h"
+
+namespace grove {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kDeepest = 32;
+
+// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing
+// value - invalid literal; last read: 'x'; expected ..." without its ends: the place is told in
+// front, and what was read last may be half the file.
+std::string tidy(const nlohmann::detail::exception& error) {
+  constexpr int kNumberOverflow = 406;
+  std::string message = error.what();
+  if (error.id == kNumberOverflow) message += "; expected a number of double precision";
+  message.erase(0, message.find("] ") + 2);
+  if (message.starts_with("parse error at")) message.erase(0, message.find(": ") + 2);
+  const std::size_t last_read = message.find("; last read: '");
+  const std::size_t expected = message.rfind("; expected ");
+  if (last_read != std::string::npos) {
+    const bool says_expected = expected != std::string::npos && expected > last_read;
+    message.erase(last_read, says_expected ? expected - last_read : std::string::npos);
+  }
+  return message;
+}
+
+// Builds the document from the parser's events.
+class DocumentBuilder : public nlohmann::json_sax<Json> {
+ public:
+  DocumentBuilder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+  Json take() { return std::move(root_); }
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(std::int64_t value) override { return add(value); }
+  bool number_unsigned(std::uint64_t value) override { return add(value); }
+  bool number_float(double value, const std::string&) override { return add(value); }
+  bool string(std::string& value) override { return add(std::move(value)); }
+  bool binary(Json::binary_t&) override { return false; }  // not in JSON texts
+
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(std::string& name) override {
+    Level& level = levels_.back();
+    if (level.container->contains(name))
+      throw InputError(file_, path(levels_.size() - 1),
+                       fmt::format("key '{}' appears twice; expected distinct keys", name));
+    level.key = std::move(name);
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string&,
+                   const nlohmann::detail::exception& error) override {
+    const std::size_t offset = position > 0 ? position - 1 : 0;
+    throw InputError(file_, line_and_column_at(text_, offset), "malformed JSON: " + tidy(error));
+  }
+
+ private:
+  // An array or object that is still open. Its elements stay in place while one of them is open.
+  struct Level {
+    Json* container;
+    std::string key;  // of the member being read
+  };
+
+  bool add(Json value) {
+    place(std::move(value));
+    return true;
+  }
+
+  bool open(Json container) {
+    if (levels_.size() == kDeepest)
+      throw InputError(file_, path(levels_.size()),
+                       fmt::format("nested too deeply; expected at most {} levels", kDeepest));
+    levels_.push_back({place(std::move(container)), ""});
+    return true;
+  }
+
+  bool close() {
+    levels_.pop_back();
+    return true;
+  }
+
+  Json* place(Json value) {
+    if (levels_.empty()) return &(root_ = std::move(value));
+    Json& container = *levels_.back().container;
+    if (container.is_object()) return &(container[levels_.back().key] = std::move(value));
+    container.push_back(std::move(value));
+    return &container.back();
+  }
+
+  // The path of the container at the given depth; 0 is the document.
+  std::string path(std::size_t depth) const {
+    std::string result = depth == 0 ? "/" : "";
+    for (std::size_t k = 0; k < depth; ++k) {
+      const Level& level = levels_[k];
+      const bool keyed = level.container->is_object();
+      const bool entered = k + 1 < levels_.size();  // then the element is already in the array
+      const std::size_t index = level.container->size() - (entered ? 1 : 0);
+      result += "/" + (keyed ? level.key : std::to_string(index));
+    }
+    return result;
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  Json root_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace
+
+nlohmann::json parse_json(std::string_view text, const std::string& file) {
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+    throw InputError(file, "", "is empty; expected a JSON object");
+  DocumentBuilder builder(text, file);
+  Json::sax_parse(text, &builder);
+  return builder.take();
+}
+
+}  // namespace grove

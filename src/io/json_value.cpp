@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "json_value.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "grove/io/input_error.h"
+#include "json_parser.h"
+#include "text_file.h"
+
+namespace grove {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string description(const Json& json) {
+  if (json.is_array()) return "an array";
+  if (json.is_object()) return "an object";
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// The integer that `json` holds, if it is one from `least` to `most`. 3.0 is none: strict.
+std::optional<std::int64_t> integer_within(const Json& json, std::int64_t least,
+                                           std::int64_t most) {
+  if (!json.is_number_integer()) return std::nullopt;
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::int64_t>::max();
+  if (json.is_number_unsigned() && json.get<std::uint64_t>() > kLargest) return std::nullopt;
+  const auto value = json.get<std::int64_t>();
+  if (value < least || value > most) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::string JsonValue::path_to(std::string_view field) const {
+  return field.empty() ? path_ : fmt::format("{}/{}", path_, field);
+}
+
+void JsonValue::fail(std::string_view message, std::string_view field) const {
+  const std::string place = path_to(field);
+  throw InputError(*file_, place.empty() ? "/" : place, message);
+}
+
+void JsonValue::fail_expected(std::string_view expected) const {
+  fail(fmt::format("found {}; expected {}", one_line(description(*json_)), expected));
+}
+
+void JsonValue::require(bool condition, std::string_view expected) const {
+  if (!condition) fail_expected(expected);
+}
+
+JsonValue JsonValue::member(const char* key) const {
+  auto value = find(key);
+  if (!value) fail(fmt::format("key '{}' is missing", key));
+  return *std::move(value);
+}
+
+std::optional<JsonValue> JsonValue::find(const char* key) const {
+  require(json_->is_object(), "an object");
+  const auto it = json_->find(key);
+  if (it == json_->end()) return std::nullopt;
+  return JsonValue(*it, *file_, path_to(key));
+}
+
+std::size_t JsonValue::size() const {
+  require(json_->is_array(), "an array");
+  return json_->size();
+}
+
+JsonValue JsonValue::element(std::size_t index) const {
+  return {(*json_)[index], *file_, path_to(std::to_string(index))};
+}
+
+std::int64_t JsonValue::integer(std::int64_t least, std::int64_t most) const {
+  const auto value = integer_within(*json_, least, most);
+  if (!value) fail_expected(fmt::format("an integer from {} to {}", least, most));
+  return *value;
+}
+
+std::string JsonValue::text() const {
+  require(json_->is_string(), "a string");
+  return json_->get<std::string>();
+}
+
+std::vector<std::string> JsonValue::texts() const {
+  std::vector<std::string> all;
+  for (std::size_t k = 0; k < size(); ++k) all.push_back(element(k).text());
+  return all;
+}
+
+Position JsonValue::position() const {
+  require(json_->is_array() && json_->size() == 2, "a cell [x, y]");
+  constexpr int kMost = std::numeric_limits<int>::max();
+  const auto x = integer_within((*json_)[0], 0, kMost);
+  const auto y = integer_within((*json_)[1], 0, kMost);
+  if (!x || !y) element(x ? 1 : 0).integer(0, kMost);  // throws, with the path
+  return {static_cast<int>(*x), static_cast<int>(*y)};
+}
+
+JsonDocument::JsonDocument(const std::filesystem::path& path)
+    : file_(path.string()), json_(parse_json(read_text(path), file_)) {
+  if (!json_.is_object()) root().fail_expected("a JSON object");
+}
+
+void UnknownKeys::look_at(const JsonValue& object, std::initializer_list<std::string_view> known) {
+  for (const auto& [key, value] : object.json().items()) {
+    if (std::ranges::find(known, key) != known.end() || !seen_.insert(key).second) continue;
+    if (warnings_)
+      warnings_->push_back(fmt::format("{}: {}: unknown key '{}' is ignored", one_line(file_),
+                                       object.path().empty() ? "/" : object.path(), one_line(key)));
+  }
+}
+
+}  // namespace grove

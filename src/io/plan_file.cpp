@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/plan_file.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <string_view>
+#include <unordered_map>
+
+#include "grove/io/atomic_file.h"
+#include "grove/io/input_error.h"
+#include "json_value.h"
+#include "json_writer.h"
+
+namespace grove {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr std::int64_t kLargestCost = kInfiniteCost;
+
+// --- writing ---
+
+OrderedJson omega_json(const Omega& omega) {
+  if (omega.is_infinite()) return "inf";
+  return OrderedJson::parse(omega.to_string());  // the shortest decimal, not a double's expansion
+}
+
+OrderedJson agent_json(const Instance& instance, AgentIndex index, const AgentPlan& plan) {
+  OrderedJson sequence = OrderedJson::array();
+  for (TaskIndex task : plan.sequence) sequence.push_back(instance.task(task).id);
+  OrderedJson path = OrderedJson::array();
+  for (Cell cell : plan.path) {
+    const Position p = instance.grid().position(cell);
+    path.push_back({p.x, p.y});
+  }
+  return {{"id", instance.agent(index).id},
+          {"sequence", std::move(sequence)},
+          {"cost", plan.cost},
+          {"path", std::move(path)}};
+}
+
+OrderedJson stats_json(const Stats& stats) {
+  OrderedJson json = OrderedJson::object();
+  for (const auto& [name, value] : stats.texts) json[name] = value;
+  for (const auto& [name, value] : stats.measures) json[name] = value;
+  for (const auto& [name, value] : stats.counts) json[name] = value;
+  return json;
+}
+
+OrderedJson solution_json(const Instance& instance, const Solution& solution) {
+  OrderedJson json;
+  json["status"] = to_string(solution.status);
+  if (solution.plan) json["cost"] = solution.plan->cost;
+  json["lower_bound"] = solution.lower_bound;
+  json["omega"] = omega_json(solution.omega);
+  if (solution.plan) {
+    OrderedJson& agents = json["agents"] = OrderedJson::array();
+    for (std::size_t i = 0; i < solution.plan->agents.size(); ++i)
+      agents.push_back(agent_json(instance, static_cast<AgentIndex>(i), solution.plan->agents[i]));
+  }
+  json["stats"] = stats_json(solution.stats);
+  return json;
+}
+
+// --- reading ---
+
+using IndexById = std::unordered_map<std::string, std::int32_t>;
+
+template <typename Items>
+IndexById index_by_id(const Items& items) {
+  IndexById index;
+  for (const auto& item : items) index.emplace(item.id, static_cast<std::int32_t>(index.size()));
+  return index;
+}
+
+std::int32_t find_id(const IndexById& index, const JsonValue& id, std::string_view kind) {
+  const auto it = index.find(id.text());
+  if (it == index.end())
+    id.fail(fmt::format("there is no {} '{}' in the instance", kind, id.text()));
+  return it->second;
+}
+
+Status read_status(const JsonValue& value) {
+  const auto status = parse_status(value.text());
+  if (!status) value.fail_expected("optimal, bounded, feasible, infeasible or unknown");
+  return *status;
+}
+
+Omega read_omega(const JsonValue& value) {
+  const bool is_infinite = value.json().is_string() && value.text() == "inf";
+  if (is_infinite) return Omega::infinite();
+  try {
+    if (value.json().is_number()) return Omega::parse(value.json().dump());
+  } catch (const std::invalid_argument&) {
+    // fall through: one message for all
+  }
+  value.fail_expected("a number from 0 to 1e6 with at most 9 decimals, or \"inf\"");
+}
+
+Cell read_cell(const Grid& grid, const JsonValue& value) {
+  const Position p = value.position();
+  if (!grid.contains(p))
+    value.fail(fmt::format("cell [{}, {}] is outside the map; expected x in 0..{} and y in 0..{}",
+                           p.x, p.y, grid.width() - 1, grid.height() - 1));
+  return grid.cell(p);
+}
+
+class PlanReader {
+ public:
+  PlanReader(const Instance& instance, UnknownKeys& unknown)
+      : instance_(instance),
+        unknown_(unknown),
+        agents_(index_by_id(instance.agents())),
+        tasks_(index_by_id(instance.tasks())) {}
+
+  Plan read(const JsonValue& root) const {
+    Plan plan;
+    plan.cost = root.member("cost").integer(0, kLargestCost);
+    plan.agents.resize(instance_.agent_count());
+    std::vector<bool> seen(instance_.agent_count());
+    const JsonValue agents = root.member("agents");
+    for (std::size_t i = 0; i < agents.size(); ++i) {
+      const JsonValue id = agents.element(i).member("id");
+      const AgentIndex index = find_id(agents_, id, "agent");
+      if (seen[index]) id.fail(fmt::format("agent '{}' appears twice", id.text()));
+      seen[index] = true;
+      plan.agents[index] = read_agent(agents.element(i));
+    }
+    return plan;
+  }
+
+ private:
+  AgentPlan read_agent(const JsonValue& value) const {
+    unknown_.look_at(value, {"id", "sequence", "cost", "path"});
+    AgentPlan plan;
+    plan.cost = static_cast<Time>(value.member("cost").integer(0, kNever));
+    const JsonValue sequence = value.member("sequence");
+    for (std::size_t k = 0; k < sequence.size(); ++k)
+      plan.sequence.push_back(find_id(tasks_, sequence.element(k), "task"));
+    const JsonValue path = value.member("path");
+    plan.path.reserve(path.size());
+    for (std::size_t t = 0; t < path.size(); ++t)
+      plan.path.push_back(read_cell(instance_.grid(), path.element(t)));
+    return plan;
+  }
+
+  const Instance& instance_;
+  UnknownKeys& unknown_;
+  IndexById agents_;
+  IndexById tasks_;
+};
+
+Stats read_stats(const JsonValue& value) {
+  if (!value.json().is_object()) value.fail_expected("an object");
+  Stats stats;
+  for (const auto& [name, entry] : value.json().items()) {
+    if (entry.is_number_integer()) stats.counts[name] = entry.get<std::int64_t>();
+    if (entry.is_number_float()) stats.measures[name] = entry.get<double>();
+    if (entry.is_string()) stats.texts[name] = entry.get<std::string>();
+  }
+  return stats;
+}
+
+}  // namespace
+
+void write_solution(const std::filesystem::path& path, const Instance& instance,
+                    const Solution& solution) {
+  write_file_atomically(path, dump_by_lines(solution_json(instance, solution)));
+}
+
+Solution read_solution(const std::filesystem::path& path, const Instance& instance,
+                       std::vector<std::string>* warnings) {
+  const JsonDocument document(path);
+  const JsonValue root = document.root();
+  UnknownKeys unknown(path.string(), warnings);
+  unknown.look_at(root, {"status", "cost", "lower_bound", "omega", "agents", "stats"});
+
+  Solution solution;
+  solution.status = read_status(root.member("status"));
+  solution.lower_bound =
+      root.member("lower_bound").integer(std::numeric_limits<Cost>::min(), kLargestCost);
+  solution.omega = read_omega(root.member("omega"));
+  const bool has_plan = root.find("cost") || root.find("agents");
+  if (has_plan) solution.plan = PlanReader(instance, unknown).read(root);
+  if (const auto stats = root.find("stats")) solution.stats = read_stats(*stats);
+  return solution;
+}
+
+}  // namespace grove
