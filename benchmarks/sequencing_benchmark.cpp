@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Sequencing: tables, K-best lists and sequence graphs, on random places of a random 32x32 grid.
+#include <benchmark/benchmark.h>
+
+#include <random>
+
+#include "grove/sequencing/k_best_sequences.h"
+#include "grove/sequencing/sequence_dag.h"
+#include "src/sequencing/path_relaxation.h"
+
+namespace grove {
+namespace {
+
+// One agent with n tasks on a grid with a fifth of its cells blocked, always the same one for a
+// seed.
+CostMatrix random_matrix(int n, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  constexpr int kSide = 32;
+  std::vector<bool> passable(kSide * kSide);
+  for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = random() % 5 != 0;
+  const Grid grid(kSide, kSide, passable);
+  // Places are drawn from the cells that the first passable one reaches.
+  Cell origin = 0;
+  while (!grid.passable(origin)) ++origin;
+  const DistanceField reach = distance_field(grid, origin);
+  std::vector<Cell> places;
+  while (std::ssize(places) < n + 2) {
+    const auto cell = static_cast<Cell>(random() % (kSide * kSide));
+    if (reach[cell] < kNever && std::find(places.begin(), places.end(), cell) == places.end())
+      places.push_back(cell);
+  }
+  InstanceBuilder builder(grid);
+  const std::string agent = "a";
+  builder.add_agent(agent, grid.position(places[0]), grid.position(places[1]));
+  for (int i = 0; i < n; ++i)
+    builder.add_task("t" + std::to_string(i), grid.position(places[i + 2]), {&agent, 1});
+  const Instance instance = std::move(builder).build();
+  return cost_matrix(instance, 0, DistanceFields(instance));
+}
+
+// The first question to a table pays for it.
+void table(benchmark::State& state) {
+  const CostMatrix matrix = random_matrix(static_cast<int>(state.range(0)), 1);
+  const Limits limits;
+  for (auto _ : state) {
+    const auto solver = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
+    benchmark::DoNotOptimize(solver->best({}, kNever));
+  }
+}
+BENCHMARK(table)->Arg(10)->Arg(14)->Arg(16)->Arg(18)->Arg(20)->Arg(22)->Unit(
+    benchmark::kMillisecond);
+
+// After the table or graph of the first sequence.
+void k_best(benchmark::State& state, RtspBackend backend) {
+  const CostMatrix matrix = random_matrix(static_cast<int>(state.range(0)), 1);
+  const Limits limits;
+  const auto count = static_cast<std::size_t>(state.range(1));
+  for (auto _ : state) {
+    state.PauseTiming();
+    KBestSequences list(make_rtsp_solver(backend, matrix, limits), matrix, limits);
+    list.resolve(0, kNever);
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(list.resolve(count - 1, kNever));
+    state.counters["rtsp_calls"] = static_cast<double>(list.rtsp_calls());
+    state.counters["spread"] = list.cost_bound(count - 1) - list.cost_bound(0);
+  }
+}
+BENCHMARK_CAPTURE(k_best, table, RtspBackend::kHeldKarp)
+    ->Args({10, 200})
+    ->Args({20, 1000})
+    ->Args({20, 100000})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(k_best, graph, RtspBackend::kBoundedDp)
+    ->Args({10, 200})
+    ->Args({20, 1000})
+    ->Args({20, 100000})
+    ->Args({30, 1000})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(k_best, cbc, RtspBackend::kCbc)
+    ->Args({10, 200})
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
+// The graph that the best sequence asks for, from nothing, and its size.
+void graph(benchmark::State& state) {
+  const CostMatrix matrix =
+      random_matrix(static_cast<int>(state.range(0)), static_cast<std::uint32_t>(state.range(1)));
+  const Limits limits;
+  for (auto _ : state) {
+    const auto solver = make_rtsp_solver(RtspBackend::kBoundedDp, matrix, limits);
+    const RtspAnswer answer = solver->best({}, kNever);
+    state.counters["cost"] = answer.cost;
+    state.counters["gap"] = answer.cost - solver->root_bound();
+  }
+  const PathRelaxation relaxation(matrix);
+  const auto best = static_cast<Time>(state.counters["cost"]);
+  for (Time slack : {0, 2})
+    state.counters["states" + std::to_string(slack)] = static_cast<double>(
+        SequenceDag::build(matrix, relaxation, best + slack, limits)->state_count());
+}
+BENCHMARK(graph)
+    ->ArgsProduct({{10, 14, 18, 20, 24, 30, 36}, {1, 2, 3, 4, 5}})
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// All sequences of one agent up to a cost, as a graph of states: what is left to visit, and the
+// stop where the agent stands.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "grove/model/limits.h"
+#include "grove/sequencing/cost_matrix.h"
+
+namespace grove {
+
+class PathRelaxation;
+
+// Maps sets to numbers: open addressing, linear probing.
+class StopSetIndex {
+ public:
+  static constexpr std::uint32_t kAbsent = UINT32_MAX;
+
+  StopSetIndex() : slots_(16) {}
+  std::uint32_t find(StopSet set) const { return slots_[slot_of(set)].number; }
+  // The number of `set`; if it had none, `number`, which it now has.
+  std::uint32_t insert(StopSet set, std::uint32_t number);
+
+ private:
+  struct Slot {
+    StopSet set = 0;
+    std::uint32_t number = kAbsent;
+  };
+
+  std::size_t slot_of(StopSet set) const;
+  void grow();
+
+  std::vector<Slot> slots_;  // a power of two, at most half full
+  std::size_t used_ = 0;
+};
+
+// Every sequence cheaper than beyond() runs through states of the graph alone, and every state
+// knows its exact cost to go within the graph. Immutable once built; any thread may read it.
+class SequenceDag {
+ public:
+  // No state at all; `beyond` must be a proven lower bound on every sequence.
+  explicit SequenceDag(Time beyond) : beyond_(beyond) {}
+
+  // With every sequence of cost <= reach. None when a limit struck.
+  static std::optional<SequenceDag> build(const CostMatrix& matrix,
+                                          const PathRelaxation& relaxation, Time reach,
+                                          const Limits& limits);
+
+  // Proven: a sequence with a state outside the graph costs at least this. kNever: no such one.
+  Time beyond() const { return beyond_; }
+
+  // The least cost from `stop` through all of `left` to the end, over the ways inside the graph;
+  // kNever when there is none, or the state is outside.
+  Time completion(StopSet left, int stop) const;
+
+  std::size_t state_count() const { return completions_.size(); }
+
+ private:
+  friend class SequenceDagBuilder;
+
+  // The states that share what is left; one for each stop in `at`, ascending, from `first` on.
+  struct Node {
+    StopSet left = 0;
+    StopSet at = 0;
+    std::uint32_t first = 0;
+  };
+
+  Time beyond_ = 0;
+  std::vector<Node> nodes_;  // sets in descending order of size
+  std::vector<Time> completions_;
+  StopSetIndex index_;  // into nodes_
+};
+
+}  // namespace grove

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// rTSPs as integer programs, solved by CBC: the paper's way, kept as an independent check of the
+// dynamic programs and as the method for cost structures that they do not cover.
+//
+// A class is contracted first: its prefix becomes the start, stops that may not come next lose
+// their leg from it. What remains is a Hamiltonian path from the start through all stops to the
+// end, or, with start and end as one place "outside", a cycle through all places:
+//
+//   minimize  sum of cost(i, j) * x(i, j)      over 0-1 variables for legs that exist,
+//   every place is left once and entered once,
+//   sum of x within C <= |C| - 1               for sets C of stops.
+//
+// Of the exponentially many last rows only the pairs are there from the beginning (Dantzig,
+// Fulkerson and Johnson 1954): the rest are added *between* solves, for the cycles that avoid the
+// outside in the solution - first of the linear relaxation, until it is connected, then of the
+// integer program. A solution without such a cycle is optimal for the full program, since it solves
+// one with fewer rows. Cuts from callbacks inside CBC would be lost to its presolve and its
+// restarts.
+//
+// What makes a MIP's word a proof: both gaps are 0, the answer is checked to be an integral path
+// and its cost is added up again in integers. What stops early, stops as "unknown". CBC is not safe
+// for threads: the whole process solves one program at a time. Only its classes are used; the
+// driver (CbcMain) would install signal handlers and print.
+#include <CbcEventHandler.hpp>
+#include <CbcModel.hpp>
+#include <CoinPackedMatrix.hpp>
+#include <OsiClpSolverInterface.hpp>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "rtsp_backends.h"
+#include "sequence_class.h"
+
+namespace grove {
+namespace {
+
+constexpr double kIntegral = 1e-5;  // further from an integer is a failure of the solver
+
+// Taken for every program. Waits with an eye on the limits; false when one struck.
+class SolverTurn {
+ public:
+  explicit SolverTurn(const Limits& limits) : lock_(mutex(), std::defer_lock) {
+    while (!limits.stop_requested() && !lock_.try_lock())
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
+  bool mine() const { return lock_.owns_lock(); }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex the_mutex;
+    return the_mutex;
+  }
+  std::unique_lock<std::mutex> lock_;
+};
+
+class StopAtLimit : public CbcEventHandler {
+ public:
+  explicit StopAtLimit(const Limits& limits) : limits_(&limits) {}
+  CbcAction event(CbcEvent) override { return limits_->stop_requested() ? stop : noAction; }
+  CbcEventHandler* clone() const override { return new StopAtLimit(*this); }
+
+ private:
+  const Limits* limits_;
+};
+
+// A class without its prefix: the stops left, renumbered, and the costs between them.
+struct Contracted {
+  std::vector<Stop> stops;
+  CostMatrix matrix;
+};
+
+Contracted contract(const CostMatrix& matrix, const ClassRoot& root) {
+  Contracted result;
+  for_each_stop(root.left, [&](int stop) { result.stops.push_back(static_cast<Stop>(stop)); });
+  const int m = static_cast<int>(result.stops.size());
+  result.matrix.cost.setZero(m + 1, m + 1);
+  for (int i = 0; i < m; ++i) {
+    const int stop = result.stops[i];
+    for (int j = 0; j < m; ++j) result.matrix.cost(i, j) = matrix.between(stop, result.stops[j]);
+    result.matrix.cost(i, m) = matrix.to_end(stop);
+    result.matrix.cost(m, i) =
+        (root.next & bit(stop)) != 0 ? matrix.between(root.last, stop) : kNever;
+  }
+  return result;
+}
+
+// The integer program of one contracted class. Places are its stops; the last one is outside.
+class PathProgram {
+ public:
+  enum class Outcome : std::uint8_t { kOptimal, kInfeasible, kStopped };
+
+  PathProgram(const CostMatrix& matrix, const Limits& limits)
+      : matrix_(matrix), limits_(limits), places_(matrix.stops() + 1) {
+    solver_.messageHandler()->setLogLevel(0);
+    solver_.setHintParam(OsiDoReducePrint, true);
+    add_legs();
+    forbid_pairs();
+  }
+
+  Outcome solve() {
+    solver_.initialSolve();
+    while (!stopped() && solver_.isProvenOptimal() && cut_off_cycles(solver_.getColSolution()))
+      solver_.resolve();
+    if (!stopped() && solver_.isProvenPrimalInfeasible()) return Outcome::kInfeasible;
+    for (const std::size_t i : legs_by_index()) solver_.setInteger(static_cast<int>(i));
+    Outcome outcome = Outcome::kOptimal;
+    do {
+      outcome = branch_and_bound();
+    } while (outcome == Outcome::kOptimal && cut_off_cycles(solution_.data()));
+    return outcome;
+  }
+
+  // The path that the solution describes. Throws std::runtime_error when it does not describe one.
+  Sequence path() const {
+    std::vector<int> next(places_, -1);
+    for (std::size_t i = 0; i < legs_.size(); ++i) {
+      if (std::abs(solution_[i] - std::round(solution_[i])) > kIntegral) fail("a fraction");
+      if (solution_[i] < 0.5) continue;
+      if (next[legs_[i].first] != -1) fail("two legs from one place");
+      next[legs_[i].first] = legs_[i].second;
+    }
+    Sequence path;
+    for (int at = next[outside()]; at != outside() && std::ssize(path) < outside(); at = next[at]) {
+      if (at < 0) fail("an open end");
+      path.push_back(static_cast<Stop>(at));
+    }
+    if (std::ssize(path) != outside()) fail("a path that misses a stop");
+    return path;
+  }
+
+  double objective() const { return objective_; }
+
+ private:
+  using Leg = std::pair<int, int>;
+
+  [[noreturn]] static void fail(const char* what) {
+    throw std::runtime_error(std::string("CBC returned ") + what);
+  }
+
+  int outside() const { return places_ - 1; }
+  bool stopped() const { return limits_.stop_requested(); }
+
+  void add_legs() {
+    std::vector<double> cost;
+    CoinPackedMatrix degrees(true, 0, 0);
+    degrees.setDimensions(2 * places_, 0);
+    for (int i = 0; i < places_; ++i)
+      for (int j = 0; j < places_; ++j) {
+        if (i == j || matrix_.between(i, j) >= kNever) continue;
+        legs_.emplace_back(i, j);
+        cost.push_back(matrix_.between(i, j));
+        const int rows[] = {i, places_ + j};
+        const double ones[] = {1, 1};
+        degrees.appendCol(2, rows, ones);
+      }
+    const std::vector<double> zero(legs_.size(), 0.0);
+    const std::vector<double> one(std::max<std::size_t>(legs_.size(), 2 * places_), 1.0);
+    solver_.loadProblem(degrees, zero.data(), one.data(), cost.data(), one.data(), one.data());
+  }
+
+  std::vector<std::size_t> legs_by_index() const {
+    std::vector<std::size_t> indices(legs_.size());
+    std::iota(indices.begin(), indices.end(), 0);
+    return indices;
+  }
+
+  void forbid_pairs() {
+    for (int i = 0; i < outside(); ++i)
+      for (int j = i + 1; j < outside(); ++j) forbid_cycle(bit(i) | bit(j));
+  }
+
+  void forbid_cycle(StopSet stops) {
+    CoinPackedVector row;
+    for (std::size_t i = 0; i < legs_.size(); ++i) {
+      const auto [from, to] = legs_[i];
+      if (from == outside() || to == outside()) continue;
+      if ((stops >> from & stops >> to & 1) != 0) row.insert(static_cast<int>(i), 1.0);
+    }
+    solver_.addRow(row, -solver_.getInfinity(), std::popcount(stops) - 1);
+  }
+
+  // Adds the row of every component of the solution's legs that is not tied to the outside.
+  bool cut_off_cycles(const double* x) {
+    std::vector<int> component(places_);
+    std::iota(component.begin(), component.end(), 0);
+    const auto root = [&](int place) {
+      while (component[place] != place) place = component[place];
+      return place;
+    };
+    for (std::size_t i = 0; i < legs_.size(); ++i)
+      if (x[i] > kIntegral) component[root(legs_[i].first)] = root(legs_[i].second);
+    std::vector<StopSet> members(places_, 0);
+    for (int stop = 0; stop < outside(); ++stop) members[root(stop)] |= bit(stop);
+    members[root(outside())] = 0;
+    bool found = false;
+    for (StopSet stops : members) {
+      if (stops == 0) continue;
+      forbid_cycle(stops);
+      found = true;
+    }
+    return found;
+  }
+
+  Outcome branch_and_bound() {
+    if (stopped()) return Outcome::kStopped;
+    CbcModel model(solver_);
+    model.setLogLevel(0);
+    model.solver()->messageHandler()->setLogLevel(0);
+    model.setAllowableGap(0);
+    model.setAllowableFractionGap(0);
+    model.setNumberThreads(0);  // in the caller's thread
+    StopAtLimit handler(limits_);
+    model.passInEventHandler(&handler);
+    if (limits_.seconds_left() < 1e6) model.setMaximumSeconds(limits_.seconds_left());
+    model.branchAndBound();
+    if (stopped()) return Outcome::kStopped;
+    if (model.isProvenInfeasible()) return Outcome::kInfeasible;
+    if (!model.isProvenOptimal() || model.bestSolution() == nullptr) fail("no verdict");
+    solution_.assign(model.bestSolution(), model.bestSolution() + legs_.size());
+    objective_ = model.getObjValue();
+    return Outcome::kOptimal;
+  }
+
+  const CostMatrix& matrix_;
+  const Limits& limits_;
+  const int places_;
+  std::vector<Leg> legs_;  // by variable
+  OsiClpSolverInterface solver_;
+  std::vector<double> solution_;
+  double objective_ = 0;
+};
+
+class CbcRtsp : public RtspSolver {
+ public:
+  CbcRtsp(const CostMatrix& matrix, const Limits& limits)
+      : matrix_(matrix), limits_(limits), root_bound_(relaxation_bound(matrix)) {}
+
+  RtspAnswer best(const SequenceClass& work, Time cutoff) override {
+    using Kind = RtspAnswer::Kind;
+    const ClassRoot root = class_root(matrix_, work);
+    if (root.left == 0) return remember(work, work.prefix);
+    const Contracted rest = contract(matrix_, root);
+    const Time bound = add_costs(root.cost, relaxation_bound(rest.matrix));
+    if (bound >= kNever) return {Kind::kInfeasible, kNever};
+    if (bound > cutoff) return {Kind::kAbove, bound};
+
+    const SolverTurn turn(limits_);
+    if (!turn.mine()) return {Kind::kStopped, bound};
+    PathProgram program(rest.matrix, limits_);
+    switch (program.solve()) {
+      case PathProgram::Outcome::kStopped:
+        return {Kind::kStopped, bound};
+      case PathProgram::Outcome::kInfeasible:
+        return {Kind::kInfeasible, kNever};
+      case PathProgram::Outcome::kOptimal:
+        break;
+    }
+    const Sequence path = program.path();
+    if (std::abs(sequence_cost(rest.matrix, path) - program.objective()) > 0.5)
+      throw std::runtime_error("CBC returned a wrong cost");
+    Sequence sequence = work.prefix;
+    for (Stop stop : path) sequence.push_back(rest.stops[stop]);
+    return remember(work, std::move(sequence));
+  }
+
+  Sequence best_sequence(const SequenceClass& work) override {
+    return solved_.at(key(work));
+  }
+
+  Time root_bound() const override { return root_bound_; }
+
+ private:
+  using Key = std::pair<std::string, StopSet>;  // a prefix, and what must not come next
+
+  static Key key(const SequenceClass& work) {
+    return {{work.prefix.begin(), work.prefix.end()}, work.forbidden_next};
+  }
+
+  RtspAnswer remember(const SequenceClass& work, Sequence sequence) {
+    const Time cost = sequence_cost(matrix_, sequence);
+    if (cost >= kNever) return {RtspAnswer::Kind::kInfeasible, kNever};
+    solved_[key(work)] = std::move(sequence);
+    return {RtspAnswer::Kind::kExact, cost};
+  }
+
+  const CostMatrix& matrix_;
+  const Limits& limits_;
+  Time root_bound_;
+  std::map<Key, Sequence> solved_;
+};
+
+}  // namespace
+
+std::unique_ptr<RtspSolver> make_cbc_rtsp(const CostMatrix& matrix, const Limits& limits) {
+  return std::make_unique<CbcRtsp>(matrix, limits);
+}
+
+}  // namespace grove

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// The K best joint sequences: one rank per agent, cheapest sum first (paper, Algorithm 3).
+//
+// Increasing any one rank of a vector costs nothing or more, so a best-first search from the vector
+// of zeros finds all vectors in order. The paper increases *every* rank of each vector and so
+// reaches {1,1,0} twice. Here a vector has exactly one parent, itself with its last nonzero rank
+// one less: the children of a vector whose last nonzero rank is agent j's increase the rank of j or
+// of an agent after j. A child that its agent's list does not hold is left out together with its
+// descendants, which the list does not hold either; nothing else is lost when a list ends.
+//
+// An entry is a delta: a vector returned (its base) plus the rank of one agent after the base's
+// last nonzero one. With b the base's cost, its key is b + (agent's bound on that rank) - (agent's
+// best), never above its true cost. Keys may grow stale as lists learn more; on top of the queue an
+// entry is brought up to date, resolved as far as its key, and returned only if its cost is known
+// and is the key. So the order is right, and the top's key is a proven lower bound on the next
+// cost.
+#include "grove/sequencing/k_best_joint_sequences.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bucket_queue.h"
+
+namespace grove {
+
+class KBestJointSequences::Queue {
+ public:
+  Queue(std::vector<KBestSequences> agents, const Limits& limits)
+      : agents_(std::move(agents)), limits_(limits) {}
+
+  Cost lower_bound() const {
+    if (returned_.empty()) return cost_of_best();
+    return queue_.empty() ? kInfiniteCost : queue_.top_key();
+  }
+
+  std::optional<JointSequence> next() {
+    if (returned_.empty()) return first();
+    while (!queue_.empty() && !limits_.stop_requested()) {
+      const Cost key = queue_.top_key();
+      const Entry entry = queue_.pop();
+      KBestSequences& list = agents_[entry.agent];
+      if (cost_bound(entry) == key && !list.known(entry.rank))
+        list.resolve(entry.rank, list.cost_bound(entry.rank));
+      const Cost bound = cost_bound(entry);
+      if (bound == key && list.known(entry.rank)) return give(entry, key);
+      if (bound < kInfiniteCost) queue_.push(bound, entry);
+      if (bound == key) break;  // neither known nor proven dearer: stopped
+    }
+    return std::nullopt;
+  }
+
+  const Sequence& sequence(AgentIndex agent, std::uint32_t rank) {
+    return agents_[agent].sequence(rank);
+  }
+
+  std::int64_t rtsp_calls() const {
+    std::int64_t calls = 0;
+    for (const KBestSequences& list : agents_) calls += list.rtsp_calls();
+    return calls;
+  }
+
+ private:
+  // The ranks of returned_[base], which are zero from `agent` on, but with this rank of `agent`.
+  struct Entry {
+    std::uint32_t base = 0;
+    std::uint32_t agent = 0;
+    std::uint32_t rank = 0;
+  };
+  struct Returned {
+    Cost cost = 0;
+    Entry entry;
+  };
+
+  // Of the vector of zeros, from what the lists know.
+  Cost cost_of_best() const {
+    Cost sum = 0;
+    for (const KBestSequences& list : agents_) {
+      const Time cost = list.cost_bound(0);
+      if (cost >= kNever) return kInfiniteCost;
+      sum += cost;
+    }
+    return sum;
+  }
+
+  std::optional<JointSequence> first() {
+    for (KBestSequences& list : agents_) {
+      if (list.resolve(0, kNever) >= kNever || !list.known(0)) return std::nullopt;
+    }
+    const Cost cost = cost_of_best();
+    returned_.push_back({cost, {}});
+    add_children(0, 0);
+    return JointSequence{cost, std::vector<std::uint32_t>(agents_.size(), 0)};
+  }
+
+  Cost cost_bound(const Entry& entry) const {
+    const KBestSequences& list = agents_[entry.agent];
+    const Time bound = list.cost_bound(entry.rank);
+    if (bound >= kNever) return kInfiniteCost;
+    return returned_[entry.base].cost + bound - list.cost_bound(0);
+  }
+
+  void add(const Entry& entry) {
+    if (const Cost bound = cost_bound(entry); bound < kInfiniteCost) queue_.push(bound, entry);
+  }
+
+  // One more for each agent from `begin` on, none of which has a rank in returned_[base].
+  void add_children(std::uint32_t base, std::uint32_t begin) {
+    for (auto agent = begin; agent < agents_.size(); ++agent) add({base, agent, 1});
+  }
+
+  JointSequence give(const Entry& entry, Cost cost) {
+    const auto index = static_cast<std::uint32_t>(returned_.size());
+    returned_.push_back({cost, entry});
+    add({entry.base, entry.agent, entry.rank + 1});
+    add_children(index, entry.agent + 1);
+    return {cost, ranks(index)};
+  }
+
+  // Index 0 is the vector of zeros, and every chain of bases ends there.
+  std::vector<std::uint32_t> ranks(std::uint32_t index) const {
+    std::vector<std::uint32_t> ranks(agents_.size(), 0);
+    for (; index != 0; index = returned_[index].entry.base)
+      ranks[returned_[index].entry.agent] = returned_[index].entry.rank;
+    return ranks;
+  }
+
+  std::vector<KBestSequences> agents_;
+  const Limits& limits_;
+  std::vector<Returned> returned_;
+  BucketQueue<Cost, Entry> queue_;
+};
+
+KBestJointSequences::KBestJointSequences(std::vector<KBestSequences> agents, const Limits& limits)
+    : queue_(std::make_unique<Queue>(std::move(agents), limits)) {}
+KBestJointSequences::~KBestJointSequences() = default;
+KBestJointSequences::KBestJointSequences(KBestJointSequences&&) noexcept = default;
+
+Cost KBestJointSequences::lower_bound() const {
+  return queue_->lower_bound();
+}
+std::optional<JointSequence> KBestJointSequences::next() {
+  return queue_->next();
+}
+const Sequence& KBestJointSequences::sequence(AgentIndex agent, std::uint32_t rank) {
+  return queue_->sequence(agent, rank);
+}
+std::int64_t KBestJointSequences::rtsp_calls() const {
+  return queue_->rtsp_calls();
+}
+
+}  // namespace grove

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Lower bounds on completing a sequence: spanning trees under node potentials (see the .cpp).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "stop_set.h"
+
+namespace grove {
+
+// Immutable once built; holds its own copy of the costs.
+class PathRelaxation {
+ public:
+  // What a bound over one set of stops has in common for every stop it may be reached from.
+  struct Tail {
+    std::int64_t tree = 0;      // all but the first and the last leg
+    int nearest_to_end = 0;     // the stop with the cheapest last leg
+    int second_to_end = 0;      // the next one; the same if there is no other
+    std::int64_t last_leg = 0;  // their last legs
+    std::int64_t second_leg = 0;
+  };
+
+  // Works on potentials for some 400 spanning trees over all stops.
+  explicit PathRelaxation(const CostMatrix& matrix);
+
+  // A proven lower bound on every complete sequence; kNever when there is proven to be none.
+  Time root_bound() const { return root_bound_; }
+
+  // Of a set that is not empty. O(|left|^2).
+  Tail tail(StopSet left) const;
+  // A proven lower bound on the cost from `from` (a row of the matrix) through all stops of the
+  // tail to the end when one of `next`, a subset of them, comes first; kNever when there is proven
+  // to be no way. O(|next|).
+  Time bound(const Tail& tail, StopSet next, int from) const;
+
+ private:
+  struct Tree;
+  struct EndLegs;
+
+  void climb();
+  void shift_weights();
+  Tree tree(StopSet left) const;
+  void add_end_legs(Tail& tail, StopSet left) const;
+  EndLegs end_legs(const Tail& tail, StopSet next, int from) const;
+  std::int64_t bound_and_degrees(std::vector<int>& degree) const;
+
+  std::int64_t leg(int from, int to) const { return legs_[from * (stops_ + 1) + to]; }
+
+  int stops_;
+  std::vector<std::int64_t> legs_;       // the costs in fixed point, as the matrix
+  std::vector<std::int64_t> potential_;  // by stop, in fixed point
+  std::vector<std::int64_t> weight_;     // edges between stops, both potentials added
+  Time root_bound_ = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The back ends behind make_rtsp_solver, each in the file of its name.
+#pragma once
+
+#include "grove/sequencing/rtsp.h"
+
+namespace grove {
+
+std::unique_ptr<RtspSolver> make_held_karp(const CostMatrix& matrix, const Limits& limits);
+std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limits& limits);
+std::unique_ptr<RtspSolver> make_cbc_rtsp(const CostMatrix& matrix, const Limits& limits);
+
+}  // namespace grove

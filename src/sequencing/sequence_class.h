@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What the dynamic programs share: a class is a place to continue from, and its best member follows
+// from the exact costs of completing (the "completion" of a stop, given what is left after it).
+#pragma once
+
+#include "grove/sequencing/rtsp.h"
+#include "stop_set.h"
+
+namespace grove {
+
+// Where the members of a class part: after its prefix.
+struct ClassRoot {
+  Time cost = 0;     // of the prefix; kNever when it has a leg without a way
+  int last = 0;      // row of the cost matrix: the prefix's last stop, or the start
+  StopSet left = 0;  // stops not in the prefix
+  StopSet next = 0;  // those of them that may come next
+};
+
+inline ClassRoot class_root(const CostMatrix& matrix, const SequenceClass& work) {
+  ClassRoot root{0, matrix.stops(), matrix.all(), 0};
+  for (Stop stop : work.prefix) {
+    root.cost = add_costs(root.cost, matrix.between(root.last, stop));
+    root.last = stop;
+    root.left &= ~bit(stop);
+  }
+  root.next = root.left & ~work.forbidden_next;
+  return root;
+}
+
+// The cheapest complete sequence of a class, given completion(left, stop): the least cost from
+// `stop` through all of `left` to the end.
+template <class Completion>
+Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion& completion) {
+  if (root.left == 0) return add_costs(root.cost, matrix.to_end(root.last));
+  Time best = kNever;
+  for_each_stop(root.next, [&](int stop) {
+    best = std::min(
+        best, add_costs(matrix.between(root.last, stop), completion(root.left & ~bit(stop), stop)));
+  });
+  return add_costs(root.cost, best);
+}
+
+// A member of that cost: of several, the one whose stops come first. The class must not be empty.
+template <class Completion>
+Sequence best_member(const CostMatrix& matrix, const SequenceClass& work,
+                     const Completion& completion) {
+  Sequence sequence = work.prefix;
+  for (ClassRoot root = class_root(matrix, work); root.left != 0;) {
+    int best_stop = std::countr_zero(root.next);
+    Time best = kNever;
+    for_each_stop(root.next, [&](int stop) {
+      const Time cost =
+          add_costs(matrix.between(root.last, stop), completion(root.left & ~bit(stop), stop));
+      if (cost < best) {
+        best = cost;
+        best_stop = stop;
+      }
+    });
+    sequence.push_back(static_cast<Stop>(best_stop));
+    root.last = best_stop;
+    root.left &= ~bit(best_stop);
+    root.next = root.left;
+  }
+  return sequence;
+}
+
+}  // namespace grove

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Bounded dynamic programming: the Held-Karp recursion, forward, over the states that matter.
+//
+// A state (S, v) - at stop v with the set S left - is kept iff g + b <= reach, where g is the least
+// cost of getting there through states kept and b a proven bound on completing
+// (path_relaxation.cpp; most of it depends on S alone, so it is paid once per set). All states with
+// the same S have as their predecessors only states with S + v left, so one pass over the layers of
+// equal size settles every g.
+//
+// Invariant: every state of a sequence that costs <= reach is kept. By induction along the
+// sequence: its state's predecessor is kept, so g is at most the cost of the sequence up to here; b
+// is at most the cost of its remainder; so g + b <= reach. Hence a sequence with a state that was
+// dropped has, at the first such state, g + b no greater than its own cost: the least g + b ever
+// dropped, beyond(), bounds all sequences outside the graph from below - and no reach below it adds
+// any.
+//
+// The backward pass then computes the exact cost to go within the graph. For a sequence below
+// beyond() that is its exact cost to go.
+//
+// On a grid all ways between two cells have the same parity, so all complete sequences have the
+// same one too. Where the matrix shows that (verified, not assumed: costs must agree with a
+// two-coloring of the places), g + b is rounded up to that parity.
+#include "grove/sequencing/sequence_dag.h"
+
+#include <bit>
+
+#include "path_relaxation.h"
+#include "stop_set.h"
+
+namespace grove {
+namespace {
+
+constexpr std::size_t kPollInterval = 32;  // sets; each takes a few microseconds
+
+// The parity of every complete sequence, or -1 when they need not share one.
+int common_parity(const CostMatrix& matrix) {
+  const int n = matrix.stops();
+  const auto odd = [&](int row, int column) { return matrix.cost(row, column) & 1; };
+  // Colors relative to the start, and of the end.
+  for (int from = 0; from < n; ++from) {
+    const int color = odd(n, from);
+    for (int to = 0; to < n; ++to)
+      if (odd(from, to) != (color ^ odd(n, to))) return -1;
+    if (odd(from, n) != (color ^ odd(0, n) ^ odd(n, 0))) return -1;
+  }
+  return odd(n, 0) ^ odd(0, n);
+}
+
+}  // namespace
+
+std::size_t StopSetIndex::slot_of(StopSet set) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = (set * 0x9E3779B97F4A7C15u) >> (65 - std::bit_width(slots_.size()));
+  while (slots_[slot].number != kAbsent && slots_[slot].set != set) slot = (slot + 1) & mask;
+  return slot;
+}
+
+std::uint32_t StopSetIndex::insert(StopSet set, std::uint32_t number) {
+  Slot& slot = slots_[slot_of(set)];
+  if (slot.number != kAbsent) return slot.number;
+  slot = {set, number};
+  if (2 * ++used_ > slots_.size()) grow();
+  return number;
+}
+
+void StopSetIndex::grow() {
+  std::vector<Slot> old(2 * slots_.size());
+  old.swap(slots_);
+  for (const Slot& slot : old)
+    if (slot.number != kAbsent) slots_[slot_of(slot.set)] = slot;
+}
+
+Time SequenceDag::completion(StopSet left, int stop) const {
+  const std::uint32_t number = index_.find(left);
+  if (number == StopSetIndex::kAbsent) return kNever;
+  const Node& node = nodes_[number];
+  if ((node.at & bit(stop)) == 0) return kNever;
+  return completions_[node.first + std::popcount(node.at & (bit(stop) - 1))];
+}
+
+class SequenceDagBuilder {
+ public:
+  SequenceDagBuilder(const CostMatrix& matrix, const PathRelaxation& relaxation, Time reach,
+                     const Limits& limits)
+      : matrix_(matrix),
+        relaxation_(relaxation),
+        reach_(reach),
+        limits_(limits),
+        parity_(common_parity(matrix)) {}
+
+  std::optional<SequenceDag> build() {
+    const StopSet all = matrix_.all();
+    for_each_stop(all,
+                  [&](int stop) { reach_state(all & ~bit(stop), stop, matrix_.from_start(stop)); });
+    std::size_t layer = 0;
+    for (int size = matrix_.stops(); size > 0; --size) {
+      close_layer();
+      const std::size_t end = dag_.nodes_.size();
+      if (!expand(layer, end)) return std::nullopt;
+      layer = end;
+    }
+    if (!settle_completions()) return std::nullopt;
+    return std::move(dag_);
+  }
+
+ private:
+  // A set of the layer that is being reached, and a state in it.
+  struct Group {
+    SequenceDag::Node node;
+    PathRelaxation::Tail tail;
+  };
+  struct State {
+    std::uint32_t group;
+    Time cost;
+    Stop stop;
+  };
+
+  // Keeps the state (left, stop), reached at this cost, if it lies on a way within reach.
+  void reach_state(StopSet left, int stop, Time cost) {
+    if (cost >= kNever) return;
+    const std::uint32_t number =
+        group_index_.insert(left, static_cast<std::uint32_t>(groups_.size()));
+    if (number == groups_.size()) {
+      groups_.push_back({{left, 0, 0}, {}});
+      if (left != 0) groups_.back().tail = relaxation_.tail(left);
+    }
+    Group& group = groups_[number];
+    const Time rest = left == 0 ? matrix_.to_end(stop) : relaxation_.bound(group.tail, left, stop);
+    const Time whole = round_up(add_costs(cost, rest));
+    if (whole > reach_) {
+      dag_.beyond_ = std::min(dag_.beyond_, whole);
+      return;
+    }
+    group.node.at |= bit(stop);
+    states_.push_back({number, cost, static_cast<Stop>(stop)});
+  }
+
+  Time round_up(Time cost) const {
+    return cost < kNever && parity_ >= 0 && (cost & 1) != parity_ ? cost + 1 : cost;
+  }
+
+  // Moves the groups that hold a state into the graph. Until the backward pass, "completions" are
+  // the costs of getting there.
+  void close_layer() {
+    auto first = static_cast<std::uint32_t>(dag_.completions_.size());
+    dag_.completions_.resize(first + states_.size());
+    for (Group& group : groups_) {
+      group.node.first = first;
+      if (group.node.at == 0) continue;
+      first += static_cast<std::uint32_t>(std::popcount(group.node.at));
+      dag_.index_.insert(group.node.left, static_cast<std::uint32_t>(dag_.nodes_.size()));
+      dag_.nodes_.push_back(group.node);
+    }
+    for (const State& state : states_) {
+      const SequenceDag::Node& node = groups_[state.group].node;
+      dag_.completions_[node.first + std::popcount(node.at & (bit(state.stop) - 1))] = state.cost;
+    }
+    groups_.clear();
+    states_.clear();
+    group_index_ = {};
+  }
+
+  // From every node of [begin, end) to every stop left. False when a limit struck.
+  bool expand(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i % kPollInterval == 0 && !may_go_on()) return false;
+      const SequenceDag::Node& node = dag_.nodes_[i];
+      for_each_stop(node.left, [&](int next) {
+        Time cost = kNever;
+        std::uint32_t state = node.first;
+        for_each_stop(node.at, [&](int stop) {
+          cost = std::min(cost, add_costs(dag_.completions_[state++], matrix_.between(stop, next)));
+        });
+        reach_state(node.left & ~bit(next), next, cost);
+      });
+    }
+    return true;
+  }
+
+  bool may_go_on() const { return !limits_.stop_requested(); }
+
+  bool settle_completions() {
+    for (std::size_t i = dag_.nodes_.size(); i-- > 0;) {
+      if (i % kPollInterval == 0 && !may_go_on()) return false;
+      settle(dag_.nodes_[i]);
+    }
+    return true;
+  }
+
+  void settle(const SequenceDag::Node& node) {
+    Time onward[kMaxTasksPerAgent];
+    for_each_stop(node.left,
+                  [&](int next) { onward[next] = dag_.completion(node.left & ~bit(next), next); });
+    std::uint32_t state = node.first;
+    for_each_stop(node.at, [&](int stop) {
+      Time best = node.left == 0 ? matrix_.to_end(stop) : kNever;
+      for_each_stop(node.left, [&](int next) {
+        best = std::min(best, add_costs(matrix_.between(stop, next), onward[next]));
+      });
+      dag_.completions_[state++] = best;
+    });
+  }
+
+  const CostMatrix& matrix_;
+  const PathRelaxation& relaxation_;
+  const Time reach_;
+  const Limits& limits_;
+  const int parity_;
+
+  SequenceDag dag_{kNever};
+  std::vector<Group> groups_;
+  std::vector<State> states_;
+  StopSetIndex group_index_;
+};
+
+std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,
+                                              const PathRelaxation& relaxation, Time reach,
+                                              const Limits& limits) {
+  return SequenceDagBuilder(matrix, relaxation, reach, limits).build();
+}
+
+}  // namespace grove

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Small arithmetic that every back end needs: sets of stops, and costs that may be kNever.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+
+#include "grove/sequencing/cost_matrix.h"
+
+namespace grove {
+
+constexpr StopSet bit(int stop) {
+  return StopSet{1} << stop;
+}
+
+// Calls visit(stop) for every member, in ascending order.
+template <class Visit>
+constexpr void for_each_stop(StopSet set, Visit visit) {
+  for (; set != 0; set &= set - 1) visit(std::countr_zero(set));
+}
+
+// Sum of two costs, each at most kNever; kNever absorbs.
+constexpr Time add_costs(Time a, Time b) {
+  return std::min(a + (b - kNever), 0) + kNever;
+}
+
+}  // namespace grove
