@@ -10,9 +10,10 @@ namespace grove {
 // ranges as in Atzmon et al. 2020). Resting on a cell after the finish counts as being there.
 struct Constraint {
   Cell cell = kNoCell;  // the cell barred; for a move, the cell it leads to
-  Cell from = kNoCell;  // kNoCell: the cell itself is barred; else only moving from -> cell
-  Time begin = 0;       // first and last time barred, inclusive; for a move the time of arrival
-  Time end = 0;         // kNever: for ever
+  Cell from =
+      kNoCell;     // kNoCell: the cell itself is barred; else only moving from -> cell, never equal
+  Time begin = 0;  // first and last time barred, inclusive; for a move the time of arrival
+  Time end = 0;    // kNever: for ever
 
   bool is_move() const { return from != kNoCell; }
   friend bool operator==(const Constraint&, const Constraint&) = default;

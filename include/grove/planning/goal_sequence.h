@@ -15,7 +15,7 @@ namespace grove {
 class GoalSequence {
  public:
   // `tasks`: all the agent's tasks in the order to visit. `instance` and `distances` must outlive
-  // this.
+  // this. Throws std::invalid_argument when nothing is left to visit (an MG agent, no tasks).
   GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
                const std::vector<TaskIndex>& tasks);
 
@@ -26,7 +26,15 @@ class GoalSequence {
 
   // Steps from `cell` through goals k, k+1, ... to the last one, ignoring everything else: exact,
   // so admissible and consistent. kNever or more when there is no way.
-  Time distance(Cell cell, int k) const { return (*to_goal_[k])[cell] + after_goal_[k]; }
+  Time distance(Cell cell, int k) const {
+    const Time to_goal = (*to_goal_[k])[cell];
+    return to_goal == kNever ? kNever : to_goal + after_goal_[k];
+  }
+
+  // The two parts of that: the distance field of goal k, and the steps from there on (at most
+  // kNever).
+  const DistanceField& to_goal(int k) const { return *to_goal_[k]; }
+  Time after_goal(int k) const { return after_goal_[k]; }
 
  private:
   Cell start_;

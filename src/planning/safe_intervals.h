@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// When an agent may be where: constraints turned into intervals.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "grove/planning/constraint.h"
+
+namespace grove {
+
+// A cell together with a longest range of times at which the agent may be there. It may always wait
+// inside: constraints bar cells and moves, never waits.
+struct SafeInterval {
+  Cell cell = kNoCell;
+  Time begin = 0;
+  Time end = kNever;  // inclusive; kNever: for ever
+};
+
+// The safe intervals of all cells under one list of constraints. Most cells have no constraint and
+// take no memory but a number: their one interval, all of time, is the *slot* with the number of
+// the cell. The intervals of the other cells are the slots from cell_count() on, those of one cell
+// in a row and in order of time. Reused from list to list; O(constraints) each time but for
+// sorting.
+class SafeIntervals {
+ public:
+  explicit SafeIntervals(const Grid& grid);
+
+  // Replaces the constraints. They may come in any order, overlap and repeat. Throws
+  // std::invalid_argument for a cell outside the grid or a move from a cell to itself.
+  void assign(std::span<const Constraint> constraints);
+
+  int slot_count() const { return cells_ + static_cast<int>(intervals_.size()); }
+  Cell cell_of(int slot) const { return slot < cells_ ? slot : interval(slot).cell; }
+  Time begin_of(int slot) const { return slot < cells_ ? 0 : interval(slot).begin; }
+  Time end_of(int slot) const { return slot < cells_ ? kNever : interval(slot).end; }
+
+  // No constraint at all bars the cell or a move to it.
+  bool unconstrained(Cell cell) const { return group_of_[cell] == kNoGroup; }
+  // The slots of a cell: first_slot(cell) .. end_slot(cell) - 1, perhaps none.
+  int first_slot(Cell cell) const {
+    return unconstrained(cell) ? cell : groups_[group_of_[cell]].first_slot;
+  }
+  int end_slot(Cell cell) const {
+    return unconstrained(cell) ? cell + 1 : groups_[group_of_[cell]].end_slot;
+  }
+  // The slot of `cell` that contains `time`, or -1.
+  int slot_at(Cell cell, Time time) const;
+  // The slot of `cell` that never ends, or -1.
+  int last_slot(Cell cell) const { return slot_at(cell, kNever); }
+  // When the slot of the same cell after `slot` begins; kNever if there is none.
+  Time next_begin(int slot) const;
+
+  // The first time from `earliest` on at which the move from -> to is not barred; later than kNever
+  // when there is none. Whether `to` is safe then is another matter.
+  Time first_move(Cell from, Cell to, Time earliest) const;
+
+ private:
+  // The constraints on one cell and the moves to it.
+  struct Group {
+    int first_slot;
+    int end_slot;
+    int first_move;  // barred moves to the cell: positions in sorted_
+    int end_move;
+  };
+  static constexpr std::int32_t kNoGroup = -1;
+
+  const SafeInterval& interval(int slot) const { return intervals_[slot - cells_]; }
+  void sort_valid(std::span<const Constraint> constraints);
+  void forget_groups();
+  // Both read sorted_ from `position` and return where the next kind or cell begins.
+  std::size_t add_intervals(Cell cell, std::size_t position);
+  std::size_t skip_moves(Cell cell, std::size_t position) const;
+
+  Cell cells_;
+  std::vector<std::int32_t> group_of_;  // by cell
+  std::vector<Group> groups_;
+  std::vector<SafeInterval> intervals_;
+  std::vector<Constraint> sorted_;  // by cell; its bars, then barred moves to it; each by begin
+};
+
+}  // namespace grove

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "grove/planning/conflict_avoidance_table.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/planning/reference_search.h"
+#include "tests/planning/single_agent.h"
+
+namespace grove {
+namespace {
+
+using testing::grid_of;
+using testing::NaiveConflicts;
+
+Path random_walk(const Grid& grid, std::mt19937& random) {
+  Path path;
+  do path = {static_cast<Cell>(random() % grid.cell_count())};
+  while (!grid.passable(path.back()));
+  for (auto steps = random() % 15; steps > 0; --steps) {
+    const auto neighbors = grid.neighbors(path.back());
+    const auto choice = random() % (neighbors.size() + 1);
+    path.push_back(choice == neighbors.size() ? path.back() : neighbors[choice]);
+  }
+  return path;
+}
+
+void expect_same_counts(const Grid& grid, const ConflictAvoidanceTable& table,
+                        const NaiveConflicts& naive) {
+  for (Cell cell = 0; cell < grid.cell_count(); ++cell) {
+    int waiting = 0;
+    for (Time t = 1; t < 20; ++t) {
+      EXPECT_EQ(table.conflicts(cell, cell, t), naive.conflicts(cell, cell, t));
+      for (Cell from : grid.neighbors(cell))
+        EXPECT_EQ(table.conflicts(from, cell, t), naive.conflicts(from, cell, t));
+      EXPECT_EQ(table.conflicts_of_resting(cell, t), naive.conflicts_of_resting(cell, t));
+      if (t >= 4) waiting += naive.conflicts(cell, cell, t);
+      EXPECT_EQ(table.conflicts_of_waiting(cell, 4, t), waiting);
+    }
+  }
+}
+
+TEST(ConflictAvoidanceTable, AgreesWithNaiveCounts) {
+  std::mt19937 random(7);
+  for (const Grid& grid : {grid_of({"...", ".@.", "..."}), grid_of({"....."}),
+                           grid_of({".", ".", "."}), grid_of({"....", "...."})}) {
+    ConflictAvoidanceTable table(grid);
+    NaiveConflicts naive;
+    for (int step = 0; step < 60; ++step) {
+      const auto action = random() % 8;
+      if (action == 0) {
+        table.clear();
+        naive.paths.clear();
+      } else if (action < 3 && !naive.paths.empty()) {
+        const auto victim = naive.paths.begin() + static_cast<int>(random() % naive.paths.size());
+        table.remove(*victim);
+        naive.paths.erase(victim);
+      } else {
+        naive.paths.push_back(random_walk(grid, random));
+        table.add(naive.paths.back());
+      }
+      expect_same_counts(grid, table, naive);
+    }
+  }
+}
+
+TEST(ConflictAvoidanceTable, CountsVertexAndSwap) {
+  const Grid grid = grid_of({"..."});
+  ConflictAvoidanceTable table(grid);
+  table.add({0, 1, 2});
+  EXPECT_EQ(table.conflicts(1, 0, 1), 1);  // a swap
+  EXPECT_EQ(table.conflicts(1, 1, 1), 1);
+  EXPECT_EQ(table.conflicts(0, 1, 1), 1);  // side by side: the cell alone
+  EXPECT_EQ(table.conflicts(1, 0, 2), 0);
+}
+
+TEST(ConflictAvoidanceTable, AgentsRestForEver) {
+  const Grid grid = grid_of({"..."});
+  ConflictAvoidanceTable table(grid);
+  table.add({0, 1});
+  EXPECT_EQ(table.conflicts(2, 1, 1'000'000), 1);
+  EXPECT_EQ(table.conflicts(1, 2, 1'000'000), 0);
+  EXPECT_EQ(table.conflicts_of_waiting(1, 11, 1'000), 990);
+}
+
+TEST(ConflictAvoidanceTable, AnEmptyPathIsNothing) {
+  const Grid grid = grid_of({".."});
+  ConflictAvoidanceTable table(grid);
+  table.add({});
+  table.remove({});
+  EXPECT_EQ(table.conflicts(0, 1, 1), 0);
+}
+
+TEST(ConflictAvoidanceTable, ManyPathsOnOneCellAreManyEvenAfterRemovals) {
+  const Grid grid = grid_of({".."});
+  ConflictAvoidanceTable table(grid);
+  for (int i = 0; i < 300; ++i) table.add({0, 1});
+  EXPECT_EQ(table.conflicts(1, 1, 1), 255);
+  table.remove({0, 1});
+  EXPECT_EQ(table.conflicts(1, 1, 1), 255);
+  table.clear();
+  EXPECT_EQ(table.conflicts(1, 1, 1), 0);
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Each case is a trap in which some low level has been caught.
+#include "grove/planning/low_level_search.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+
+#include "tests/planning/single_agent.h"
+
+namespace grove {
+namespace {
+
+using Outcome = LowLevelSearch::Outcome;
+using testing::grid_of;
+using testing::SingleAgent;
+using Constraints = std::vector<Constraint>;
+
+constexpr Time kInfeasible = -1;
+
+Path path_of(const Grid& grid, const SingleAgent& agent, const Constraints& constraints,
+             const ConflictAvoidanceTable* others = nullptr) {
+  LowLevelSearch search(grid);
+  Path path;
+  const Outcome outcome = search.find(agent.goals, constraints, others, Limits(), path);
+  EXPECT_NE(outcome, Outcome::kStopped);
+  EXPECT_EQ(outcome == Outcome::kFound, !path.empty());
+  return path;
+}
+
+Time cost_of(const Grid& grid, const SingleAgent& agent, const Constraints& constraints) {
+  return static_cast<Time>(path_of(grid, agent, constraints).size()) - 1;
+}
+
+TEST(LowLevelSearch, WalksThroughItsGoals) {
+  const Grid grid = grid_of({"...."});
+  const SingleAgent agent(grid, 1, {3, 0}, 2);
+  EXPECT_EQ(path_of(grid, agent, {}), (Path{1, 2, 3, 2, 1, 0, 1, 2}));
+}
+
+TEST(LowLevelSearch, ArrivingEarlyInADeadEndCanBeATrap) {
+  const Grid grid = grid_of({"...."});
+  const SingleAgent agent(grid, 3, {0}, 3);
+  // Whoever is on the task at time 3 cannot get out before time 21 and cannot stay at time 10.
+  EXPECT_EQ(cost_of(grid, agent, {{1, kNoCell, 4, 20}, {0, kNoCell, 10, 10}}), 25);
+}
+
+TEST(LowLevelSearch, PassesItsDestinationAndComesBack) {
+  const Grid grid = grid_of({"...."});
+  const SingleAgent agent(grid, 0, {3}, 1);
+  EXPECT_EQ(path_of(grid, agent, {}), (Path{0, 1, 2, 3, 2, 1}));
+}
+
+TEST(LowLevelSearch, ALateBanOnTheDestinationCountsWhileResting) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {}, 2);
+  EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 9, 9}}), 10);
+}
+
+TEST(LowLevelSearch, ACellBarredForEverIsNoPlaceToFinish) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {}, 2);
+  EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 50, kNever}}), kInfeasible);
+}
+
+TEST(LowLevelSearch, ATaskBarredForEverMustBeReachedInTime) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {2}, 0);
+  EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 3, kNever}}), 4);
+  EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, kNever}}), kInfeasible);
+  EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 0, kNever}}), kInfeasible);
+}
+
+TEST(LowLevelSearch, CannotStartOnABarredCell) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {}, 2);
+  EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, 0, 0}}), kInfeasible);
+  EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, -3, 0}}), kInfeasible);
+  EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, 1, 9}}), 2);
+}
+
+TEST(LowLevelSearch, AnAgentAlreadyThereCostsNothing) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 1, {1}, 1);
+  EXPECT_EQ(path_of(grid, agent, {}), Path{1});
+}
+
+TEST(LowLevelSearch, AnAgentAlreadyThereMayHaveToStepAside) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 1, {}, 1);
+  EXPECT_EQ(cost_of(grid, agent, {{1, kNoCell, 5, 5}}), 6);
+}
+
+TEST(LowLevelSearch, ATaskOnTheStartIsVisitedAtTimeZero) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {0}, 2);
+  EXPECT_EQ(cost_of(grid, agent, {}), 2);
+  EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, 1, kNever}}), 2);
+}
+
+TEST(LowLevelSearch, ATaskOnTheDestinationIsVisitedOnArrival) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {1, 2}, 2);
+  EXPECT_EQ(cost_of(grid, agent, {}), 2);
+}
+
+TEST(LowLevelSearch, AnAgentWithoutDestinationRestsOnItsLastTask) {
+  const Grid grid = grid_of({"...."});
+  const SingleAgent agent(grid, 1, {0, 3}, std::nullopt);
+  EXPECT_EQ(path_of(grid, agent, {}), (Path{1, 0, 1, 2, 3}));
+  EXPECT_EQ(cost_of(grid, agent, {{3, kNoCell, 7, 7}}), 8);
+  EXPECT_EQ(cost_of(grid, agent, {{3, kNoCell, 7, kNever}}), kInfeasible);
+}
+
+TEST(LowLevelSearch, BarredMovesBarOneDirectionAtTheTimeOfArrival) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent there(grid, 0, {}, 2);
+  EXPECT_EQ(cost_of(grid, there, {{1, 0, 1, 4}}), 6);
+  EXPECT_EQ(cost_of(grid, there, {{0, 1, 0, kNever}}), 2);
+  EXPECT_EQ(cost_of(grid, there, {{1, 0, 2, kNever}}), 2);
+  EXPECT_EQ(cost_of(grid, there, {{1, 0, 1, kNever}}), kInfeasible);
+}
+
+TEST(LowLevelSearch, WaitsNowhereOnceEveryWaitingPlaceIsBarred) {
+  const Grid grid = grid_of({"...", "@.@"});
+  const SingleAgent agent(grid, 0, {}, 2);
+  // The middle is barred at 3: wait at the start, unless that is barred too; then in the niche.
+  EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, 3}}), 4);
+  EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, 3}, {0, kNoCell, 1, 9}}), 4);
+  EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, 3}, {0, kNoCell, 1, 9}, {1, kNoCell, 2, 2}}), 4);
+  EXPECT_EQ(
+      cost_of(grid, agent,
+              {{2, kNoCell, 2, 3}, {0, kNoCell, 1, 9}, {1, kNoCell, 2, 2}, {4, kNoCell, 2, 2}}),
+      kInfeasible);
+}
+
+// The gates of low_level_search.cpp: the first visit of the task is of no use, a later one is.
+TEST(LowLevelSearch, ALaterVisitOfATaskIsTriedWhenTheFirstLeadsNowhere) {
+  const Grid grid = grid_of({".....", "@@.@@"});
+  const SingleAgent agent(grid, 0, {7}, 4);
+  Constraints constraints{{7, kNoCell, 6, 6}, {2, kNoCell, 4, 11}};
+  EXPECT_EQ(cost_of(grid, agent, constraints), 12 + 1 + 1 + 2);
+  constraints.push_back({7, kNoCell, 13, 13});
+  EXPECT_EQ(cost_of(grid, agent, constraints), 12 + 2 + 1 + 2);
+  constraints.push_back({7, kNoCell, 14, kNever});
+  EXPECT_EQ(cost_of(grid, agent, constraints), kInfeasible);
+}
+
+TEST(LowLevelSearch, UnreachableGoalsAreInfeasible) {
+  const Grid grid = grid_of({"..@.."});
+  EXPECT_EQ(cost_of(grid, SingleAgent(grid, 0, {}, 4), {}), kInfeasible);
+  EXPECT_EQ(cost_of(grid, SingleAgent(grid, 0, {3}, 1), {}), kInfeasible);
+}
+
+TEST(LowLevelSearch, WaitsAMillionStepsIfItMust) {
+  const Grid grid = grid_of({"...."});
+  const SingleAgent agent(grid, 0, {2}, 3);
+  EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 1, 999'999}, {3, kNoCell, 5, 5}}), 1'000'001);
+}
+
+TEST(LowLevelSearch, PrefersTheWayWithFewerConflicts) {
+  const Grid grid = grid_of({"...", ".@.", "..."});
+  const SingleAgent agent(grid, 0, {}, 8);
+  ConflictAvoidanceTable others(grid);
+  others.add({1, 1, 2});
+  EXPECT_EQ(path_of(grid, agent, {}, &others), (Path{0, 3, 6, 7, 8}));
+  others.clear();
+  others.add({7});
+  EXPECT_EQ(path_of(grid, agent, {}, &others), (Path{0, 1, 2, 5, 8}));
+}
+
+TEST(LowLevelSearch, RejectsConstraintsOutsideTheGrid) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {}, 2);
+  LowLevelSearch search(grid);
+  Path path;
+  EXPECT_THROW(search.find(agent.goals, Constraints{{9, kNoCell, 1, 1}}, nullptr, Limits(), path),
+               std::invalid_argument);
+}
+
+TEST(LowLevelSearch, StopsWithoutAnAnswerWhenALimitStrikes) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {}, 2);
+  LowLevelSearch search(grid);
+  Path path{7};
+
+  Limits late;
+  late.set_deadline(Limits::Clock::now());
+  EXPECT_EQ(search.find(agent.goals, {}, nullptr, late, path), Outcome::kStopped);
+  EXPECT_EQ(late.reason(), StopReason::kTime);
+
+  Limits narrow;
+  narrow.set_memory_limit(1);
+  EXPECT_EQ(search.find(agent.goals, {}, nullptr, narrow, path), Outcome::kStopped);
+  EXPECT_EQ(narrow.reason(), StopReason::kMemory);
+  EXPECT_EQ(path, Path{7});
+  EXPECT_EQ(search.expanded(), 0);
+
+  EXPECT_EQ(search.find(agent.goals, {}, nullptr, Limits(), path), Outcome::kFound);
+  EXPECT_GT(search.expanded(), 0);
+}
+
+// A proof of infeasibility that takes long: every cell is walled in by bans of every other moment.
+TEST(LowLevelSearch, StopsInTheMiddleOfALongProof) {
+  const Grid grid(100, 100, std::vector<bool>(10'000, true));
+  const SingleAgent agent(grid, 0, {5'050}, 9'999);
+  Constraints constraints;
+  for (Time t = 400; t < 4'000; t += 2) constraints.push_back({5'050, kNoCell, t, t});
+  for (Cell next : grid.neighbors(5'050)) constraints.push_back({5'050, next, 0, kNever});
+  LowLevelSearch search(grid);
+  Path path;
+  EXPECT_EQ(search.find(agent.goals, constraints, nullptr, Limits(), path), Outcome::kInfeasible);
+  const std::int64_t whole = search.expanded();
+  EXPECT_GT(whole, 5'000);
+
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() + std::chrono::microseconds(50));
+  EXPECT_EQ(search.find(agent.goals, constraints, nullptr, limits, path), Outcome::kStopped);
+  EXPECT_LT(search.expanded() - whole, whole);
+}
+
+}  // namespace
+}  // namespace grove

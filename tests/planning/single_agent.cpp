@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "tests/planning/single_agent.h"
+
+#include <numeric>
+
+namespace grove::testing {
+namespace {
+
+Instance instance_of(const Grid& grid, Cell start, const std::vector<Cell>& tasks,
+                     std::optional<Cell> destination) {
+  InstanceBuilder builder(grid);
+  std::optional<Position> goal;
+  if (destination) goal = grid.position(*destination);
+  builder.add_agent("a", grid.position(start), goal);
+  for (std::size_t k = 0; k < tasks.size(); ++k)
+    builder.add_task("t" + std::to_string(k), grid.position(tasks[k]),
+                     std::vector<std::string>{"a"});
+  return std::move(builder).build();
+}
+
+std::vector<TaskIndex> all_tasks(const Instance& instance) {
+  std::vector<TaskIndex> tasks(instance.task_count());
+  std::iota(tasks.begin(), tasks.end(), 0);
+  return tasks;
+}
+
+}  // namespace
+
+Grid grid_of(const std::vector<std::string>& rows) {
+  std::vector<bool> passable;
+  for (const std::string& row : rows)
+    for (char c : row) passable.push_back(c == '.');
+  return Grid(static_cast<int>(rows.front().size()), static_cast<int>(rows.size()), passable);
+}
+
+SingleAgent::SingleAgent(const Grid& grid, Cell start, const std::vector<Cell>& tasks,
+                         std::optional<Cell> destination)
+    : instance(instance_of(grid, start, tasks, destination)),
+      distances(instance),
+      goals(instance, distances, 0, all_tasks(instance)) {}
+
+}  // namespace grove::testing

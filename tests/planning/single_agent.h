@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// One agent on a small map, made for the tests of the planning layer.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grove/planning/goal_sequence.h"
+
+namespace grove::testing {
+
+// A grid from rows of '.' and '@'.
+Grid grid_of(const std::vector<std::string>& rows);
+
+// One agent with a start, tasks in the order to visit, and perhaps a destination.
+struct SingleAgent {
+  SingleAgent(const Grid& grid, Cell start, const std::vector<Cell>& tasks,
+              std::optional<Cell> destination);
+
+  Instance instance;
+  DistanceFields distances;
+  GoalSequence goals;
+};
+
+}  // namespace grove::testing
