@@ -87,6 +87,7 @@ class JointSearch {
   void reach(Key key, Time cost);
   Plan plan(NodeIndex last) const;
   AgentPlan agent_plan(std::size_t agent, const std::vector<Key>& keys) const;
+  void finish_on_last(AgentPlan& agent) const;
 
   const Instance& instance_;
   std::size_t state_cap_;
@@ -224,7 +225,15 @@ AgentPlan JointSearch::agent_plan(std::size_t agent, const std::vector<Key>& key
     before = now;
   }
   result.cost = static_cast<Time>(result.path.size()) - 1;
+  finish_on_last(result);
   return result;
+}
+
+// An agent that comes back to a task to rest there visits it last.
+void JointSearch::finish_on_last(AgentPlan& agent) const {
+  const auto last = std::ranges::find(agent.sequence, agent.path.back(),
+                                      [&](TaskIndex t) { return instance_.task(t).cell; });
+  if (last != agent.sequence.end()) std::rotate(last, last + 1, agent.sequence.end());
 }
 
 }  // namespace
