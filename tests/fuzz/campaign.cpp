@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/campaign.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tests/fuzz/shrink.h"
+
+namespace grove::fuzz {
+namespace {
+
+constexpr std::chrono::seconds kShrinkingTime{60};
+
+std::string kind_of(const TinyInstance& instance) {
+  const auto mg = std::ranges::count_if(instance.agents, [](const auto& a) { return !a.goal; });
+  if (mg == 0) return instance.tasks.empty() ? "MAPF" : "CTS";
+  return mg == std::ssize(instance.agents) ? "MG" : "mixed";
+}
+
+std::string counts(const std::map<std::string, std::int64_t>& of) {
+  std::vector<std::string> parts;
+  for (const auto& [name, count] : of) parts.push_back(fmt::format("{} {}", name, count));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+Limits::Clock::time_point after(double seconds) {
+  return Limits::Clock::now() + std::chrono::duration_cast<Limits::Clock::duration>(
+                                    std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+void Tally::add(const FuzzCase& fuzz_case, const CaseResult& result) {
+  if (result.too_large) {
+    ++too_large;
+    return;
+  }
+  ++(result.complaints.empty() ? passed : failed);
+  infeasible += !result.solvable;
+  unsolved += result.solvable && result.stopped && fuzz_case.strike == Strike::kNothing;
+  ++by_status[std::string(to_string(result.status))];
+  ++by_omega[fuzz_case.options.omega.to_string()];
+  ++by_kind[kind_of(fuzz_case.instance)];
+}
+
+std::string Tally::summary() const {
+  return fmt::format(
+      "kinds:  {}\nomega:  {}\nstatus: {}\nwithout a plan {}, not solved in time {}, "
+      "too large for the oracle {}\n{} passed, {} failed\n",
+      counts(by_kind), counts(by_omega), counts(by_status), infeasible, unsolved, too_large, passed,
+      failed);
+}
+
+std::string Failure::report() const {
+  return fmt::format(
+      "The solver is wrong:\n  {}\non this case (a line to commit it with above):\n\n{}\n"
+      "shrunk from:\n\n{}",
+      fmt::join(result.complaints, "\n  "), shrunk.to_text(), original.to_text());
+}
+
+Failure explain(const FuzzCase& fuzz_case, const Solver& solver) {
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() + kShrinkingTime);
+  const auto fails = [&](const FuzzCase& c) { return !run_case(c, solver).complaints.empty(); };
+  Failure failure{fuzz_case, shrink(fuzz_case, fails, limits), {}};
+  failure.result = run_case(failure.shrunk, solver);
+  return failure;
+}
+
+std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solver, Tally& tally) {
+  Limits limits;
+  if (campaign.seconds) limits.set_deadline(after(*campaign.seconds));
+  for (std::int64_t k = 0; k < campaign.count && !limits.stop_requested(); ++k) {
+    const FuzzCase fuzz_case = random_case(campaign.seed + static_cast<std::uint64_t>(k));
+    if (!campaign.trace.empty()) std::ofstream(campaign.trace) << fuzz_case.to_text();
+    const CaseResult result = run_case(fuzz_case, solver);
+    tally.add(fuzz_case, result);
+    if (!result.complaints.empty()) return explain(fuzz_case, solver);
+  }
+  return std::nullopt;
+}
+
+}  // namespace grove::fuzz

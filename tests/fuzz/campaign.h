@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Many random cases in a row.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "grove/model/limits.h"
+#include "tests/fuzz/run_case.h"
+
+namespace grove::fuzz {
+
+struct Tally {
+  std::int64_t passed = 0;
+  std::int64_t failed = 0;
+  std::int64_t too_large = 0;   // skipped: the oracle gave up
+  std::int64_t infeasible = 0;  // no plan exists
+  std::int64_t unsolved = 0;    // a plan exists, but only the generous deadline ended the search
+  std::map<std::string, std::int64_t> by_status;
+  std::map<std::string, std::int64_t> by_omega;
+  std::map<std::string, std::int64_t> by_kind;  // CTS, MG, mixed
+
+  void add(const FuzzCase& fuzz_case, const CaseResult& result);
+  std::string summary() const;
+};
+
+// A case that fails, what is wrong with it, and the smallest one like it.
+struct Failure {
+  FuzzCase original;
+  FuzzCase shrunk;
+  CaseResult result;  // of the shrunk one
+
+  std::string report() const;
+};
+
+struct Campaign {
+  std::int64_t count = 0;                        // how many cases
+  std::uint64_t seed = 0;                        // of the first; the next ones count up
+  std::optional<double> seconds = std::nullopt;  // at most so long
+  std::filesystem::path trace = {};              // if given, holds the case under way: for crashes
+};
+
+// Runs until the first failure, which it shrinks, or the end.
+std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solver, Tally& tally);
+
+// Shrinks a failing case.
+Failure explain(const FuzzCase& fuzz_case, const Solver& solver);
+
+}  // namespace grove::fuzz

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// grove-fuzz: random tiny instances against the oracle. Exit codes: 0 all is well, 1 the solver is
+// wrong, 2 bad usage.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <exception>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/fuzz/campaign.h"
+
+namespace grove::fuzz {
+namespace {
+
+constexpr int kWrong = 1;
+constexpr int kBadUsage = 2;
+
+FuzzCase read_case(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return FuzzCase::parse(text.str());
+}
+
+std::optional<Failure> run_files(const std::vector<std::string>& paths, const Solver& solver,
+                                 Tally& tally) {
+  for (const std::string& path : paths) {
+    const FuzzCase fuzz_case = read_case(path);
+    const CaseResult result = run_case(fuzz_case, solver);
+    tally.add(fuzz_case, result);
+    if (result.complaints.empty()) continue;
+    fmt::print("{}\n", path);
+    return explain(fuzz_case, solver);
+  }
+  return std::nullopt;
+}
+
+int run(const std::vector<std::string>& paths, const Campaign& campaign) {
+  const Solver solver = [](const Instance& instance, const SolveOptions& options,
+                           const Limits& limits) { return solve(instance, options, limits); };
+  const auto begin = std::chrono::steady_clock::now();
+  Tally tally;
+  const auto failure =
+      paths.empty() ? run_campaign(campaign, solver, tally) : run_files(paths, solver, tally);
+  if (failure) fmt::print("{}\n", failure->report());
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  fmt::print("{:.1f} s\n{}", seconds.count(), tally.summary());
+  return failure ? kWrong : 0;
+}
+
+int main_of(int argc, char** argv) {
+  Campaign campaign{.count = 1000};
+  std::vector<std::string> paths;
+  CLI::App app("Solves random tiny instances and holds every answer against an exhaustive search.");
+  app.add_option("--count", campaign.count, "how many instances")->capture_default_str();
+  app.add_option("--seed", campaign.seed, "of the first one")->capture_default_str();
+  app.add_option("--seconds", campaign.seconds, "at most so long");
+  app.add_option("--trace", campaign.trace, "write each case here before it runs");
+  app.add_option("--case", paths, "run these files instead")->check(CLI::ExistingFile);
+  try {
+    app.parse(argc, argv);
+    return run(paths, campaign);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadUsage;
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kBadUsage;
+  }
+}
+
+}  // namespace
+}  // namespace grove::fuzz
+
+int main(int argc, char** argv) {
+  return grove::fuzz::main_of(argc, argv);
+}

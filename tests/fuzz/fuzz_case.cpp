@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/fuzz_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "tests/fuzz/random.h"
+#include "tests/fuzz/random_instance.h"
+
+namespace grove::fuzz {
+namespace {
+
+template <typename T, std::size_t N>
+using Names = std::array<std::pair<T, std::string_view>, N>;
+
+constexpr Names<RtspBackend, 4> kBackends{{{RtspBackend::kAuto, "auto"},
+                                           {RtspBackend::kHeldKarp, "held-karp"},
+                                           {RtspBackend::kBoundedDp, "bounded-dp"},
+                                           {RtspBackend::kCbc, "cbc"}}};
+constexpr Names<Strike, 5> kStrikes{{{Strike::kNothing, "nothing"},
+                                     {Strike::kExpired, "expired"},
+                                     {Strike::kSoon, "soon"},
+                                     {Strike::kMemory, "memory"},
+                                     {Strike::kInterrupt, "interrupt"}}};
+
+template <typename T, std::size_t N>
+std::string_view name_of(const Names<T, N>& names, T value) {
+  return std::ranges::find(names, value, &std::pair<T, std::string_view>::first)->second;
+}
+
+template <typename T, std::size_t N>
+T value_of(const Names<T, N>& names, std::string_view name) {
+  const auto found = std::ranges::find(names, name, &std::pair<T, std::string_view>::second);
+  if (found == names.end()) throw std::invalid_argument(fmt::format("did not expect '{}'", name));
+  return found->first;
+}
+
+std::uint64_t parse_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* end = text.data() + text.size();
+  if (std::from_chars(text.data(), end, seed).ptr != end)
+    throw std::invalid_argument(fmt::format("expected a seed, not '{}'", text));
+  return seed;
+}
+
+void read_option(const std::string& line, FuzzCase& fuzz_case) {
+  std::istringstream in(line);
+  std::string key;
+  std::string value;
+  in >> key >> value;
+  if (key.empty() || key.starts_with('#')) return;
+  if (key == "omega")
+    fuzz_case.options.omega = Omega::parse(value);
+  else if (key == "rtsp")
+    fuzz_case.options.rtsp = value_of(kBackends, value);
+  else if (key == "seed")
+    fuzz_case.options.seed = parse_seed(value);
+  else if (key == "strike")
+    fuzz_case.strike = value_of(kStrikes, value);
+  else
+    throw std::invalid_argument(fmt::format("did not expect the option '{}'", key));
+}
+
+Omega random_omega(Random& random) {
+  constexpr std::string_view kChoices[] = {"0",   "0",   "0",   "0.01", "0.01",
+                                           "0.1", "0.1", "0.5", "inf"};
+  return Omega::parse(kChoices[random.below(std::size(kChoices))]);
+}
+
+Strike random_strike(Random& random) {
+  const int dice = random.below(100);
+  return dice < 84   ? Strike::kNothing
+         : dice < 88 ? Strike::kExpired
+         : dice < 92 ? Strike::kSoon
+         : dice < 96 ? Strike::kMemory
+                     : Strike::kInterrupt;
+}
+
+}  // namespace
+
+std::string FuzzCase::to_text() const {
+  return fmt::format("{}options\nomega {}\nrtsp {}\nseed {}\nstrike {}\n", instance.to_text(),
+                     options.omega.to_string(), name_of(kBackends, options.rtsp), options.seed,
+                     name_of(kStrikes, strike));
+}
+
+FuzzCase FuzzCase::parse(std::string_view text) {
+  constexpr std::string_view kHeading = "\noptions\n";
+  FuzzCase fuzz_case;
+  const std::size_t heading = text.find(kHeading);
+  fuzz_case.instance = TinyInstance::parse(text.substr(0, heading));
+  if (heading == std::string_view::npos) return fuzz_case;
+  std::istringstream in{std::string(text.substr(heading + kHeading.size()))};
+  for (std::string line; std::getline(in, line);) read_option(line, fuzz_case);
+  return fuzz_case;
+}
+
+FuzzCase random_case(std::uint64_t seed) {
+  FuzzCase fuzz_case;
+  fuzz_case.instance = random_instance(seed);
+  Random random(~seed);
+  fuzz_case.options.omega = random_omega(random);
+  fuzz_case.options.rtsp = random.pick<RtspBackend>(
+      {RtspBackend::kAuto, RtspBackend::kAuto, RtspBackend::kHeldKarp, RtspBackend::kHeldKarp,
+       RtspBackend::kBoundedDp, RtspBackend::kBoundedDp, RtspBackend::kCbc});
+  fuzz_case.options.seed = static_cast<std::uint64_t>(random.below(1000));
+  fuzz_case.strike = random_strike(random);
+  return fuzz_case;
+}
+
+}  // namespace grove::fuzz

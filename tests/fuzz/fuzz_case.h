@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// An instance and the options to solve it with: one thing the fuzzer tries.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "grove/engine/solve.h"
+#include "tests/fuzz/tiny_instance.h"
+
+namespace grove::fuzz {
+
+// What may strike during a run.
+enum class Strike : std::uint8_t {
+  kNothing,    // only a generous deadline
+  kExpired,    // the deadline has passed when the run begins
+  kSoon,       // the deadline comes within a millisecond
+  kMemory,     // there is hardly any memory
+  kInterrupt,  // the interrupt flag is up when the run begins
+};
+
+// As text: a TinyInstance, followed by
+//
+//     options
+//     omega 0.01
+//     rtsp held-karp       (auto, held-karp, bounded-dp, cbc)
+//     seed 7
+//     strike nothing       (nothing, expired, soon, memory, interrupt)
+//
+// in which every line may be missing.
+struct FuzzCase {
+  TinyInstance instance;
+  SolveOptions options;
+  Strike strike = Strike::kNothing;
+
+  std::string to_text() const;
+  // Throws std::invalid_argument.
+  static FuzzCase parse(std::string_view text);
+};
+
+// A random instance with random options. The same seed makes the same case.
+FuzzCase random_case(std::uint64_t seed);
+
+}  // namespace grove::fuzz

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// The fuzzer itself under test: every kind of lie must be caught, and shrunk to its core.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/fuzz/campaign.h"
+#include "tests/fuzz/shrink.h"
+#include "tests/oracle/joint_oracle.h"
+
+namespace grove::fuzz {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// Knows the answer and tells it.
+Solution honest(const Instance& instance, const SolveOptions& options, const Limits& limits) {
+  Solution solution;
+  solution.omega = options.omega;
+  if (limits.stop_requested()) return solution;
+  const oracle::Answer truth = oracle::solve_jointly(instance);
+  solution.plan = truth.plan;
+  solution.status = truth.plan ? Status::kOptimal : Status::kInfeasible;
+  solution.lower_bound = truth.plan ? truth.plan->cost : 0;
+  return solution;
+}
+
+// Knows the answer and tells it in `twisted` form.
+Solver liar(const std::function<void(const Instance&, Solution&)>& twist) {
+  return [twist](const Instance& instance, const SolveOptions& options, const Limits& limits) {
+    Solution solution = honest(instance, options, limits);
+    twist(instance, solution);
+    return solution;
+  };
+}
+
+std::vector<std::string> complaints(const char* text, const Solver& solver) {
+  return run_case(FuzzCase::parse(text), solver).complaints;
+}
+
+constexpr const char* kCorner = "map\n...\n...\nagents\n0,0 -> 2,0\n2,0 -> 0,0\ntasks\n1,1: 0\n";
+constexpr const char* kSwap = "map\n...\nagents\n0,0 -> 2,0\n2,0 -> 0,0\n";
+constexpr const char* kFourSteps = "map\n.....\nagents\n0,0 -> 4,0\n";
+
+// A plan of one step more: waits at the start first.
+void delay(Solution& solution) {
+  AgentPlan& agent = solution.plan->agents[0];
+  agent.path.insert(agent.path.begin(), agent.path.front());
+  ++agent.cost;
+  ++solution.plan->cost;
+}
+
+TEST(Fuzz, HasNothingAgainstTheTruth) {
+  Tally tally;
+  const auto failure = run_campaign({.count = 300, .seed = 1}, honest, tally);
+  EXPECT_FALSE(failure) << failure->report();
+  EXPECT_EQ(tally.passed + tally.too_large, 300);
+  EXPECT_GT(tally.by_status["optimal"], 0);
+  EXPECT_GT(tally.by_status["infeasible"], 0);
+  EXPECT_GT(tally.by_status["unknown"], 0);
+}
+
+TEST(Fuzz, CatchesAWrongCost) {
+  EXPECT_THAT(complaints(kCorner, liar([](auto&, Solution& s) {
+                           --s.plan->cost;
+                           --s.lower_bound;
+                         })),
+              Contains(HasSubstr("below the optimum")));
+  EXPECT_THAT(complaints(kCorner, liar([](auto&, Solution& s) { --s.plan->agents[0].cost; })),
+              Contains(HasSubstr("the plan is wrong")));
+}
+
+TEST(Fuzz, CatchesABoundThatIsTooHigh) {
+  EXPECT_THAT(complaints(kCorner, liar([](auto&, Solution& s) { ++s.lower_bound; })),
+              Contains(HasSubstr("exceeds the optimum")));
+  // Also when it comes without a plan, from a run that was stopped.
+  EXPECT_THAT(complaints("map\n..\nagents\n0,0 -> 1,0\noptions\nstrike expired\n",
+                         liar([](auto&, Solution& s) { s.lower_bound = 2; })),
+              Contains(HasSubstr("exceeds the optimum")));
+}
+
+TEST(Fuzz, CatchesFalseInfeasibility) {
+  EXPECT_THAT(complaints(kCorner, liar([](auto&, Solution& s) {
+                           s.plan.reset();
+                           s.status = Status::kInfeasible;
+                         })),
+              Contains(HasSubstr("infeasible, but a plan")));
+}
+
+TEST(Fuzz, CatchesFalseOptimality) {
+  const Solver solver = liar([](auto&, Solution& s) {
+    delay(s);
+    ++s.lower_bound;
+  });
+  EXPECT_THAT(complaints(kFourSteps, solver), Contains(HasSubstr("optimal with cost 5")));
+  // Without the bound to match it does not even agree with itself.
+  EXPECT_THAT(complaints(kFourSteps, liar([](auto&, Solution& s) { delay(s); })),
+              Contains(HasSubstr("status optimal where")));
+}
+
+TEST(Fuzz, CatchesFalseBoundedness) {
+  const Solver solver = liar([](auto&, Solution& s) {
+    delay(s);
+    s.lower_bound = 5;
+    delay(s);
+    s.status = Status::kBounded;
+  });
+  const auto wrong = complaints("map\n.....\nagents\n0,0 -> 4,0\noptions\nomega 0.25\n", solver);
+  EXPECT_THAT(wrong, Contains(HasSubstr("bounded with cost 6")));
+}
+
+TEST(Fuzz, CatchesPlansThatCollide) {
+  const Solver solver = [](const Instance& instance, const SolveOptions&, const Limits&) {
+    Solution solution;
+    solution.status = Status::kOptimal;
+    solution.lower_bound = 4;
+    solution.plan = Plan{4, {{2, {}, {0, 1, 2}}, {2, {}, {2, 1, 0}}}};
+    EXPECT_EQ(instance.agent_count(), 2);
+    return solution;
+  };
+  EXPECT_THAT(complaints(kSwap, solver), Contains(HasSubstr("but there is none")));
+  EXPECT_THAT(complaints("map\n...\n...\nagents\n0,0 -> 2,0\n2,0 -> 0,0\n", solver),
+              Contains(HasSubstr("the plan is wrong")));
+}
+
+TEST(Fuzz, CatchesGivingUpWithoutALimit) {
+  const Solver solver = liar([](auto&, Solution& s) {
+    s.plan.reset();
+    s.status = Status::kUnknown;
+  });
+  EXPECT_THAT(complaints(kCorner, solver), Contains(HasSubstr("no limit struck")));
+  EXPECT_THAT(complaints("map\n..\nagents\n0,0 -> 1,0\noptions\nomega inf\n", solver), IsEmpty());
+  EXPECT_THAT(complaints("map\n..\nagents\n0,0 -> 1,0\noptions\nstrike expired\n", solver),
+              IsEmpty());
+}
+
+TEST(Fuzz, CatchesExceptionsDeafnessAndWhims) {
+  const Solver thrower = [](const Instance&, const SolveOptions&, const Limits&) -> Solution {
+    throw std::runtime_error("out of luck");
+  };
+  EXPECT_THAT(complaints(kSwap, thrower), Contains(HasSubstr("threw: out of luck")));
+  const Solver deaf =
+      liar([](auto&, auto&) { std::this_thread::sleep_for(std::chrono::milliseconds(1200)); });
+  EXPECT_THAT(complaints("map\n..\nagents\n0,0 -> 1,0\noptions\nstrike expired\n", deaf),
+              Contains(HasSubstr("after the deadline")));
+  bool late = false;
+  const Solver whimsical = [&late](const Instance& i, const SolveOptions& o, const Limits& l) {
+    Solution solution = honest(i, o, l);
+    if (std::exchange(late, !late)) delay(solution);
+    solution.status = status_of(solution.plan->cost, solution.lower_bound, o.omega);
+    return solution;
+  };
+  EXPECT_THAT(complaints("map\n.....\nagents\n0,0 -> 4,0\noptions\nomega 0.5\n", whimsical),
+              Contains(HasSubstr("differently the second time")));
+}
+
+TEST(Shrink, ReachesTheCoreOfALie) {
+  // Wrong where an MG agent has a task on another's destination (and one more, to finish on).
+  const Solver solver = liar([](const Instance& instance, Solution& s) {
+    for (const Task& task : instance.tasks())
+      for (const Agent& agent : instance.agents())
+        if (agent.goal == task.cell && !instance.agent(task.agents[0]).goal) s.lower_bound = 1000;
+  });
+  Tally tally;
+  const auto failure = run_campaign({.count = 1000, .seed = 3}, solver, tally);
+  ASSERT_TRUE(failure);
+  EXPECT_THAT(failure->result.complaints, Contains(HasSubstr("exceeds the optimum")));
+  EXPECT_EQ(failure->shrunk.instance.agents.size(), 2u) << failure->report();
+  EXPECT_EQ(failure->shrunk.instance.tasks.size(), 2u) << failure->report();
+  EXPECT_EQ(failure->shrunk.options.omega, Omega());
+  EXPECT_THAT(failure->report(), HasSubstr(failure->shrunk.to_text()));
+}
+
+TEST(Shrink, OffersOnlyValidAndSimplerCases) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const FuzzCase fuzz_case = random_case(seed);
+    for (const FuzzCase& simpler : simpler_cases(fuzz_case)) {
+      EXPECT_NO_THROW(simpler.instance.build());
+      EXPECT_NE(simpler.to_text(), fuzz_case.to_text());
+    }
+  }
+}
+
+TEST(Shrink, RemovesRowsAndColumnsThatNothingUses) {
+  const FuzzCase fuzz_case = FuzzCase::parse("map\n@...\n@@@.\n@@@.\nagents\n1,0 -> 3,2\n");
+  const FuzzCase shrunk = shrink(
+      fuzz_case, [](const FuzzCase& c) { return c.instance.agents.size() == 1; }, Limits());
+  EXPECT_EQ(shrunk.instance.to_text(), "map\n.@\n@.\nagents\n0,0 -> 1,1\n");
+}
+
+TEST(FuzzCase, SurvivesItsText) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const FuzzCase fuzz_case = random_case(seed);
+    EXPECT_EQ(FuzzCase::parse(fuzz_case.to_text()).to_text(), fuzz_case.to_text());
+  }
+  EXPECT_THROW(FuzzCase::parse("map\n..\nagents\n0,0 -> 1,0\noptions\nrtsp gurobi\n"),
+               std::invalid_argument);
+  EXPECT_THROW(FuzzCase::parse("map\n..\nagents\n0,0 -> 1,0\noptions\nlucky 1\n"),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace grove::fuzz

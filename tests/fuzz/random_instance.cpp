@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/random_instance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/fuzz/random.h"
+#include "tests/fuzz/random_map.h"
+
+namespace grove::fuzz {
+namespace {
+
+// Joint moves an instance may have about: keeps the oracle quick even when there is no plan.
+constexpr double kMaxJointMoves = 2e7;
+constexpr int kMaxTasksEach = 4;
+
+std::vector<Position> passable_cells(const std::vector<std::string>& rows) {
+  std::vector<Position> cells;
+  for (int y = 0; y < static_cast<int>(rows.size()); ++y)
+    for (int x = 0; x < static_cast<int>(rows[y].size()); ++x)
+      if (rows[y][x] == '.') cells.push_back({x, y});
+  return cells;
+}
+
+bool adjacent(Position p, Position q) {
+  return std::abs(p.x - q.x) + std::abs(p.y - q.y) == 1;
+}
+
+// `cells` that can be reached from `from`.
+std::vector<Position> component(const std::vector<Position>& cells, Position from) {
+  std::vector<Position> found{from};
+  for (std::size_t head = 0; head < found.size(); ++head) {
+    for (Position p : cells) {
+      if (adjacent(p, found[head]) && std::ranges::count(found, p) == 0) found.push_back(p);
+    }
+  }
+  return found;
+}
+
+class Maker {
+ public:
+  Maker(std::uint64_t seed, int agents) : random_(seed), wanted_agents_(agents) {}
+
+  TinyInstance make() {
+    instance_.rows = random_map(static_cast<Shape>(random_.below(kShapeCount)), random_);
+    cells_ = passable_cells(instance_.rows);
+    place_agents();
+    // Most instances are played out first, one move at a time, so that there is a plan.
+    if (random_.percent(70))
+      play();
+    else
+      throw_goals();
+    make_mg();
+    add_tasks();
+    return instance_;
+  }
+
+ private:
+  int agent_count() {
+    if (wanted_agents_ > 0) return wanted_agents_;
+    const int dice = random_.below(100);
+    return dice < 8 ? 1 : dice < 50 ? 2 : dice < 85 ? 3 : 4;
+  }
+
+  void place_agents() {
+    const int count = std::min(agent_count(), static_cast<int>(cells_.size()) - 1);
+    std::vector<Position> starts = cells_;
+    random_.shuffle(starts);
+    for (int a = 0; a < count; ++a) instance_.agents.push_back({starts[a], starts[a]});
+    reach_.resize(instance_.agents.size());
+    tasks_of_.assign(instance_.agents.size(), 0);
+  }
+
+  // Destinations where the agents end up, tasks where they have been.
+  void play() {
+    const int agents = static_cast<int>(instance_.agents.size());
+    for (int a = 0; a < agents; ++a) reach_[a] = {instance_.agents[a].start};
+    for (int moves = random_.between(5, 150) * agents; moves > 0; --moves) {
+      const int a = random_.below(agents);
+      const Position to = random_.pick(cells_);
+      if (!adjacent(to, *instance_.agents[a].goal) || is_goal(to)) continue;
+      instance_.agents[a].goal = to;
+      reach_[a].push_back(to);
+    }
+  }
+
+  // Destinations and tasks anywhere; rarely where nobody can get: that is seen at once.
+  void throw_goals() {
+    const bool everywhere = random_.percent(20);
+    for (auto& agent : instance_.agents) agent.goal.reset();
+    for (std::size_t a = 0; a < instance_.agents.size(); ++a) {
+      auto& agent = instance_.agents[a];
+      reach_[a] = everywhere ? cells_ : component(cells_, agent.start);
+      std::vector<Position> free = reach_[a];
+      std::erase_if(free, [&](Position p) { return is_goal(p); });
+      if (!free.empty()) agent.goal = random_.pick(free);
+    }
+  }
+
+  bool is_goal(Position p) const {
+    return std::ranges::any_of(instance_.agents, [&](const auto& a) { return a.goal == p; });
+  }
+
+  // Makes MG agents of all, some or none; their destination becomes a task.
+  void make_mg() {
+    constexpr int kChances[] = {0, 50, 100};
+    const int chance = kChances[random_.below(3)];
+    for (std::size_t a = 0; a < instance_.agents.size(); ++a) {
+      auto& goal = instance_.agents[a].goal;
+      if (goal && !random_.percent(chance)) continue;
+      give(static_cast<int>(a), goal ? *goal : random_.pick(reach_[a]));
+      goal.reset();
+    }
+  }
+
+  // Half the tasks lie where it hurts: on someone's start or destination.
+  Position task_cell(int agent) {
+    const Position any = random_.pick(reach_[agent]);
+    if (random_.percent(50)) return any;
+    const auto& other = random_.pick(instance_.agents);
+    const Position cell = other.goal && random_.percent(50) ? *other.goal : other.start;
+    return std::ranges::count(reach_[agent], cell) > 0 ? cell : any;
+  }
+
+  bool has_room(int agent) const {
+    double moves = 1;
+    int tasks = 1;
+    for (std::size_t a = 0; a < instance_.agents.size(); ++a) {
+      moves *= 4 * (static_cast<double>(cells_.size()) - static_cast<double>(a));
+      tasks += tasks_of_[a];
+    }
+    return tasks_of_[agent] < kMaxTasksEach && std::ldexp(moves, tasks) <= kMaxJointMoves;
+  }
+
+  // Adds a task on `cell` for `agent`, or the agent to the task that is there.
+  void give(int agent, Position cell) {
+    auto task =
+        std::ranges::find_if(instance_.tasks, [&](const auto& t) { return t.cell == cell; });
+    if (task == instance_.tasks.end())
+      task = instance_.tasks.insert(task, TinyInstance::Task{cell, {}});
+    if (std::ranges::count(task->agents, agent) > 0) return;
+    task->agents.push_back(agent);
+    ++tasks_of_[agent];
+  }
+
+  void add_tasks() {
+    const int tries = random_.percent(15) ? 0 : random_.between(1, 9);
+    for (int k = 0; k < tries; ++k) {
+      const int agent = random_.below(static_cast<int>(instance_.agents.size()));
+      if (!has_room(agent)) continue;
+      give(agent, task_cell(agent));
+    }
+  }
+
+  Random random_;
+  int wanted_agents_;
+  TinyInstance instance_;
+  std::vector<Position> cells_;
+  std::vector<std::vector<Position>> reach_;  // where an agent's tasks may lie
+  std::vector<int> tasks_of_;                 // how many, by agent
+};
+
+}  // namespace
+
+TinyInstance random_instance(std::uint64_t seed) {
+  return Maker(seed, 0).make();
+}
+
+TinyInstance random_instance(std::uint64_t seed, int agents) {
+  return Maker(seed, agents).make();
+}
+
+}  // namespace grove::fuzz

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Random tiny instances, small enough for the oracle and nasty enough for the search.
+#pragma once
+
+#include <cstdint>
+
+#include "tests/fuzz/tiny_instance.h"
+
+namespace grove::fuzz {
+
+// Always a valid instance; not always one that can be solved. The same seed makes the same one.
+TinyInstance random_instance(std::uint64_t seed);
+
+// The same with exactly `agents` agents, if the map has room for them.
+TinyInstance random_instance(std::uint64_t seed, int agents);
+
+}  // namespace grove::fuzz

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/run_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+
+#include "tests/fuzz/claims.h"
+#include "tests/oracle/joint_oracle.h"
+
+namespace grove::fuzz {
+namespace {
+
+using Clock = Limits::Clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kGenerous{2000};
+// CBS need not end where there is no plan, so "unknown" is due soon enough.
+constexpr milliseconds kWithoutPlan{200};
+constexpr milliseconds kSoon{1};
+constexpr milliseconds kAllowedOverrun{1000};
+constexpr milliseconds kWorthRepeating{20};
+constexpr std::size_t kScarceMemory = std::size_t{1} << 18;
+
+struct Run {
+  Solution solution;
+  bool stopped = false;
+  Clock::duration duration{};
+  Clock::duration overrun{};
+};
+
+// Whether `strike` takes place whatever the solver does.
+bool excuses(Strike strike) {
+  return strike == Strike::kExpired || strike == Strike::kInterrupt;
+}
+
+Run run(const Instance& instance, const FuzzCase& fuzz_case, milliseconds patience,
+        const Solver& solver) {
+  Limits limits;
+  const std::atomic<bool> interrupt{true};
+  const Clock::time_point begin = Clock::now();
+  Clock::time_point deadline = begin + patience;
+  if (fuzz_case.strike == Strike::kExpired) deadline = begin - milliseconds(1);
+  if (fuzz_case.strike == Strike::kSoon) deadline = begin + kSoon;
+  if (fuzz_case.strike == Strike::kMemory)
+    limits.set_memory_limit(resident_bytes() + kScarceMemory);
+  if (fuzz_case.strike == Strike::kInterrupt) limits.watch_interrupt(&interrupt);
+  limits.set_deadline(deadline);
+
+  Run run{solver(instance, fuzz_case.options, limits)};
+  const Clock::time_point end = Clock::now();
+  run.stopped = limits.reason() != StopReason::kNone || excuses(fuzz_case.strike);
+  run.duration = end - begin;
+  run.overrun = end - std::max(begin, deadline);
+  return run;
+}
+
+bool same_answer(const Solution& a, const Solution& b) {
+  if (a.status != b.status || a.lower_bound != b.lower_bound) return false;
+  if (a.plan.has_value() != b.plan.has_value()) return false;
+  if (!a.plan) return true;
+  return std::ranges::equal(a.plan->agents, b.plan->agents, {}, &AgentPlan::path, &AgentPlan::path);
+}
+
+void judge(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answer& truth,
+           const Solver& solver, CaseResult& result) {
+  const milliseconds patience = truth.plan ? kGenerous : kWithoutPlan;
+  const Run first = run(instance, fuzz_case, patience, solver);
+  result.status = first.solution.status;
+  result.stopped = first.stopped;
+  result.complaints =
+      false_claims(instance, truth, fuzz_case.options.omega, first.solution, first.stopped);
+  if (first.overrun > kAllowedOverrun)
+    result.complaints.push_back(fmt::format("returned {} s after the deadline",
+                                            std::chrono::duration<double>(first.overrun).count()));
+  if (first.stopped || first.duration > kWorthRepeating) return;
+  const Run second = run(instance, fuzz_case, patience, solver);
+  if (!second.stopped && !same_answer(first.solution, second.solution))
+    result.complaints.push_back("the same run ends differently the second time");
+}
+
+}  // namespace
+
+CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver) {
+  const Instance instance = fuzz_case.instance.build();
+  const oracle::Answer truth = oracle::solve_jointly(instance);
+  CaseResult result;
+  result.too_large = truth.verdict == oracle::Verdict::kTooLarge;
+  if (result.too_large) return result;
+  result.solvable = truth.plan.has_value();
+  try {
+    judge(instance, fuzz_case, truth, solver, result);
+  } catch (const std::exception& error) {
+    result.complaints.push_back(fmt::format("threw: {}", error.what()));
+  }
+  return result;
+}
+
+}  // namespace grove::fuzz

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Runs one case through a solver and judges the answer.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "grove/engine/solve.h"
+#include "tests/fuzz/fuzz_case.h"
+
+namespace grove::fuzz {
+
+// Any engine, or a liar.
+using Solver = std::function<Solution(const Instance&, const SolveOptions&, const Limits&)>;
+
+struct CaseResult {
+  bool too_large = false;               // for the oracle: the solver was not asked
+  bool solvable = false;                // the oracle found a plan
+  bool stopped = false;                 // a limit struck
+  Status status = Status::kUnknown;     // what the solver said
+  std::vector<std::string> complaints;  // empty: all is well
+};
+
+// Asks the oracle, then `solver`, then holds one against the other; a short run that no limit
+// struck is repeated and must end the same.
+CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver);
+
+}  // namespace grove::fuzz

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/shrink.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace grove::fuzz {
+namespace {
+
+TinyInstance without_agent(TinyInstance instance, int agent) {
+  instance.agents.erase(instance.agents.begin() + agent);
+  for (auto& task : instance.tasks) {
+    std::erase(task.agents, agent);
+    for (int& a : task.agents)
+      if (a > agent) --a;
+  }
+  std::erase_if(instance.tasks, [](const auto& task) { return task.agents.empty(); });
+  return instance;
+}
+
+TinyInstance without_task(TinyInstance instance, std::size_t task) {
+  instance.tasks.erase(instance.tasks.begin() + static_cast<std::ptrdiff_t>(task));
+  return instance;
+}
+
+TinyInstance without_share(TinyInstance instance, std::size_t task, int agent) {
+  std::erase(instance.tasks[task].agents, agent);
+  return instance;
+}
+
+// Applies `move` to every position of agents and tasks.
+void move_all(TinyInstance& instance, const std::function<void(Position&)>& move) {
+  for (auto& agent : instance.agents) {
+    move(agent.start);
+    if (agent.goal) move(*agent.goal);
+  }
+  for (auto& task : instance.tasks) move(task.cell);
+}
+
+// None when something lies in the row.
+std::optional<TinyInstance> without_row(TinyInstance instance, int row) {
+  for (int x = 0; x < static_cast<int>(instance.rows[row].size()); ++x)
+    if (in_use(instance, {x, row})) return std::nullopt;
+  instance.rows.erase(instance.rows.begin() + row);
+  move_all(instance, [row](Position& p) { p.y -= p.y > row; });
+  return instance;
+}
+
+std::optional<TinyInstance> without_column(TinyInstance instance, int column) {
+  for (int y = 0; y < static_cast<int>(instance.rows.size()); ++y)
+    if (in_use(instance, {column, y})) return std::nullopt;
+  for (auto& row : instance.rows) row.erase(row.begin() + column);
+  move_all(instance, [column](Position& p) { p.x -= p.x > column; });
+  return instance;
+}
+
+class Steps {
+ public:
+  explicit Steps(const FuzzCase& from) : from_(from) {}
+
+  std::vector<FuzzCase> all() {
+    drop_agents();
+    drop_tasks();
+    drop_rows_and_columns();
+    plainer_options();
+    block_cells();
+    return std::move(cases_);
+  }
+
+ private:
+  void offer(FuzzCase candidate) {
+    try {
+      (void)candidate.instance.build();
+    } catch (const std::invalid_argument&) {
+      return;  // it breaks a rule: an MG agent without a task, say
+    }
+    cases_.push_back(std::move(candidate));
+  }
+
+  void offer(std::optional<TinyInstance> instance) {
+    if (!instance) return;
+    FuzzCase candidate = from_;
+    candidate.instance = *std::move(instance);
+    offer(std::move(candidate));
+  }
+
+  void drop_agents() {
+    for (int a = 0; a < static_cast<int>(from_.instance.agents.size()); ++a)
+      offer(without_agent(from_.instance, a));
+  }
+
+  void drop_tasks() {
+    for (std::size_t t = 0; t < from_.instance.tasks.size(); ++t) {
+      offer(without_task(from_.instance, t));
+      for (int agent : from_.instance.tasks[t].agents)
+        offer(without_share(from_.instance, t, agent));
+    }
+  }
+
+  void drop_rows_and_columns() {
+    const auto& rows = from_.instance.rows;
+    for (int y = 0; y < static_cast<int>(rows.size()); ++y) offer(without_row(from_.instance, y));
+    for (int x = 0; x < static_cast<int>(rows[0].size()); ++x)
+      offer(without_column(from_.instance, x));
+  }
+
+  template <typename T>
+  void plainer(T& (*option)(FuzzCase&), T plain) {
+    FuzzCase candidate = from_;
+    if (option(candidate) == plain) return;
+    option(candidate) = plain;
+    offer(std::move(candidate));
+  }
+
+  void plainer_options() {
+    plainer<Strike>([](FuzzCase& c) -> Strike& { return c.strike; }, Strike::kNothing);
+    plainer<RtspBackend>([](FuzzCase& c) -> RtspBackend& { return c.options.rtsp; },
+                         RtspBackend::kAuto);
+    plainer<Omega>([](FuzzCase& c) -> Omega& { return c.options.omega; }, Omega());
+    plainer<std::uint64_t>([](FuzzCase& c) -> std::uint64_t& { return c.options.seed; }, 0);
+  }
+
+  void block_cells() {
+    const auto& rows = from_.instance.rows;
+    for (int y = 0; y < static_cast<int>(rows.size()); ++y) {
+      for (int x = 0; x < static_cast<int>(rows[y].size()); ++x) {
+        if (rows[y][x] != '.' || in_use(from_.instance, {x, y})) continue;
+        TinyInstance blocked = from_.instance;
+        blocked.rows[y][x] = '@';
+        offer(std::move(blocked));
+      }
+    }
+  }
+
+  const FuzzCase& from_;
+  std::vector<FuzzCase> cases_;
+};
+
+}  // namespace
+
+std::vector<FuzzCase> simpler_cases(const FuzzCase& fuzz_case) {
+  return Steps(fuzz_case).all();
+}
+
+FuzzCase shrink(FuzzCase fuzz_case, const std::function<bool(const FuzzCase&)>& fails,
+                const Limits& limits) {
+  for (bool shrunk = true; shrunk;) {
+    shrunk = false;
+    for (FuzzCase& simpler : simpler_cases(fuzz_case)) {
+      if (limits.stop_requested()) return fuzz_case;
+      if (!fails(simpler)) continue;
+      fuzz_case = std::move(simpler);
+      shrunk = true;
+      break;
+    }
+  }
+  return fuzz_case;
+}
+
+}  // namespace grove::fuzz

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// A* over joint states. A joint state holds, for every agent, its cell, the tasks it has visited
+// and whether it has come to rest for ever (agent_states.h); a step moves all agents at once and
+// costs the number of agents that are not at rest. So the cost of a way is the sum of the agents'
+// finish times: an agent pays for every step up to the one at which it rests for ever, waits
+// included. Whether to rest is a decision: an agent that is done may also pay on and leave again.
+//
+// Soundness. The heuristic adds up the agents' exact costs when alone: one step costs an agent 1
+// and lowers its cost to go by at most 1, or costs 0 and leaves it at 0. So it is consistent, a
+// state is final when it is taken from the queue, and the first state taken in which all agents may
+// rest is optimal. There are finitely many states: an empty queue proves that there is no plan. A
+// state in which some agent alone has no way left is dropped: from it nobody gets home.
+//
+// Shares nothing with Grove but the model's types.
+#include "tests/oracle/joint_oracle.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "tests/oracle/agent_states.h"
+
+namespace grove::oracle {
+namespace {
+
+using Key = std::uint64_t;
+using State = AgentStates::State;
+using NodeIndex = std::uint32_t;
+constexpr NodeIndex kNoNode = UINT32_MAX;
+
+struct Node {
+  Key key = 0;
+  NodeIndex parent = kNoNode;
+  Time cost = 0;
+  bool closed = false;
+};
+
+// Finds nodes by key: open addressing, at most half full.
+class NodeTable {
+ public:
+  // The node of `key`, appended to `nodes` when it is new.
+  NodeIndex find_or_add(Key key, std::vector<Node>& nodes) {
+    if ((nodes.size() + 1) * 2 > slots_.size()) grow(nodes);
+    NodeIndex& slot = slots_[find(key, nodes)];
+    if (slot == kNoNode) {
+      slot = static_cast<NodeIndex>(nodes.size());
+      nodes.push_back({.key = key, .cost = kNever});
+    }
+    return slot;
+  }
+
+ private:
+  std::size_t find(Key key, const std::vector<Node>& nodes) const {
+    std::size_t at = (key * 0x9E3779B97F4A7C15u) >> shift_;
+    while (slots_[at] != kNoNode && nodes[slots_[at]].key != key)
+      at = (at + 1) & (slots_.size() - 1);
+    return at;
+  }
+
+  void grow(const std::vector<Node>& nodes) {
+    slots_.assign(std::max<std::size_t>(1024, slots_.size() * 2), kNoNode);
+    shift_ = 64 - std::countr_zero(slots_.size());
+    for (NodeIndex n = 0; n < nodes.size(); ++n) slots_[find(nodes[n].key, nodes)] = n;
+  }
+
+  std::vector<NodeIndex> slots_;
+  int shift_ = 64;
+};
+
+class JointSearch {
+ public:
+  JointSearch(const Instance& instance, std::size_t state_cap)
+      : instance_(instance), state_cap_(state_cap) {}
+
+  Answer run();
+
+ private:
+  bool prepare();
+  State state(Key key, std::size_t agent) const {
+    return static_cast<State>((key >> shift_[agent]) & mask_[agent]);
+  }
+  Time to_go(Key key) const;
+  NodeIndex pop();
+  void expand(NodeIndex node);
+  void advance(std::size_t agent, Key key, Time cost);
+  bool collides(std::size_t agent, State to) const;
+  void reach(Key key, Time cost);
+  Plan plan(NodeIndex last) const;
+  AgentPlan agent_plan(std::size_t agent, const std::vector<Key>& keys) const;
+  void finish_on_last(AgentPlan& agent) const;
+
+  const Instance& instance_;
+  std::size_t state_cap_;
+  std::vector<AgentStates> agents_;
+  std::vector<int> shift_;
+  std::vector<Key> mask_;
+  std::vector<Node> nodes_;
+  NodeTable table_;
+  std::vector<std::vector<NodeIndex>> buckets_;  // by cost + cost to go
+  std::size_t first_bucket_ = 0;
+  // The expansion under way.
+  NodeIndex parent_ = kNoNode;
+  std::vector<State> from_;
+  std::vector<State> to_;
+};
+
+// False when the instance does not fit into a key.
+bool JointSearch::prepare() {
+  int bits = 0;
+  for (AgentIndex a = 0; a < instance_.agent_count(); ++a) {
+    if (!AgentStates::fits(instance_, a)) return false;
+    agents_.emplace_back(instance_, a);
+    const auto width =
+        static_cast<int>(std::bit_width(static_cast<Key>(agents_.back().count() - 1)));
+    shift_.push_back(bits);
+    mask_.push_back((Key{1} << width) - 1);
+    bits += width;
+    if (bits > 64) return false;
+  }
+  from_.resize(agents_.size());
+  to_.resize(agents_.size());
+  return true;
+}
+
+Time JointSearch::to_go(Key key) const {
+  Time sum = 0;
+  for (std::size_t a = 0; a < agents_.size(); ++a) {
+    const Time alone = agents_[a].to_go(state(key, a));
+    if (alone == kNever) return kNever;
+    sum += alone;
+  }
+  return sum;
+}
+
+void JointSearch::reach(Key key, Time cost) {
+  const Time left = to_go(key);
+  if (left == kNever) return;
+  const NodeIndex n = table_.find_or_add(key, nodes_);
+  if (nodes_[n].cost <= cost) return;
+  nodes_[n].cost = cost;
+  nodes_[n].parent = parent_;
+  const auto bucket = static_cast<std::size_t>(cost + left);
+  if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
+  buckets_[bucket].push_back(n);
+}
+
+NodeIndex JointSearch::pop() {
+  while (first_bucket_ < buckets_.size()) {
+    auto& bucket = buckets_[first_bucket_];
+    if (bucket.empty()) {
+      ++first_bucket_;
+      continue;
+    }
+    const NodeIndex n = bucket.back();
+    bucket.pop_back();
+    if (!std::exchange(nodes_[n].closed, true)) return n;
+  }
+  return kNoNode;
+}
+
+bool JointSearch::collides(std::size_t agent, State to) const {
+  const auto cell = [&](std::size_t a, State s) { return agents_[a].cell(s); };
+  for (std::size_t other = 0; other < agent; ++other) {
+    if (cell(other, to_[other]) == cell(agent, to)) return true;
+    if (cell(other, to_[other]) == cell(agent, from_[agent]) &&
+        cell(other, from_[other]) == cell(agent, to))
+      return true;
+  }
+  return false;
+}
+
+// Chooses the moves of `agent` and all after it; those before have chosen.
+void JointSearch::advance(std::size_t agent, Key key, Time cost) {
+  if (agent == agents_.size()) {
+    reach(key, cost);
+    return;
+  }
+  for (const AgentStates::Move& move : agents_[agent].moves(from_[agent])) {
+    if (collides(agent, move.to)) continue;
+    to_[agent] = move.to;
+    advance(agent + 1, key | static_cast<Key>(move.to) << shift_[agent], cost + move.cost);
+  }
+}
+
+void JointSearch::expand(NodeIndex node) {
+  parent_ = node;
+  for (std::size_t a = 0; a < agents_.size(); ++a) from_[a] = state(nodes_[node].key, a);
+  advance(0, 0, nodes_[node].cost);
+}
+
+Answer JointSearch::run() {
+  if (!prepare()) return {};
+  Key start = 0;
+  for (std::size_t a = 0; a < agents_.size(); ++a)
+    start |= static_cast<Key>(agents_[a].start()) << shift_[a];
+  reach(start, 0);
+  for (NodeIndex n = pop(); n != kNoNode; n = pop()) {
+    if (to_go(nodes_[n].key) == 0) return {Verdict::kSolved, plan(n), nodes_.size()};
+    expand(n);
+    if (nodes_.size() > state_cap_) return {Verdict::kTooLarge, std::nullopt, nodes_.size()};
+  }
+  return {Verdict::kInfeasible, std::nullopt, nodes_.size()};
+}
+
+Plan JointSearch::plan(NodeIndex last) const {
+  std::vector<Key> keys;
+  for (NodeIndex n = last; n != kNoNode; n = nodes_[n].parent) keys.push_back(nodes_[n].key);
+  std::ranges::reverse(keys);
+  Plan plan{nodes_[last].cost, {}};
+  for (std::size_t a = 0; a < agents_.size(); ++a) plan.agents.push_back(agent_plan(a, keys));
+  return plan;
+}
+
+AgentPlan JointSearch::agent_plan(std::size_t agent, const std::vector<Key>& keys) const {
+  const AgentStates& states = agents_[agent];
+  const auto& tasks = instance_.agent(static_cast<AgentIndex>(agent)).tasks;
+  AgentPlan result;
+  std::uint64_t before = 0;
+  for (const Key key : keys) {
+    const State s = state(key, agent);
+    if (states.resting(s)) break;  // it rests since the step before
+    result.path.push_back(states.cell(s));
+    const std::uint64_t now = states.visited(s);
+    if (now != before) result.sequence.push_back(tasks[std::countr_zero(now & ~before)]);
+    before = now;
+  }
+  result.cost = static_cast<Time>(result.path.size()) - 1;
+  finish_on_last(result);
+  return result;
+}
+
+// An agent that comes back to a task to rest there visits it last.
+void JointSearch::finish_on_last(AgentPlan& agent) const {
+  const auto last = std::ranges::find(agent.sequence, agent.path.back(),
+                                      [&](TaskIndex t) { return instance_.task(t).cell; });
+  if (last != agent.sequence.end()) std::rotate(last, last + 1, agent.sequence.end());
+}
+
+}  // namespace
+
+Answer solve_jointly(const Instance& instance, std::size_t state_cap) {
+  return JointSearch(instance, state_cap).run();
+}
+
+}  // namespace grove::oracle

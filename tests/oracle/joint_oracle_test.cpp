@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "tests/oracle/joint_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/fuzz/random_instance.h"
+#include "tests/oracle/layered_search.h"
+
+namespace grove::oracle {
+namespace {
+
+Answer solve_text(const char* text) {
+  return solve_jointly(fuzz::TinyInstance::parse(text).build());
+}
+
+// The optimal cost, -1 when there is no plan.
+Cost optimum(const char* text) {
+  const Answer answer = solve_text(text);
+  EXPECT_NE(answer.verdict, Verdict::kTooLarge);
+  return answer.plan ? answer.plan->cost : -1;
+}
+
+TEST(JointOracle, AnAgentAloneWalksItsShortestTour) {
+  EXPECT_EQ(optimum("map\n......\nagents\n2,0 -> 3,0\ntasks\n0,0: 0\n5,0: 0\n"), 9);
+  EXPECT_EQ(optimum("map\n...\n.@.\n...\nagents\n0,0 -> 2,2\n"), 4);
+}
+
+TEST(JointOracle, StartingAtHomeCostsNothing) {
+  EXPECT_EQ(optimum("map\n..\nagents\n0,0 -> 0,0\n1,0 -> 1,0\n"), 0);
+}
+
+TEST(JointOracle, ATaskOnTheStartIsVisitedAtTimeZero) {
+  EXPECT_EQ(optimum("map\n...\nagents\n1,0 -> 2,0\ntasks\n1,0: 0\n"), 1);
+  EXPECT_EQ(optimum("map\n...\nagents\n1,0 -> -\ntasks\n1,0: 0\n"), 0);
+}
+
+TEST(JointOracle, AnAgentAtHomeMustLeaveForItsTask) {
+  EXPECT_EQ(optimum("map\n...\nagents\n0,0 -> 0,0\ntasks\n2,0: 0\n"), 4);
+}
+
+TEST(JointOracle, AnAgentLeavesItsDestinationToLetAnotherPass) {
+  // Agent 0 is home, but agent 1 must get by: out of the way, and back; 2 + 4.
+  EXPECT_EQ(optimum("map\n.....\n@@.@@\nagents\n2,0 -> 2,0\n0,0 -> 4,0\n"), 2 + 5);
+  // With its bay one step away and the other coming from far it has the time to pay only 4.
+  EXPECT_EQ(optimum("map\n.......\n@@@.@@@\nagents\n3,0 -> 3,0\n0,0 -> 6,0\n"), 4 + 6);
+}
+
+TEST(JointOracle, SwappingInACorridorIsImpossible) {
+  const Answer answer = solve_text("map\n....\nagents\n0,0 -> 3,0\n3,0 -> 0,0\n");
+  EXPECT_EQ(answer.verdict, Verdict::kInfeasible);
+  EXPECT_FALSE(answer.plan);
+}
+
+TEST(JointOracle, SwappingNeighborsIsAnEdgeConflict) {
+  EXPECT_EQ(optimum("map\n..\nagents\n0,0 -> 1,0\n1,0 -> 0,0\n"), -1);
+  EXPECT_EQ(optimum("map\n..\n..\nagents\n0,0 -> 1,0\n1,0 -> 0,0\n"), 4);
+}
+
+TEST(JointOracle, FourAgentsMayTurnInARing) {
+  EXPECT_EQ(optimum("map\n..\n..\nagents\n0,0 -> 1,0\n1,0 -> 1,1\n1,1 -> 0,1\n0,1 -> 0,0\n"), 4);
+}
+
+TEST(JointOracle, ABayMakesTheSwapPossible) {
+  // One steps into the bay at (2, 1) and out again: two steps more, and nobody waits.
+  EXPECT_EQ(optimum("map\n.....\n@@.@@\nagents\n0,0 -> 4,0\n4,0 -> 0,0\n"), 8 + 3);
+}
+
+TEST(JointOracle, ARestingAgentBlocksATaskThatAnotherNeeds) {
+  // Agent 1 needs agent 0's destination, at the end of a corridor: agent 0 has to let it in first.
+  EXPECT_EQ(optimum("map\n...\n@.@\nagents\n1,1 -> 2,0\n0,0 -> 0,0\ntasks\n2,0: 1\n"), 4 + 5);
+}
+
+TEST(JointOracle, ARestingAgentMayMakeItImpossible) {
+  // Agent 1 cannot get behind agent 0, and agent 0 cannot step aside.
+  EXPECT_EQ(optimum("map\n...\nagents\n1,0 -> 1,0\n0,0 -> 0,0\ntasks\n2,0: 1\n"), -1);
+}
+
+TEST(JointOracle, AnMgAgentChoosesWhereToFinish) {
+  EXPECT_EQ(optimum("map\n.....\nagents\n1,0 -> -\ntasks\n0,0: 0\n4,0: 0\n"), 1 + 4);
+  // Agent 1 needs (4, 0) as well, for good: agent 0 has to turn round and finish at (0, 0).
+  EXPECT_EQ(optimum("map\n.....\n...@@\nagents\n1,0 -> -\n0,1 -> 4,0\ntasks\n0,0: 0\n4,0: 0\n"),
+            7 + 8);
+}
+
+TEST(JointOracle, TwoMgAgentsCannotFinishOnOneCell) {
+  EXPECT_EQ(optimum("map\n...\n...\nagents\n0,0 -> -\n2,0 -> -\ntasks\n1,0: 0 1\n"), -1);
+}
+
+TEST(JointOracle, UnreachableCellsHaveNoPlan) {
+  EXPECT_EQ(optimum("map\n.@.\nagents\n0,0 -> 2,0\n"), -1);
+  EXPECT_EQ(optimum("map\n.@.\nagents\n0,0 -> 0,0\ntasks\n2,0: 0\n"), -1);
+}
+
+TEST(JointOracle, SaysWhenItIsTooLarge) {
+  const auto instance =
+      fuzz::TinyInstance::parse("map\n....\n....\n@.@@\nagents\n0,0 -> 3,0\n3,0 -> 0,0\n").build();
+  EXPECT_EQ(solve_jointly(instance, 5).verdict, Verdict::kTooLarge);
+}
+
+TEST(JointOracle, PlansAddUp) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Instance instance = fuzz::random_instance(seed).build();
+    const Answer answer = solve_jointly(instance);
+    if (!answer.plan) continue;
+    Cost sum = 0;
+    for (AgentIndex a = 0; a < instance.agent_count(); ++a) {
+      const AgentPlan& agent = answer.plan->agents[a];
+      EXPECT_EQ(agent.path.front(), instance.agent(a).start);
+      EXPECT_EQ(agent.sequence.size(), instance.agent(a).tasks.size());
+      sum += agent.cost;
+    }
+    EXPECT_EQ(sum, answer.plan->cost) << fuzz::random_instance(seed).to_text();
+  }
+}
+
+TEST(JointOracle, AgreesWithASearchByLayersOfTime) {
+  const char* more = std::getenv("GROVE_FUZZ_ROUNDS");
+  const std::uint64_t rounds = more ? std::strtoull(more, nullptr, 10) : 300;
+  int solved = 0;
+  int infeasible = 0;
+  for (std::uint64_t seed = 0; seed < rounds; ++seed) {
+    const fuzz::TinyInstance tiny = fuzz::random_instance(seed, 2);
+    const Instance instance = tiny.build();
+    const Answer answer = solve_jointly(instance);
+    const std::optional<Cost> second = solve_two_agents(instance);
+    ASSERT_NE(answer.verdict, Verdict::kTooLarge) << tiny.to_text();
+    const auto cost = answer.plan ? std::optional(answer.plan->cost) : std::nullopt;
+    ASSERT_EQ(cost, second) << tiny.to_text();
+    ++(second ? solved : infeasible);
+  }
+  EXPECT_GT(solved, 0);
+  EXPECT_GT(infeasible, 0);
+}
+
+}  // namespace
+}  // namespace grove::oracle

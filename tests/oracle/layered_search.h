@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A second opinion for the oracle, for two agents.
+#pragma once
+
+#include <optional>
+
+#include "grove/model/plan.h"
+
+namespace grove::oracle {
+
+// The optimal cost of an instance with exactly two agents; none when there is no plan. Slow, plain,
+// and built on another idea than the joint oracle, with which it shares no text.
+std::optional<Cost> solve_two_agents(const Instance& instance);
+
+}  // namespace grove::oracle

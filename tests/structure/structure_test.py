@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The shape of the source tree: which layer may know which, and what no source may contain.
+
+    structure_test.py [ROOT]   checks the tree at ROOT, by default this one
+"""
+import re
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+# Lowest first; each may use only those before it.
+LAYERS = ["model", "io", "sequencing", "planning", "conflicts", "search", "primal", "engine",
+          "mpi", "tools"]
+CODE_FOLDERS = ["include", "src", "mpi", "tools", "tests", "benchmarks"]
+CPP = {".h", ".cpp"}
+FORBIDDEN_IN_LIBRARIES = {
+    "ends the process": r"(?<![.>\w])(?:exit|_exit|_Exit|quick_exit|abort|terminate)\s*\(",
+    "prints": r"\bstd::(?:cout|cerr|clog)\b|\b(?:printf|puts|putchar)\s*\(|\bstd(?:out|err)\b"
+              r"|\bfmt::print(?:ln)?\s*\(\s*\"",
+    "is unfinished": r"\b(?:TODO|FIXME|XXX)\b",
+}
+
+
+def without_comments_and_strings(text):
+    """Keeps the lines and empties what is not code, but leaves the quotes of strings."""
+    token = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"'
+                       r"|(?<!\w)'(?:\\.|[^'\\\n])+'", re.S)
+
+    def empty(match):
+        quote = '""' if match.group()[0] in 'R"' else ""
+        return quote + "\n" * match.group().count("\n")
+
+    return token.sub(empty, text)
+
+
+def includes(text):
+    """The layers whose headers `text` includes."""
+    return set(re.findall(r'^\s*#\s*include\s*[<"]grove/(\w+)/', text, re.M))
+
+
+def points_back(layer, included):
+    """Layers among `included` that `layer` must not know."""
+    return {other for other in included if LAYERS.index(other) > LAYERS.index(layer)}
+
+
+def forbidden(text):
+    code = without_comments_and_strings(text)
+    found = [what for what, pattern in FORBIDDEN_IN_LIBRARIES.items()
+             if what != "is unfinished" and re.search(pattern, code)]
+    if re.search(FORBIDDEN_IN_LIBRARIES["is unfinished"], text):
+        found.append("is unfinished")
+    return found
+
+
+def names_mpi(text):
+    return bool(re.search(r"\bMPI_[A-Z]", without_comments_and_strings(text)))
+
+
+def has_license(text):
+    return any("SPDX-License-Identifier: MIT" in line for line in text.splitlines()[:2])
+
+
+def declared_depends(cmake):
+    """{layer: [layers it declares]} of the grove_layer() calls in a CMakeLists.txt."""
+    code = re.sub(r"#[^\n]*", "", cmake)
+    result = {}
+    for name, body in re.findall(r"grove_layer\(\s*(\w+)(.*?)\)", code, re.S):
+        words = re.split(r"\b(?:SOURCES|LINK_PUBLIC|LINK_PRIVATE)\b", body)
+        depends = [part.split("DEPENDS", 1)[1].split() for part in words if "DEPENDS" in part]
+        result[name] = sum(depends, [])
+    return result
+
+
+def closure(layer, declared):
+    reached = {layer}
+    for other in declared.get(layer, []):
+        reached |= closure(other, declared)
+    return reached
+
+
+class TheTree(unittest.TestCase):
+    def sources(self, *folders, suffixes=CPP):
+        for folder in folders:
+            for path in sorted((ROOT / folder).rglob("*")):
+                if path.suffix in suffixes and path.is_file():
+                    yield path, path.read_text(encoding="utf-8")
+
+    def layer_sources(self, layer):
+        return self.sources(f"include/grove/{layer}", f"src/{layer}")
+
+    def declared(self):
+        result = {}
+        for path in [*(ROOT / "src").glob("*/CMakeLists.txt"), ROOT / "mpi/CMakeLists.txt"]:
+            if path.exists():
+                result |= declared_depends(path.read_text())
+        return result
+
+    def test_there_is_something_to_check(self):
+        self.assertTrue(list(self.layer_sources("model")))
+        self.assertIn("model", self.declared())
+
+    def test_every_folder_is_a_known_layer(self):
+        for folder in [*(ROOT / "include/grove").iterdir(), *(ROOT / "src").iterdir()]:
+            if folder.is_dir():
+                self.assertIn(folder.name, LAYERS, folder)
+
+    def test_includes_never_point_back(self):
+        for layer in LAYERS:
+            for path, text in self.layer_sources(layer):
+                self.assertFalse(points_back(layer, includes(text)), path)
+
+    def test_a_layer_includes_only_what_it_declares(self):
+        declared = self.declared()
+        for layer in declared:
+            for path, text in self.layer_sources(layer):
+                self.assertLessEqual(includes(text), closure(layer, declared), path)
+
+    def test_declared_dependencies_never_point_back(self):
+        for layer, depends in self.declared().items():
+            for other in depends:
+                self.assertLess(LAYERS.index(other), LAYERS.index(layer), f"{layer} -> {other}")
+
+    def test_only_mpi_names_mpi(self):
+        for path, text in self.sources("include", "src", "tools", "tests", "benchmarks"):
+            if (ROOT / "tests/mpi") not in path.parents:
+                self.assertFalse(names_mpi(text), path)
+
+    def test_libraries_neither_end_the_process_nor_print(self):
+        for path, text in self.sources("include", "src"):
+            self.assertFalse(forbidden(text), path)
+
+    def test_every_source_has_the_license_line(self):
+        scripts = (path for folder in CODE_FOLDERS for path in (ROOT / folder).rglob("*")
+                   if path.is_file() and path.suffix == "" and path.read_bytes()[:2] == b"#!")
+        paths = [path for path, _ in self.sources(*CODE_FOLDERS, "cmake",
+                                                  suffixes=CPP | {".cmake", ".py", ".sh"})]
+        for path in [*paths, *scripts, *ROOT.glob("*/**/CMakeLists.txt"), ROOT / "CMakeLists.txt"]:
+            if (ROOT / "build") not in path.parents:
+                self.assertTrue(has_license(path.read_text(encoding="utf-8")), path)
+
+
+class TheChecks(unittest.TestCase):
+    """They find what they are there to find."""
+
+    def test_includes(self):
+        self.assertEqual(includes('#include "grove/io/x.h"\n#include <vector>\n'), {"io"})
+        self.assertEqual(points_back("io", {"model", "io", "search"}), {"search"})
+
+    def test_forbidden(self):
+        for text in ["exit(1);", "std::abort();", "std::cout << 1;", "std::fprintf(stderr, \"\");",
+                     "printf(\"\");", "fmt::print(\"x\");", "int a;  // TODO: b"]:
+            self.assertTrue(forbidden(text), text)
+        for text in ["// exit(1)", "to_exit(1);", "std::snprintf(a, 3, \"\");", "queue.exit();",
+                     "fmt::print(file, \"x\");", 'f("std::cout");', "1'000; exit_code(2);"]:
+            self.assertFalse(forbidden(text), text)
+
+    def test_mpi(self):
+        self.assertTrue(names_mpi("MPI_Send(x);"))
+        self.assertFalse(names_mpi("int x;  // unlike MPI_Send"))
+
+    def test_comments_and_strings(self):
+        self.assertEqual(without_comments_and_strings('a "b\\"c" d /* e\n */ f // g\n1\'0\'h'),
+                         'a "" d \n f \n1\'0\'h')
+
+    def test_depends(self):
+        cmake = "grove_layer(b SOURCES x.cpp DEPENDS a model\n LINK_PUBLIC y)\n# grove_layer(c)\n"
+        self.assertEqual(declared_depends(cmake), {"b": ["a", "model"]})
+        self.assertEqual(declared_depends("grove_layer(a SOURCES x)"), {"a": []})
+        self.assertEqual(closure("c", {"c": ["b"], "b": ["a"]}), {"a", "b", "c"})
+
+    def test_license(self):
+        self.assertTrue(has_license("#!/bin/sh\n# SPDX-License-Identifier: MIT\n"))
+        self.assertFalse(has_license("int a;\n"))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and Path(sys.argv[1]).is_dir():
+        ROOT = Path(sys.argv.pop(1)).resolve()
+    unittest.main()
