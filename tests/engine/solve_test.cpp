@@ -158,7 +158,7 @@ class BoundWatcher : public RunObserver {
   void on_event(RunEvent, const Progress& progress) override {
     EXPECT_GE(progress.lower_bound, last_);
     last_ = progress.lower_bound;
-    if (progress.incumbent) EXPECT_LE(progress.lower_bound, *progress.incumbent);
+    EXPECT_LE(progress.lower_bound, progress.incumbent.value_or(kInfiniteCost));
   }
 
  private:
