@@ -170,6 +170,30 @@ TEST(LowLevelSearch, PrefersTheWayWithFewerConflicts) {
   EXPECT_EQ(path_of(grid, agent, {}, &others), (Path{0, 1, 2, 5, 8}));
 }
 
+TEST(LowLevelSearch, WaitsWhereItIsInNobodysWay) {
+  const Grid grid = grid_of({"...", ".@.", "..."});
+  const SingleAgent agent(grid, 0, {}, 8);
+  const Constraints constraints{{8, kNoCell, 1, 6}};  // wait on 5 or on 7
+  for (Cell crossed : {5, 7}) {
+    ConflictAvoidanceTable others(grid);
+    others.add({8, 8, 8, 8, crossed, crossed, 8});
+    const Path path = path_of(grid, agent, constraints, &others);
+    ASSERT_EQ(path.size(), 8U);
+    EXPECT_EQ(path[6], 12 - crossed);
+  }
+}
+
+TEST(LowLevelSearch, OneVisitCountsForAllGoalsOnTheCell) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {1}, 2);
+  const GoalSequence twice(agent.instance, agent.distances, 0, {0, 0, 0});
+  LowLevelSearch search(grid);
+  Path path;
+  const Constraints constraints{{1, kNoCell, 2, kNever}};
+  ASSERT_EQ(search.find(twice, constraints, nullptr, Limits(), path), Outcome::kFound);
+  EXPECT_EQ(path, (Path{0, 1, 2}));
+}
+
 TEST(LowLevelSearch, RejectsConstraintsOutsideTheGrid) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
