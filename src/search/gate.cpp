@@ -37,7 +37,7 @@ bool Gate::post(Plan plan) {
     if (incumbent_ && incumbent_->cost <= plan.cost) return false;
   }
   Solution claim;
-  claim.status = Status::kFeasible;
+  claim.status = status_of(plan.cost, claim.lower_bound, claim.omega);
   claim.plan = std::move(plan);
   if (const auto violations = check(instance_, claim, 1); !violations.empty())
     throw std::logic_error(fmt::format("internal error: a plan of the search is wrong at {}: {}",
