@@ -1,1 +1,212 @@
-int main();
+// SPDX-License-Identifier: MIT
+// One call of the low level: n goals on a 32x32 map, so many constraints, ties broken against nine
+// other agents. Each constraint bars a random cell of the path found so far, or the move to it, at
+// the time it is there: the worst that a branch of the constraint tree can pile up.
+//
+// The time shown is the median over the cases of one pass. Maps are made here; with GROVE_MOVINGAI
+// set to a folder of Moving AI maps the real ones are run as well.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "grove/planning/low_level_search.h"
+
+namespace grove {
+namespace {
+
+constexpr int kSide = 32;
+constexpr int kCases = 48;
+constexpr int kOthers = 9;
+constexpr int kRoom = 5;  // a room and its wall
+
+using Random = std::mt19937;
+
+int below(Random& random, int bound) {
+  return static_cast<int>(random() % static_cast<unsigned>(bound));
+}
+
+Grid empty_map(Random&) {
+  return Grid(kSide, kSide, std::vector<bool>(kSide * kSide, true));
+}
+
+Grid random_map(Random& random) {
+  std::vector<bool> passable(kSide * kSide);
+  for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = below(random, 5) > 0;
+  return Grid(kSide, kSide, passable);
+}
+
+// Rooms of 4x4 with a door in each wall between two.
+Grid room_map(Random& random) {
+  std::vector<bool> passable(kSide * kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      passable[y * kSide + x] = x % kRoom != kRoom - 1 && y % kRoom != kRoom - 1;
+  for (int wall = kRoom - 1; wall + 1 < kSide; wall += kRoom)
+    for (int room = 0; room < kSide; room += kRoom) {
+      const int door = room + below(random, std::min(kRoom - 1, kSide - room));
+      passable[door * kSide + wall] = true;
+      passable[wall * kSide + door] = true;
+    }
+  return Grid(kSide, kSide, passable);
+}
+
+std::optional<Grid> moving_ai_map(const std::string& name) {
+  const char* folder = std::getenv("GROVE_MOVINGAI");
+  if (!folder) return std::nullopt;
+  std::ifstream file(std::string(folder) + "/" + name + ".map");
+  std::string word;
+  while (file >> word && word != "map") continue;
+  std::vector<bool> passable;
+  int height = 0;
+  for (; file >> word; ++height)
+    for (char c : word) passable.push_back(c == '.' || c == 'G' || c == 'S' || c == 'E');
+  if (height == 0) return std::nullopt;
+  return Grid(static_cast<int>(passable.size()) / height, height, passable);
+}
+
+// Cells of the largest connected part, in random order.
+std::vector<Cell> connected_cells(const Grid& grid, Random& random) {
+  std::vector<Cell> best;
+  for (Cell source = 0; source < grid.cell_count(); ++source) {
+    if (!grid.passable(source)) continue;
+    const DistanceField distance = distance_field(grid, source);
+    std::vector<Cell> part;
+    for (Cell c = 0; c < grid.cell_count(); ++c)
+      if (distance[c] < kNever) part.push_back(c);
+    if (part.size() > best.size()) best = part;
+    if (2 * best.size() > static_cast<std::size_t>(grid.passable_count())) break;
+  }
+  std::ranges::shuffle(best, random);
+  return best;
+}
+
+// One agent, its goals visited in the order of always going to the nearest.
+struct Case {
+  Case(const Grid& grid, const std::vector<Cell>& cells, int goals);
+
+  std::unique_ptr<Instance> instance;
+  std::unique_ptr<DistanceFields> distances;
+  std::unique_ptr<GoalSequence> goals;
+  ConflictAvoidanceTable others;
+  std::vector<Constraint> constraints;
+};
+
+std::vector<TaskIndex> nearest_first(const Instance& instance, const DistanceFields& distances) {
+  std::vector<TaskIndex> order = instance.agent(0).tasks;
+  Cell at = instance.agent(0).start;
+  for (auto next = order.begin(); next != order.end(); ++next) {
+    std::iter_swap(next, std::ranges::min_element(next, order.end(), {}, [&](TaskIndex t) {
+                     return distances.to(instance.task(t).cell)[at];
+                   }));
+    at = instance.task(*next).cell;
+  }
+  return order;
+}
+
+Case::Case(const Grid& grid, const std::vector<Cell>& cells, int goal_count) : others(grid) {
+  InstanceBuilder builder(grid);
+  builder.add_agent("a", grid.position(cells[0]), grid.position(cells[1]));
+  for (int k = 2; k < goal_count + 1; ++k)
+    builder.add_task("t" + std::to_string(k), grid.position(cells[k]),
+                     std::vector<std::string>{"a"});
+  instance = std::make_unique<Instance>(std::move(builder).build());
+  distances = std::make_unique<DistanceFields>(*instance);
+  goals = std::make_unique<GoalSequence>(*instance, *distances, 0,
+                                         nearest_first(*instance, *distances));
+}
+
+Constraint bar_on_path(const Path& path, Random& random) {
+  const int t = 1 + below(random, static_cast<int>(path.size()) - 1);
+  Constraint c{path[t], kNoCell, t, t};
+  if (path[t - 1] != path[t] && below(random, 4) == 0) c.from = path[t - 1];
+  return c;
+}
+
+void pile_up_constraints(Case& c, LowLevelSearch& search, int count, Random& random) {
+  Path path;
+  for (int tries = 0; static_cast<int>(c.constraints.size()) < count && tries < 4 * count;
+       ++tries) {
+    search.find(*c.goals, c.constraints, &c.others, Limits(), path);
+    c.constraints.push_back(bar_on_path(path, random));
+    if (search.find(*c.goals, c.constraints, &c.others, Limits(), path) !=
+        LowLevelSearch::Outcome::kFound)
+      c.constraints.pop_back();
+  }
+}
+
+std::vector<Case> make_cases(const Grid& grid, int goals, int constraints, Random& random) {
+  LowLevelSearch search(grid);
+  std::vector<Case> cases;
+  std::vector<Path> paths;
+  for (int i = 0; i < kCases; ++i) {
+    cases.emplace_back(grid, connected_cells(grid, random), goals);
+    search.find(*cases.back().goals, {}, nullptr, Limits(), paths.emplace_back());
+  }
+  for (int i = 0; i < kCases; ++i) {
+    for (int k = 1; k <= kOthers; ++k) cases[i].others.add(paths[(i + k) % kCases]);
+    pile_up_constraints(cases[i], search, constraints, random);
+  }
+  return cases;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<int>(values.size()) / 2);
+  return values[values.size() / 2];
+}
+
+void measure(benchmark::State& state, const Grid& grid, Random& random) {
+  const std::vector<Case> cases =
+      make_cases(grid, static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), random);
+  LowLevelSearch search(grid);
+  Path path;
+  std::vector<double> seconds(cases.size());
+  std::vector<double> labels(cases.size());
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const std::int64_t before = search.expanded();
+      const auto begin = std::chrono::steady_clock::now();
+      search.find(*cases[i].goals, cases[i].constraints, &cases[i].others, Limits(), path);
+      seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      labels[i] = static_cast<double>(search.expanded() - before);
+    }
+    state.SetIterationTime(median(seconds));
+  }
+  state.counters["labels"] = median(labels);
+  state.counters["worst_us"] = 1e6 * *std::ranges::max_element(seconds);
+}
+
+void find_path(benchmark::State& state, Grid (*make_map)(Random&)) {
+  Random random(1);
+  const Grid grid = make_map(random);
+  measure(state, grid, random);
+}
+
+void find_path_on(benchmark::State& state, const std::string& map) {
+  Random random(1);
+  if (const std::optional<Grid> grid = moving_ai_map(map))
+    measure(state, *grid, random);
+  else
+    state.SkipWithError("set GROVE_MOVINGAI to the folder of this map");
+}
+
+void settings(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"goals", "constraints"})->ArgsProduct({{5, 10, 20}, {0, 20, 60}});
+  b->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(200);
+}
+
+BENCHMARK_CAPTURE(find_path, empty, empty_map)->Apply(settings);
+BENCHMARK_CAPTURE(find_path, random, random_map)->Apply(settings);
+BENCHMARK_CAPTURE(find_path, room, room_map)->Apply(settings);
+BENCHMARK_CAPTURE(find_path_on, empty - 32 - 32, "empty-32-32")->Apply(settings);
+BENCHMARK_CAPTURE(find_path_on, random - 32 - 32 - 20, "random-32-32-20")->Apply(settings);
+BENCHMARK_CAPTURE(find_path_on, room - 32 - 32 - 4, "room-32-32-4")->Apply(settings);
+
+}  // namespace
+}  // namespace grove

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 
 #include "tests/support/instances.h"
 
@@ -26,16 +27,17 @@ class ForestTest : public ::testing::Test {
 
 TEST_F(ForestTest, InstantiatesEveryTreeOnceInOrderOfCost) {
   Forest forest(problem_, RtspBackend::kAuto, limits_);
-  std::set<std::pair<Sequence, Sequence>> seen;
+  std::set<std::string> seen;
   Cost last = 0;
   while (const NodePtr root = forest.next_root()) {
     EXPECT_EQ(root->cost(), forest.last_cost());
     EXPECT_GE(root->cost(), last);
     EXPECT_LE(forest.next_bound() == kInfiniteCost ? 0 : last, root->cost());
     last = root->cost();
-    EXPECT_TRUE(seen.emplace(root->tree().orders[0]->sequences.prefix,
-                             root->tree().orders[1]->sequences.prefix)
-                    .second);
+    std::string key;
+    for (const auto& order : root->tree().orders)
+      for (Stop stop : order->sequences.prefix) key += std::to_string(stop) + ' ';
+    EXPECT_TRUE(seen.insert(key).second) << key;
   }
   EXPECT_EQ(seen.size(), 12u);
   EXPECT_EQ(forest.trees(), 12);
