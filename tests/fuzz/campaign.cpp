@@ -61,12 +61,15 @@ std::string Failure::report() const {
       fmt::join(result.complaints, "\n  "), shrunk.to_text(), original.to_text());
 }
 
-Failure explain(const FuzzCase& fuzz_case, const Solver& solver) {
+Failure explain(const FuzzCase& fuzz_case, const Solver& solver,
+                std::chrono::milliseconds patience) {
   Limits limits;
   limits.set_deadline(Limits::Clock::now() + kShrinkingTime);
-  const auto fails = [&](const FuzzCase& c) { return !run_case(c, solver).complaints.empty(); };
+  const auto fails = [&](const FuzzCase& c) {
+    return !run_case(c, solver, patience).complaints.empty();
+  };
   Failure failure{fuzz_case, shrink(fuzz_case, fails, limits), {}};
-  failure.result = run_case(failure.shrunk, solver);
+  failure.result = run_case(failure.shrunk, solver, patience);
   return failure;
 }
 
@@ -76,9 +79,9 @@ std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solv
   for (std::int64_t k = 0; k < campaign.count && !limits.stop_requested(); ++k) {
     const FuzzCase fuzz_case = random_case(campaign.seed + static_cast<std::uint64_t>(k));
     if (!campaign.trace.empty()) std::ofstream(campaign.trace) << fuzz_case.to_text();
-    const CaseResult result = run_case(fuzz_case, solver);
+    const CaseResult result = run_case(fuzz_case, solver, campaign.patience);
     tally.add(fuzz_case, result);
-    if (!result.complaints.empty()) return explain(fuzz_case, solver);
+    if (!result.complaints.empty()) return explain(fuzz_case, solver, campaign.patience);
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 // Many random cases in a row.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -37,16 +38,18 @@ struct Failure {
 };
 
 struct Campaign {
-  std::int64_t count = 0;                        // how many cases
-  std::uint64_t seed = 0;                        // of the first; the next ones count up
-  std::optional<double> seconds = std::nullopt;  // at most so long
-  std::filesystem::path trace = {};              // if given, holds the case under way: for crashes
+  std::int64_t count = 0;                          // how many cases
+  std::uint64_t seed = 0;                          // of the first; the next ones count up
+  std::optional<double> seconds = std::nullopt;    // at most so long
+  std::chrono::milliseconds patience = kPatience;  // see run_case()
+  std::filesystem::path trace = {};  // if given, holds the case under way: for crashes
 };
 
 // Runs until the first failure, which it shrinks, or the end.
 std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solver, Tally& tally);
 
 // Shrinks a failing case.
-Failure explain(const FuzzCase& fuzz_case, const Solver& solver);
+Failure explain(const FuzzCase& fuzz_case, const Solver& solver,
+                std::chrono::milliseconds patience = kPatience);
 
 }  // namespace grove::fuzz

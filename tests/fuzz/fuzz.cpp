@@ -5,13 +5,17 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "tests/fuzz/campaign.h"
+#include "tests/fuzz/planted_optimum.h"
+#include "tests/oracle/joint_oracle.h"
 
 namespace grove::fuzz {
 namespace {
@@ -25,26 +29,35 @@ FuzzCase read_case(const std::string& path) {
   return FuzzCase::parse(text.str());
 }
 
-std::optional<Failure> run_files(const std::vector<std::string>& paths, const Solver& solver,
-                                 Tally& tally) {
+// Grove, with an eye on whether it ever loses the optimum.
+Solution solve_watched(const Instance& instance, const SolveOptions& options,
+                       const Limits& limits) {
+  const oracle::Answer truth = oracle::solve_jointly(instance);
+  if (!truth.plan) return solve(instance, options, limits);
+  PlantedOptimum planted(instance, *truth.plan);
+  Solution solution = solve(instance, options, limits, &planted);
+  if (!planted.complaints().empty()) throw std::logic_error(planted.complaints().front());
+  return solution;
+}
+
+std::optional<Failure> run_files(const std::vector<std::string>& paths,
+                                 std::chrono::milliseconds patience, Tally& tally) {
   for (const std::string& path : paths) {
     const FuzzCase fuzz_case = read_case(path);
-    const CaseResult result = run_case(fuzz_case, solver);
+    const CaseResult result = run_case(fuzz_case, solve_watched, patience);
     tally.add(fuzz_case, result);
     if (result.complaints.empty()) continue;
     fmt::print("{}\n", path);
-    return explain(fuzz_case, solver);
+    return explain(fuzz_case, solve_watched, patience);
   }
   return std::nullopt;
 }
 
 int run(const std::vector<std::string>& paths, const Campaign& campaign) {
-  const Solver solver = [](const Instance& instance, const SolveOptions& options,
-                           const Limits& limits) { return solve(instance, options, limits); };
   const auto begin = std::chrono::steady_clock::now();
   Tally tally;
-  const auto failure =
-      paths.empty() ? run_campaign(campaign, solver, tally) : run_files(paths, solver, tally);
+  const auto failure = paths.empty() ? run_campaign(campaign, solve_watched, tally)
+                                     : run_files(paths, campaign.patience, tally);
   if (failure) fmt::print("{}\n", failure->report());
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   fmt::print("{:.1f} s\n{}", seconds.count(), tally.summary());
@@ -58,10 +71,14 @@ int main_of(int argc, char** argv) {
   app.add_option("--count", campaign.count, "how many instances")->capture_default_str();
   app.add_option("--seed", campaign.seed, "of the first one")->capture_default_str();
   app.add_option("--seconds", campaign.seconds, "at most so long");
+  double patience = 2;
+  app.add_option("--patience", patience, "seconds for a run that no other limit stops")
+      ->capture_default_str();
   app.add_option("--trace", campaign.trace, "write each case here before it runs");
   app.add_option("--case", paths, "run these files instead")->check(CLI::ExistingFile);
   try {
     app.parse(argc, argv);
+    campaign.patience = std::chrono::milliseconds(std::llround(patience * 1000));
     return run(paths, campaign);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadUsage;

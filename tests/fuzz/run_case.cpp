@@ -17,9 +17,9 @@ namespace {
 using Clock = Limits::Clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kGenerous{2000};
-// CBS need not end where there is no plan, so "unknown" is due soon enough.
-constexpr milliseconds kWithoutPlan{200};
+// CBS need not end where there is no plan, so there "unknown" is due sooner: this share of the
+// time.
+constexpr int kWithoutPlan = 10;
 constexpr milliseconds kSoon{1};
 constexpr milliseconds kAllowedOverrun{1000};
 constexpr milliseconds kWorthRepeating{20};
@@ -66,8 +66,8 @@ bool same_answer(const Solution& a, const Solution& b) {
 }
 
 void judge(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answer& truth,
-           const Solver& solver, CaseResult& result) {
-  const milliseconds patience = truth.plan ? kGenerous : kWithoutPlan;
+           const Solver& solver, milliseconds patience, CaseResult& result) {
+  if (!truth.plan) patience /= kWithoutPlan;
   const Run first = run(instance, fuzz_case, patience, solver);
   result.status = first.solution.status;
   result.stopped = first.stopped;
@@ -84,7 +84,8 @@ void judge(const Instance& instance, const FuzzCase& fuzz_case, const oracle::An
 
 }  // namespace
 
-CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver) {
+CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver,
+                    std::chrono::milliseconds patience) {
   const Instance instance = fuzz_case.instance.build();
   const oracle::Answer truth = oracle::solve_jointly(instance);
   CaseResult result;
@@ -92,7 +93,7 @@ CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver) {
   if (result.too_large) return result;
   result.solvable = truth.plan.has_value();
   try {
-    judge(instance, fuzz_case, truth, solver, result);
+    judge(instance, fuzz_case, truth, solver, patience, result);
   } catch (const std::exception& error) {
     result.complaints.push_back(fmt::format("threw: {}", error.what()));
   }

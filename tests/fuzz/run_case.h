@@ -2,6 +2,7 @@
 // Runs one case through a solver and judges the answer.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,8 +23,13 @@ struct CaseResult {
   std::vector<std::string> complaints;  // empty: all is well
 };
 
+// How long a run that is not meant to be stopped may take. Not a test of speed: it is stopped then,
+// and may say so.
+inline constexpr std::chrono::milliseconds kPatience{2000};
+
 // Asks the oracle, then `solver`, then holds one against the other; a short run that no limit
 // struck is repeated and must end the same.
-CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver);
+CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver,
+                    std::chrono::milliseconds patience = kPatience);
 
 }  // namespace grove::fuzz

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Watches a search through the eyes of an optimal plan (as HiGHS does with planted solutions).
+#pragma once
+
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "grove/engine/run_observer.h"
+#include "grove/model/plan.h"
+
+namespace grove::fuzz {
+
+// Follows the nodes that hold a given optimal plan: those whose tree allows its orders of visits
+// and whose constraints it obeys. From the first root that holds it on, some live node must,
+// whatever is branched, pruned or forbidden, until a plan as cheap is found; and none of them, nor
+// the search as a whole, may claim a bound above its cost.
+class PlantedOptimum : public RunObserver {
+ public:
+  // `instance` must outlive this. `optimum` must be valid and cost-optimal.
+  PlantedOptimum(const Instance& instance, Plan optimum)
+      : instance_(instance), optimum_(std::move(optimum)) {}
+
+  void on_event(RunEvent event, const Progress& progress) override;
+  void on_infeasible(std::string_view reason) override;
+  void on_root(const NodePtr& root) override;
+  void on_expanded(const NodePtr& node, const Expansion& expansion) override;
+  void on_pruned(Cost bound) override;
+
+  // What went wrong, in the order in which it did; empty: nothing.
+  const std::vector<std::string>& complaints() const { return complaints_; }
+  // Nodes so far that held the plan.
+  std::size_t nodes_followed() const { return nodes_followed_; }
+  // Does `node` hold the plan?
+  bool held_by(const Node& node) const;
+
+ private:
+  void follow(const NodePtr& node);
+  bool order_allows(const AgentOrder& order, AgentIndex agent) const;
+
+  const Instance& instance_;
+  const Plan optimum_;
+  std::unordered_set<NodePtr> holding_;  // live nodes that hold the plan
+  std::size_t nodes_followed_ = 0;
+  std::vector<std::string> complaints_;
+};
+
+// May `path` be said to visit all tasks of `agent` in the order `sequence`?
+bool realizes(const Instance& instance, AgentIndex agent, const Path& path,
+              const Sequence& sequence);
+
+// Does `path`, its rest for ever included, obey `constraint`?
+bool obeys(const Path& path, const Constraint& constraint);
+
+}  // namespace grove::fuzz

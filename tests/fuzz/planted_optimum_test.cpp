@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The search never loses the optimum; and if it did, this would be seen.
+#include "tests/fuzz/planted_optimum.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "grove/engine/solve.h"
+#include "grove/search/forest.h"
+#include "tests/fuzz/fuzz_case.h"
+#include "tests/oracle/joint_oracle.h"
+
+namespace grove::fuzz {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// Two agents that meet head on, with one bay to step aside: the root has a conflict.
+class PlantedInABay : public ::testing::Test {
+ protected:
+  const Instance instance_ =
+      TinyInstance::parse(
+          "map\n.....\n@@.@@\nagents\n0,0 -> 4,0\n4,0 -> 0,0\ntasks\n2,0: 0\n3,0: 1\n")
+          .build();
+  const Limits limits_;
+  const Problem problem_{instance_, limits_};
+  const Plan optimum_ = *oracle::solve_jointly(instance_).plan;
+  Forest forest_{problem_, RtspBackend::kAuto, limits_};
+  Expander expander_{problem_, 0};
+  PlantedOptimum planted_{instance_, optimum_};
+  const NodePtr root_ = forest_.next_root();
+
+  // The child of the root that holds the optimum.
+  NodePtr holder(const Expansion& expansion) const {
+    for (const NodePtr& child : expansion.children)
+      if (planted_.held_by(*child)) return child;
+    return nullptr;
+  }
+};
+
+TEST_F(PlantedInABay, IsKeptByTheRealExpander) {
+  planted_.on_root(root_);
+  const Expansion expansion = expander_.expand(root_, limits_);
+  planted_.on_expanded(root_, expansion);
+  EXPECT_THAT(planted_.complaints(), IsEmpty());
+  EXPECT_GE(planted_.nodes_followed(), 2u);
+  EXPECT_TRUE(holder(expansion));
+}
+
+TEST_F(PlantedInABay, IsMissedWhenItsChildIsDropped) {
+  planted_.on_root(root_);
+  Expansion expansion = expander_.expand(root_, limits_);
+  std::erase_if(expansion.children, [&](const NodePtr& c) { return planted_.held_by(*c); });
+  planted_.on_expanded(root_, expansion);
+  EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
+}
+
+TEST_F(PlantedInABay, IsMissedWhenAConstraintForbidsIt) {
+  planted_.on_root(root_);
+  Expansion expansion = expander_.expand(root_, limits_);
+  for (NodePtr& child : expansion.children) {
+    const Path& path = optimum_.agents[0].path;
+    const AgentConstraint ban{0, {path[1], kNoCell, 1, 1}};
+    child = std::make_shared<Node>(child, ban, PackedPath(instance_.grid(), path), child->cost());
+  }
+  planted_.on_expanded(root_, expansion);
+  EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
+}
+
+TEST_F(PlantedInABay, SeesABoundThatIsTooHigh) {
+  planted_.on_root(root_);
+  Expansion expansion = expander_.expand(root_, limits_);
+  for (NodePtr& child : expansion.children) {
+    const AgentConstraint harmless{0, {instance_.agent(0).start, kNoCell, 1000, 1000}};
+    child = std::make_shared<Node>(
+        child, harmless, PackedPath(instance_.grid(), optimum_.agents[0].path), optimum_.cost + 1);
+  }
+  planted_.on_expanded(root_, expansion);
+  EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("claims the bound")));
+}
+
+TEST_F(PlantedInABay, SeesFalseClaimsOfTheWholeSearch) {
+  planted_.on_event(RunEvent::kBound, {.lower_bound = optimum_.cost, .incumbent = std::nullopt});
+  planted_.on_pruned(optimum_.cost);
+  EXPECT_THAT(planted_.complaints(), IsEmpty());
+  planted_.on_event(RunEvent::kBound, {.lower_bound = optimum_.cost + 1, .incumbent = {}});
+  planted_.on_pruned(optimum_.cost - 1);
+  planted_.on_infeasible("no way");
+  EXPECT_EQ(planted_.complaints().size(), 3u);
+}
+
+TEST(Realizes, ReadsOrdersOffAPath) {
+  const Instance instance =
+      TinyInstance::parse("map\n....\nagents\n0,0 -> -\ntasks\n1,0: 0\n3,0: 0\n").build();
+  EXPECT_TRUE(realizes(instance, 0, {0, 1, 2, 3}, {0, 1}));
+  EXPECT_FALSE(realizes(instance, 0, {0, 1, 2, 3}, {1, 0}));
+  // Coming back to rest on the first task makes it the last.
+  EXPECT_TRUE(realizes(instance, 0, {0, 1, 2, 3, 2, 1}, {1, 0}));
+  EXPECT_FALSE(realizes(instance, 0, {0, 1, 2, 3, 2, 1}, {0, 1}));
+}
+
+TEST(Obeys, CountsTheRestForEver) {
+  const Path path{0, 1, 2};
+  EXPECT_TRUE(obeys(path, {1, kNoCell, 2, kNever}));
+  EXPECT_FALSE(obeys(path, {1, kNoCell, 1, 1}));
+  EXPECT_FALSE(obeys(path, {2, kNoCell, 90, 90}));
+  EXPECT_FALSE(obeys(path, {2, kNoCell, 0, kNever}));
+  EXPECT_FALSE(obeys(path, {2, 1, 2, 2}));
+  EXPECT_TRUE(obeys(path, {2, 1, 3, kNever}));
+  EXPECT_TRUE(obeys(path, {1, 2, 0, kNever}));
+}
+
+TEST(PlantedOptimum, SurvivesWholeSearches) {
+  std::size_t followed = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    const FuzzCase fuzz_case = random_case(seed);
+    const Instance instance = fuzz_case.instance.build();
+    const auto truth = oracle::solve_jointly(instance);
+    if (!truth.plan) continue;
+    PlantedOptimum planted(instance, *truth.plan);
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(100));
+    solve(instance, {.omega = fuzz_case.options.omega}, limits, &planted);
+    EXPECT_THAT(planted.complaints(), IsEmpty()) << fuzz_case.to_text();
+    followed += planted.nodes_followed();
+  }
+  EXPECT_GT(followed, 300u);
+}
+
+}  // namespace
+}  // namespace grove::fuzz
