@@ -38,6 +38,7 @@ char letter_of(RunEvent event) {
     case RunEvent::kTree:
       return 'T';
     case RunEvent::kProgress:
+    case RunEvent::kEnd:
       break;
   }
   return ' ';
@@ -91,9 +92,9 @@ double RunLog::seconds() const {
 }
 
 void RunLog::on_event(RunEvent event, const Progress& progress) {
-  last_ = progress;
   if (telling(letter_of(event)) > telling(letter_)) letter_ = letter_of(event);
-  if (event == RunEvent::kIncumbent || row_is_due(progress)) return row(progress);
+  if (event == RunEvent::kIncumbent || event == RunEvent::kEnd || row_is_due(progress))
+    return row(progress);
   if (sink_.shows_progress() && event == RunEvent::kProgress) show_progress(progress);
 }
 
@@ -134,7 +135,6 @@ void RunLog::on_infeasible(std::string_view reason) {
 }
 
 void RunLog::finish(const Solution& solution, const std::filesystem::path& plan_path) {
-  if (rows_ > 0) row(last_);
   const auto text = [&](const char* key) {
     const auto it = solution.stats.texts.find(key);
     return it == solution.stats.texts.end() ? std::string() : it->second;

@@ -48,7 +48,7 @@ class RunLog : public RunObserver {
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
 
-  // The last state of the table, then the result. `plan_path` is where the plan file is.
+  // The result, below the table. `plan_path` is where the plan file is.
   void finish(const Solution& solution, const std::filesystem::path& plan_path);
 
  private:
@@ -66,7 +66,6 @@ class RunLog : public RunObserver {
   double last_row_s_ = 0;
   std::int64_t last_row_nodes_ = 0;
   double last_progress_s_ = 0;
-  Progress last_;
 };
 
 }  // namespace grove

@@ -64,6 +64,7 @@ Solution SequentialEngine::run() {
   } catch (const std::bad_alloc&) {
     limits_.memory_exhausted();
   }
+  tell(RunEvent::kEnd);
   return conclude();
 }
 
