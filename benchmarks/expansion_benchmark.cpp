@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Constraint-tree expansions per second and memory per node: the fixed policy with w = 0 on 10
+// agents and 20 tasks. The map is random-32-32-20 where GROVE_MOVINGAI names a folder that has it,
+// and one of our own making like it otherwise. Plans that turn up are ignored, so the search never
+// ends early.
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "grove/io/map_file.h"
+#include "grove/io/scenario_file.h"
+#include "grove/search/expander.h"
+#include "grove/search/forest.h"
+#include "grove/search/frontier.h"
+#include "tools/generate/instance_generator.h"
+
+namespace grove {
+namespace {
+
+struct Source {
+  std::filesystem::path map;
+  std::filesystem::path scenario;
+};
+
+Source source() {
+  const char* folder = std::getenv("GROVE_MOVINGAI");
+  if (folder && std::filesystem::exists(std::filesystem::path(folder) / "random-32-32-20.map"))
+    return {std::filesystem::path(folder) / "random-32-32-20.map",
+            std::filesystem::path(folder) / "random-32-32-20-random-1.scen"};
+  const std::filesystem::path data =
+      std::filesystem::path(GROVE_SOURCE_DIR) / "benchmarks" / "data";
+  return {data / "random-32x32-20.map", data / "random-32x32-20.scen"};
+}
+
+// Expands the best node, growing the forest as Algorithm 4 with w = 0 does.
+class Search {
+ public:
+  explicit Search(const Instance& instance)
+      : problem_(instance, limits_),
+        forest_(problem_, pool_, RtspBackend::kAuto, limits_),
+        expander_(problem_, 0) {
+    frontier_.push(forest_.next_root());
+  }
+  ~Search() { frontier_.abandon(); }
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
+
+  void step() {
+    if (frontier_.bound() > *forest_.last_cost())
+      if (NodePtr root = forest_.next_root()) frontier_.push(std::move(root));
+    const NodePtr node = frontier_.take();
+    const Expansion expansion = expander_.expand(node, limits_);
+    for (const NodePtr& child : expansion.children) frontier_.push(child);
+    generated_ += static_cast<std::int64_t>(expansion.children.size());
+    low_level_calls_ += expansion.low_level_calls;
+    frontier_.settle(node);
+  }
+
+  std::int64_t generated() const { return generated_; }
+  std::int64_t low_level_calls() const { return low_level_calls_; }
+  std::int64_t low_level_expanded() const { return expander_.low_level_expanded(); }
+
+ private:
+  Limits limits_;
+  Problem problem_;
+  NodePool pool_;
+  Forest forest_;
+  Frontier frontier_;
+  Expander expander_;
+  std::int64_t generated_ = 0;
+  std::int64_t low_level_calls_ = 0;
+};
+
+void BM_Expansions(benchmark::State& state) {
+  const Source files = source();
+  const Scenario scenario{files.scenario.string(), read_scenario(files.scenario)};
+  const Instance instance = generate_instance(
+      read_map(files.map), scenario,
+      {static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 1, false});
+  Search search(instance);
+  search.step();  // tables and buffers
+  const auto memory_before = static_cast<double>(resident_bytes());
+  for (auto _ : state) search.step();
+  const auto nodes = static_cast<double>(search.generated());
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
+  state.counters["bytes_per_node"] =
+      (static_cast<double>(resident_bytes()) - memory_before) / nodes;
+  state.counters["labels_per_call"] = static_cast<double>(search.low_level_expanded()) /
+                                      static_cast<double>(search.low_level_calls());
+  state.SetLabel(files.map.filename().string());
+}
+BENCHMARK(BM_Expansions)
+    ->ArgNames({"agents", "tasks"})
+    ->Args({10, 20})
+    ->Args({20, 50})
+    ->Unit(benchmark::kMicrosecond)
+    ->Iterations(100'000);
+
+}  // namespace
+}  // namespace grove
