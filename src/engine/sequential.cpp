@@ -25,8 +25,11 @@ class SequentialEngine {
         observer_(observer),
         omega_(options.omega),
         gate_(problem.instance, options.omega),
-        forest_(problem, options.rtsp, limits),
+        forest_(problem, pool_, options.rtsp, limits),
         expander_(problem, options.seed) {}
+  ~SequentialEngine() { frontier_.abandon(); }
+  SequentialEngine(const SequentialEngine&) = delete;
+  SequentialEngine& operator=(const SequentialEngine&) = delete;
 
   Solution run();
 
@@ -46,6 +49,7 @@ class SequentialEngine {
   RunObserver& observer_;
   const Omega omega_;
   Gate gate_;
+  NodePool pool_;
   Forest forest_;
   Frontier frontier_;
   Expander expander_;
@@ -60,6 +64,7 @@ Solution SequentialEngine::run() {
   } catch (const std::bad_alloc&) {
     limits_.memory_exhausted();
   }
+  tell(RunEvent::kEnd);
   return conclude();
 }
 

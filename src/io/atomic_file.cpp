@@ -64,13 +64,14 @@ bool is_special(const fs::path& path, const fs::file_status& status) {
 
 // Where the content must go: the file behind a symbolic link. Throws when that cannot work.
 fs::path resolved(const fs::path& path, fs::file_status& status) {
-  std::error_code ignored;
-  status = fs::status(path, ignored);
+  std::error_code error;
+  status = fs::status(path, error);
+  if (status.type() == fs::file_type::none) fail_to_write(path, error.value());
   if (path.filename().empty() || fs::is_directory(status))
     throw InputError(path.string(), "", "cannot be written: is a directory; expected a file name");
-  if (fs::exists(status) && ::access(path.c_str(), W_OK) != 0) fail_to_write(path, errno);
+  if (fs::exists(status) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
+    fail_to_write(path, errno);
   if (is_special(path, status)) return path;
-  std::error_code error;
   const fs::path target = fs::weakly_canonical(path, error);
   return error ? path : target;
 }

@@ -53,19 +53,6 @@ void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unkno
   }
 }
 
-void require_same_map(const std::string& file, const ScenarioRow& row,
-                      const std::filesystem::path& map, const Grid& grid) {
-  const std::string place = fmt::format("line {}", row.line);
-  if (std::filesystem::path(row.map).filename() != map.filename())
-    throw InputError(file, place,
-                     fmt::format("the row is for map '{}'; expected '{}'", one_line(row.map),
-                                 one_line(map.filename().string())));
-  if (row.width != grid.width() || row.height != grid.height())
-    throw InputError(file, place,
-                     fmt::format("the row is for a map of {} x {} cells; expected {} x {}",
-                                 row.width, row.height, grid.width(), grid.height()));
-}
-
 void add_row(InstanceBuilder& builder, const std::string& file, const ScenarioRow& row,
              const std::string& id) {
   try {
@@ -122,11 +109,9 @@ LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
         fmt::format("has {} rows; expected at least {}, one per agent", rows.size(), agents));
   std::vector<std::string> warnings;
   const Grid grid = read_map(map, &warnings);
+  require_same_map(scenario, {rows.data(), static_cast<std::size_t>(agents)}, map, grid);
   InstanceBuilder builder(grid);
-  for (int i = 0; i < agents; ++i) {
-    require_same_map(file, rows[i], map, grid);
-    add_row(builder, file, rows[i], fmt::format("a{}", i));
-  }
+  for (int i = 0; i < agents; ++i) add_row(builder, file, rows[i], fmt::format("a{}", i));
   return {std::move(builder).build(), map, std::move(warnings)};
 }
 

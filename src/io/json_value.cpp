@@ -81,7 +81,9 @@ std::int64_t JsonValue::integer(std::int64_t least, std::int64_t most) const {
 
 std::string JsonValue::text() const {
   require(json_->is_string(), "a string");
-  return json_->get<std::string>();
+  std::string text = json_->get<std::string>();
+  require(text.find('\0') == std::string::npos, "a string without NUL characters");
+  return text;
 }
 
 std::vector<std::string> JsonValue::texts() const {

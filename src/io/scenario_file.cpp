@@ -112,6 +112,21 @@ std::vector<ScenarioRow> read_scenario(const std::filesystem::path& path) {
   return rows;
 }
 
+void require_same_map(const std::filesystem::path& scenario, std::span<const ScenarioRow> rows,
+                      const std::filesystem::path& map, const Grid& grid) {
+  const auto fail = [&](const ScenarioRow& row, const std::string& message) {
+    throw InputError(scenario.string(), fmt::format("line {}", row.line), message);
+  };
+  const std::string name = map.filename().string();
+  for (const ScenarioRow& row : rows) {
+    if (std::filesystem::path(row.map).filename() != name)
+      fail(row, fmt::format("the row is for map '{}'; expected '{}'", one_line(row.map), name));
+    if (row.width != grid.width() || row.height != grid.height())
+      fail(row, fmt::format("the row is for a map of {} x {} cells; expected {} x {}", row.width,
+                            row.height, grid.width(), grid.height()));
+  }
+}
+
 void write_scenario(const std::filesystem::path& path, const std::vector<ScenarioRow>& rows,
                     const std::vector<Time>& lengths) {
   std::string text = "version 1\n";

@@ -50,6 +50,7 @@
 // the search ends, and with an empty queue it has proven that there is no path.
 //
 // Ties. Among equal f fewer conflicts come first, and the finish is accepted when it comes out.
+// (Conflicts while resting are the same for all paths of equal cost: they rest on one cell.)
 // Every path that costs what an empty grid would cost passes its labels at their earliest times,
 // so among these the result has the fewest conflicts possible. When constraints delay the agent,
 // fewer conflicts are preferred but not searched for: that would need labels for later arrivals.
@@ -132,8 +133,7 @@ class LowLevelSearch::Workspace {
   void expand(const Entry& entry);
   void enter_intervals(const Entry& from, Cell from_cell, Cell to);
   void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
-  std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time,
-                                     bool finish) const;
+  std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time) const;
   void write_path(Path& path);
 
   const Grid& grid_;
@@ -314,9 +314,8 @@ void LowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::i
   Label& l = label(slot, progress);
   const bool known = l.stamp == stamp_;
   if (known && l.time < time) return;
-  const bool finish = is_finish(slot, progress);
   const std::uint16_t conflicts =
-      others_ ? conflicts_on_arrival(from, from_cell, cell, time, finish) : std::uint16_t{0};
+      others_ ? conflicts_on_arrival(from, from_cell, cell, time) : std::uint16_t{0};
   if (known && l.time == time && l.conflicts <= conflicts) return;
 
   l = {.time = time,
@@ -325,7 +324,7 @@ void LowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::i
        .conflicts = conflicts,
        .parent_progress = from.progress};
   // No path is cheaper than a finish at the begin of its interval: it need not wait for its f.
-  const bool optimal = finish && time == finish_begin_;
+  const bool optimal = time == finish_begin_ && is_finish(slot, progress);
   queue_.push(optimal ? queue_.layer() : std::max(f, queue_.layer()),
               {.slot = slot,
                .time = time,
@@ -334,12 +333,10 @@ void LowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::i
 }
 
 std::uint16_t LowLevelSearch::Workspace::conflicts_on_arrival(const Entry& from, Cell from_cell,
-                                                              Cell cell, Time time,
-                                                              bool finish) const {
+                                                              Cell cell, Time time) const {
   int count = from.conflicts + others_->conflicts(from_cell, cell, time);
   if (time > from.time + 1)
     count += others_->conflicts_of_waiting(from_cell, from.time + 1, time - 1);
-  if (finish) count += others_->conflicts_of_resting(cell, time);
   return static_cast<std::uint16_t>(std::min<int>(count, BucketQueue::kMostConflicts));
 }
 

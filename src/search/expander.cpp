@@ -50,8 +50,7 @@ bool Expander::branch(const NodePtr& node, const AgentConstraint& added, const L
 
   const auto old_cost = static_cast<Cost>(paths_[agent].size());
   const Cost cost = node->cost() - old_cost + static_cast<Cost>(path_.size());
-  expansion.children.push_back(
-      std::make_shared<Node>(node, added, PackedPath(problem_.instance.grid(), path_), cost));
+  expansion.children.push_back(Node::child(node, problem_.instance.grid(), added, path_, cost));
   return true;
 }
 

@@ -28,8 +28,9 @@ KBestJointSequences joint_sequences(const std::vector<CostMatrix>& matrices, Rts
 
 }  // namespace
 
-Forest::Forest(const Problem& problem, RtspBackend backend, const Limits& limits)
+Forest::Forest(const Problem& problem, NodePool& pool, RtspBackend backend, const Limits& limits)
     : problem_(problem),
+      pool_(pool),
       limits_(limits),
       matrices_(cost_matrices(problem)),
       sequences_(joint_sequences(matrices_, backend, limits)),
@@ -46,13 +47,13 @@ NodePtr Forest::next_root() {
   if (!pending_) pending_ = sequences_.next();
   if (!pending_ || !plan_missing_orders(*pending_)) return nullptr;
 
-  auto tree = std::make_shared<Tree>();
+  Tree& tree = trees_.emplace_back();
+  tree.pool = &pool_;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
-    tree->orders.push_back(slot(agent, pending_->ranks[agent]));
+    tree.orders.push_back(slot(agent, pending_->ranks[agent]));
   last_cost_ = pending_->cost;
   pending_.reset();
-  ++trees_;
-  return std::make_shared<Node>(std::move(tree));
+  return Node::root(tree);
 }
 
 std::shared_ptr<const AgentOrder>& Forest::slot(AgentIndex agent, std::uint32_t rank) {
@@ -70,7 +71,7 @@ bool Forest::plan_missing_orders(const JointSequence& joint) {
 
   others_.clear();
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
-    if (const auto& order = slot(agent, joint.ranks[agent])) avoid(agent, order->path);
+    if (const auto& order = slot(agent, joint.ranks[agent])) avoid(agent, order->path.view());
   for (AgentIndex agent : missing)
     if (!plan_order(agent, joint.ranks[agent])) return false;
   return true;
@@ -92,7 +93,7 @@ bool Forest::plan_order(AgentIndex agent, std::uint32_t rank) {
   return true;
 }
 
-void Forest::avoid(AgentIndex agent, const PackedPath& path) {
+void Forest::avoid(AgentIndex agent, const PackedSteps& path) {
   path.unpack(problem_.instance.grid(), problem_.instance.agent(agent).start, path_);
   others_.add(path_);
 }

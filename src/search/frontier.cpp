@@ -53,6 +53,14 @@ std::size_t Frontier::prune(Cost bound) {
   return pruned;
 }
 
+void Frontier::abandon() {
+  const std::lock_guard lock(mutex_);
+  for (auto& [bound, nodes] : open_)
+    for (NodePtr& node : nodes) node.abandon();
+  open_.clear();
+  open_count_ = 0;
+}
+
 Cost Frontier::bound() const {
   const std::lock_guard lock(mutex_);
   const Cost open = open_.empty() ? kInfiniteCost : open_.begin()->first;

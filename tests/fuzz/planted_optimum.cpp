@@ -73,7 +73,7 @@ bool PlantedOptimum::held_by(const Node& node) const {
 
 void PlantedOptimum::follow(const NodePtr& node) {
   ++nodes_followed_;
-  holding_.insert(node);
+  if (!found_) holding_.insert(node.get());
   if (node->bound() > optimum_.cost)
     complaints_.push_back(fmt::format("a node that holds a plan of cost {} claims the bound {}",
                                       optimum_.cost, node->bound()));
@@ -84,7 +84,7 @@ void PlantedOptimum::on_root(const NodePtr& root) {
 }
 
 void PlantedOptimum::on_expanded(const NodePtr& node, const Expansion& expansion) {
-  if (holding_.erase(node) == 0) return;
+  if (holding_.erase(node.get()) == 0) return;
   bool kept = expansion.plan && expansion.plan->cost <= optimum_.cost;
   for (const NodePtr& child : expansion.children) {
     if (!held_by(*child)) continue;
@@ -104,6 +104,8 @@ void PlantedOptimum::on_pruned(Cost bound) {
 }
 
 void PlantedOptimum::on_event(RunEvent, const Progress& progress) {
+  found_ = progress.incumbent && *progress.incumbent <= optimum_.cost;
+  if (found_) holding_.clear();
   if (progress.lower_bound > optimum_.cost)
     complaints_.push_back(fmt::format("lower bound {}, but a plan of cost {} exists{}",
                                       progress.lower_bound, optimum_.cost,

@@ -40,7 +40,10 @@ class PlantedOptimum : public RunObserver {
 
   const Instance& instance_;
   const Plan optimum_;
-  std::unordered_set<NodePtr> holding_;  // live nodes that hold the plan
+  // Live nodes that hold the plan; by address, for the nodes do not outlive the search. Nothing is
+  // followed any more once a plan as cheap is found: from then on the gate may drop them.
+  std::unordered_set<const Node*> holding_;
+  bool found_ = false;
   std::size_t nodes_followed_ = 0;
   std::vector<std::string> complaints_;
 };

@@ -27,7 +27,8 @@ class PlantedInABay : public ::testing::Test {
   const Limits limits_;
   const Problem problem_{instance_, limits_};
   const Plan optimum_ = *oracle::solve_jointly(instance_).plan;
-  Forest forest_{problem_, RtspBackend::kAuto, limits_};
+  NodePool pool_;
+  Forest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
   Expander expander_{problem_, 0};
   PlantedOptimum planted_{instance_, optimum_};
   const NodePtr root_ = forest_.next_root();
@@ -63,7 +64,7 @@ TEST_F(PlantedInABay, IsMissedWhenAConstraintForbidsIt) {
   for (NodePtr& child : expansion.children) {
     const Path& path = optimum_.agents[0].path;
     const AgentConstraint ban{0, {path[1], kNoCell, 1, 1}};
-    child = std::make_shared<Node>(child, ban, PackedPath(instance_.grid(), path), child->cost());
+    child = Node::child(child, instance_.grid(), ban, path, child->cost());
   }
   planted_.on_expanded(root_, expansion);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
@@ -74,8 +75,8 @@ TEST_F(PlantedInABay, SeesABoundThatIsTooHigh) {
   Expansion expansion = expander_.expand(root_, limits_);
   for (NodePtr& child : expansion.children) {
     const AgentConstraint harmless{0, {instance_.agent(0).start, kNoCell, 1000, 1000}};
-    child = std::make_shared<Node>(
-        child, harmless, PackedPath(instance_.grid(), optimum_.agents[0].path), optimum_.cost + 1);
+    child =
+        Node::child(child, instance_.grid(), harmless, optimum_.agents[0].path, optimum_.cost + 1);
   }
   planted_.on_expanded(root_, expansion);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("claims the bound")));

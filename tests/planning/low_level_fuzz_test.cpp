@@ -92,7 +92,7 @@ class Fuzzer {
       table.add(others.paths.back());
     }
     Path path;
-    for (int n = below(9); n >= 0; --n) {
+    for (int n = below(16); n >= 0; --n) {
       const bool found = check(problem, agent, search, table, others, path);
       if (::testing::Test::HasFatalFailure()) return;
       if (!found) {
@@ -120,8 +120,8 @@ class Fuzzer {
     const int at = below(static_cast<int>(path.size()));
     c.cell = path[at];
     c.begin = at;
-    if (below(4) == 0) {
-      c.cell = below(2) == 0 ? random_cell(*problem.grid)
+    if (below(2) == 0) {
+      c.cell = below(4) == 0 ? random_cell(*problem.grid)
                              : problem.goals[below(static_cast<int>(problem.goals.size()))];
       c.begin = below(static_cast<int>(path.size()) + 6);
     }
@@ -168,7 +168,7 @@ class Fuzzer {
 TEST(LowLevelFuzz, AgreesWithATimeExpandedSearch) {
   int delayed = 0;
   int infeasible = 0;
-  const int seeds = rounds(600);
+  const int seeds = rounds(2000);
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Fuzzer fuzzer(static_cast<unsigned>(seed));
@@ -177,7 +177,7 @@ TEST(LowLevelFuzz, AgreesWithATimeExpandedSearch) {
     delayed += fuzzer.delayed;
     infeasible += fuzzer.infeasible;
   }
-  // The cases are worth something.
+  // Most cases must be worth something.
   EXPECT_GT(delayed, 5 * seeds);
   EXPECT_GT(infeasible, seeds / 2);
 }

@@ -147,6 +147,24 @@ TEST(LowLevelSearch, ALaterVisitOfATaskIsTriedWhenTheFirstLeadsNowhere) {
   EXPECT_EQ(cost_of(grid, agent, constraints), kInfeasible);
 }
 
+// Labels postponed by a gate come late, here after a gate of an earlier goal that they could pass
+// sooner. That gate must let them through: its first condition, f(L) >= g + after_goal(k).
+TEST(LowLevelSearch, AGateLetsThroughWhoComesEarlierToItsGoal) {
+  const Grid grid = grid_of({".......", "@.@@@@@"});
+  const SingleAgent agent(grid, 0, {2, 5}, 6);
+  const Constraints constraints{
+      {1, kNoCell, 3, 3},     {1, kNoCell, 5, 5},   // to the first task at once, at 5, or from 7 on
+      {2, kNoCell, 3, 4},     {2, kNoCell, 6, 6},   //
+      {3, kNoCell, 4, 5},     {3, kNoCell, 8, 30},  // whoever is there from 7 on waits for long
+      {4, kNoCell, 6, 6},     {3, 4, 6, 6},         // whoever is there at 2 is caught on the second
+      {5, kNoCell, 6, 14},    {6, kNoCell, 6, 15},  //
+      {8, kNoCell, 0, kNever}};
+  ConflictAvoidanceTable others(grid);
+  others.add({8, 8, 8, 8, 1, 8});  // makes arriving at 5 the second choice
+  EXPECT_EQ(path_of(grid, agent, constraints, &others).size(), 17U);
+  EXPECT_EQ(cost_of(grid, agent, constraints), 16);
+}
+
 TEST(LowLevelSearch, UnreachableGoalsAreInfeasible) {
   const Grid grid = grid_of({"..@.."});
   EXPECT_EQ(cost_of(grid, SingleAgent(grid, 0, {}, 4), {}), kInfeasible);
@@ -168,6 +186,30 @@ TEST(LowLevelSearch, PrefersTheWayWithFewerConflicts) {
   others.clear();
   others.add({7});
   EXPECT_EQ(path_of(grid, agent, {}, &others), (Path{0, 1, 2, 5, 8}));
+}
+
+TEST(LowLevelSearch, WaitsWhereItIsInNobodysWay) {
+  const Grid grid = grid_of({"...", ".@.", "..."});
+  const SingleAgent agent(grid, 0, {}, 8);
+  const Constraints constraints{{8, kNoCell, 1, 6}};  // wait on 5 or on 7
+  for (Cell crossed : {5, 7}) {
+    ConflictAvoidanceTable others(grid);
+    others.add({8, 8, 8, 8, crossed, crossed, 8});
+    const Path path = path_of(grid, agent, constraints, &others);
+    ASSERT_EQ(path.size(), 8U);
+    EXPECT_EQ(path[6], 12 - crossed);
+  }
+}
+
+TEST(LowLevelSearch, OneVisitCountsForAllGoalsOnTheCell) {
+  const Grid grid = grid_of({"..."});
+  const SingleAgent agent(grid, 0, {1}, 2);
+  const GoalSequence twice(agent.instance, agent.distances, 0, {0, 0, 0});
+  LowLevelSearch search(grid);
+  Path path;
+  const Constraints constraints{{1, kNoCell, 2, kNever}};
+  ASSERT_EQ(search.find(twice, constraints, nullptr, Limits(), path), Outcome::kFound);
+  EXPECT_EQ(path, (Path{0, 1, 2}));
 }
 
 TEST(LowLevelSearch, RejectsConstraintsOutsideTheGrid) {

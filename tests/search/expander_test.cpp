@@ -16,13 +16,14 @@ struct Search {
   Search(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents)
       : instance(testing::instance_of(rows, agents)),
         problem(instance, limits),
-        forest(problem, RtspBackend::kAuto, limits),
+        forest(problem, pool, RtspBackend::kAuto, limits),
         expander(problem, 0),
         root(forest.next_root()) {}
 
   Limits limits;
   Instance instance;
   Problem problem;
+  NodePool pool;
   Forest forest;
   Expander expander;
   NodePtr root;

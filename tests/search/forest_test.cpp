@@ -23,10 +23,11 @@ class ForestTest : public ::testing::Test {
   Limits limits_;
   Instance instance_;
   Problem problem_;
+  NodePool pool_;
 };
 
 TEST_F(ForestTest, InstantiatesEveryTreeOnceInOrderOfCost) {
-  Forest forest(problem_, RtspBackend::kAuto, limits_);
+  Forest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   std::set<std::string> seen;
   Cost last = 0;
   while (const NodePtr root = forest.next_root()) {
@@ -45,7 +46,7 @@ TEST_F(ForestTest, InstantiatesEveryTreeOnceInOrderOfCost) {
 }
 
 TEST_F(ForestTest, NextBoundNeverExceedsTheNextTree) {
-  Forest forest(problem_, RtspBackend::kAuto, limits_);
+  Forest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   while (true) {
     const Cost bound = forest.next_bound();
     const NodePtr root = forest.next_root();
@@ -55,7 +56,7 @@ TEST_F(ForestTest, NextBoundNeverExceedsTheNextTree) {
 }
 
 TEST_F(ForestTest, TreesShareTheOrdersTheyHaveInCommon) {
-  Forest forest(problem_, RtspBackend::kAuto, limits_);
+  Forest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   std::set<const AgentOrder*> orders;
   while (const NodePtr root = forest.next_root())
     for (const auto& order : root->tree().orders) orders.insert(order.get());
@@ -63,7 +64,7 @@ TEST_F(ForestTest, TreesShareTheOrdersTheyHaveInCommon) {
 }
 
 TEST_F(ForestTest, ALimitLosesNoTree) {
-  Forest forest(problem_, RtspBackend::kAuto, limits_);
+  Forest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   const Cost first = forest.next_root()->cost();
   limits_.set_deadline(Limits::Clock::now());
   EXPECT_EQ(forest.next_root(), nullptr);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+
 #include "tests/support/instances.h"
 
 namespace grove {
@@ -18,14 +20,17 @@ class FrontierTest : public ::testing::Test {
   NodePtr node(Time bound) {
     Path path{0};
     for (Time t = 0; t < bound; ++t) path.push_back(t + 1);
-    auto tree = std::make_shared<Tree>();
-    tree->orders.push_back(std::make_shared<const AgentOrder>(AgentOrder{
+    Tree& tree = trees_.emplace_back();
+    tree.pool = &pool_;
+    tree.orders.push_back(std::make_shared<const AgentOrder>(AgentOrder{
         {}, GoalSequence(instance_, distances_, 0, {}), PackedPath(instance_.grid(), path)}));
-    return std::make_shared<Node>(std::move(tree));
+    return Node::root(tree);
   }
 
   Instance instance_;
   DistanceFields distances_;
+  NodePool pool_;
+  std::deque<Tree> trees_;
   Frontier frontier_;
 };
 

@@ -25,10 +25,12 @@ enum class RunEvent : std::uint8_t {
   kBound,      // the lower bound rose
   kTree,       // a new tree was instantiated
   kIncumbent,  // a better plan was found
+  kEnd,        // the search is over; comes once, last
 };
 
 // Does nothing; override what is of interest. Called from the thread that runs the search, between
-// two expansions: return quickly. References are valid during the call.
+// two expansions: return quickly. References are valid during the call;
+// the nodes die with the run: keep none.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct ScenarioRow {
 
 // All rows in file order. Throws InputError with line and column.
 std::vector<ScenarioRow> read_scenario(const std::filesystem::path& path);
+
+// Throws InputError, naming `scenario` and the line, unless every row is for `map`: the file part
+// of the name and the size must agree.
+void require_same_map(const std::filesystem::path& scenario, std::span<const ScenarioRow> rows,
+                      const std::filesystem::path& map, const Grid& grid);
 
 // Writes `rows`, whole or not at all. `lengths`, one per row, fill the last column: the 4-connected
 // distance from start to goal, where Moving AI's own files give the octile one. The bucket is a

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,9 +21,10 @@ namespace grove {
 // at once.
 class Forest {
  public:
-  // `problem` and `limits` must outlive the forest. Builds the cost matrices; tables and sequences
-  // come with the first questions.
-  Forest(const Problem& problem, RtspBackend backend, const Limits& limits);
+  // `problem`, `pool` - where the nodes of its trees will live - and `limits` must outlive the
+  // forest, and the forest its nodes. Builds the cost matrices; tables and sequences come with the
+  // first questions.
+  Forest(const Problem& problem, NodePool& pool, RtspBackend backend, const Limits& limits);
 
   // A proven lower bound on every plan of every tree not yet instantiated; kInfiniteCost when all
   // are.
@@ -32,16 +34,17 @@ class Forest {
 
   // The cost of the joint sequence instantiated last; none before the first.
   std::optional<Cost> last_cost() const { return last_cost_; }
-  std::int64_t trees() const { return trees_; }
+  std::int64_t trees() const { return static_cast<std::int64_t>(trees_.size()); }
   std::int64_t rtsp_calls() const { return sequences_.rtsp_calls(); }
 
  private:
   std::shared_ptr<const AgentOrder>& slot(AgentIndex agent, std::uint32_t rank);
   bool plan_missing_orders(const JointSequence& joint);
   bool plan_order(AgentIndex agent, std::uint32_t rank);
-  void avoid(AgentIndex agent, const PackedPath& path);
+  void avoid(AgentIndex agent, const PackedSteps& path);
 
   const Problem& problem_;
+  NodePool& pool_;
   const Limits& limits_;
   std::vector<CostMatrix> matrices_;
   KBestJointSequences sequences_;
@@ -51,7 +54,7 @@ class Forest {
   ConflictAvoidanceTable others_;
   Path path_;
   std::optional<Cost> last_cost_;
-  std::int64_t trees_ = 0;
+  std::deque<Tree> trees_;
 };
 
 }  // namespace grove

@@ -2,13 +2,16 @@
 // Constraint-tree nodes and the trees they belong to.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "grove/conflicts/conflict.h"
 #include "grove/model/omega.h"
 #include "grove/planning/goal_sequence.h"
+#include "grove/search/node_pool.h"
 #include "grove/search/packed_path.h"
 #include "grove/search/problem.h"
 #include "grove/sequencing/rtsp.h"
@@ -23,24 +26,53 @@ struct AgentOrder {
   PackedPath path;  // shortest for `sequences`, no constraints
 };
 
-// One tree of the forest: a class of joint task sequences. Immutable, shared by its nodes.
+// One tree of the forest: a class of joint task sequences. Immutable; outlives its nodes.
 struct Tree {
+  NodePool* pool = nullptr;                               // where its nodes live
   std::vector<std::shared_ptr<const AgentOrder>> orders;  // by AgentIndex
 };
 
+class Node;
+
+// Shared ownership of a node. Copies may be made and dropped by different threads.
+class NodePtr {
+ public:
+  NodePtr() = default;
+  NodePtr(std::nullptr_t) {}
+  explicit NodePtr(const Node* node);  // shares
+  NodePtr(const NodePtr& other) : NodePtr(other.node_) {}
+  NodePtr(NodePtr&& other) noexcept : node_(std::exchange(other.node_, nullptr)) {}
+  NodePtr& operator=(NodePtr other) noexcept {
+    std::swap(node_, other.node_);
+    return *this;
+  }
+  ~NodePtr();
+
+  const Node& operator*() const { return *node_; }
+  const Node* operator->() const { return node_; }
+  const Node* get() const { return node_; }
+  explicit operator bool() const { return node_ != nullptr; }
+  friend bool operator==(const NodePtr& a, const NodePtr& b) { return a.node_ == b.node_; }
+
+  // Forgets the node without giving it up: its memory is freed with its pool.
+  void abandon() { node_ = nullptr; }
+
+ private:
+  const Node* node_ = nullptr;
+};
+
 // A node of a constraint tree (CBS; Sharon et al. 2015): its parent's constraints and one more, and
-// the path that this one changed. Immutable once made, so threads may share it; owned by whoever
-// holds a NodePtr: the frontier, its children.
+// the path that this one changed, packed behind the object. Immutable once made, so threads may
+// share it. Lives in its tree's pool, about 140 bytes at 150 steps a path.
 class Node {
  public:
-  using Ptr = std::shared_ptr<const Node>;
-
   // The root of `tree`, no constraints.
-  explicit Node(std::shared_ptr<const Tree> tree);
+  static NodePtr root(const Tree& tree);
   // The child in which `added.agent` obeys one constraint more and takes `path`, `cost` being then
   // the sum of all agents' costs. Its bound is at least its parent's.
-  Node(Ptr parent, const AgentConstraint& added, PackedPath path, Cost cost);
-  ~Node();
+  static NodePtr child(const NodePtr& parent, const Grid& grid, const AgentConstraint& added,
+                       const Path& path, Cost cost);
+
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
@@ -51,23 +83,45 @@ class Node {
   const Tree& tree() const { return *tree_; }
   bool is_root() const { return !parent_; }
 
-  // The path of `agent` at this node. O(depth).
-  const PackedPath& path(AgentIndex agent) const;
   // All paths at this node; `paths` is resized to the number of agents. O(depth + total length).
   void paths(const Problem& problem, std::vector<Path>& paths) const;
   // The constraints on `agent` at this node, appended. O(depth).
   void constraints(AgentIndex agent, std::vector<Constraint>& constraints) const;
 
  private:
-  mutable Ptr parent_;  // released by a dying descendant; see ~Node
-  std::shared_ptr<const Tree> tree_;
+  friend class NodePtr;
+  Node(NodePtr parent, const Tree& tree, Cost bound, Cost cost, const AgentConstraint& added,
+       std::uint32_t steps)
+      : steps_(steps),
+        parent_(std::move(parent)),
+        tree_(&tree),
+        bound_(bound),
+        cost_(cost),
+        added_(added) {}
+
+  static std::size_t bytes(std::uint32_t steps) {
+    return sizeof(Node) + packed_words(steps) * sizeof(std::uint64_t);
+  }
+  const std::uint64_t* words() const { return reinterpret_cast<const std::uint64_t*>(this + 1); }
+  PackedSteps path() const { return {steps_, words()}; }
+  static void release(const Node* node);
+
+  mutable std::atomic<std::uint32_t> references_{0};
+  std::uint32_t steps_;
+  mutable NodePtr parent_;  // null at a root
+  const Tree* tree_;
   Cost bound_;
   Cost cost_;
-  AgentConstraint added_;  // none at a root: agent -1
-  PackedPath path_;
+  AgentConstraint added_;  // at a root: agent -1
 };
 
-using NodePtr = Node::Ptr;
+inline NodePtr::NodePtr(const Node* node) : node_(node) {
+  if (node_) node_->references_.fetch_add(1, std::memory_order_relaxed);
+}
+
+inline NodePtr::~NodePtr() {
+  if (node_) Node::release(node_);
+}
 
 // The tasks that the stops of a sequence stand for.
 std::vector<TaskIndex> tasks_in_order(const Agent& agent, const Sequence& sequence);

@@ -1,32 +1,46 @@
 // SPDX-License-Identifier: MIT
-// Paths as constraint-tree nodes keep them: 3 bits a step.
+// Paths as constraint-tree nodes keep them: 3 bits a step, without the start, which the agent
+// knows.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <vector>
 
 #include "grove/model/plan.h"
 
 namespace grove {
 
-// A path without its start, which the agent knows. Immutable.
-class PackedPath {
- public:
-  PackedPath() = default;
-  // `path` must not be empty and move at most one cell per step.
-  PackedPath(const Grid& grid, const Path& path);
+// A path of `steps` steps packed somewhere else: 21 moves to a word, the first in the lowest bits.
+// A view; valid as long as the words are.
+struct PackedSteps {
+  std::uint32_t steps = 0;
+  const std::uint64_t* words = nullptr;
 
   // The path's cost: its number of steps.
-  Time cost() const { return static_cast<Time>(steps_); }
+  Time cost() const { return static_cast<Time>(steps); }
   // Overwrites `path`, which keeps its capacity.
   void unpack(const Grid& grid, Cell start, Path& path) const;
-  // Memory held besides the object itself.
-  std::size_t heap_bytes() const;
+};
+
+// How many words a path of so many steps takes.
+std::size_t packed_words(std::uint32_t steps);
+// Packs `path` (not empty, at most one cell per step) into packed_words(path.size() - 1) words.
+void pack(const Grid& grid, const Path& path, std::uint64_t* words);
+
+// A packed path that owns its words. Immutable.
+class PackedPath {
+ public:
+  PackedPath(const Grid& grid, const Path& path)
+      : steps_(static_cast<std::uint32_t>(path.size() - 1)), words_(packed_words(steps_)) {
+    pack(grid, path, words_.data());
+  }
+  PackedSteps view() const { return {steps_, words_.data()}; }
+  Time cost() const { return view().cost(); }
 
  private:
-  std::uint32_t steps_ = 0;
-  std::unique_ptr<std::uint64_t[]> words_;  // 21 moves each, first move in the lowest bits
+  std::uint32_t steps_;
+  std::vector<std::uint64_t> words_;
 };
 
 }  // namespace grove

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "refusal.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+std::string writing_content(const std::string& path, const std::string& content) {
+  return refusal([&] { write_file_atomically(path, content); });
+}
+
+std::string writing(const std::string& path) {
+  return writing_content(path, "new");
+}
+
+std::string asking(const std::string& path) {
+  return refusal([&] { require_writable(path); });
+}
+
+TEST(WriteFileAtomically, MakesAndReplacesFiles) {
+  const TemporaryDirectory directory;
+  write_file_atomically(directory / "file", "old");
+  write_file_atomically(directory / "file", "new");
+  EXPECT_EQ(file_content(directory / "file"), "new");
+  EXPECT_EQ(directory.files(), Names{"file"});
+}
+
+TEST(WriteFileAtomically, WritesIntoTheCurrentFolder) {
+  const TemporaryDirectory directory;
+  const fs::path before = fs::current_path();
+  fs::current_path(directory.path());
+  write_file_atomically("bare", "new");
+  fs::current_path(before);
+  EXPECT_EQ(file_content(directory / "bare"), "new");
+}
+
+TEST(WriteFileAtomically, KeepsPermissionsAndFollowsLinks) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("file", "old");
+  ::chmod(file.c_str(), 0640);
+  fs::create_symlink("file", directory / "link");
+  write_file_atomically(directory / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(directory / "link"));
+  EXPECT_EQ(file_content(file), "new");
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms(0640));
+}
+
+TEST(WriteFileAtomically, RefusesWhatCannotBeWritten) {
+  const TemporaryDirectory directory;
+  directory.write("file", "old");
+  for (auto* said : {writing, asking}) {
+    EXPECT_EQ(said(directory / "missing/file"),
+              "file: cannot be written: No such file or directory");
+    EXPECT_EQ(said(directory / "file/file"), "file: cannot be written: Not a directory");
+    EXPECT_EQ(said(directory.path()),
+              directory.path().filename().string() +
+                  ": cannot be written: is a directory; expected a file name");
+    EXPECT_NE(said(""), "accepted");
+    EXPECT_NE(said(directory / "missing/"), "accepted");
+    EXPECT_NE(said(directory / std::string(300, 'x')), "accepted");
+  }
+  EXPECT_EQ(directory.files(), Names{"file"});
+  EXPECT_EQ(file_content(directory / "file"), "old");
+}
+
+// While it lives, a test run by root is somebody who may do nothing special.
+class NobodySpecial {
+ public:
+  NobodySpecial() : was_root_(::geteuid() == 0) {
+    if (was_root_ && ::seteuid(65534) != 0) ADD_FAILURE() << "seteuid";
+  }
+  ~NobodySpecial() {
+    if (was_root_ && ::seteuid(0) != 0) ADD_FAILURE() << "seteuid";
+  }
+
+ private:
+  bool was_root_;
+};
+
+TEST(WriteFileAtomically, RefusesWithoutPermission) {
+  const TemporaryDirectory directory;
+  ::chmod(directory.write("file", "old").c_str(), 0444);
+  ::chmod(directory.path().c_str(), 0777);
+  {
+    const NobodySpecial nobody;
+    EXPECT_EQ(writing(directory / "file"), "file: cannot be written: Permission denied");
+    EXPECT_EQ(asking(directory / "file"), "file: cannot be written: Permission denied");
+    EXPECT_EQ(asking(directory / "other"), "accepted");
+  }
+  ::chmod(directory.path().c_str(), 0555);
+  {
+    const NobodySpecial nobody;
+    EXPECT_EQ(writing(directory / "other"), "other: cannot be written: Permission denied");
+    EXPECT_EQ(asking(directory / "other"), "other: cannot be written: Permission denied");
+  }
+  ::chmod(directory.path().c_str(), 0755);
+}
+
+TEST(WriteFileAtomically, WritesSpecialFilesDirectly) {
+  EXPECT_EQ(writing("/dev/null"), "accepted");
+  EXPECT_EQ(asking("/dev/null"), "accepted");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_EQ(writing("/dev/full"), "full: cannot be written: No space left on device");
+}
+
+// Ignores SIGXFSZ and lets no file grow beyond some bytes, while it lives.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST(WriteFileAtomically, LeavesTheOldFileWhenTheDiskIsFull) {
+  const TemporaryDirectory directory;
+  directory.write("file", "old");
+  std::string said;
+  {
+    const FileSizeLimit limit(1000);
+    said = writing_content(directory / "file", std::string(5000, 'x'));
+  }
+  EXPECT_EQ(said, "file: cannot be written: File too large");
+  EXPECT_EQ(file_content(directory / "file"), "old");
+  EXPECT_EQ(directory.files(), Names{"file"});
+}
+
+TEST(RequireWritable, LeavesNothingBehind) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(asking(directory / "new"), "accepted");
+  EXPECT_TRUE(directory.files().empty());
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "grove/io/input_error.h"
+
+namespace grove {
+
+// What the InputError thrown by `act` says, without the folder of its file; "accepted" if none is.
+inline std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    const std::size_t file_end = text.find(": ");
+    const std::size_t slash = text.rfind('/', file_end);
+    return slash == std::string::npos ? text : text.substr(slash + 1);
+  }
+  return "accepted";
+}
+
+}  // namespace grove

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Running a program as its users do.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace grove {
+
+struct ProcessResult {
+  int exit_code = -1;  // as a shell tells it: 128 + the signal that ended it
+  bool timed_out = false;
+  std::string out;
+  std::string err;
+};
+
+struct ProcessOptions {
+  std::string directory;                      // to run in; empty: where the test runs
+  std::chrono::milliseconds timeout{60'000};  // then it is killed
+  rlim_t largest_file = RLIM_INFINITY;        // in bytes; counts for out and err too
+  // Sends `signal` after `signal_after`; 0: none.
+  int signal = 0;
+  std::chrono::milliseconds signal_after{0};
+};
+
+// Runs `command` (program and arguments, no shell, nothing on stdin) and waits for it. Throws
+// std::runtime_error when it cannot be started.
+ProcessResult run_program(const std::vector<std::string>& command,
+                          const ProcessOptions& options = {});
+
+}  // namespace grove

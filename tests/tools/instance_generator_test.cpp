@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "tools/generate/instance_generator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "grove/io/input_error.h"
+#include "tools/generate/map_generator.h"
+#include "tools/generate/scenario_generator.h"
+
+namespace grove {
+namespace {
+
+const Grid& grid() {
+  static const Grid grid = empty_map(12, 10);
+  return grid;
+}
+
+Scenario scenario(int rows = 100) {
+  return {"m.scen", random_scenario(grid(), "m.map", rows, 3)};
+}
+
+Instance generate(const InstanceRequest& request) {
+  return generate_instance(grid(), scenario(), request);
+}
+
+TEST(GenerateInstance, TakesAgentsFromTheFirstRowsAndTasksFromRow21On) {
+  const Instance instance = generate({.agents = 5, .tasks = 10, .seed = 1});
+  const auto rows = scenario().rows;
+  ASSERT_EQ(instance.agent_count(), 5);
+  ASSERT_EQ(instance.task_count(), 10);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(instance.agent(i).id, "a" + std::to_string(i));
+    EXPECT_EQ(instance.agent(i).start, grid().cell(rows[i].start));
+    EXPECT_EQ(instance.agent(i).goal, grid().cell(rows[i].goal));
+  }
+  for (int k = 0; k < 10; ++k) {
+    EXPECT_EQ(instance.task(k).id, "t" + std::to_string(k));
+    EXPECT_EQ(instance.task(k).cell, grid().cell(rows[20 + k].start));
+    EXPECT_GE(instance.task(k).agents.size(), 1U);
+    EXPECT_LE(instance.task(k).agents.size(), 3U);
+  }
+}
+
+TEST(GenerateInstance, ReservesMoreRowsForMoreAgents) {
+  const Instance instance = generate({.agents = 30, .tasks = 2});
+  EXPECT_EQ(instance.task(0).cell, grid().cell(scenario().rows[30].start));
+}
+
+TEST(GenerateInstance, GivesTasksToOneTwoAndThreeAgents) {
+  const Instance instance = generate({.agents = 20, .tasks = 80, .seed = 2});
+  std::vector<int> counts(4);
+  for (const Task& task : instance.tasks()) ++counts[task.agents.size()];
+  for (int k = 1; k <= 3; ++k) EXPECT_GT(counts[k], 10);
+}
+
+TEST(GenerateInstance, GivesASingleAgentEverything) {
+  EXPECT_EQ(generate({.agents = 1, .tasks = 20}).agent(0).tasks.size(), 20U);
+}
+
+TEST(GenerateInstance, WithMgTurnsGoalsIntoTasks) {
+  const InstanceRequest request{.agents = 20, .tasks = 80, .seed = 4};
+  InstanceRequest mg_request = request;
+  mg_request.mg = true;
+  const Instance with_goals = generate(request);
+  const Instance mg = generate(mg_request);
+  int joined = 0;
+  for (AgentIndex i = 0; i < 20; ++i) {
+    EXPECT_FALSE(mg.agent(i).goal);
+    std::vector<Cell> cells;
+    for (TaskIndex task : mg.agent(i).tasks) cells.push_back(mg.task(task).cell);
+    EXPECT_NE(std::ranges::find(cells, *with_goals.agent(i).goal), cells.end());
+    for (const Task& task : with_goals.tasks()) joined += task.cell == *with_goals.agent(i).goal;
+  }
+  EXPECT_GT(joined, 0);  // some goal is on a task: then there is one task fewer
+  EXPECT_EQ(mg.task_count(), 80 + 20 - joined);
+}
+
+TEST(GenerateInstance, PassesOverRepeatedTaskCells) {
+  Scenario repeated = scenario(24);
+  repeated.rows[21].start = repeated.rows[20].start;
+  const Instance instance = generate_instance(grid(), repeated, {.agents = 2, .tasks = 3});
+  EXPECT_EQ(instance.task(1).cell, grid().cell(repeated.rows[22].start));
+}
+
+TEST(GenerateInstance, GivesTasksOnlyToAgentsThatCanReachThem) {
+  // Left and right of a wall.
+  std::vector<bool> passable(30, true);
+  for (int y = 0; y < 10; ++y) passable[3 * y + 1] = false;
+  const Grid split(3, 10, passable);
+  Scenario rows{"m.scen", {}};
+  for (int k = 0; k < 20; ++k) {
+    const Position p{k < 10 ? 0 : 2, k % 10};
+    rows.rows.push_back({k, "m.map", 3, 10, p, p});
+  }
+  std::swap(rows.rows[1], rows.rows[10]);
+  for (int k = 0; k < 8; ++k) rows.rows.push_back({k, "m.map", 3, 10, {k % 2 * 2, k / 2}, {0, 0}});
+  const Instance instance = generate_instance(split, rows, {.agents = 2, .tasks = 8, .seed = 1});
+  for (const Task& task : instance.tasks())
+    for (AgentIndex agent : task.agents)
+      EXPECT_EQ(split.position(task.cell).x, split.position(instance.agent(agent).start).x);
+}
+
+TEST(GenerateInstance, RefusesWhatDoesNotFit) {
+  const auto refused = [](const Scenario& from, const InstanceRequest& request) -> std::string {
+    try {
+      generate_instance(grid(), from, request);
+      return "accepted";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refused(scenario(4), {.agents = 5}), "m.scen: has 4 rows; 5 agents need as many");
+  EXPECT_EQ(refused(scenario(25), {.agents = 5, .tasks = 6}),
+            "m.scen: has 25 rows, enough for 5 of 6 tasks; they are taken from row 21 on");
+  EXPECT_EQ(refused(scenario(), {.agents = 1, .tasks = 70}),
+            "m.scen: 70 tasks for 1 agents do not fit: agent 'a0' has more than 64 tasks; expected "
+            "at most 64");
+  Scenario outside = scenario();
+  outside.rows[1].goal = {99, 0};
+  EXPECT_EQ(refused(outside, {.agents = 2, .mg = true}).substr(0, 22), "m.scen: line 3, goal: ");
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Running the program grove.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/support/subprocess.h"
+
+namespace grove {
+
+inline ProcessResult run_grove(std::vector<std::string> arguments,
+                               const ProcessOptions& options = {}) {
+  arguments.insert(arguments.begin(), GROVE_PROGRAM);
+  return run_program(arguments, options);
+}
+
+// The one line that a run with bad input or usage says on stderr, without "grove: error: ".
+// Otherwise what is wrong with that.
+inline std::string complaint(const ProcessResult& result) {
+  const std::string start = "grove: error: ";
+  if (result.exit_code != 2)
+    return "exit code " + std::to_string(result.exit_code) + " " + result.err;
+  if (!result.out.empty()) return "wrote to stdout: " + result.out;
+  if (std::ranges::count(result.err, '\n') != 1 || !result.err.ends_with('\n'))
+    return "not one line: " + result.err;
+  if (!result.err.starts_with(start)) return "does not begin as it should: " + result.err;
+  return result.err.substr(start.size(), result.err.size() - start.size() - 1);
+}
+
+}  // namespace grove

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "tools/generate/scenario_generator.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "grove/io/input_error.h"
+#include "tools/generate/random.h"
+
+namespace grove {
+namespace {
+
+// Two parts: 6 cells on the left, 2 on the right.
+Grid two_parts() {
+  return Grid(5, 2, {true, true, true, false, true, true, true, true, false, true});
+}
+
+TEST(RandomScenario, UsesEveryCellOfTheLargestPartOnce) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const Grid grid = two_parts();
+    std::set<Cell> starts;
+    std::set<Cell> goals;
+    for (const ScenarioRow& row : random_scenario(grid, "maps/m.map", 6, seed)) {
+      EXPECT_EQ(row.map, "m.map");
+      EXPECT_FALSE(row.start == row.goal);
+      EXPECT_LT(row.start.x, 3);
+      EXPECT_LT(row.goal.x, 3);
+      starts.insert(grid.cell(row.start));
+      goals.insert(grid.cell(row.goal));
+    }
+    EXPECT_EQ(starts.size(), 6U);
+    EXPECT_EQ(goals.size(), 6U);
+  }
+}
+
+TEST(RandomScenario, RefusesMoreRowsThanCells) {
+  EXPECT_THROW(random_scenario(two_parts(), "m.map", 7, 0), InputError);
+  EXPECT_THROW(random_scenario(Grid(1, 1, {true}), "m.map", 1, 0), InputError);
+  EXPECT_THROW(random_scenario(Grid(1, 1, {false}), "m.map", 1, 0), InputError);
+}
+
+TEST(ScenarioLengths, AreDistancesOnTheGrid) {
+  const std::vector<ScenarioRow> rows{{2, "m.map", 5, 2, {0, 0}, {2, 1}},
+                                      {3, "m.map", 5, 2, {1, 1}, {1, 1}}};
+  EXPECT_EQ(scenario_lengths(two_parts(), rows), (std::vector<Time>{3, 0}));
+}
+
+TEST(Random, DrawsTheSameEverywhere) {
+  Random random(42, Random::Use::kMap);
+  std::vector<std::size_t> draws;
+  for (int k = 0; k < 8; ++k) draws.push_back(random.below(10));
+  EXPECT_EQ(draws, (std::vector<std::size_t>{9, 1, 1, 5, 3, 6, 7, 7}));
+}
+
+TEST(Random, DrawsEachNumberAboutEquallyOften) {
+  Random random(7, Random::Use::kTasks);
+  std::vector<int> counts(3);
+  for (int k = 0; k < 30'000; ++k) ++counts[random.below(3)];
+  for (int count : counts) EXPECT_NEAR(count, 10'000, 400);
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The subcommands of grove. Each function adds one to `app`; the command runs as its callback while
+// the command line is parsed. Commands throw: InputError for bad input, CLI::ParseError for bad
+// usage, CommandFailed when they have said themselves what is wrong; anything else is an internal
+// failure. grove.cpp turns that into exit codes.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <exception>
+
+namespace grove {
+
+inline constexpr int kExitSuccess = 0;
+inline constexpr int kExitInternalFailure = 1;
+inline constexpr int kExitBadInput = 2;
+
+class CommandFailed : public std::exception {
+ public:
+  explicit CommandFailed(int exit_code) : exit_code_(exit_code) {}
+  int exit_code() const { return exit_code_; }
+
+ private:
+  int exit_code_;
+};
+
+void add_solve_command(CLI::App& app);
+void add_check_command(CLI::App& app);
+void add_generate_command(CLI::App& app);
+
+}  // namespace grove

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "grove/model/grid.h"
+
+namespace grove {
+
+// The connected parts of the passable cells: by cell, the number of its part (from 0, in the order
+// of their first cells), or -1 on blocked cells.
+std::vector<int> components(const Grid& grid);
+
+// The cells of the largest part (the first of several), in ascending order; empty if all is
+// blocked.
+std::vector<Cell> largest_component(const Grid& grid);
+
+}  // namespace grove

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "scenario_generator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "components.h"
+#include "grove/io/input_error.h"
+#include "grove/model/distance_field.h"
+#include "random.h"
+
+namespace grove {
+
+std::vector<ScenarioRow> random_scenario(const Grid& grid, const std::string& map, int count,
+                                         std::uint64_t seed) {
+  std::vector<Cell> starts = largest_component(grid);
+  if (starts.size() < static_cast<std::size_t>(std::max(count, 2)))
+    throw InputError(map, "",
+                     fmt::format("has {} connected passable cells; expected at least {} for {} "
+                                 "scenario rows",
+                                 starts.size(), std::max(count, 2), count));
+  std::vector<Cell> goals = starts;
+  Random random(seed, Random::Use::kScenario);
+  random.shuffle(starts);
+  random.shuffle(goals);
+  // A goal on its own start trades places with the next one, which then is on neither's start.
+  for (std::size_t k = 0; k < goals.size(); ++k)
+    if (goals[k] == starts[k]) std::swap(goals[k], goals[(k + 1) % goals.size()]);
+
+  std::vector<ScenarioRow> rows;
+  for (int k = 0; k < count; ++k)
+    rows.push_back({.line = k + 2,
+                    .map = std::filesystem::path(map).filename().string(),
+                    .width = grid.width(),
+                    .height = grid.height(),
+                    .start = grid.position(starts[k]),
+                    .goal = grid.position(goals[k])});
+  return rows;
+}
+
+std::vector<Time> scenario_lengths(const Grid& grid, const std::vector<ScenarioRow>& rows) {
+  std::vector<Time> lengths;
+  for (const ScenarioRow& row : rows)
+    lengths.push_back(distance_field(grid, grid.cell(row.goal))[grid.cell(row.start)]);
+  return lengths;
+}
+
+}  // namespace grove

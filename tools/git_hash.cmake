@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: MIT
+# cmake -DSOURCE_DIR=... -DOUTPUT=... -P git_hash.cmake
+# Writes a header that defines GROVE_GIT_HASH; "unknown" outside a git clone.
+cmake_minimum_required(VERSION 3.25)
+execute_process(
+  COMMAND git -c safe.directory=* describe --always --dirty --abbrev=12 --exclude=*
+  WORKING_DIRECTORY ${SOURCE_DIR}
+  OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE
+  RESULT_VARIABLE failure ERROR_QUIET)
+if(failure)
+  set(hash "unknown")
+endif()
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#define GROVE_GIT_HASH \"@hash@\"\n" @ONLY)

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Options with numbers, checked strictly: CLI11's own conversions accept what looks like a number
+// and explain little. The variables must outlive the parsing; they keep their value when the option
+// is not given, and that value is shown as the default unless the option is made required.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace grove {
+
+struct IntegerRange {
+  std::int64_t least = 0;
+  std::int64_t most = 0;
+};
+
+// Any seed.
+inline constexpr IntegerRange kSeeds{0, INT64_MAX};
+
+CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t& value,
+                         IntegerRange range, const std::string& description);
+// "5,10,20": a list of distinct integers; no default is shown.
+CLI::Option* add_integers(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
+                          IntegerRange range, const std::string& description);
+// A decimal number from `least` to `most`.
+CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,
+                        double most, const std::string& description);
+
+// The integer that `text` is. Throws CLI::ValidationError, naming `option`, when it is none in
+// `range`.
+std::int64_t parse_integer(const std::string& option, const std::string& text, IntegerRange range);
+
+}  // namespace grove

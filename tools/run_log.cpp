@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "run_log.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "gap_text.h"
+#include "grove/io/input_error.h"
+#include "grove/model/limits.h"
+
+namespace grove {
+namespace {
+
+constexpr int kRowsPerHeader = 20;
+constexpr double kRowInterval_s = 0.5;  // at first; then a tenth of the time gone by
+constexpr double kProgressInterval_s = 0.1;
+constexpr std::int64_t kRowInterval_nodes = 1000;
+
+std::string cost_text(std::optional<Cost> cost) {
+  return cost ? fmt::format("{}", *cost) : "-";
+}
+
+std::string memory_text() {
+  return fmt::format("{} MB", resident_bytes() / 1'000'000);
+}
+
+// The rarer the event, the more telling.
+char letter_of(RunEvent event) {
+  switch (event) {
+    case RunEvent::kIncumbent:
+      return '*';
+    case RunEvent::kBound:
+      return 'B';
+    case RunEvent::kTree:
+      return 'T';
+    case RunEvent::kProgress:
+    case RunEvent::kEnd:
+      break;
+  }
+  return ' ';
+}
+
+int telling(char letter) {
+  return static_cast<int>(std::string_view(" TB*").find(letter));
+}
+
+}  // namespace
+
+LogSink::LogSink(bool to_stdout, const std::filesystem::path& file)
+    : to_stdout_(to_stdout), shows_progress_(to_stdout && ::isatty(STDOUT_FILENO) == 1) {
+  if (file.empty()) return;
+  file_.reset(std::fopen(file.c_str(), "w"));
+  if (!file_)
+    throw InputError(file.string(), "",
+                     fmt::format("cannot write the log: {}", std::strerror(errno)));
+}
+
+void LogSink::line(std::string_view text) {
+  if (to_stdout_) {
+    erase_progress();
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+  }
+  if (file_) {
+    fmt::print(file_.get(), "{}\n", text);
+    std::fflush(file_.get());
+  }
+}
+
+void LogSink::progress(std::string_view text) {
+  if (!shows_progress_) return;
+  erase_progress();
+  fmt::print("{}", text);
+  std::fflush(stdout);
+  progress_shown_ = true;
+}
+
+void LogSink::erase_progress() {
+  if (progress_shown_) fmt::print("\r\033[K");
+  progress_shown_ = false;
+}
+
+RunLog::RunLog(LogSink& sink, Clock::time_point start, double time_limit_s, bool by_work)
+    : sink_(sink), start_(start), time_limit_s_(time_limit_s), by_work_(by_work) {}
+
+double RunLog::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void RunLog::on_event(RunEvent event, const Progress& progress) {
+  if (telling(letter_of(event)) > telling(letter_)) letter_ = letter_of(event);
+  if (event == RunEvent::kIncumbent || event == RunEvent::kEnd || row_is_due(progress))
+    return row(progress);
+  if (sink_.shows_progress() && event == RunEvent::kProgress) show_progress(progress);
+}
+
+bool RunLog::row_is_due(const Progress& progress) const {
+  if (rows_ == 0) return true;
+  if (by_work_)
+    return progress.nodes_expanded - last_row_nodes_ >=
+           std::max(kRowInterval_nodes, last_row_nodes_ / 10);
+  return seconds() - last_row_s_ >= std::max(kRowInterval_s, last_row_s_ / 10);
+}
+
+void RunLog::row(const Progress& p) {
+  if (rows_++ % kRowsPerHeader == 0)
+    sink_.line(
+        "     expanded       open    trees   lower bound     incumbent       gap    memory      "
+        "time");
+  sink_.line(fmt::format("{:1} {:>11} {:>10} {:>8} {:>13} {:>13} {:>9} {:>9} {:>8.2f}s", letter_,
+                         p.nodes_expanded, p.nodes_open, p.trees, p.lower_bound,
+                         cost_text(p.incumbent), gap_text(p.incumbent, p.lower_bound),
+                         memory_text(), seconds()));
+  letter_ = ' ';
+  last_row_s_ = seconds();
+  last_row_nodes_ = p.nodes_expanded;
+}
+
+void RunLog::show_progress(const Progress& p) {
+  const double now = seconds();
+  if (now - last_progress_s_ < kProgressInterval_s) return;
+  last_progress_s_ = now;
+  sink_.progress(
+      fmt::format("  {:.1f} of {:g} s: {} nodes, {} trees, lower bound {}, incumbent {}, gap {}",
+                  now, time_limit_s_, p.nodes_expanded, p.trees, p.lower_bound,
+                  cost_text(p.incumbent), gap_text(p.incumbent, p.lower_bound)));
+}
+
+void RunLog::on_infeasible(std::string_view reason) {
+  sink_.line(fmt::format("There is no plan: {}.", reason));
+}
+
+void RunLog::finish(const Solution& solution, const std::filesystem::path& plan_path) {
+  const auto text = [&](const char* key) {
+    const auto it = solution.stats.texts.find(key);
+    return it == solution.stats.texts.end() ? std::string() : it->second;
+  };
+  const auto cost = solution.plan ? std::optional(solution.plan->cost) : std::nullopt;
+  const std::string stopped = text("stopped_by");
+
+  sink_.line();
+  sink_.line(fmt::format("Status        {}{}", to_string(solution.status),
+                         stopped.empty() ? "" : fmt::format(" (stopped by: {})", stopped)));
+  if (cost) sink_.line(fmt::format("Cost          {}", *cost));
+  if (solution.status != Status::kInfeasible)
+    sink_.line(fmt::format("Lower bound   {}", solution.lower_bound));
+  if (cost)
+    sink_.line(fmt::format("Gap           {} (omega asks for {})",
+                           gap_text(cost, solution.lower_bound),
+                           solution.omega.is_infinite()
+                               ? "any plan"
+                               : fmt::format("at most {:g} %", 100 * solution.omega.value())));
+  sink_.line(fmt::format("Time          {:.2f} s", seconds()));
+  sink_.line(fmt::format("Plan file     {}", plan_path.string()));
+}
+
+}  // namespace grove

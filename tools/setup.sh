@@ -1,0 +1,61 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: MIT
+# Sourced by tools/quickstart and tools/test: makes sure that the packages of tools/packages are
+# installed, and builds presets quietly.
+
+say() { printf '\n== %s\n' "$*"; }
+
+# Runs a command; shows what it printed only if it fails.
+quietly() {
+  local log status=0
+  log=$(mktemp)
+  "$@" >"$log" 2>&1 || status=$?
+  [ "$status" -eq 0 ] || cat "$log" >&2
+  rm -f "$log"
+  return "$status"
+}
+
+# The packages of tools/packages that are not installed, in one array `missing`.
+find_missing_packages() {
+  local package
+  missing=()
+  while read -r package _; do
+    case $package in "#" | "") continue ;; esac
+    dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
+      missing+=("$package")
+  done <tools/packages
+}
+
+# Installs `missing`; the arguments are what to put before apt-get.
+install_missing() {
+  local apt=("$@" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=120)
+  quietly "${apt[@]}" update &&
+    quietly "${apt[@]}" install -y --no-install-recommends "${missing[@]}"
+}
+
+# Installs what is missing if this user may; else says what to do and exits with 2.
+ensure_packages() {
+  local missing
+  find_missing_packages
+  [ "${#missing[@]}" -gt 0 ] || return 0
+  if [ "$(id -u)" -eq 0 ]; then
+    say "Installing Debian packages: ${missing[*]}"
+    install_missing || exit 1
+  elif sudo -n true 2>/dev/null; then
+    say "Installing Debian packages: ${missing[*]}"
+    install_missing sudo -n || exit 1
+  else
+    echo "These packages are missing, and this user may not install them. Run:" >&2
+    echo "  sudo apt-get install -y --no-install-recommends ${missing[*]}" >&2
+    exit 2
+  fi
+}
+
+# build PRESET [CMake option]...
+build() {
+  local preset=$1
+  shift
+  say "Building $preset (its output is shown only if it fails)"
+  quietly cmake --preset "$preset" "$@" || return
+  quietly cmake --build --preset "$preset"
+}

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// grove solve: files in, log and plan file out.
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "commands.h"
+#include "grove/engine/solve.h"
+#include "grove/io/atomic_file.h"
+#include "grove/io/plan_file.h"
+#include "instance_arguments.h"
+#include "options.h"
+#include "run_log.h"
+#include "version.h"
+
+namespace grove {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kFooter =
+    "The plan file says how the run ended: optimal, bounded (within omega), feasible (a plan "
+    "outside\n"
+    "omega), unknown (no plan when a limit struck) or infeasible (proven). Its lower_bound is "
+    "proven\n"
+    "whatever the status. Ctrl-C and SIGTERM end the run like a time limit: with the best plan so "
+    "far.\n"
+    "\n"
+    "Examples:\n"
+    "  grove solve benchmarks/data/first.cts.json\n"
+    "  grove solve INSTANCE.cts.json --omega 0 --time-limit 60 --output plan.json\n"
+    "  grove solve room-32-32-4-random-1.scen --map room-32-32-4.map --agents 20";
+
+std::atomic<bool> interrupted{false};
+
+extern "C" void on_signal(int) {
+  interrupted = true;
+}
+
+// The first Ctrl-C or SIGTERM ends the search; a second one has its usual effect.
+void stop_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+double physical_memory_gb() {
+  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e9;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
+}
+
+struct SolveArguments {
+  InstanceArguments instance;
+  std::string omega = "0.01";
+  double time_limit_s = 180;
+  double memory_limit_gb = std::floor(8 * physical_memory_gb()) / 10;
+  std::int64_t threads = std::max(1u, std::thread::hardware_concurrency());
+  std::string policy = "auto";
+  std::string rtsp = "auto";
+  std::int64_t seed = 0;
+  bool deterministic = false;
+  std::filesystem::path output;
+  std::filesystem::path log;
+  bool quiet = false;
+};
+
+const std::map<std::string, Policy> kPolicies{{"auto", Policy::kAuto}, {"fixed", Policy::kFixed}};
+const std::map<std::string, RtspBackend> kBackends{
+    {"auto", RtspBackend::kAuto}, {"dp", RtspBackend::kAuto}, {"cbc", RtspBackend::kCbc}};
+
+std::string check_omega(const std::string& text) {
+  try {
+    Omega::parse(text);
+    return {};
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+// A value must be one of the table's keys.
+template <typename Value>
+CLI::Validator one_of(const std::map<std::string, Value>& table) {
+  return CLI::Validator(
+      [&table](const std::string& text) {
+        if (table.contains(text)) return std::string();
+        std::string names;
+        for (const auto& [name, value] : table) names += (names.empty() ? "" : ", ") + name;
+        return fmt::format("found '{}'; expected one of {}", text, names);
+      },
+      "");
+}
+
+// The option table of grove solve: names, ranges, defaults and the texts of the help, once.
+void add_options(CLI::App& app, SolveArguments& a) {
+  a.instance.add_to(app);
+  app.add_option(
+         "--omega", a.omega,
+         "how far from optimal the plan may be: cost <= (1 + W) * lower bound. 0 asks for an "
+         "optimal plan, inf for any plan of the first tree")
+      ->type_name("W|inf")
+      ->check(CLI::Validator(check_omega, ""))
+      ->capture_default_str();
+  add_number(app, "--time-limit", a.time_limit_s, 0, 1e9,
+             "stop after so many seconds with what there is")
+      ->type_name("S");
+  add_number(app, "--memory-limit", a.memory_limit_gb, 0, 1e6,
+             "stop when the process holds so many gigabytes; by default 80 % of the machine's")
+      ->type_name("GB");
+  add_integer(app, "--threads", a.threads, {1, 4096},
+              "use at most so many threads; the search of this version runs on one")
+      ->type_name("T");
+  app.add_option(
+         "--policy", a.policy,
+         "what a tree of the forest fixes: a complete task sequence for every agent (fixed: the "
+         "paper's CTS-CBS), or Grove's choice (auto: today the same)")
+      ->type_name("auto|fixed")
+      ->check(one_of(kPolicies))
+      ->capture_default_str();
+  app.add_option(
+         "--rtsp", a.rtsp,
+         "what solves the sequencing problems: dynamic programming (dp), the integer programs of "
+         "CBC (cbc: slow, a cross-check), or Grove's choice (auto: dp)")
+      ->type_name("auto|dp|cbc")
+      ->check(one_of(kBackends))
+      ->capture_default_str();
+  add_integer(app, "--seed", a.seed, kSeeds,
+              "breaks ties among conflicts: another seed, another run");
+  app.add_flag(
+      "--deterministic", a.deterministic,
+      "log by nodes expanded, not by the clock: two runs that no limit stops then log the same, "
+      "times and memory aside");
+  app.add_option("--output", a.output,
+                 "the plan file; by default the instance's name with .plan.json, in this directory")
+      ->type_name("PLAN");
+  app.add_option("--log", a.log, "write the log to this file too")->type_name("FILE");
+  app.add_flag("--quiet", a.quiet, "no log on the screen");
+}
+
+std::string machine_text() {
+  utsname name{};
+  ::uname(&name);
+  return fmt::format("{} {} {}, {} cores, {:.1f} GB", name.nodename, name.sysname, name.machine,
+                     std::thread::hardware_concurrency(), physical_memory_gb());
+}
+
+std::string options_text(const CLI::App& app) {
+  std::string text;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || option->get_positional() || option->get_name() == "--help")
+      continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", option->get_name(),
+                        fmt::join(option->results(), " "));
+  }
+  return text.empty() ? "all defaults" : text;
+}
+
+void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& a,
+              const LoadedInstance& loaded) {
+  const Instance& instance = loaded.instance;
+  sink.line(fmt::format("{} on {}", version_text(), machine_text()));
+  sink.line(fmt::format("Instance      {}: {} agents, {} tasks", a.instance.path(),
+                        instance.agent_count(), instance.task_count()));
+  sink.line(fmt::format("Map           {}: {} x {}, {} passable cells", loaded.map_path.string(),
+                        instance.grid().width(), instance.grid().height(),
+                        instance.grid().passable_count()));
+  sink.line(fmt::format("Options       {}", options_text(app)));
+  sink.line();
+  sink.line("First column: * better plan, B higher bound, T new tree.");
+  sink.line("gap = (incumbent - lower bound) / lower bound, so it compares with omega directly.");
+  sink.line();
+}
+
+std::filesystem::path default_output(const std::filesystem::path& instance) {
+  std::string name = instance.filename().string();
+  for (const char* suffix : {".cts.json", ".json", ".scen"})
+    if (name.ends_with(suffix)) {
+      name.resize(name.size() - std::string_view(suffix).size());
+      break;
+    }
+  return name + ".plan.json";
+}
+
+void set_limits(Limits& limits, const SolveArguments& a, Clock::time_point start) {
+  limits.set_deadline(start + std::chrono::duration_cast<Clock::duration>(
+                                  std::chrono::duration<double>(a.time_limit_s)));
+  limits.set_memory_limit(static_cast<std::size_t>(a.memory_limit_gb * 1e9));
+  limits.watch_interrupt(&interrupted);
+}
+
+void add_run_facts(Solution& solution, const SolveArguments& a, Clock::time_point start) {
+  solution.stats.measures["wall_s"] = std::chrono::duration<double>(Clock::now() - start).count();
+  solution.stats.measures["peak_memory_mb"] = peak_memory_mb();
+  solution.stats.counts["seed"] = a.seed;
+  solution.stats.texts["policy"] = "fixed";
+  solution.stats.texts["version"] = version_text();
+}
+
+void run_solve(const CLI::App& app, SolveArguments& a) {
+  const Clock::time_point start = Clock::now();
+  stop_on_signals();
+  if (a.output.empty()) a.output = default_output(a.instance.path());
+  require_writable(a.output);
+  const LoadedInstance loaded = a.instance.load();
+  LogSink sink(!a.quiet, a.log);
+  log_head(sink, app, a, loaded);
+
+  Limits limits;
+  set_limits(limits, a, start);
+  const SolveOptions options{Omega::parse(a.omega), kPolicies.at(a.policy), kBackends.at(a.rtsp),
+                             static_cast<std::uint64_t>(a.seed)};
+  RunLog log(sink, start, a.time_limit_s, a.deterministic);
+  Solution solution = solve(loaded.instance, options, limits, &log);
+
+  add_run_facts(solution, a, start);
+  write_solution(a.output, loaded.instance, solution);
+  log.finish(solution, a.output);
+}
+
+}  // namespace
+
+void add_solve_command(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
+  app->footer(kFooter);
+  const auto arguments = std::make_shared<SolveArguments>();
+  add_options(*app, *arguments);
+  app->callback([app, arguments] { run_solve(*app, *arguments); });
+}
+
+}  // namespace grove
