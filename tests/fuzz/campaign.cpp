@@ -40,18 +40,25 @@ void Tally::add(const FuzzCase& fuzz_case, const CaseResult& result) {
   }
   ++(result.complaints.empty() ? passed : failed);
   infeasible += !result.solvable;
-  unsolved += result.solvable && result.stopped && fuzz_case.strike == Strike::kNothing;
+  if (result.solvable && fuzz_case.strike == Strike::kNothing) {
+    ++unstopped;
+    unsolved += result.stopped;
+  }
   ++by_status[std::string(to_string(result.status))];
   ++by_omega[fuzz_case.options.omega.to_string()];
   ++by_kind[kind_of(fuzz_case.instance)];
 }
 
+double Tally::unsolved_percent() const {
+  return unstopped == 0 ? 0 : 100 * static_cast<double>(unsolved) / static_cast<double>(unstopped);
+}
+
 std::string Tally::summary() const {
   return fmt::format(
-      "kinds:  {}\nomega:  {}\nstatus: {}\nwithout a plan {}, not solved in time {}, "
+      "kinds:  {}\nomega:  {}\nstatus: {}\nwithout a plan {}, not solved in time {} of {}, "
       "too large for the oracle {}\n{} passed, {} failed\n",
-      counts(by_kind), counts(by_omega), counts(by_status), infeasible, unsolved, too_large, passed,
-      failed);
+      counts(by_kind), counts(by_omega), counts(by_status), infeasible, unsolved, unstopped,
+      too_large, passed, failed);
 }
 
 std::string Failure::report() const {

@@ -19,12 +19,16 @@ struct Tally {
   std::int64_t failed = 0;
   std::int64_t too_large = 0;   // skipped: the oracle gave up
   std::int64_t infeasible = 0;  // no plan exists
-  std::int64_t unsolved = 0;    // a plan exists, but only the generous deadline ended the search
+  std::int64_t unstopped = 0;   // a plan exists, and nothing was meant to stop the search ...
+  std::int64_t unsolved = 0;    // ... but its patience did
   std::map<std::string, std::int64_t> by_status;
   std::map<std::string, std::int64_t> by_omega;
   std::map<std::string, std::int64_t> by_kind;  // CTS, MG, mixed
 
   void add(const FuzzCase& fuzz_case, const CaseResult& result);
+  // Of the unstopped cases. Being slow is no wrong claim; being slow often means a search that goes
+  // in circles.
+  double unsolved_percent() const;
   std::string summary() const;
 };
 

@@ -53,7 +53,7 @@ std::optional<Failure> run_files(const std::vector<std::string>& paths,
   return std::nullopt;
 }
 
-int run(const std::vector<std::string>& paths, const Campaign& campaign) {
+int run(const std::vector<std::string>& paths, const Campaign& campaign, double max_unsolved) {
   const auto begin = std::chrono::steady_clock::now();
   Tally tally;
   const auto failure = paths.empty() ? run_campaign(campaign, solve_watched, tally)
@@ -61,7 +61,9 @@ int run(const std::vector<std::string>& paths, const Campaign& campaign) {
   if (failure) fmt::print("{}\n", failure->report());
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   fmt::print("{:.1f} s\n{}", seconds.count(), tally.summary());
-  return failure ? kWrong : 0;
+  const bool slow = tally.unsolved_percent() > max_unsolved;
+  if (slow) fmt::print("more than {} % not solved in time\n", max_unsolved);
+  return failure || slow ? kWrong : 0;
 }
 
 int main_of(int argc, char** argv) {
@@ -74,12 +76,15 @@ int main_of(int argc, char** argv) {
   double patience = 2;
   app.add_option("--patience", patience, "seconds for a run that no other limit stops")
       ->capture_default_str();
+  double max_unsolved = 100;
+  app.add_option("--max-unsolved", max_unsolved, "fail if more percent of them take longer")
+      ->capture_default_str();
   app.add_option("--trace", campaign.trace, "write each case here before it runs");
   app.add_option("--case", paths, "run these files instead")->check(CLI::ExistingFile);
   try {
     app.parse(argc, argv);
     campaign.patience = std::chrono::milliseconds(std::llround(patience * 1000));
-    return run(paths, campaign);
+    return run(paths, campaign, max_unsolved);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadUsage;
   } catch (const std::invalid_argument& error) {

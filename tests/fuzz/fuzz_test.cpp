@@ -159,6 +159,21 @@ TEST(Fuzz, CatchesExceptionsDeafnessAndWhims) {
               Contains(HasSubstr("differently the second time")));
 }
 
+TEST(Fuzz, CountsWhoRunsOutOfPatience) {
+  const Solver slow = [](const Instance&, const SolveOptions& options, const Limits& limits) {
+    while (!limits.stop_requested()) std::this_thread::yield();
+    Solution solution;
+    solution.omega = options.omega;
+    return solution;
+  };
+  Tally tally;
+  const auto failure =
+      run_campaign({.count = 40, .patience = std::chrono::milliseconds(10)}, slow, tally);
+  EXPECT_FALSE(failure) << failure->report();
+  EXPECT_GT(tally.unstopped, 20);
+  EXPECT_EQ(tally.unsolved_percent(), 100);
+}
+
 TEST(Shrink, ReachesTheCoreOfALie) {
   // Wrong where an MG agent has a task on another's destination (and one more, to finish on).
   const Solver solver = liar([](const Instance& instance, Solution& s) {
