@@ -23,6 +23,8 @@
 // driver (CbcMain) would install signal handlers and print.
 #include <CbcEventHandler.hpp>
 #include <CbcModel.hpp>
+#include <ClpEventHandler.hpp>
+#include <ClpSimplex.hpp>
 #include <CoinPackedMatrix.hpp>
 #include <OsiClpSolverInterface.hpp>
 #include <chrono>
@@ -60,13 +62,28 @@ class SolverTurn {
   std::unique_lock<std::mutex> lock_;
 };
 
-class StopAtLimit : public CbcEventHandler {
+// Stops the tree search between nodes,
+class StopTree : public CbcEventHandler {
  public:
-  explicit StopAtLimit(const Limits& limits) : limits_(&limits) {}
+  explicit StopTree(const Limits& limits) : limits_(&limits) {}
   CbcAction event(CbcEvent) override { return limits_->stop_requested() ? stop : noAction; }
-  CbcEventHandler* clone() const override { return new StopAtLimit(*this); }
+  CbcEventHandler* clone() const override { return new StopTree(*this); }
 
  private:
+  const Limits* limits_;
+};
+
+// and a linear program between iterations. What CBC makes of such a stop does not matter: nothing
+// it says after a limit struck is believed.
+class StopLinear : public ClpEventHandler {
+ public:
+  explicit StopLinear(const Limits& limits) : limits_(&limits) {}
+  int event(Event) override { return limits_->stop_requested() ? kStoppedByEvent : kGoOn; }
+  ClpEventHandler* clone() const override { return new StopLinear(*this); }
+
+ private:
+  static constexpr int kGoOn = -1;
+  static constexpr int kStoppedByEvent = 5;
   const Limits* limits_;
 };
 
@@ -100,8 +117,9 @@ class PathProgram {
       : matrix_(matrix), limits_(limits), places_(matrix.stops() + 1) {
     solver_.messageHandler()->setLogLevel(0);
     solver_.setHintParam(OsiDoReducePrint, true);
-    add_legs();
-    forbid_pairs();
+    StopLinear handler(limits_);
+    solver_.getModelPtr()->passInEventHandler(&handler);
+    load();
   }
 
   Outcome solve() {
@@ -109,7 +127,7 @@ class PathProgram {
     while (!stopped() && solver_.isProvenOptimal() && cut_off_cycles(solver_.getColSolution()))
       solver_.resolve();
     if (!stopped() && solver_.isProvenPrimalInfeasible()) return Outcome::kInfeasible;
-    for (const std::size_t i : legs_by_index()) solver_.setInteger(static_cast<int>(i));
+    for (int leg = 0; leg < std::ssize(legs_); ++leg) solver_.setInteger(leg);
     Outcome outcome = Outcome::kOptimal;
     do {
       outcome = branch_and_bound();
@@ -147,33 +165,34 @@ class PathProgram {
   int outside() const { return places_ - 1; }
   bool stopped() const { return limits_.stop_requested(); }
 
-  void add_legs() {
-    std::vector<double> cost;
-    CoinPackedMatrix degrees(true, 0, 0);
-    degrees.setDimensions(2 * places_, 0);
+  // One column for each leg: a 1 in the row of leaving its place, in that of entering its place,
+  // and in that of its pair of stops.
+  void load() {
+    std::vector<int> rows;
+    std::vector<int> columns;
+    std::vector<double> costs;
+    const auto add_one = [&](int row) {
+      rows.push_back(row);
+      columns.push_back(static_cast<int>(legs_.size()));
+    };
     for (int i = 0; i < places_; ++i)
       for (int j = 0; j < places_; ++j) {
         if (i == j || matrix_.between(i, j) >= kNever) continue;
+        add_one(i);
+        add_one(places_ + j);
+        if (i != outside() && j != outside())
+          add_one(2 * places_ + std::max(i, j) * (std::max(i, j) - 1) / 2 + std::min(i, j));
         legs_.emplace_back(i, j);
-        cost.push_back(matrix_.between(i, j));
-        const int rows[] = {i, places_ + j};
-        const double ones[] = {1, 1};
-        degrees.appendCol(2, rows, ones);
+        costs.push_back(matrix_.between(i, j));
       }
-    const std::vector<double> zero(legs_.size(), 0.0);
-    const std::vector<double> one(std::max<std::size_t>(legs_.size(), 2 * places_), 1.0);
-    solver_.loadProblem(degrees, zero.data(), one.data(), cost.data(), one.data(), one.data());
-  }
-
-  std::vector<std::size_t> legs_by_index() const {
-    std::vector<std::size_t> indices(legs_.size());
-    std::iota(indices.begin(), indices.end(), 0);
-    return indices;
-  }
-
-  void forbid_pairs() {
-    for (int i = 0; i < outside(); ++i)
-      for (int j = i + 1; j < outside(); ++j) forbid_cycle(bit(i) | bit(j));
+    const std::vector<double> ones(std::max<std::size_t>(rows.size(), places_ * places_), 1.0);
+    const std::vector<double> zeros(legs_.size(), 0.0);
+    std::vector<double> least(2 * places_ + outside() * (outside() - 1) / 2, 0.0);
+    std::fill_n(least.begin(), 2 * places_, 1.0);
+    CoinPackedMatrix matrix(true, rows.data(), columns.data(), ones.data(),
+                            static_cast<CoinBigIndex>(rows.size()));
+    matrix.setDimensions(static_cast<int>(least.size()), static_cast<int>(legs_.size()));
+    solver_.loadProblem(matrix, zeros.data(), ones.data(), costs.data(), least.data(), ones.data());
   }
 
   void forbid_cycle(StopSet stops) {
@@ -216,7 +235,7 @@ class PathProgram {
     model.setAllowableGap(0);
     model.setAllowableFractionGap(0);
     model.setNumberThreads(0);  // in the caller's thread
-    StopAtLimit handler(limits_);
+    StopTree handler(limits_);
     model.passInEventHandler(&handler);
     if (limits_.seconds_left() < 1e6) model.setMaximumSeconds(limits_.seconds_left());
     model.branchAndBound();
@@ -270,9 +289,7 @@ class CbcRtsp : public RtspSolver {
     return remember(work, std::move(sequence));
   }
 
-  Sequence best_sequence(const SequenceClass& work) override {
-    return solved_.at(key(work));
-  }
+  Sequence best_sequence(const SequenceClass& work) override { return solved_.at(key(work)); }
 
   Time root_bound() const override { return root_bound_; }
 

@@ -181,6 +181,8 @@ void PathRelaxation::climb() {
       best = bound;
       best_potential = potential_;
     }
+    if (std::ranges::all_of(degree, [](int d) { return d == 2; }))
+      break;  // a path: nothing to gain
     for (int i = 0; i < stops_; ++i) {
       const double direction = 0.7 * (degree[i] - 2) + 0.3 * (last_degree[i] - 2);
       const std::int64_t moved = potential_[i] + std::llround(step * direction);

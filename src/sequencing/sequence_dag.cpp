@@ -30,7 +30,8 @@
 namespace grove {
 namespace {
 
-constexpr std::size_t kPollInterval = 32;  // sets; each takes a few microseconds
+constexpr std::size_t kPollInterval = 32;     // sets; each takes a few microseconds
+constexpr std::size_t kCountedExcess = 4096;  // costs this far above the reach are not counted
 
 // The parity of every complete sequence, or -1 when they need not share one.
 int common_parity(const CostMatrix& matrix) {
@@ -100,6 +101,7 @@ class SequenceDagBuilder {
       layer = end;
     }
     if (!settle_completions()) return std::nullopt;
+    dag_.next_reach_ = next_reach();
     return std::move(dag_);
   }
 
@@ -128,11 +130,28 @@ class SequenceDagBuilder {
     const Time rest = left == 0 ? matrix_.to_end(stop) : relaxation_.bound(group.tail, left, stop);
     const Time whole = round_up(add_costs(cost, rest));
     if (whole > reach_) {
-      dag_.beyond_ = std::min(dag_.beyond_, whole);
+      drop(whole);
       return;
     }
     group.node.at |= bit(stop);
     states_.push_back({number, cost, static_cast<Stop>(stop)});
+  }
+
+  void drop(Time whole) {
+    dag_.beyond_ = std::min(dag_.beyond_, whole);
+    const auto excess = static_cast<std::size_t>(whole - reach_ - 1);
+    if (excess >= kCountedExcess) return;
+    if (excess >= dropped_.size()) dropped_.resize(excess + 1, 0);
+    ++dropped_[excess];
+  }
+
+  // Where the states dropped would be half as many as those kept: what follows on them comes too.
+  Time next_reach() const {
+    std::size_t count = 0;
+    for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
+      if ((count += dropped_[excess]) >= dag_.completions_.size() / 2)
+        return reach_ + 1 + static_cast<Time>(excess);
+    return std::max(dag_.beyond_, reach_ + static_cast<Time>(dropped_.size()));
   }
 
   Time round_up(Time cost) const {
@@ -177,7 +196,16 @@ class SequenceDagBuilder {
     return true;
   }
 
-  bool may_go_on() const { return !limits_.stop_requested(); }
+  // Whatever grows next may double: asks for that much before it happens.
+  bool may_go_on() {
+    const std::size_t bytes = dag_.nodes_.capacity() * sizeof(SequenceDag::Node) +
+                              dag_.completions_.capacity() * sizeof(Time) + dag_.index_.bytes() +
+                              groups_.capacity() * sizeof(Group) +
+                              states_.capacity() * sizeof(State) + group_index_.bytes();
+    if (bytes != asked_bytes_ && !limits_.memory_allows(bytes)) limits_.memory_exhausted();
+    asked_bytes_ = bytes;
+    return !limits_.stop_requested();
+  }
 
   bool settle_completions() {
     for (std::size_t i = dag_.nodes_.size(); i-- > 0;) {
@@ -210,7 +238,9 @@ class SequenceDagBuilder {
   SequenceDag dag_{kNever};
   std::vector<Group> groups_;
   std::vector<State> states_;
+  std::vector<std::size_t> dropped_;  // by how much they exceed the reach, less 1
   StopSetIndex group_index_;
+  std::size_t asked_bytes_ = 0;
 };
 
 std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,

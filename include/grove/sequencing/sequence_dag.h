@@ -21,6 +21,7 @@ class StopSetIndex {
 
   StopSetIndex() : slots_(16) {}
   std::uint32_t find(StopSet set) const { return slots_[slot_of(set)].number; }
+  std::size_t bytes() const { return slots_.size() * sizeof(Slot); }
   // The number of `set`; if it had none, `number`, which it now has.
   std::uint32_t insert(StopSet set, std::uint32_t number);
 
@@ -42,7 +43,7 @@ class StopSetIndex {
 class SequenceDag {
  public:
   // No state at all; `beyond` must be a proven lower bound on every sequence.
-  explicit SequenceDag(Time beyond) : beyond_(beyond) {}
+  explicit SequenceDag(Time beyond) : beyond_(beyond), next_reach_(beyond) {}
 
   // With every sequence of cost <= reach. None when a limit struck.
   static std::optional<SequenceDag> build(const CostMatrix& matrix,
@@ -51,6 +52,10 @@ class SequenceDag {
 
   // Proven: a sequence with a state outside the graph costs at least this. kNever: no such one.
   Time beyond() const { return beyond_; }
+
+  // The reach to build with next, at least beyond(): lets in about as many states as there are, so
+  // that building again and again costs little more than the last build alone.
+  Time next_reach() const { return next_reach_; }
 
   // The least cost from `stop` through all of `left` to the end, over the ways inside the graph;
   // kNever when there is none, or the state is outside.
@@ -69,6 +74,7 @@ class SequenceDag {
   };
 
   Time beyond_ = 0;
+  Time next_reach_ = 0;
   std::vector<Node> nodes_;  // sets in descending order of size
   std::vector<Time> completions_;
   StopSetIndex index_;  // into nodes_

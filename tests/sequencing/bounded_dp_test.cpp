@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// The sequence graph: what it holds is exact, what it says about the rest is proven. Brute force
+// covers small n (rtsp_test.cpp); here are the relaxation state by state, the graph against
+// Held-Karp, and sizes that no table reaches.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+#include "brute_force.h"
+#include "grove/sequencing/k_best_sequences.h"
+#include "grove/sequencing/sequence_dag.h"
+#include "matrices.h"
+#include "src/sequencing/path_relaxation.h"
+
+namespace grove::testing {
+namespace {
+
+// The least cost from `at` through `left` to the end, by trying everything.
+Time cheapest_rest(const CostMatrix& matrix, StopSet left, int at) {
+  if (left == 0) return matrix.to_end(at);
+  Time best = kNever;
+  for_each_stop(left, [&](int next) {
+    best = std::min(
+        best, add_costs(matrix.between(at, next), cheapest_rest(matrix, left & ~bit(next), next)));
+  });
+  return best;
+}
+
+TEST(PathRelaxation, BoundsEveryState) {
+  Random random(31);
+  for (int round = 0; round < fuzz_rounds(15); ++round)
+    for (Variant variant : kVariants)
+      for (int n = 1; n <= 6; ++n)
+        for (const CostMatrix& matrix :
+             {grid_matrix(n, variant, random), metric_matrix(n, variant, random),
+              wild_matrix(n, variant, random)}) {
+          const PathRelaxation relaxation(matrix);
+          for (StopSet left = 1; left <= matrix.all(); ++left)
+            for (int at = 0; at <= n; ++at) {
+              if (at < n && (left & bit(at)) != 0) continue;
+              ASSERT_LE(relaxation.bound(relaxation.tail(left), left, at),
+                        cheapest_rest(matrix, left, at));
+            }
+        }
+}
+
+// Visits every sequence of the graph: calls visit(cost) for each complete one within `reach`.
+template <class Visit>
+void walk(const SequenceDag& dag, const CostMatrix& matrix, StopSet left, int at, Time cost,
+          Time reach, const Visit& visit) {
+  if (left == 0) {
+    if (cost + matrix.to_end(at) <= reach) visit(cost + matrix.to_end(at));
+    return;
+  }
+  for_each_stop(left, [&](int next) {
+    const Time rest = dag.completion(left & ~bit(next), next);
+    const Time here = add_costs(cost, matrix.between(at, next));
+    if (add_costs(here, rest) <= reach)
+      walk(dag, matrix, left & ~bit(next), next, here, reach, visit);
+  });
+}
+
+std::vector<Time> costs_within(const SequenceDag& dag, const CostMatrix& matrix, Time reach) {
+  std::vector<Time> costs;
+  walk(dag, matrix, matrix.all(), matrix.stops(), 0, reach,
+       [&](Time cost) { costs.push_back(cost); });
+  std::sort(costs.begin(), costs.end());
+  return costs;
+}
+
+TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
+  Random random(32);
+  const Limits limits;
+  for (int round = 0; round < fuzz_rounds(10); ++round)
+    for (Variant variant : kVariants)
+      for (int n = 1; n <= 7; ++n) {
+        const CostMatrix matrix =
+            round % 2 == 0 ? grid_matrix(n, variant, random) : metric_matrix(n, variant, random);
+        const std::vector<Time> all = all_costs(matrix, {});
+        if (all.empty()) continue;
+        const PathRelaxation relaxation(matrix);
+        for (Time slack : {-1, 0, 1, 5}) {
+          const Time reach = all.front() + slack;
+          const auto dag = SequenceDag::build(matrix, relaxation, reach, limits);
+          ASSERT_TRUE(dag);
+          ASSERT_GT(dag->beyond(), reach);
+          const Time below = dag->beyond() - 1;
+          const auto end = std::upper_bound(all.begin(), all.end(), below);
+          ASSERT_EQ(costs_within(*dag, matrix, below), std::vector(all.begin(), end));
+        }
+      }
+}
+
+TEST(SequenceDag, KnowsItsCostsToGoExactly) {
+  Random random(33);
+  const Limits limits;
+  const CostMatrix matrix = metric_matrix(7, Variant::kCts, random);
+  const auto dag = SequenceDag::build(matrix, PathRelaxation(matrix), kNever - 1, limits);
+  ASSERT_TRUE(dag);
+  EXPECT_EQ(dag->beyond(), kNever);  // nothing was dropped
+  for (StopSet left = 0; left < matrix.all(); ++left)
+    for_each_stop(matrix.all() & ~left, [&](int at) {
+      EXPECT_EQ(dag->completion(left, at), cheapest_rest(matrix, left, at));
+    });
+}
+
+class OnMaps : public ::testing::Test {
+ protected:
+  template <class Test>
+  void for_maps(int n, unsigned seed, const Test& test) {
+    Random random(seed);
+    for (const char* map : kMaps)
+      for (Variant variant : kVariants) {
+        const auto matrix = map_matrix(map, n, variant, random);
+        if (!matrix) GTEST_SKIP() << "no Moving AI maps here (set GROVE_MOVINGAI)";
+        SCOPED_TRACE(std::string(map) + ", n = " + std::to_string(n));
+        test(*matrix);
+      }
+  }
+
+  Limits limits_;
+};
+
+// A good sequence by moving stops about until that no longer helps: an upper bound.
+Time improved_cost(const CostMatrix& matrix, Sequence sequence) {
+  Time cost = sequence_cost(matrix, sequence);
+  for (bool better = true; better;) {
+    better = false;
+    for (std::size_t i = 0; i < sequence.size(); ++i)
+      for (std::size_t j = 0; j < sequence.size(); ++j) {
+        Sequence other = sequence;
+        const Stop stop = other[i];
+        other.erase(other.begin() + i);
+        other.insert(other.begin() + j, stop);
+        if (const Time moved = sequence_cost(matrix, other); moved < cost) {
+          cost = moved;
+          sequence = other;
+          better = true;
+        }
+      }
+  }
+  return cost;
+}
+
+TEST_F(OnMaps, AgreesWithTheTable) {
+  for (int n : {16, 19})
+    for_maps(n, 41, [&](const CostMatrix& matrix) {
+      const auto table = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits_);
+      const auto graph = make_rtsp_solver(RtspBackend::kBoundedDp, matrix, limits_);
+      const Time best = table->best({}, kNever).cost;
+      ASSERT_EQ(graph->best({}, kNever).cost, best);
+      const SequenceClass part{{3, 1, 4}, 0b100};
+      const RtspAnswer answer = graph->best(part, best + 4);
+      const Time exact = table->best(part, kNever).cost;
+      if (answer.kind == RtspAnswer::Kind::kExact)
+        ASSERT_EQ(answer.cost, exact);
+      else
+        ASSERT_TRUE(exact > best + 4 && answer.cost <= exact);
+    });
+}
+
+// Between bound and heuristic; the list that follows is in order and its sequences are real; and a
+// graph with two more steps of reach tells the same story.
+TEST_F(OnMaps, ServesThirtySixStops) {
+  for (int n : {24, 30, 36})
+    for_maps(n, 42, [&](const CostMatrix& matrix) {
+      KBestSequences list(make_rtsp_solver(RtspBackend::kBoundedDp, matrix, limits_), matrix,
+                          limits_);
+      const Time best = list.resolve(0, kNever);
+      ASSERT_TRUE(list.known(0));
+      ASSERT_GE(best, relaxation_bound(matrix));
+      Sequence any(n);
+      std::iota(any.begin(), any.end(), Stop{0});
+      for (const Sequence& from : {any, list.sequence(0)})
+        ASSERT_LE(best, improved_cost(matrix, from));
+      for (std::size_t rank = 0; rank < 100; ++rank) {
+        const Time cost = list.resolve(rank, kNever);
+        ASSERT_TRUE(is_complete(matrix, list.sequence(rank)));
+        ASSERT_EQ(sequence_cost(matrix, list.sequence(rank)), cost);
+      }
+      const PathRelaxation relaxation(matrix);
+      const auto narrow = SequenceDag::build(matrix, relaxation, best, limits_);
+      const auto wide = SequenceDag::build(matrix, relaxation, best + 2, limits_);
+      ASSERT_EQ(costs_within(*narrow, matrix, best), costs_within(*wide, matrix, best));
+      const std::vector<Time> costs = costs_within(*wide, matrix, best + 1);
+      for (std::size_t rank = 0; rank < std::min<std::size_t>(costs.size(), 100); ++rank)
+        ASSERT_EQ(costs[rank], list.cost_bound(rank));
+    });
+}
+
+// A planted optimum: stops along a line, in any order, are visited along the line.
+TEST(BoundedDp, FindsThePlantedOptimumOfSixtyFourStops) {
+  constexpr int kStops = 64;
+  Random random(43);
+  std::vector<Time> at(kStops);
+  for (int i = 0; i < kStops; ++i) at[i] = 1 + 3 * i;
+  std::shuffle(at.begin(), at.end(), random);
+  CostMatrix matrix{CostMatrix::Matrix(kStops + 1, kStops + 1)};
+  for (int i = 0; i <= kStops; ++i)
+    for (int j = 0; j <= kStops; ++j) {
+      const Time from = i == kStops ? 0 : at[i];
+      const Time to = j == kStops ? 200 : at[j];
+      matrix.cost(i, j) = std::abs(from - to);
+    }
+  const Limits limits;
+  KBestSequences list(make_rtsp_solver(RtspBackend::kBoundedDp, matrix, limits), matrix, limits);
+  EXPECT_EQ(list.resolve(0, kNever), 200);
+  EXPECT_EQ(list.resolve(1, kNever), 206);  // 63 ways to swap two neighbors
+  EXPECT_EQ(list.resolve(63, kNever), 206);
+  EXPECT_EQ(list.resolve(64, 206), list.cost_bound(64));
+  EXPECT_GT(list.cost_bound(64), 206);
+}
+
+}  // namespace
+}  // namespace grove::testing

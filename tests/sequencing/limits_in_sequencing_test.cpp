@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Limits: "stopped" is never a verdict, what is claimed meanwhile is proven, and nothing hangs.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "brute_force.h"
+#include "grove/sequencing/k_best_joint_sequences.h"
+#include "matrices.h"
+
+namespace grove::testing {
+namespace {
+
+using std::chrono::milliseconds;
+
+class LimitsInSequencing : public ::testing::TestWithParam<RtspBackend> {
+ protected:
+  void expect_stopped(const CostMatrix& matrix, const Limits& limits) {
+    const auto solver = make_rtsp_solver(GetParam(), matrix, limits);
+    const RtspAnswer answer = solver->best({}, kNever);
+    EXPECT_EQ(answer.kind, RtspAnswer::Kind::kStopped);
+    EXPECT_LE(answer.cost, all_costs(matrix, {}).front());
+    EXPECT_NE(limits.reason(), StopReason::kNone);
+  }
+};
+
+std::string name_of(const ::testing::TestParamInfo<RtspBackend>& info) {
+  const char* names[] = {"Auto", "HeldKarp", "BoundedDp", "Cbc"};
+  return names[static_cast<int>(info.param)];
+}
+
+TEST_P(LimitsInSequencing, AnExpiredDeadlineStops) {
+  Random random(51);
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now());
+  expect_stopped(metric_matrix(8, Variant::kCts, random), limits);
+}
+
+TEST_P(LimitsInSequencing, LittleMemoryStops) {
+  Random random(52);
+  Limits limits;
+  limits.set_memory_limit(1 << 20);
+  expect_stopped(metric_matrix(8, Variant::kCts, random), limits);
+}
+
+TEST_P(LimitsInSequencing, AnInterruptStops) {
+  Random random(53);
+  const std::atomic<bool> interrupted{true};
+  Limits limits;
+  limits.watch_interrupt(&interrupted);
+  expect_stopped(metric_matrix(8, Variant::kCts, random), limits);
+}
+
+// Far too much for every back end: points in clusters, with costs so fine that few are equal.
+CostMatrix clusters(int n, Random& random) {
+  std::vector<std::pair<Time, Time>> at;
+  for (int i = 0; i <= n; ++i)
+    at.emplace_back(100'000 * (i % 6) + static_cast<Time>(random() % 20'000),
+                    60'000 * (i % 3) + static_cast<Time>(random() % 20'000));
+  CostMatrix matrix{CostMatrix::Matrix::Zero(n + 1, n + 1)};
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j < n; ++j)
+      matrix.cost(i, j) =
+          static_cast<Time>(std::hypot(at[i].first - at[j].first, at[i].second - at[j].second));
+  return matrix;
+}
+
+TEST_P(LimitsInSequencing, StopsInTime) {
+  Random random(54);
+  const CostMatrix matrix = clusters(64, random);
+  Limits limits;
+  const auto begin = Limits::Clock::now();
+  limits.set_deadline(begin + milliseconds(300));
+  limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 30));
+  const auto solver = make_rtsp_solver(GetParam(), matrix, limits);
+  const RtspAnswer answer = solver->best({}, kNever);
+  EXPECT_LT(Limits::Clock::now() - begin, milliseconds(800));
+  EXPECT_EQ(answer.kind, RtspAnswer::Kind::kStopped);
+  EXPECT_GE(answer.cost, solver->root_bound());
+}
+
+TEST_P(LimitsInSequencing, AListKeepsWhatItHasAndBoundsTheRest) {
+  Random random(55);
+  const CostMatrix matrix = metric_matrix(7, Variant::kMg, random);
+  const std::vector<Time> costs = all_costs(matrix, {});
+  std::atomic<bool> interrupted{false};
+  Limits limits;
+  limits.watch_interrupt(&interrupted);
+  KBestSequences list(make_rtsp_solver(GetParam(), matrix, limits), matrix, limits);
+  EXPECT_EQ(list.resolve(2, kNever), costs[2]);
+  interrupted = true;
+  EXPECT_LE(list.resolve(50, kNever), costs[50]);
+  EXPECT_FALSE(list.known(50));
+  EXPECT_EQ(list.cost_bound(2), costs[2]);
+  EXPECT_EQ(sequence_cost(matrix, list.sequence(1)), costs[1]);
+}
+
+TEST_P(LimitsInSequencing, AJointListNeitherHangsNorClaimsTheEnd) {
+  Random random(56);
+  const CostMatrix one = metric_matrix(6, Variant::kCts, random);
+  const CostMatrix two = metric_matrix(5, Variant::kMg, random);
+  const Cost best = all_costs(one, {}).front() + all_costs(two, {}).front();
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now());
+  std::vector<KBestSequences> lists;
+  for (const CostMatrix* matrix : {&one, &two})
+    lists.emplace_back(make_rtsp_solver(GetParam(), *matrix, limits), *matrix, limits);
+  KBestJointSequences joint(std::move(lists), limits);
+  EXPECT_FALSE(joint.next());
+  EXPECT_LE(joint.lower_bound(), best);
+}
+
+INSTANTIATE_TEST_SUITE_P(, LimitsInSequencing,
+                         ::testing::Values(RtspBackend::kAuto, RtspBackend::kHeldKarp,
+                                           RtspBackend::kBoundedDp, RtspBackend::kCbc),
+                         name_of);
+
+// A table beyond any memory is refused, not attempted.
+TEST(HeldKarp, RefusesATableOfFortyStops) {
+  const CostMatrix matrix{CostMatrix::Matrix::Constant(41, 41, 3)};
+  const Limits limits;
+  const auto solver = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
+  EXPECT_EQ(solver->best({}, kNever).kind, RtspAnswer::Kind::kStopped);
+  EXPECT_EQ(limits.reason(), StopReason::kMemory);
+}
+
+TEST(Cbc, ServesThreadsOneAtATime) {
+  Random random(57);
+  const CostMatrix matrix = metric_matrix(6, Variant::kCts, random);
+  const Time best = all_costs(matrix, {}).front();
+  const Limits limits;
+  std::atomic<int> right{0};
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      const auto solver = make_rtsp_solver(RtspBackend::kCbc, matrix, limits);
+      right += solver->best({}, kNever).cost == best;
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(right, 4);
+}
+
+}  // namespace
+}  // namespace grove::testing

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "matrices.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <numeric>
+
+namespace grove::testing {
+namespace {
+
+int below(int bound, Random& random) {
+  return static_cast<int>(random() % bound);
+}
+
+Grid random_grid(int width, int height, Random& random) {
+  std::vector<bool> passable(width * height);
+  for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = below(5, random) != 0;
+  return {width, height, passable};
+}
+
+// The agent's start, its destination and its n tasks are distinct passable cells.
+Instance instance_on(const Grid& grid, int n, Variant variant, Random& random) {
+  std::vector<Cell> cells;
+  for (Cell cell = 0; cell < grid.cell_count(); ++cell)
+    if (grid.passable(cell)) cells.push_back(cell);
+  std::shuffle(cells.begin(), cells.end(), random);
+  InstanceBuilder builder(grid);
+  const std::string agent = "a";
+  builder.add_agent(
+      agent, grid.position(cells.at(0)),
+      variant == Variant::kMg ? std::nullopt : std::optional(grid.position(cells.at(1))));
+  for (int i = 0; i < n; ++i)
+    builder.add_task("t" + std::to_string(i), grid.position(cells.at(i + 2)), {&agent, 1});
+  return std::move(builder).build();
+}
+
+CostMatrix matrix_of(const Instance& instance) {
+  return cost_matrix(instance, 0, DistanceFields(instance));
+}
+
+std::string map_folder() {
+  const char* folder = std::getenv("GROVE_MOVINGAI");
+  return folder != nullptr ? folder : GROVE_MOVINGAI_DEFAULT;
+}
+
+std::optional<Grid> read_map(const std::string& name) {
+  std::ifstream file(map_folder() + "/" + name + ".map");
+  std::string word;
+  int width = 0;
+  int height = 0;
+  file >> word >> word >> word >> height >> word >> width >> word;
+  std::vector<bool> passable;
+  for (std::string row; file >> row;)
+    for (char c : row) passable.push_back(c == '.');
+  if (width == 0 || height == 0) return std::nullopt;
+  return Grid(width, height, passable);
+}
+
+}  // namespace
+
+Instance random_instance(int n, Variant variant, Random& random) {
+  while (true) {
+    const Grid grid = random_grid(5 + below(8, random), 4 + below(6, random), random);
+    if (grid.passable_count() >= n + 2) return instance_on(grid, n, variant, random);
+  }
+}
+
+CostMatrix grid_matrix(int n, Variant variant, Random& random) {
+  return matrix_of(random_instance(n, variant, random));
+}
+
+CostMatrix metric_matrix(int n, Variant variant, Random& random) {
+  const int places = n + 2;
+  CostMatrix::Matrix d(places, places);
+  for (int i = 0; i < places; ++i)
+    for (int j = 0; j <= i; ++j) d(i, j) = d(j, i) = i == j ? 0 : 1 + below(40, random);
+  for (int k = 0; k < places; ++k)
+    for (int i = 0; i < places; ++i)
+      for (int j = 0; j < places; ++j) d(i, j) = std::min(d(i, j), d(i, k) + d(k, j));
+  // Place n is the start, place n + 1 the end.
+  CostMatrix matrix{d.topLeftCorner(n + 1, n + 1)};
+  if (variant == Variant::kMg)
+    matrix.cost.col(n).setZero();
+  else
+    matrix.cost.col(n) = d.col(n + 1).head(n + 1);
+  return matrix;
+}
+
+CostMatrix wild_matrix(int n, Variant variant, Random& random) {
+  CostMatrix matrix{CostMatrix::Matrix(n + 1, n + 1)};
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j)
+      matrix.cost(i, j) = below(4, random) == 0 ? kNever : below(9, random);
+  if (variant == Variant::kMg) matrix.cost.col(n).setZero();
+  return matrix;
+}
+
+std::optional<CostMatrix> map_matrix(const std::string& map, int n, Variant variant,
+                                     Random& random) {
+  const std::optional<Grid> grid = read_map(map);
+  if (!grid) return std::nullopt;
+  return matrix_of(instance_on(*grid, n, variant, random));
+}
+
+SequenceClass random_class(int n, Random& random) {
+  Sequence order(n);
+  std::iota(order.begin(), order.end(), Stop{0});
+  std::shuffle(order.begin(), order.end(), random);
+  SequenceClass work;
+  work.prefix.assign(order.begin(), order.begin() + below(n + 1, random));
+  for (int stop = 0; stop < n; ++stop)
+    if (below(3, random) == 0) work.forbidden_next |= StopSet{1} << stop;
+  return work;
+}
+
+int fuzz_rounds(int rounds) {
+  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
+  return factor != nullptr ? rounds * std::max(1, std::atoi(factor)) : rounds;
+}
+
+}  // namespace grove::testing
