@@ -5,9 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <memory>
 
 #include "commands.h"
 #include "grove/io/input_error.h"
+#include "help_formatter.h"
 #include "version.h"
 
 namespace grove {
@@ -81,6 +83,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of write()
   CLI::App app(kDescription, "grove");
   app.footer(kFooter);
+  app.formatter(std::make_shared<HelpFormatter>());  // before the subcommands: they take it over
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   add_solve_command(app);

@@ -93,7 +93,8 @@ double RunLog::seconds() const {
 
 void RunLog::on_event(RunEvent event, const Progress& progress) {
   if (telling(letter_of(event)) > telling(letter_)) letter_ = letter_of(event);
-  if (event == RunEvent::kIncumbent || event == RunEvent::kEnd || row_is_due(progress))
+  const bool news = letter_ != ' ' || progress.nodes_expanded != last_row_nodes_;
+  if (event == RunEvent::kIncumbent || (event == RunEvent::kEnd && news) || row_is_due(progress))
     return row(progress);
   if (sink_.shows_progress() && event == RunEvent::kProgress) show_progress(progress);
 }

@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The option table of the README is the program's.
+
+    options_test.py README GROVE
+
+Every option of `grove solve --help` must stand in the table below "## Options of grove solve", and
+every option of that table in the help. Exit codes: 0 the same, 1 not, 77 no program to ask.
+"""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+OPTION = re.compile(r"--[a-z][a-z-]*")
+
+
+def documented(readme):
+    section = readme.split("## Options of grove solve", 1)[1].split("\n## ", 1)[0]
+    first_columns = [line.split("|")[1] for line in section.splitlines() if line.startswith("| `")]
+    return {option for column in first_columns for option in OPTION.findall(column)}
+
+
+def offered(help_text):
+    names = [line.split("  ")[1] for line in help_text.splitlines()
+             if re.match(r"  (-\w,)?--", line)]
+    return {option for name in names for option in OPTION.findall(name)} - {"--help"}
+
+
+def main():
+    readme, program = (Path(argument) for argument in sys.argv[1:])
+    if not program.exists():
+        print(f"skipped: there is no {program}")
+        return 77
+    help_text = subprocess.run([program, "solve", "--help"], capture_output=True, text=True,
+                               check=True).stdout
+    in_readme, in_help = documented(readme.read_text(encoding="utf-8")), offered(help_text)
+    assert in_help, "no option found in the help"
+    for option in sorted(in_help - in_readme):
+        print(f"FAILED: {option} is not in the README's table")
+    for option in sorted(in_readme - in_help):
+        print(f"FAILED: {option} of the README's table is no option of grove solve")
+    return 0 if in_help == in_readme else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace grove {
+
+// CLI11's help with descriptions wrapped, so that an 100-column terminal shows them whole.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override;
+};
+
+}  // namespace grove
