@@ -27,7 +27,7 @@ Omega Omega::parse(std::string_view text) {
   if (error != std::errc() || end != text.data() + text.size())
     throw std::invalid_argument(kExpected);
   const Omega omega = from_double(value);
-  if (std::abs(omega.value() - value) > 1e-12 * (1 + value)) throw std::invalid_argument(kExpected);
+  if (std::abs(omega.value() - value) > 1e-15 * value) throw std::invalid_argument(kExpected);
   return omega;
 }
 

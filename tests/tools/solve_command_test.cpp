@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "program.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+std::string data(const std::string& name) {
+  return std::string(GROVE_DATA) + "/" + name;
+}
+
+// Six agents in a room with too little space to get past each other: unsolvable in a way that
+// nothing sees beforehand, so a run ends only at a limit.
+constexpr const char* kPuzzleMap = "type octile\nheight 2\nwidth 4\nmap\n....\n@.@@\n";
+constexpr const char* kPuzzle = R"({"map": "puzzle.map", "agents": [
+  {"id": "a", "start": [0, 0], "goal": [3, 0]}, {"id": "b", "start": [1, 0], "goal": [1, 1]},
+  {"id": "c", "start": [2, 0], "goal": [0, 0]}, {"id": "d", "start": [3, 0], "goal": [2, 0]}], "tasks": []})";
+
+class SolveCommand : public testing::Test {
+ protected:
+  SolveCommand() {
+    directory_.write("puzzle.map", kPuzzleMap);
+    directory_.write("puzzle.json", kPuzzle);
+    options_.directory = directory_.path().string();
+  }
+
+  ProcessResult solve(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "solve");
+    return run_grove(arguments, options_);
+  }
+  json plan(const std::string& name) const {
+    std::ifstream file(directory_ / name);
+    return json::parse(file);
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(directory_ / name); }
+
+  TemporaryDirectory directory_;
+  ProcessOptions options_;
+};
+
+TEST_F(SolveCommand, WritesAPlanThatTheCheckerAccepts) {
+  for (const char* name : {"first", "empty-32x32_n5_m10", "random-32x32-20_n5_m10_mg"}) {
+    const std::string instance = data(std::string(name) + ".cts.json");
+    const ProcessResult solved = solve({instance, "--omega", "0"});
+    ASSERT_EQ(solved.exit_code, 0) << solved.err;
+    const std::string file = std::string(name) + ".plan.json";
+    EXPECT_EQ(plan(file)["status"], "optimal");
+    EXPECT_EQ(plan(file)["cost"], plan(file)["lower_bound"]);
+    const ProcessResult checked = run_grove({"check", instance, directory_ / file});
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  }
+}
+
+TEST_F(SolveCommand, SolvesTheFirstRowsOfAScenario) {
+  const ProcessResult solved = solve({data("empty-32x32.scen"), "--map", data("empty-32x32.map"),
+                                      "--agents", "10", "--output", "p.json"});
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_EQ(plan("p.json")["agents"].size(), 10u);
+}
+
+TEST_F(SolveCommand, LogsHeadTableAndSummary) {
+  const ProcessResult solved = solve({data("first.cts.json"), "--log", "run.log", "--seed", "4"});
+  EXPECT_EQ(solved.err, "");
+  for (const char* part :
+       {"grove 0.", "2 agents, 3 tasks", "9 x 5, 41 passable cells", "--seed 4",
+        "gap = (incumbent - lower bound) / lower bound", "lower bound     incumbent",
+        "Status        optimal", "Cost          33", "Plan file     first.plan.json"})
+    EXPECT_THAT(solved.out, HasSubstr(part));
+  std::ifstream file(directory_ / "run.log");
+  std::stringstream log;
+  log << file.rdbuf();
+  EXPECT_EQ(log.str(), solved.out);
+}
+
+TEST_F(SolveCommand, QuietSaysNothing) {
+  const ProcessResult solved = solve({data("first.cts.json"), "--quiet"});
+  EXPECT_EQ(solved.out + solved.err, "");
+  EXPECT_TRUE(exists("first.plan.json"));
+}
+
+TEST_F(SolveCommand, EveryBackendFindsTheSameOptimum) {
+  for (const char* backend : {"auto", "dp", "cbc"}) {
+    solve({data("first.cts.json"), "--omega", "0", "--rtsp", backend, "--output", "p.json"});
+    EXPECT_EQ(plan("p.json")["cost"], 33) << backend;
+  }
+}
+
+TEST_F(SolveCommand, EndsAtTheTimeLimitWithABound) {
+  const ProcessResult solved = solve({"puzzle.json", "--time-limit", "0.3", "--output", "p.json"});
+  EXPECT_EQ(solved.exit_code, 0);
+  EXPECT_THAT(solved.out, HasSubstr("unknown (stopped by: time limit)"));
+  const json result = plan("p.json");
+  EXPECT_EQ(result["status"], "unknown");
+  EXPECT_FALSE(result.contains("cost"));
+  EXPECT_FALSE(result.contains("agents"));
+  EXPECT_GT(result["lower_bound"], 0);
+  EXPECT_EQ(result["stats"]["stopped_by"], "time limit");
+}
+
+TEST_F(SolveCommand, EndsAtTheMemoryLimit) {
+  const ProcessResult solved =
+      solve({"puzzle.json", "--memory-limit", "0.03", "--time-limit", "30", "--output", "p.json"});
+  EXPECT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_EQ(plan("p.json")["stats"]["stopped_by"], "memory limit");
+  EXPECT_LT(plan("p.json")["stats"]["peak_memory_mb"], 60);
+}
+
+TEST_F(SolveCommand, SignalsEndARunCleanly) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    options_.signal = signal;
+    options_.signal_after = std::chrono::milliseconds(500);
+    const ProcessResult solved = solve({"puzzle.json", "--time-limit", "30", "--output", "p.json"});
+    EXPECT_EQ(solved.exit_code, 0) << solved.err;
+    EXPECT_FALSE(solved.timed_out);
+    EXPECT_EQ(plan("p.json")["stats"]["stopped_by"], "interrupt");
+    EXPECT_GT(plan("p.json")["lower_bound"], 0);
+    std::filesystem::remove(directory_ / "p.json");
+  }
+}
+
+TEST_F(SolveCommand, SaysWhyThereIsNoPlan) {
+  directory_.write("wall.map", "type octile\nheight 1\nwidth 3\nmap\n.@.\n");
+  directory_.write(
+      "wall.json",
+      R"({"map": "wall.map", "agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]}], "tasks": []})");
+  const ProcessResult solved = solve({"wall.json", "--output", "p.json"});
+  EXPECT_EQ(solved.exit_code, 0);
+  EXPECT_THAT(solved.out, HasSubstr("agent 'a' cannot reach cell [2, 0]"));
+  EXPECT_EQ(plan("p.json")["status"], "infeasible");
+}
+
+TEST_F(SolveCommand, WithInfiniteOmegaSaysSo) {
+  solve({data("first.cts.json"), "--omega", "inf", "--output", "p.json"});
+  EXPECT_EQ(plan("p.json")["omega"], "inf");
+  EXPECT_EQ(plan("p.json")["stats"]["roots_generated"], 1);
+}
+
+// The log without what must differ: times and memory.
+std::string timeless(const std::string& log) {
+  return std::regex_replace(log, std::regex(R"([0-9]+ MB +[0-9.]+s|[0-9.]+ s\n)"), "");
+}
+
+TEST_F(SolveCommand, DeterministicRunsLogAndPlanTheSame) {
+  std::vector<std::string> logs;
+  std::vector<json> agents;
+  for (int round = 0; round < 2; ++round) {
+    logs.push_back(timeless(solve({data("random-32x32-20_n10_m30.cts.json"), "--omega", "0",
+                                   "--deterministic", "--output", "p.json"})
+                                .out));
+    agents.push_back(plan("p.json")["agents"]);
+  }
+  EXPECT_EQ(logs[0], logs[1]);
+  EXPECT_GT(std::ranges::count(logs[0], '\n'), 18);
+  EXPECT_EQ(agents[0], agents[1]);
+}
+
+TEST_F(SolveCommand, FindsUnwritableFilesBeforeItSearches) {
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--output", "nowhere/p.json"})),
+              HasSubstr("nowhere"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--output", directory_.path().string()})),
+              HasSubstr("directory"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--log", "nowhere/run.log"})), HasSubstr("nowhere"));
+  EXPECT_FALSE(exists("puzzle.plan.json"));
+}
+
+TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--omega", "-1"})), HasSubstr("--omega"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--omega", "1%"})), HasSubstr("--omega"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--time-limit", "soon"})), HasSubstr("--time-limit"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--memory-limit", "-1"})),
+              HasSubstr("--memory-limit"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--threads", "0"})), HasSubstr("--threads"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--policy", "best"})), HasSubstr("auto, fixed"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "gurobi"})), HasSubstr("auto, cbc, dp"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--omgea", "0"})), HasSubstr("--omgea"));
+  EXPECT_THAT(complaint(solve({"missing.json"})), HasSubstr("missing.json"));
+  EXPECT_THAT(complaint(solve({data("empty-32x32.scen")})), HasSubstr("--map"));
+  EXPECT_THAT(complaint(solve(
+                  {data("empty-32x32.scen"), "--map", data("empty-32x32.map"), "--agents", "900"})),
+              HasSubstr("900"));
+}
+
+}  // namespace
+}  // namespace grove
