@@ -9,6 +9,8 @@ Every command in a ```console block (after "$ ") or a ```sh block that begins wi
 folder that holds a copy of DATA_DIR as benchmarks/data and BIN_DIR as build/release/bin.
 Exit codes: 0 all ran, 1 one did not, 77 nothing to run (no document or no program yet).
 """
+import contextlib
+import io
 import os
 import re
 import shutil
@@ -54,7 +56,7 @@ def self_test():
                 "```\ngrove not this\n```\n")
     assert commands(document) == ["grove solve a      --quiet",
                                   "build/release/bin/grove check a b"], commands(document)
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
         assert run("true", folder) and not run("exit 3", folder)
 
 
