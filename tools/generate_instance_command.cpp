@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "generate_commands.h"
+#include "grove/io/atomic_file.h"
 #include "grove/io/instance_file.h"
 #include "tools/generate/scenario_generator.h"
 
@@ -25,6 +26,7 @@ void run_scenario(const ScenarioArguments& arguments) {
   const Grid grid = load_map(arguments.map);
   const Scenario scenario =
       draw_scenario(arguments.map, grid, static_cast<int>(arguments.rows), arguments.seed);
+  require_distinct_files(arguments.output, arguments.map, "the map");
   write_scenario(arguments.output, scenario.rows, scenario_lengths(grid, scenario.rows));
   fmt::print("wrote {}: {} rows\n", arguments.output, scenario.rows.size());
 }
@@ -50,6 +52,8 @@ void run_instance(const NewInstanceArguments& arguments) {
           ? draw_scenario(arguments.map, grid, rows_needed(request), arguments.seed)
           : load_scenario(arguments.scenario, arguments.map, grid);
   const Instance instance = generate_instance(grid, scenario, request);
+  require_distinct_files(arguments.output, arguments.map, "the map");
+  require_distinct_files(arguments.output, arguments.scenario, "the scenario");
   write_instance(arguments.output, instance, map_as_seen_from(arguments.output, arguments.map));
   fmt::print("wrote {}: {} agents, {} tasks\n", arguments.output, instance.agent_count(),
              instance.task_count());

@@ -62,13 +62,19 @@ LogSink::LogSink(bool to_stdout, const std::filesystem::path& file)
 void LogSink::line(std::string_view text) {
   if (to_stdout_) {
     erase_progress();
-    fmt::print("{}\n", text);
-    std::fflush(stdout);
+    to_stdout_ = write(stdout, text, "standard output");
   }
-  if (file_) {
-    fmt::print(file_.get(), "{}\n", text);
-    std::fflush(file_.get());
-  }
+  if (file_ && !write(file_.get(), text, "the log file")) file_.reset();
+}
+
+// A log that cannot be written is given up with a word on stderr; the run goes on.
+bool LogSink::write(std::FILE* file, std::string_view text, const char* name) {
+  fmt::print(file, "{}\n", text);
+  if (std::fflush(file) == 0) return true;
+  fmt::print(stderr, "grove: warning: {} cannot be written ({}); the log ends here\n", name,
+             std::strerror(errno));
+  std::clearerr(file);
+  return false;
 }
 
 void LogSink::progress(std::string_view text) {
@@ -155,7 +161,7 @@ void RunLog::finish(const Solution& solution, const std::filesystem::path& plan_
                            solution.omega.is_infinite()
                                ? "any plan"
                                : fmt::format("at most {:g} %", 100 * solution.omega.value())));
-  sink_.line(fmt::format("Time          {:.2f} s", seconds()));
+  sink_.line(fmt::format("Time          {:.2f} s", solution.stats.measures.at("wall_s")));
   sink_.line(fmt::format("Plan file     {}", plan_path.string()));
 }
 

@@ -27,6 +27,7 @@ class LogSink {
   void progress(std::string_view text);
 
  private:
+  static bool write(std::FILE* file, std::string_view text, const char* name);
   void erase_progress();
 
   struct Close {

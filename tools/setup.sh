@@ -51,11 +51,7 @@ ensure_packages() {
   fi
 }
 
-# build PRESET [CMake option]...
-build() {
-  local preset=$1
-  shift
-  say "Building $preset (its output is shown only if it fails)"
-  quietly cmake --preset "$preset" "$@" || return
-  quietly cmake --build --preset "$preset"
+# configure PRESET [CMake option]...
+configure() {
+  quietly cmake --preset "$@"
 }

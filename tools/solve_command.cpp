@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // grove solve: files in, log and plan file out.
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -48,24 +48,21 @@ extern "C" void on_signal(int) {
   interrupted = true;
 }
 
-// The first Ctrl-C or SIGTERM ends the search; a second one has its usual effect.
+// The first Ctrl-C, SIGTERM or hang-up ends the search; a second one has its usual effect. A reader
+// of the log that goes away (`| head`) must not take the plan with it.
 void stop_on_signals() {
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  ::sigaction(SIGHUP, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 double physical_memory_gb() {
   return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
          static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e9;
-}
-
-double peak_memory_mb() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
 }
 
 struct SolveArguments {
@@ -92,7 +89,7 @@ std::string check_omega(const std::string& text) {
     Omega::parse(text);
     return {};
   } catch (const std::invalid_argument& error) {
-    return error.what();
+    return fmt::format("found '{}'; {}", text, error.what());
   }
 }
 
@@ -115,7 +112,7 @@ void add_options(CLI::App& app, SolveArguments& a) {
   app.add_option(
          "--omega", a.omega,
          "how far from optimal the plan may be: cost <= (1 + W) * lower bound. 0 asks for an "
-         "optimal plan, inf for any plan of the first tree")
+         "optimal plan, inf for any plan that the first joint task sequence allows")
       ->type_name("W|inf")
       ->check(CLI::Validator(check_omega, ""))
       ->capture_default_str();
@@ -162,41 +159,69 @@ std::string machine_text() {
                      std::thread::hardware_concurrency(), physical_memory_gb());
 }
 
+// What was asked for that is not the default, as one types it.
 std::string options_text(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
-    if (option->count() == 0 || option->get_positional() || option->get_name() == "--help")
-      continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", option->get_name(),
-                        fmt::join(option->results(), " "));
+    if (option->count() == 0 || option->get_positional()) continue;
+    const bool is_flag = option->get_expected_max() == 0;
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : " ", option->get_name(), is_flag ? "" : " ",
+                        is_flag ? "" : option->results().front());
   }
-  return text.empty() ? "all defaults" : text;
+  return text;
+}
+
+std::string count_text(int count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string agents_text(const Instance& instance) {
+  const auto free_ends =
+      std::ranges::count_if(instance.agents(), [](const Agent& agent) { return !agent.goal; });
+  return count_text(instance.agent_count(), "agent") +
+         (free_ends == 0 ? "" : fmt::format(" ({} without a goal)", free_ends));
 }
 
 void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& a,
               const LoadedInstance& loaded) {
   const Instance& instance = loaded.instance;
+  const std::string options = options_text(app);
   sink.line(fmt::format("{} on {}", version_text(), machine_text()));
-  sink.line(fmt::format("Instance      {}: {} agents, {} tasks", a.instance.path(),
-                        instance.agent_count(), instance.task_count()));
+  sink.line(fmt::format("Instance      {}: {}, {}", a.instance.path(), agents_text(instance),
+                        count_text(instance.task_count(), "task")));
   sink.line(fmt::format("Map           {}: {} x {}, {} passable cells", loaded.map_path.string(),
                         instance.grid().width(), instance.grid().height(),
                         instance.grid().passable_count()));
-  sink.line(fmt::format("Options       {}", options_text(app)));
+  sink.line(fmt::format("Options       {}", options.empty() ? "all defaults" : options));
   sink.line();
-  sink.line("First column: * better plan, B higher bound, T new tree.");
+  sink.line("First column, since the row before: * better plan, B higher bound, T new tree.");
+  sink.line(
+      "The lower bound holds for every plan: it is the least bound of an open node or of the next "
+      "tree.");
   sink.line("gap = (incumbent - lower bound) / lower bound, so it compares with omega directly.");
   sink.line();
 }
 
-std::filesystem::path default_output(const std::filesystem::path& instance) {
-  std::string name = instance.filename().string();
-  for (const char* suffix : {".cts.json", ".json", ".scen"})
+// FILE.cts.json: FILE.plan.json; the first 20 rows of FILE.scen: FILE-20.plan.json.
+std::filesystem::path default_output(const InstanceArguments& instance, int agents) {
+  std::string name = std::filesystem::path(instance.path()).filename().string();
+  const bool is_scenario = name.ends_with(".scen");
+  for (const std::string_view suffix : {".cts.json", ".json", ".scen"})
     if (name.ends_with(suffix)) {
-      name.resize(name.size() - std::string_view(suffix).size());
+      name.resize(name.size() - suffix.size());
       break;
     }
-  return name + ".plan.json";
+  return name + (is_scenario ? fmt::format("-{}", agents) : "") + ".plan.json";
+}
+
+void prepare_outputs(SolveArguments& a, const LoadedInstance& loaded) {
+  if (a.output.empty()) a.output = default_output(a.instance, loaded.instance.agent_count());
+  for (const auto& file : {a.output, a.log}) {
+    require_distinct_files(file, a.instance.path(), "the instance");
+    require_distinct_files(file, loaded.map_path, "the map");
+  }
+  require_distinct_files(a.log, a.output, "the plan file");
+  require_writable(a.output);
 }
 
 void set_limits(Limits& limits, const SolveArguments& a, Clock::time_point start) {
@@ -206,10 +231,13 @@ void set_limits(Limits& limits, const SolveArguments& a, Clock::time_point start
   limits.watch_interrupt(&interrupted);
 }
 
-void add_run_facts(Solution& solution, const SolveArguments& a, Clock::time_point start) {
+void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments& a,
+                   Clock::time_point start) {
   solution.stats.measures["wall_s"] = std::chrono::duration<double>(Clock::now() - start).count();
-  solution.stats.measures["peak_memory_mb"] = peak_memory_mb();
+  solution.stats.measures["peak_memory_mb"] = static_cast<double>(peak_resident_bytes()) / 1e6;
   solution.stats.counts["seed"] = a.seed;
+  solution.stats.texts["instance"] = a.instance.path();
+  solution.stats.texts["options"] = options_text(app);
   solution.stats.texts["policy"] = "fixed";
   solution.stats.texts["version"] = version_text();
 }
@@ -217,9 +245,8 @@ void add_run_facts(Solution& solution, const SolveArguments& a, Clock::time_poin
 void run_solve(const CLI::App& app, SolveArguments& a) {
   const Clock::time_point start = Clock::now();
   stop_on_signals();
-  if (a.output.empty()) a.output = default_output(a.instance.path());
-  require_writable(a.output);
   const LoadedInstance loaded = a.instance.load();
+  prepare_outputs(a, loaded);
   LogSink sink(!a.quiet, a.log);
   log_head(sink, app, a, loaded);
 
@@ -230,7 +257,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   RunLog log(sink, start, a.time_limit_s, a.deterministic);
   Solution solution = solve(loaded.instance, options, limits, &log);
 
-  add_run_facts(solution, a, start);
+  add_run_facts(solution, app, a, start);
   write_solution(a.output, loaded.instance, solution);
   log.finish(solution, a.output);
 }

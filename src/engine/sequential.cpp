@@ -190,14 +190,19 @@ Solution solve(const Instance& instance, const SolveOptions& options, const Limi
                RunObserver* observer) {
   RunObserver silent;
   RunObserver& watcher = observer ? *observer : silent;
-  const Problem problem(instance, limits);
-  if (!problem.distances.complete())
+  try {
+    const Problem problem(instance, limits);
+    if (!problem.distances.complete())
+      return without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
+    if (const auto reason = evident_infeasibility(problem)) {
+      watcher.on_infeasible(*reason);
+      return without_search(options, Status::kInfeasible, "reason", *reason);
+    }
+    return SequentialEngine(problem, options, limits, watcher).run();
+  } catch (const std::bad_alloc&) {  // before the search: nothing is known yet
+    limits.memory_exhausted();
     return without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
-  if (const auto reason = evident_infeasibility(problem)) {
-    watcher.on_infeasible(*reason);
-    return without_search(options, Status::kInfeasible, "reason", *reason);
   }
-  return SequentialEngine(problem, options, limits, watcher).run();
 }
 
 }  // namespace grove

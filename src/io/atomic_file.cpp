@@ -150,4 +150,15 @@ void require_writable(const fs::path& path) {
   if (!is_special(path, status)) const TemporaryFile probe(target, path);
 }
 
+void require_distinct_files(const fs::path& file, const fs::path& other,
+                            std::string_view what_other) {
+  if (file.empty() || other.empty()) return;
+  std::error_code error;
+  const bool same_name =
+      fs::absolute(file, error).lexically_normal() == fs::absolute(other, error).lexically_normal();
+  if (same_name || fs::equivalent(file, other, error))
+    throw InputError(file.string(), "",
+                     fmt::format("is {}; expected another file to write to", what_other));
+}
+
 }  // namespace grove

@@ -91,6 +91,9 @@ LoadedInstance read_instance(const std::filesystem::path& path) {
   const JsonValue map = root.member("map");
   if (map.text().empty()) map.fail_expected("the name of a map file");
   std::filesystem::path map_path = path.parent_path() / map.text();
+  if (!std::filesystem::is_regular_file(map_path))
+    map.fail(fmt::format("there is no file '{}'; expected a map, relative to this file",
+                         map_path.string()));
   InstanceBuilder builder(read_map(map_path, &warnings));
   add_all(builder, root, unknown);
   std::optional<Instance> instance;

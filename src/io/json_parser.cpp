@@ -32,6 +32,7 @@ std::string tidy(const nlohmann::detail::exception& error) {
     const bool says_expected = expected != std::string::npos && expected > last_read;
     message.erase(last_read, says_expected ? expected - last_read : std::string::npos);
   }
+  if (message.find("expected") == std::string::npos) message += "; expected JSON";
   return message;
 }
 

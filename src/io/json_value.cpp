@@ -53,7 +53,7 @@ void JsonValue::require(bool condition, std::string_view expected) const {
 
 JsonValue JsonValue::member(const char* key) const {
   auto value = find(key);
-  if (!value) fail(fmt::format("key '{}' is missing", key));
+  if (!value) fail(fmt::format("key '{}' is missing; expected it in this object", key));
   return *std::move(value);
 }
 

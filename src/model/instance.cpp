@@ -11,7 +11,8 @@ namespace {
 
 void require_new_id(const std::string& id, bool is_new) {
   if (id.empty()) throw InstanceError("id", "expected an id that is not empty");
-  if (!is_new) throw InstanceError("id", fmt::format("id '{}' is used twice", id));
+  if (!is_new)
+    throw InstanceError("id", fmt::format("id '{}' is used twice; expected distinct ids", id));
 }
 
 }  // namespace
@@ -22,7 +23,8 @@ Cell InstanceBuilder::passable_cell(const std::string& field, Position p) const 
   const Grid& grid = instance_.grid();
   if (!grid.contains(p))
     throw InstanceError(
-        field, fmt::format("cell [{}, {}] is outside the map; expected x in 0..{} and y in 0..{}",
+        field, fmt::format("cell [{}, {}] is outside the map; expected [x, y] (column, row) "
+                           "with x in 0..{} and y in 0..{}",
                            p.x, p.y, grid.width() - 1, grid.height() - 1));
   if (!grid.passable(grid.cell(p)))
     throw InstanceError(
@@ -73,9 +75,12 @@ TaskIndex InstanceBuilder::add_task(std::string id, Position cell,
     const std::string field = fmt::format("agents/{}", k);
     const auto it = agent_by_id_.find(agent_ids[k]);
     if (it == agent_by_id_.end())
-      throw InstanceError(field, fmt::format("there is no agent '{}'", agent_ids[k]));
+      throw InstanceError(
+          field, fmt::format("there is no agent '{}'; expected the id of an agent of this instance",
+                             agent_ids[k]));
     if (std::ranges::find(task.agents, it->second) != task.agents.end())
-      throw InstanceError(field, fmt::format("agent '{}' is listed twice", agent_ids[k]));
+      throw InstanceError(
+          field, fmt::format("agent '{}' is listed twice; expected each agent once", agent_ids[k]));
     if (instance_.agent(it->second).tasks.size() >= kMaxTasksPerAgent)
       throw InstanceError(
           field, fmt::format("agent '{}' has more than {} tasks; expected at most {}", agent_ids[k],

@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <fstream>
 #include <limits>
 #include <memory>
+#include <string>
 
 namespace grove {
 namespace {
@@ -22,6 +24,13 @@ std::size_t resident_bytes() {
   if (!file || std::fscanf(file.get(), "%ld %ld", &total_pages, &resident_pages) != 2) return 0;
   return static_cast<std::size_t>(resident_pages) *
          static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::size_t peak_resident_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) * 1024;
+  return 0;
 }
 
 bool Limits::stop_requested() const {

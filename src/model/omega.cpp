@@ -27,7 +27,8 @@ Omega Omega::parse(std::string_view text) {
   if (error != std::errc() || end != text.data() + text.size())
     throw std::invalid_argument(kExpected);
   const Omega omega = from_double(value);
-  if (std::abs(omega.value() - value) > 1e-15 * value) throw std::invalid_argument(kExpected);
+  // The double that the text stands for must be the one that the multiple of 1e-9 stands for.
+  if (omega.value() != value) throw std::invalid_argument(kExpected);
   return omega;
 }
 

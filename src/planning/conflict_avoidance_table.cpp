@@ -2,111 +2,106 @@
 #include "grove/planning/conflict_avoidance_table.h"
 
 #include <algorithm>
-#include <limits>
+#include <bit>
 
 namespace grove {
 namespace {
 
-// A counter that is full stays full until clear(): the table only breaks ties, and a cell that 255
-// paths share is to be avoided whatever their number.
-constexpr std::uint8_t kFull = std::numeric_limits<std::uint8_t>::max();
-
-void increment(std::uint8_t& count) {
-  if (count != kFull) ++count;
-}
-
-void decrement(std::uint8_t& count) {
-  if (count != kFull) --count;
-}
-
 constexpr std::int64_t kMostWaitConflicts = 1 << 20;
+constexpr int kFirstBits = 10;
+constexpr std::size_t kSparsity = 4;  // slots per key
 
 }  // namespace
 
 ConflictAvoidanceTable::ConflictAvoidanceTable(const Grid& grid)
-    : cells_(grid.cell_count()),
-      first_rest_(grid.cell_count(), kNever),
-      rests_(grid.cell_count()) {}
+    : counts_(std::size_t{1} << kFirstBits),
+      mask_(counts_.size() - 1),
+      stride_(static_cast<std::uint64_t>(grid.cell_count()) | 1),
+      first_rest_(grid.cell_count(), kNever) {}
 
-void ConflictAvoidanceTable::reserve(std::size_t steps) {
-  if (steps <= static_cast<std::size_t>(horizon_)) return;
-  counts_.resize(steps * static_cast<std::size_t>(cells_));
-  horizon_ = static_cast<Time>(steps);
+// For so many keys more. Left-overs go first.
+void ConflictAvoidanceTable::make_room(std::size_t steps) {
+  if (kSparsity * (keys_ + steps) <= counts_.size()) return;
+  const auto in_use = [&](const Counts& c) { return is_current(c.key) && c.visits > 0; };
+  keys_ = static_cast<std::size_t>(std::ranges::count_if(counts_, in_use));
+  const std::size_t size = std::bit_ceil(2 * kSparsity * (keys_ + steps));
+  std::vector<Counts> old(std::max(counts_.size(), size));
+  old.swap(counts_);
+  mask_ = counts_.size() - 1;
+  for (const Counts& counts : old)
+    if (in_use(counts)) counts_[slot(counts.key)] = counts;
 }
 
-void ConflictAvoidanceTable::remember_touched(std::size_t place) {
-  if (touched_.size() < counts_.size() / 8)
-    touched_.push_back(place);
-  else
-    touched_too_many_ = true;
+ConflictAvoidanceTable::Counts& ConflictAvoidanceTable::insert(std::uint64_t key) {
+  Counts& counts = counts_[slot(key)];
+  if (counts.key != key) {
+    counts = {.key = key};
+    ++keys_;
+  }
+  return counts;
 }
 
 void ConflictAvoidanceTable::add(const Path& path) {
   if (path.empty()) return;
-  reserve(path.size());
-  for (std::size_t t = 0; t < path.size(); ++t) {
-    const std::size_t place = index(path[t], static_cast<Time>(t));
-    Counts& counts = counts_[place];
-    if (counts.visits == 0) remember_touched(place);
-    increment(counts.visits);
-    if (t > 0 && path[t - 1] != path[t]) increment(counts.moves[direction(path[t - 1], path[t])]);
-  }
-  const Cell end = path.back();
+  make_room(path.size());
   const auto rest = static_cast<Time>(path.size() - 1);
-  if (rests_[end].empty()) rested_.push_back(end);
-  rests_[end].push_back(rest);
-  first_rest_[end] = std::min(first_rest_[end], rest);
+  for (Time t = 0; t <= std::min(rest, kLastTime); ++t) {
+    Counts& counts = insert(key(path[t], t));
+    ++counts.visits;
+    if (t > 0 && path[t - 1] != path[t]) ++counts.moves[direction(path[t - 1], path[t])];
+  }
+  horizon_ = std::max(horizon_, std::min(rest, kLastTime));
+  rests_.push_back({path.back(), rest});
+  first_rest_[path.back()] = std::min(first_rest_[path.back()], rest);
 }
 
 void ConflictAvoidanceTable::remove(const Path& path) {
   if (path.empty()) return;
-  for (std::size_t t = 0; t < path.size(); ++t) {
-    Counts& counts = counts_[index(path[t], static_cast<Time>(t))];
-    decrement(counts.visits);
-    if (t > 0 && path[t - 1] != path[t]) decrement(counts.moves[direction(path[t - 1], path[t])]);
+  const auto since = static_cast<Time>(path.size() - 1);
+  for (Time t = 0; t <= std::min(since, kLastTime); ++t) {
+    Counts& counts = counts_[slot(key(path[t], t))];
+    --counts.visits;
+    if (t > 0 && path[t - 1] != path[t]) --counts.moves[direction(path[t - 1], path[t])];
   }
-  std::vector<Time>& rests = rests_[path.back()];
-  rests.erase(std::ranges::find(rests, static_cast<Time>(path.size() - 1)));
-  first_rest_[path.back()] = rests.empty() ? kNever : *std::ranges::min_element(rests);
-  if (rests.empty()) std::erase(rested_, path.back());
-}
-
-void ConflictAvoidanceTable::forget_counts() {
-  if (touched_too_many_)
-    std::ranges::fill(counts_, Counts{});
-  else
-    for (std::size_t place : touched_) counts_[place] = Counts{};
-  touched_.clear();
-  touched_too_many_ = false;
+  const Cell end = path.back();
+  const auto gone = std::ranges::find_if(
+      rests_, [&](const Rest& rest) { return rest.cell == end && rest.since == since; });
+  *gone = rests_.back();
+  rests_.pop_back();
+  first_rest_[end] = kNever;
+  for (const Rest& rest : rests_)
+    if (rest.cell == end) first_rest_[end] = std::min(first_rest_[end], rest.since);
 }
 
 void ConflictAvoidanceTable::clear() {
-  forget_counts();
-  for (Cell cell : rested_) {
-    rests_[cell].clear();
-    first_rest_[cell] = kNever;
+  if (generation_++ == kLastGeneration) {
+    std::ranges::fill(counts_, Counts{});
+    generation_ = 1;
   }
-  rested_.clear();
+  for (const Rest& rest : rests_) first_rest_[rest.cell] = kNever;
+  rests_.clear();
+  keys_ = 0;
+  horizon_ = 0;
 }
 
 int ConflictAvoidanceTable::rests_before(Cell cell, Time time) const {
-  return static_cast<int>(
-      std::ranges::count_if(rests_[cell], [time](Time rest) { return rest < time; }));
+  return static_cast<int>(std::ranges::count_if(
+      rests_, [&](const Rest& rest) { return rest.cell == cell && rest.since < time; }));
 }
 
 int ConflictAvoidanceTable::conflicts_of_waiting(Cell cell, Time first, Time last) const {
   std::int64_t count = 0;
-  for (Time t = first; t <= std::min(last, horizon_ - 1); ++t)
-    count += counts_[index(cell, t)].visits;
+  for (Time t = first; t <= std::min(last, horizon_); ++t) count += visits(cell, t);
   if (last > first_rest_[cell])
-    for (Time rest : rests_[cell]) count += std::max(0, last - std::max(first - 1, rest));
+    for (const Rest& rest : rests_)
+      if (rest.cell == cell) count += std::max(0, last - std::max(first - 1, rest.since));
   return static_cast<int>(std::min(count, kMostWaitConflicts));
 }
 
 int ConflictAvoidanceTable::conflicts_of_resting(Cell cell, Time time) const {
   // A path that comes to rest after `time` is counted when it arrives.
   int count = first_rest_[cell] <= time ? rests_before(cell, time + 1) : 0;
-  for (Time t = time + 1; t < horizon_; ++t) count += counts_[index(cell, t)].visits;
+  for (Time t = time + 1; t <= horizon_; ++t) count += visits(cell, t);
   return count;
 }
 

@@ -21,8 +21,7 @@ Expansion Expander::expand(const NodePtr& node, const Limits& limits) {
     return expansion;
   }
 
-  others_.clear();
-  for (const Path& path : paths_) others_.add(path);
+  show_others();
   for (const AgentConstraint& added : split(*conflict)) {
     others_.remove(paths_[added.agent]);
     const bool done = branch(node, added, limits, expansion);
@@ -33,6 +32,17 @@ Expansion Expander::expand(const NodePtr& node, const Limits& limits) {
     return stopped;
   }
   return expansion;
+}
+
+// Brings the table up to the node's paths. Most are those of the node expanded before.
+void Expander::show_others() {
+  shown_.resize(paths_.size());
+  for (std::size_t agent = 0; agent < paths_.size(); ++agent) {
+    if (shown_[agent] == paths_[agent]) continue;
+    others_.remove(shown_[agent]);
+    others_.add(paths_[agent]);
+    shown_[agent] = paths_[agent];
+  }
 }
 
 // Adds the child that obeys `added`, if it has a path. False when a limit struck.

@@ -51,9 +51,10 @@ NodePtr Forest::next_root() {
   tree.pool = &pool_;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
     tree.orders.push_back(slot(agent, pending_->ranks[agent]));
+  NodePtr root = Node::root(tree);
   last_cost_ = pending_->cost;
-  pending_.reset();
-  return Node::root(tree);
+  pending_.reset();  // only now: what throws before this point loses no tree
+  return root;
 }
 
 std::shared_ptr<const AgentOrder>& Forest::slot(AgentIndex agent, std::uint32_t rank) {

@@ -150,7 +150,7 @@ class SequenceDagBuilder {
     std::size_t count = 0;
     for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
       if ((count += dropped_[excess]) >= dag_.completions_.size() / 2)
-        return reach_ + 1 + static_cast<Time>(excess);
+        return std::max(dag_.beyond_, reach_ + 1 + static_cast<Time>(excess));
     return std::max(dag_.beyond_, reach_ + static_cast<Time>(dropped_.size()));
   }
 

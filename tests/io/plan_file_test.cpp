@@ -141,11 +141,14 @@ TEST_F(PlanFile, NamesWhatIsMalformed) {
   EXPECT_EQ(refused_with("\"optimal\"", "\"solved\""),
             "p.json: /status: found \"solved\"; expected optimal, bounded, feasible, infeasible or "
             "unknown");
-  EXPECT_EQ(refused_with("\"status\"", "\"stat\""), "p.json: /: key 'status' is missing");
+  EXPECT_EQ(refused_with("\"status\"", "\"stat\""),
+            "p.json: /: key 'status' is missing; expected it in this object");
   EXPECT_EQ(refused_with("\"lower_bound\"", "\"bound\""),
-            "p.json: /: key 'lower_bound' is missing");
-  EXPECT_EQ(refused_with("\"cost\": 3", "\"cots\": 3"), "p.json: /: key 'cost' is missing");
-  EXPECT_EQ(refused_with("\"agents\"", "\"agent\""), "p.json: /: key 'agents' is missing");
+            "p.json: /: key 'lower_bound' is missing; expected it in this object");
+  EXPECT_EQ(refused_with("\"cost\": 3", "\"cots\": 3"),
+            "p.json: /: key 'cost' is missing; expected it in this object");
+  EXPECT_EQ(refused_with("\"agents\"", "\"agent\""),
+            "p.json: /: key 'agents' is missing; expected it in this object");
   EXPECT_EQ(refused_with("\"cost\": 3", "\"cost\": 3.5"),
             "p.json: /cost: found 3.5; expected an integer from 0 to 1152921504606846976");
   EXPECT_EQ(refused_with("\"cost\":2", "\"cost\":99999999999"),

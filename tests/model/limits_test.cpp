@@ -40,6 +40,7 @@ TEST(Limits, StopsOnInterruptAndKeepsTheFirstReason) {
 
 TEST(ResidentBytes, AreThoseOfARunningProcess) {
   EXPECT_GT(resident_bytes(), std::size_t{100'000});
+  EXPECT_GE(peak_resident_bytes(), resident_bytes());
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ TEST(Omega, ReadsAndPrintsTheSameNumber) {
 }
 
 TEST(Omega, RefusesWhatItCannotHold) {
-  for (const char* text : {"", "-0.1", "nan", "1e7", "0.01x", "0.0000000001", "1e-12", "infinity", "1,5"})
+  for (const char* text : {"", "-0.1", "nan", "1e7", "0.01x", "0.0000000001", "1e-12",
+                           "999999.9999999999", "123456.1234567891", "infinity", "1,5"})
     EXPECT_THROW(Omega::parse(text), std::invalid_argument) << text;
 }
 

@@ -28,7 +28,8 @@ struct SolveOptions {
 
 // Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower
 // bound. Single-threaded. `observer` (may be null) is told what happens, from the calling thread.
-// Throws only on lack of memory outside the search's own tables, and what the observer throws.
+// Throws what the observer throws, and std::logic_error or std::runtime_error when a part of the
+// search turns out to be broken (a plan that the checker refuses, CBC failing).
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer = nullptr);
 

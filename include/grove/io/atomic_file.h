@@ -17,4 +17,9 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 // a directory of that name): ask before a long run. Leaves nothing behind.
 void require_writable(const std::filesystem::path& path);
 
+// Throws InputError ("`file` is `what_other`") when both paths lead to one file, existing or not:
+// writing the one would destroy the other. Empty paths lead nowhere.
+void require_distinct_files(const std::filesystem::path& file, const std::filesystem::path& other,
+                            std::string_view what_other);
+
 }  // namespace grove

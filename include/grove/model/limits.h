@@ -15,6 +15,8 @@ enum class StopReason : std::uint8_t { kNone, kTime, kMemory, kInterrupt };
 
 // The memory this process holds, in bytes (its resident set). 0 where the system does not tell.
 std::size_t resident_bytes();
+// The most it has held since it began. (Not getrusage's ru_maxrss, which a parent hands down.)
+std::size_t peak_resident_bytes();
 
 // Limits on a run. One object per run, shared by reference; every method may be called from any
 // thread. Once stopped it stays stopped, with the first reason.

@@ -11,8 +11,9 @@
 
 namespace grove {
 
-// Counts, per cell and time and per move and time, the paths that use it. One per thread. Takes 5
-// bytes per cell and time step of the longest path.
+// Counts, per cell and time and per move and time, the paths that use it (fewer than 65,536). One
+// per thread. A hash table of what the paths touch, whatever the size of the map: about 100 bytes
+// per step of a path, which stays in the cache where a full table would not.
 class ConflictAvoidanceTable {
  public:
   explicit ConflictAvoidanceTable(const Grid& grid);
@@ -27,11 +28,10 @@ class ConflictAvoidanceTable {
   // Vertex and edge conflicts of arriving on `to` at time `time` coming from `from` (equal: a
   // wait).
   int conflicts(Cell from, Cell to, Time time) const {
-    int count = 0;
-    if (time < horizon_) {
-      const Counts* now = counts_.data() + index(0, time);
-      count = now[to].visits;
-      if (from != to) count += now[from].moves[direction(to, from)];
+    int count = visits(to, time);
+    if (from != to) {
+      const Counts& left = counts_[slot(key(from, time))];
+      if (left.key == key(from, time)) count += left.moves[direction(to, from)];
     }
     return time > first_rest_[to] ? count + rests_before(to, time) : count;
   }
@@ -44,35 +44,58 @@ class ConflictAvoidanceTable {
  private:
   // The paths on a cell at a time, and those of them that just came from a neighbor, by direction.
   struct Counts {
-    std::uint8_t visits = 0;
-    std::array<std::uint8_t, 4> moves{};
+    std::uint64_t key = 0;     // 0: never used
+    std::uint16_t visits = 0;  // 0: left over from paths that were removed
+    std::array<std::uint16_t, 4> moves{};
+  };
+  // An agent that rests is not counted step by step: it would never end.
+  struct Rest {
+    Cell cell;
+    Time since;
   };
 
-  std::size_t index(Cell cell, Time time) const {
-    return static_cast<std::size_t>(time) * static_cast<std::size_t>(cells_) +
-           static_cast<std::size_t>(cell);
+  // A key is of one generation: clear() begins a new one, and entries of older ones count as free.
+  // Later times than kLastTime are not counted.
+  static constexpr int kCellBits = 27;
+  static constexpr int kTimeBits = 21;
+  static constexpr std::uint64_t kLastGeneration = 0xFFFF;
+  static constexpr Time kLastTime = (1 << kTimeBits) - 1;
+
+  std::uint64_t key(Cell cell, Time time) const {
+    return (generation_ << kTimeBits | static_cast<std::uint64_t>(time)) << kCellBits |
+           static_cast<std::uint64_t>(cell);
   }
+  bool is_current(std::uint64_t key) const { return key >> (kTimeBits + kCellBits) == generation_; }
   static int direction(Cell from, Cell to) {
     const Cell delta = to - from;
     const bool along_row = delta == 1 || delta == -1;
     return 2 * static_cast<int>(along_row) + static_cast<int>(delta > 0);
   }
+  // Where the counts of a key are, or would go: open addressing, at most a quarter full. The place
+  // is a full table's, folded, so that neighbors at one time share a cache line.
+  std::size_t slot(std::uint64_t key) const {
+    const std::uint64_t cell = key & ((std::uint64_t{1} << kCellBits) - 1);
+    const std::uint64_t time = key >> kCellBits & kLastTime;
+    std::size_t at = (time * stride_ + cell) & mask_;
+    while (counts_[at].key != key && is_current(counts_[at].key)) at = (at + 1) & mask_;
+    return at;
+  }
+  int visits(Cell cell, Time time) const {
+    const Counts& counts = counts_[slot(key(cell, time))];
+    return counts.key == key(cell, time) ? counts.visits : 0;
+  }
+  Counts& insert(std::uint64_t key);
   int rests_before(Cell cell, Time time) const;
-  void reserve(std::size_t steps);
-  void remember_touched(std::size_t place);
-  void forget_counts();
+  void make_room(std::size_t steps);
 
-  Cell cells_;
-  Time horizon_ = 0;            // times 0 .. horizon_ - 1 have counts; later there are only rests
-  std::vector<Counts> counts_;  // by time, then cell
-
-  // An agent that rests is not written into the counts: it would never end.
-  std::vector<Time> first_rest_;          // by cell: when the first path comes to rest there
-  std::vector<std::vector<Time>> rests_;  // by cell: when each path comes to rest there
-
-  std::vector<std::size_t> touched_;  // places in counts_ to reset, unless there are too many
-  bool touched_too_many_ = false;
-  std::vector<Cell> rested_;  // the cells with a rest
+  std::vector<Counts> counts_;  // a power of two
+  std::size_t mask_;            // counts_.size() - 1
+  std::uint64_t stride_;        // of time: odd, so that no two times fold onto each other early
+  std::uint64_t generation_ = 1;
+  std::size_t keys_ = 0;          // of this generation, left-overs included
+  Time horizon_ = 0;              // no path added since the last clear() moves after this time
+  std::vector<Time> first_rest_;  // by cell: when the first path comes to rest there
+  std::vector<Rest> rests_;
 };
 
 }  // namespace grove

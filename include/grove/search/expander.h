@@ -36,6 +36,7 @@ class Expander {
   std::int64_t low_level_expanded() const { return low_level_.expanded(); }
 
  private:
+  void show_others();
   bool branch(const NodePtr& node, const AgentConstraint& added, const Limits& limits,
               Expansion& expansion);
 
@@ -44,6 +45,7 @@ class Expander {
   ConflictAvoidanceTable others_;
   LowLevelSearch low_level_;
   std::vector<Path> paths_;
+  std::vector<Path> shown_;  // what others_ holds, by AgentIndex
   std::vector<Constraint> constraints_;
   Path path_;
 };

@@ -11,7 +11,7 @@
 namespace grove {
 
 // The list of all complete sequences of one agent by cost. Rank 0 is the best. Not for two threads
-// at once.
+// at once. After an exception (std::bad_alloc) its bounds are no longer valid: give it up.
 class KBestSequences {
  public:
   // `matrix`, which the solver was made for, and `limits` must outlive the list.
