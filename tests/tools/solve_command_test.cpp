@@ -176,6 +176,57 @@ TEST_F(SolveCommand, FindsUnwritableFilesBeforeItSearches) {
   EXPECT_FALSE(exists("puzzle.plan.json"));
 }
 
+TEST_F(SolveCommand, DoesNotWriteOverItsInputs) {
+  for (const char* name : {"first.map", "first.cts.json"})
+    std::filesystem::copy(data(name), directory_.path());
+  EXPECT_THAT(complaint(solve({"first.cts.json", "--output", "first.cts.json"})),
+              HasSubstr("is the instance"));
+  EXPECT_THAT(complaint(solve({"first.cts.json", "--output", "./first.map"})),
+              HasSubstr("is the map"));
+  EXPECT_THAT(complaint(solve({"first.cts.json", "--log", "first.map"})), HasSubstr("is the map"));
+  EXPECT_THAT(complaint(solve({"first.cts.json", "--output", "x", "--log", "./x"})),
+              HasSubstr("is the plan file"));
+  EXPECT_EQ(solve({"first.cts.json"}).exit_code, 0);
+}
+
+TEST_F(SolveCommand, KeepsThePlanWhenNobodyReadsTheLog) {
+  const std::string pipeline = std::string(GROVE_PROGRAM) + " solve " +
+                               data("rooms-32x32_n10_m30.cts.json") +
+                               " --omega 0 --output p.json | true; exit ${PIPESTATUS[0]}";
+  const ProcessResult solved = run_program({"/bin/bash", "-c", pipeline}, options_);
+  EXPECT_EQ(solved.exit_code, 0);
+  EXPECT_THAT(solved.err, HasSubstr("warning: standard output cannot be written"));
+  EXPECT_EQ(plan("p.json")["status"], "optimal");
+}
+
+TEST_F(SolveCommand, SaysWhenTheLogFileIsFull) {
+  const ProcessResult solved = solve({data("first.cts.json"), "--quiet", "--log", "/dev/full"});
+  EXPECT_EQ(solved.exit_code, 0);
+  EXPECT_THAT(solved.err, HasSubstr("warning: the log file cannot be written"));
+}
+
+TEST_F(SolveCommand, NamesAScenariosPlanAfterItsAgents) {
+  solve({data("empty-32x32.scen"), "--map", data("empty-32x32.map"), "--agents", "3"});
+  EXPECT_TRUE(exists("empty-32x32-3.plan.json"));
+}
+
+// A table of time times cells would hold gigabytes here.
+TEST_F(SolveCommand, KeepsWithinTheMemoryLimitOnALargeMap) {
+  ASSERT_EQ(run_grove({"generate", "map", "empty", "--width", "600", "--height", "600", "-o",
+                       directory_ / "m.map"})
+                .exit_code,
+            0);
+  ASSERT_EQ(run_grove({"generate", "instance", "--map", directory_ / "m.map", "--agents", "5",
+                       "--tasks", "10", "-o", directory_ / "m.cts.json"})
+                .exit_code,
+            0);
+  const ProcessResult solved =
+      solve({"m.cts.json", "--memory-limit", "0.25", "--output", "p.json"});
+  EXPECT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_EQ(plan("p.json")["status"], "optimal");
+  EXPECT_LT(plan("p.json")["stats"]["peak_memory_mb"], 250);
+}
+
 TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omega", "-1"})), HasSubstr("--omega"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omega", "1%"})), HasSubstr("--omega"));
