@@ -251,5 +251,168 @@ TEST(FreeLowLevel, AgreesWithItsDefinition) {
   EXPECT_GT(infeasible, seeds / 4);
 }
 
+// Many stops, so that the completions are a graph that holds the good sequences alone.
+class ManyStops {
+ public:
+  ManyStops(unsigned seed, bool with_destination) : random_(seed) {
+    std::vector<bool> passable(kSide * kSide);
+    for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = random_() % 6 > 0;
+    grid_.emplace(kSide, kSide, passable);
+    const DistanceField field = distance_field(*grid_, some_passable());
+    std::vector<Cell> cells;
+    for (Cell c = 0; c < grid_->cell_count(); ++c)
+      if (field[c] < kNever) cells.push_back(c);
+    std::ranges::shuffle(cells, random_);
+    const std::size_t n = std::min<std::size_t>(18 + random_() % 7, cells.size() - 2);
+    problem_ = {&*grid_, cells[0], {cells.begin() + 2, cells.begin() + 2 + n}, {}, {}, {}};
+    if (with_destination) problem_.destination = cells[1];
+  }
+
+  // After each constraint more: no sequence cheaper than the answer has a cheaper path, and one
+  // that is not dearer has a path as cheap.
+  void check() {
+    Agent agent(problem_);
+    for (int n = 0; n < 8; ++n) {
+      const std::optional<Time> cost = agent.cost();
+      if (!cost) return;
+      EXPECT_EQ(agent.fixed_cost(realized_sequence(agent.goals, agent.path)), cost);
+      expect_best(agent, *cost);
+      const int t = 1 + static_cast<int>(random_() % (agent.path.size() - 1));
+      const Time length = random_() % 4 == 0 ? 12 : 0;
+      agent.problem.constraints.push_back({agent.path[t], kNoCell, t, t + length});
+    }
+  }
+
+ private:
+  static constexpr int kSide = 9;
+  static constexpr std::size_t kMostSequences = 100;
+
+  Cell some_passable() {
+    for (;;)
+      if (const Cell c = static_cast<Cell>(random_() % (kSide * kSide)); grid_->passable(c)) {
+        if (distance_count(c) > 40) return c;
+      }
+  }
+  std::ptrdiff_t distance_count(Cell c) const {
+    return std::ranges::count_if(distance_field(*grid_, c), [](Time d) { return d < kNever; });
+  }
+
+  void expect_best(Agent& agent, Time cost) {
+    const Limits limits;
+    const CostMatrix& matrix = agent.stops.completions().matrix();
+    KBestSequences best(make_rtsp_solver(RtspBackend::kAuto, matrix, limits), matrix, limits);
+    for (std::size_t rank = 0; rank < kMostSequences && best.resolve(rank, cost - 1) < cost; ++rank)
+      EXPECT_GE(agent.fixed_cost(best.sequence(rank)).value_or(kNever), cost);
+  }
+
+  std::mt19937 random_;
+  std::optional<Grid> grid_;
+  FreeProblem problem_;
+};
+
+TEST(FreeLowLevel, IsExactWhereTheSequenceGraphIsBounded) {
+  for (int seed = 0; seed < rounds(6); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    ManyStops(static_cast<unsigned>(seed), seed % 2 == 0).check();
+    if (HasFailure()) return;
+  }
+}
+
+FreeProblem corridor(const Grid& grid, std::vector<Cell> stops, std::optional<Cell> destination) {
+  return {&grid, 0, std::move(stops), destination, {}, {}};
+}
+
+TEST(FreeLowLevel, ChoosesTheOrder) {
+  const Grid grid = grid_of({"......"});
+  Agent agent(corridor(grid, {5, 1, 3}, 2));
+  EXPECT_EQ(agent.cost(), 8);
+  EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 2, 0}));
+}
+
+// What comes after the prefix is not counted before it, nor what may not come next.
+TEST(FreeLowLevel, KeepsToItsClass) {
+  const Grid grid = grid_of({"......"});
+  FreeProblem problem = corridor(grid, {1, 3, 5}, 0);
+  problem.work = {{1}, 0b100};  // 3 first, then not 5
+  Agent agent(problem);
+  EXPECT_EQ(agent.cost(), 3 + 2 + 4 + 5);
+  EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 0, 2}));
+}
+
+TEST(FreeLowLevel, AnEmptyClassHasNoPath) {
+  const Grid grid = grid_of({"......"});
+  FreeProblem problem = corridor(grid, {1, 3}, 0);
+  problem.work.forbidden_next = 0b11;
+  EXPECT_EQ(Agent(problem).cost(), std::nullopt);
+}
+
+TEST(FreeLowLevel, RejectsAPrefixThatIsNone) {
+  const Grid grid = grid_of({"......"});
+  for (const Sequence& prefix : {Sequence{1, 1}, Sequence{2}, Sequence{200}}) {
+    FreeProblem problem = corridor(grid, {1, 3}, 0);
+    problem.work.prefix = prefix;
+    EXPECT_THROW(Agent{problem}, std::invalid_argument);
+  }
+}
+
+// Without a destination: waits near the stop that may be rested on, not on the one barred for ever.
+TEST(FreeLowLevel, ACellBarredForEverIsNoPlaceToRest) {
+  const Grid grid = grid_of({"......"});
+  FreeProblem problem = corridor(grid, {1, 3}, std::nullopt);
+  problem.constraints = {{3, kNoCell, 10, kNever}};
+  Agent agent(problem);
+  EXPECT_EQ(agent.cost(), 5);
+  EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 0}));
+}
+
+// Without a destination the stop it rests on is the last one: it cannot be the first one too.
+TEST(FreeLowLevel, DoesNotRestOnTheStopThatMustBeFirst) {
+  const Grid grid = grid_of({"......"});
+  FreeProblem problem = corridor(grid, {1, 3, 5}, std::nullopt);
+  problem.work.forbidden_next = 0b010;  // 1 or 5 first
+  problem.constraints = {{3, kNoCell, 20, kNever}, {5, kNoCell, 20, kNever}};
+  EXPECT_EQ(Agent(problem).cost(), 5 + 4);  // 5 first, back to 1; by 1 first it would end in 20
+}
+
+TEST(FreeLowLevel, AStopThatIsBarredTooSoonIsProvenAtOnce) {
+  const Grid grid = grid_of({"......"});
+  FreeProblem problem = corridor(grid, {1, 2, 3, 5}, 0);
+  problem.constraints = {{5, kNoCell, 5, kNever}};
+  Agent agent(problem);
+  EXPECT_EQ(agent.cost(), std::nullopt);
+  EXPECT_EQ(agent.free.expanded(), 0);
+}
+
+TEST(FreeLowLevel, SaysAboveOnlyForTheCutoff) {
+  const Grid grid = grid_of({"......"});
+  Agent agent(corridor(grid, {5, 1}, 0));
+  Path path{7};
+  EXPECT_EQ(agent.find(9, path), Outcome::kAbove);
+  EXPECT_EQ(path, Path{7});
+  EXPECT_EQ(agent.find(10, path), Outcome::kFound);
+  agent.problem.constraints = {{0, kNoCell, 50, 60}};
+  EXPECT_EQ(agent.find(60, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(61, path), Outcome::kFound);
+}
+
+TEST(FreeLowLevel, StopsWithoutAnAnswerWhenALimitStrikes) {
+  const Grid grid = grid_of({"......"});
+  Agent agent(corridor(grid, {5, 1}, 0));
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  Path path;
+  EXPECT_EQ(agent.free.find(agent.goals, {}, nullptr, kNever, limits, path), Outcome::kStopped);
+  Limits memory;
+  memory.set_memory_limit(1);
+  EXPECT_EQ(agent.free.find(agent.goals, {}, nullptr, kNever, memory, path), Outcome::kStopped);
+}
+
+TEST(FreeLowLevel, APathOutsideTheClassRealizesNothing) {
+  const Grid grid = grid_of({"......"});
+  const Agent agent(corridor(grid, {5, 1}, 0));
+  EXPECT_THROW(realized_sequence(agent.goals, {0, 1, 0}), std::invalid_argument);
+  EXPECT_THROW(realized_sequence(agent.goals, {}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace grove
