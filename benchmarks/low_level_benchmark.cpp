@@ -222,7 +222,6 @@ void measure(benchmark::State& state, const Grid& grid, Random& random) {
   }
   state.counters["labels"] = median(labels);
   state.counters["most_labels"] = *std::ranges::max_element(labels);
-  state.counters["most_us"] = 1e6 * *std::ranges::max_element(seconds);
 }
 
 template <class Search>

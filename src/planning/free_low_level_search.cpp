@@ -9,17 +9,22 @@
 #include "bucket_queue.h"
 #include "label_planes.h"
 #include "safe_intervals.h"
+#include "visit_check.h"
 
 namespace grove {
 namespace {
 
 constexpr std::int64_t kExpansionsPerPoll = 256;
+// After so many in one call, or before the completions are widened a second time, it is worth
+// asking whether each stop can be visited at all.
+constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 14;
 
 }  // namespace
 
 class FreeLowLevelSearch::Workspace {
  public:
-  explicit Workspace(const Grid& grid) : grid_(grid), intervals_(grid) {}
+  explicit Workspace(const Grid& grid)
+      : grid_(grid), intervals_(grid), visit_check_(grid, intervals_) {}
 
   Outcome find(FreeGoals& goals, std::span<const Constraint> constraints,
                const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
@@ -43,6 +48,7 @@ class FreeLowLevelSearch::Workspace {
   };
 
   static constexpr std::int32_t kNoSlot = -1;
+  static constexpr std::int64_t kNoDoubt = std::numeric_limits<std::int64_t>::max();
 
   bool prepare();
   Time first_rest() const;
@@ -51,6 +57,7 @@ class FreeLowLevelSearch::Workspace {
   void start();
   Outcome run(const Limits& limits, Path& path);
 
+  bool surely_infeasible();
   bool misses_deadline(StateId state, Cell cell, Time time) const;
   bool is_finish(const Entry& entry) const;
   bool is_stale(const Entry& entry);
@@ -58,7 +65,6 @@ class FreeLowLevelSearch::Workspace {
   Time postponed_to(const Entry& entry) const;
   void close_gate(const Entry& entry);
   void expand(const Entry& entry);
-  void enter_intervals(const Entry& from, Cell from_cell, Cell to);
   void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
   void touch(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time, int stop);
   void reach(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time,
@@ -68,6 +74,7 @@ class FreeLowLevelSearch::Workspace {
 
   const Grid& grid_;
   SafeIntervals intervals_;
+  VisitCheck visit_check_;
   Queue queue_;
   LabelPlanes planes_;
   std::vector<Gate> gates_;
@@ -78,10 +85,11 @@ class FreeLowLevelSearch::Workspace {
   FreeGoals* goals_ = nullptr;
   const ConflictAvoidanceTable* others_ = nullptr;
   const Limits* limits_ = nullptr;
-  Time first_rest_ = 0;   // no path costs less
-  Time cap_ = 0;          // dearer labels are dropped
-  bool over_ = false;     // one was
-  bool outside_ = false;  // a label was dropped whose state the completions do not know
+  Time first_rest_ = 0;        // no path costs less
+  Time cap_ = 0;               // dearer labels are dropped
+  bool over_ = false;          // one was
+  std::int64_t doubt_at_ = 0;  // the count of labels at which to ask, once, if it is feasible
+  bool outside_ = false;       // a label was dropped whose state the completions do not know
 };
 
 FreeLowLevelSearch::FreeLowLevelSearch(const Grid& grid)
@@ -111,13 +119,14 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(
   if (!prepare()) return Outcome::kInfeasible;
   if (first_rest_ > cutoff) return Outcome::kAbove;
 
+  doubt_at_ = expanded_ + kExpansionsBeforeDoubt;
   Completions& completions = goals.stops().completions();
   for (;;) {
-    const Time beyond = completions.beyond();
-    if (beyond == 0 && !completions.widen(0, limits)) return Outcome::kStopped;
     const Outcome outcome = find_within(std::min(cutoff, completions.beyond()), limits, path);
     if (outcome != Outcome::kAbove || cutoff < completions.beyond()) return outcome;
     if (completions.beyond() == kNever) return outcome;
+    if (goals.first_state() != FreeGoals::kOutside && surely_infeasible())
+      return Outcome::kInfeasible;
     if (!completions.widen(completions.beyond(), limits)) return Outcome::kStopped;
   }
 }
@@ -188,13 +197,29 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::run(const Limits& lim
       write_path(entry, path);
       return Outcome::kFound;
     }
-    if (++expanded_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
+    if (++expanded_ % kExpansionsPerPoll == 0) {
+      if (limits.stop_requested()) return Outcome::kStopped;
+      if (expanded_ >= doubt_at_ && surely_infeasible()) return Outcome::kInfeasible;
+    }
     close_gate(entry);
     expand(entry);
   }
   if (planes_.exhausted()) return Outcome::kStopped;
   const bool bounded = goals_->stops().completions().beyond() < kNever;
   return over_ || (bounded && outside_) ? Outcome::kAbove : Outcome::kInfeasible;
+}
+
+// Asks once a call.
+bool FreeLowLevelSearch::Workspace::surely_infeasible() {
+  if (doubt_at_ == kNoDoubt) return false;
+  doubt_at_ = kNoDoubt;
+  const AgentStops& stops = goals_->stops();
+  std::vector<Cell> rests;
+  for (int stop = 0; stop < stops.count(); ++stop) rests.push_back(stops.cell(stop));
+  const std::vector<Cell> visits = rests;
+  if (stops.destination()) rests = {*stops.destination()};
+  return !std::ranges::all_of(
+      visits, [&](Cell cell) { return visit_check_.can_visit(stops.start(), cell, rests); });
 }
 
 bool FreeLowLevelSearch::Workspace::is_finish(const Entry& entry) const {
@@ -266,26 +291,10 @@ void FreeLowLevelSearch::Workspace::close_gate(const Entry& entry) {
 }
 
 void FreeLowLevelSearch::Workspace::expand(const Entry& entry) {
-  const Cell cell = intervals_.cell_of(entry.slot);
-  for (Cell next : grid_.neighbors(cell)) {
-    if (intervals_.unconstrained(next))
-      arrive(entry, cell, next, next, entry.time + 1);
-    else
-      enter_intervals(entry, cell, next);
-  }
-}
-
-void FreeLowLevelSearch::Workspace::enter_intervals(const Entry& from, Cell from_cell, Cell to) {
-  const Time last_arrival = intervals_.end_of(from.slot) + 1;
-  const int end_slot = intervals_.end_slot(to);
-  for (int slot = intervals_.first_slot(to); slot < end_slot; ++slot) {
-    const Time begin = intervals_.begin_of(slot);
-    const Time end = std::min(intervals_.end_of(slot), last_arrival);
-    if (begin > last_arrival) break;
-    if (end <= from.time) continue;
-    const Time time = intervals_.first_move(from_cell, to, std::max(begin, from.time + 1));
-    if (time <= end) arrive(from, from_cell, slot, to, time);
-  }
+  const Cell from = intervals_.cell_of(entry.slot);
+  intervals_.for_each_move(grid_, entry.slot, entry.time, [&](int slot, Cell cell, Time time) {
+    arrive(entry, from, slot, cell, time);
+  });
 }
 
 void FreeLowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::int32_t slot,

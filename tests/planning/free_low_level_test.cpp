@@ -383,6 +383,20 @@ TEST(FreeLowLevel, AStopThatIsBarredTooSoonIsProvenAtOnce) {
   EXPECT_EQ(agent.free.expanded(), 0);
 }
 
+// The door shuts behind whoever visits the last stop in time; many orders, all hopeless.
+TEST(FreeLowLevel, ADoorThatShutsIsProvenWithoutTryingAllOrders) {
+  const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
+  for (const int n : {12, 20}) {
+    FreeProblem problem = corridor(grid, {39}, 20);
+    for (Cell cell = 1; static_cast<int>(problem.stops.size()) < n; ++cell)
+      if (grid.passable(cell) && cell != 18) problem.stops.push_back(cell);
+    problem.constraints = {{18, kNoCell, 13, kNever}};
+    Agent agent(problem);
+    EXPECT_EQ(agent.cost(), std::nullopt);
+    EXPECT_LT(agent.free.expanded(), 200'000);
+  }
+}
+
 TEST(FreeLowLevel, SaysAboveOnlyForTheCutoff) {
   const Grid grid = grid_of({"......"});
   Agent agent(corridor(grid, {5, 1}, 0));
