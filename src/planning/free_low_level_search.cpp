@@ -383,16 +383,16 @@ void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std
   if (!planes_.open(state, *limits_)) return;
   LabelPlanes::Label& l = planes_.label(slot, state);
   const bool known = planes_.is_current(l);
-  if (known && l.time < time) return;
-  const std::uint16_t conflicts =
-      others_ && time > 0 ? conflicts_on_arrival(from, from_cell, cell, time) : std::uint16_t{0};
-  if (known && l.time == time && l.conflicts <= conflicts) return;
+  if (known && (l.time < time || (l.time == time && l.conflicts <= from.conflicts))) return;
   const Time distance = goals_->distance(state, cell);
   if (distance >= kNever) outside_ = true;
   if (distance > cap_ - time) {
     over_ |= distance < kNever;
     return;
   }
+  const std::uint16_t conflicts =
+      others_ && time > 0 ? conflicts_on_arrival(from, from_cell, cell, time) : std::uint16_t{0};
+  if (known && l.time == time && l.conflicts <= conflicts) return;
 
   l = {.time = time,
        .parent_slot = from.slot,
