@@ -57,9 +57,9 @@
 // door that shuts before or behind the agent, so once per hard call each stop is asked for alone
 // (visit_check.cpp), a necessary condition.
 //
-// Measured on the benchmark's 32x32 maps (nine other agents, one core, median of a call; n = 5, 10,
-// 20): 10, 19, 30 us without constraints; 23, 40, 70 with 20 of them on the path; 43, 75, 180 with
-// 60. A fixed sequence takes 9, 16, 25; 19, 24, 34; 30, 35, 45.
+// Measured on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
+// call in microseconds; n = 5, 10, 20): 6, 14, 24 without constraints; 17, 35, 57 with 20 of them
+// on the paths found; 34, 64, 138 with 60. A fixed sequence takes 5, 8, 15; 12, 14, 22; 21, 24, 31.
 #include "grove/planning/free_low_level_search.h"
 
 #include <algorithm>
