@@ -17,6 +17,7 @@
 #include <random>
 #include <string>
 
+#include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 
 namespace grove {
@@ -130,29 +131,36 @@ Constraint bar_on_path(const Path& path, Random& random) {
   return c;
 }
 
-void pile_up_constraints(Case& c, LowLevelSearch& search, int count, Random& random) {
+// On the paths of the search that is measured: each is the other's worst case only.
+template <class Search>
+void pile_up_constraints(std::vector<Case>& cases, Search& search, LowLevelSearch& check, int count,
+                         std::size_t i, Random& random) {
+  Case& c = cases[i];
   Path path;
+  Path ignored;
   for (int tries = 0; static_cast<int>(c.constraints.size()) < count && tries < 4 * count;
        ++tries) {
-    search.find(*c.goals, c.constraints, &c.others, Limits(), path);
+    search.find(c, i, path);
     c.constraints.push_back(bar_on_path(path, random));
-    if (search.find(*c.goals, c.constraints, &c.others, Limits(), path) !=
+    if (check.find(*c.goals, c.constraints, &c.others, Limits(), ignored) !=
         LowLevelSearch::Outcome::kFound)
       c.constraints.pop_back();
   }
 }
 
+template <class Search>
 std::vector<Case> make_cases(const Grid& grid, int goals, int constraints, Random& random) {
-  LowLevelSearch search(grid);
+  LowLevelSearch check(grid);
   std::vector<Case> cases;
   std::vector<Path> paths;
   for (int i = 0; i < kCases; ++i) {
     cases.emplace_back(grid, connected_cells(grid, random), goals);
-    search.find(*cases.back().goals, {}, nullptr, Limits(), paths.emplace_back());
+    check.find(*cases.back().goals, {}, nullptr, Limits(), paths.emplace_back());
   }
+  Search search(grid, cases);
   for (int i = 0; i < kCases; ++i) {
     for (int k = 1; k <= kOthers; ++k) cases[i].others.add(paths[(i + k) % kCases]);
-    pile_up_constraints(cases[i], search, constraints, random);
+    pile_up_constraints(cases, search, check, constraints, i, random);
   }
   return cases;
 }
@@ -162,10 +170,43 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+// The two searches, behind one face.
+class Fixed {
+ public:
+  explicit Fixed(const Grid& grid, const std::vector<Case>&) : search_(grid) {}
+  void find(const Case& c, std::size_t, Path& path) {
+    search_.find(*c.goals, c.constraints, &c.others, Limits(), path);
+  }
+  std::int64_t expanded() const { return search_.expanded(); }
+
+ private:
+  LowLevelSearch search_;
+};
+
+class Free {
+ public:
+  Free(const Grid& grid, const std::vector<Case>& cases) : search_(grid) {
+    for (const Case& c : cases) {
+      stops_.push_back(std::make_unique<AgentStops>(*c.instance, *c.distances, 0));
+      goals_.push_back(std::make_unique<FreeGoals>(*stops_.back(), SequenceClass{}));
+    }
+  }
+  void find(const Case& c, std::size_t i, Path& path) {
+    search_.find(*goals_[i], c.constraints, &c.others, kNever, Limits(), path);
+  }
+  std::int64_t expanded() const { return search_.expanded(); }
+
+ private:
+  FreeLowLevelSearch search_;
+  std::vector<std::unique_ptr<AgentStops>> stops_;
+  std::vector<std::unique_ptr<FreeGoals>> goals_;
+};
+
+template <class Search>
 void measure(benchmark::State& state, const Grid& grid, Random& random) {
-  const std::vector<Case> cases =
-      make_cases(grid, static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), random);
-  LowLevelSearch search(grid);
+  const std::vector<Case> cases = make_cases<Search>(grid, static_cast<int>(state.range(0)),
+                                                     static_cast<int>(state.range(1)), random);
+  Search search(grid, cases);
   Path path;
   std::vector<double> seconds(cases.size());
   std::vector<double> labels(cases.size());
@@ -173,7 +214,7 @@ void measure(benchmark::State& state, const Grid& grid, Random& random) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const std::int64_t before = search.expanded();
       const auto begin = std::chrono::steady_clock::now();
-      search.find(*cases[i].goals, cases[i].constraints, &cases[i].others, Limits(), path);
+      search.find(cases[i], i, path);
       seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       labels[i] = static_cast<double>(search.expanded() - before);
     }
@@ -183,16 +224,18 @@ void measure(benchmark::State& state, const Grid& grid, Random& random) {
   state.counters["most_labels"] = *std::ranges::max_element(labels);
 }
 
+template <class Search>
 void find_path(benchmark::State& state, Grid (*make_map)(Random&)) {
   Random random(1);
   const Grid grid = make_map(random);
-  measure(state, grid, random);
+  measure<Search>(state, grid, random);
 }
 
+template <class Search>
 void find_path_on(benchmark::State& state, const std::string& map) {
   Random random(1);
   if (const std::optional<Grid> grid = moving_ai_map(map))
-    measure(state, *grid, random);
+    measure<Search>(state, *grid, random);
   else
     state.SkipWithError("set GROVE_MOVINGAI to the folder of this map");
 }
@@ -202,12 +245,23 @@ void settings(benchmark::internal::Benchmark* b) {
   b->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(200);
 }
 
-BENCHMARK_CAPTURE(find_path, empty, empty_map)->Apply(settings);
-BENCHMARK_CAPTURE(find_path, random, random_map)->Apply(settings);
-BENCHMARK_CAPTURE(find_path, room, room_map)->Apply(settings);
-BENCHMARK_CAPTURE(find_path_on, empty - 32 - 32, "empty-32-32")->Apply(settings);
-BENCHMARK_CAPTURE(find_path_on, random - 32 - 32 - 20, "random-32-32-20")->Apply(settings);
-BENCHMARK_CAPTURE(find_path_on, room - 32 - 32 - 4, "room-32-32-4")->Apply(settings);
+template <class Search>
+void register_benchmarks(const std::string& name) {
+  const auto add = [&](const std::string& map, auto... run) {
+    benchmark::RegisterBenchmark((name + "/" + map).c_str(), run...)->Apply(settings);
+  };
+  add("empty", find_path<Search>, empty_map);
+  add("random", find_path<Search>, random_map);
+  add("room", find_path<Search>, room_map);
+  for (const std::string map : {"empty-32-32", "random-32-32-20", "room-32-32-4"})
+    add(map, find_path_on<Search>, map);
+}
+
+const bool kRegistered = [] {
+  register_benchmarks<Fixed>("fixed");
+  register_benchmarks<Free>("free");
+  return true;
+}();
 
 }  // namespace
 }  // namespace grove

@@ -18,17 +18,20 @@ namespace grove {
 // Entries live in one pool and are chained into lists: one per conflict count for the layer being
 // emptied, one per layer for the next kWindow layers, one for all layers beyond. Nothing is
 // allocated once the pool has grown to the size of the largest search so far.
-class BucketQueue {
+//
+// `Progress` numbers what has been visited: a byte where goals come in a fixed order.
+template <class Progress>
+class BasicBucketQueue {
  public:
   struct Entry {
     std::int32_t slot = 0;
     Time time = 0;
     std::uint16_t conflicts = 0;  // at most kMostConflicts
-    std::uint8_t progress = 0;
+    Progress progress = 0;
   };
   static constexpr std::uint16_t kMostConflicts = 1023;
 
-  BucketQueue() {
+  BasicBucketQueue() {
     current_.fill(kNone);
     window_.fill(kNone);
   }
@@ -72,7 +75,10 @@ class BucketQueue {
   std::vector<Node> pool_;
 };
 
-inline void BucketQueue::reset(Time first) {
+using BucketQueue = BasicBucketQueue<std::uint8_t>;
+
+template <class Progress>
+inline void BasicBucketQueue<Progress>::reset(Time first) {
   std::fill_n(current_.begin(), levels_used_, kNone);
   std::fill_n(window_.begin(), window_used_, kNone);
   beyond_ = kNone;
@@ -82,12 +88,14 @@ inline void BucketQueue::reset(Time first) {
   level_ = levels_used_ = 0;
 }
 
-inline void BucketQueue::push(Time layer, const Entry& entry) {
+template <class Progress>
+inline void BasicBucketQueue<Progress>::push(Time layer, const Entry& entry) {
   pool_.push_back({entry, layer, kNone});
   place(static_cast<std::int32_t>(pool_.size() - 1));
 }
 
-inline void BucketQueue::place(std::int32_t node) {
+template <class Progress>
+inline void BasicBucketQueue<Progress>::place(std::int32_t node) {
   const Node& n = pool_[node];
   if (n.layer == layer_) {
     chain(current_[n.entry.conflicts], node);
@@ -101,7 +109,8 @@ inline void BucketQueue::place(std::int32_t node) {
   }
 }
 
-inline bool BucketQueue::pop(Entry& entry) {
+template <class Progress>
+inline bool BasicBucketQueue<Progress>::pop(Entry& entry) {
   for (;;) {
     for (; level_ < levels_used_; ++level_) {
       const std::int32_t node = current_[level_];
@@ -114,7 +123,8 @@ inline bool BucketQueue::pop(Entry& entry) {
   }
 }
 
-inline void BucketQueue::place_all(std::int32_t& head) {
+template <class Progress>
+inline void BasicBucketQueue<Progress>::place_all(std::int32_t& head) {
   std::int32_t node = head;
   head = kNone;
   while (node != kNone) {
@@ -124,7 +134,8 @@ inline void BucketQueue::place_all(std::int32_t& head) {
   }
 }
 
-inline bool BucketQueue::next_layer() {
+template <class Progress>
+inline bool BasicBucketQueue<Progress>::next_layer() {
   level_ = levels_used_ = 0;
   for (Time offset = layer_ - window_begin_; offset < window_used_; ++offset) {
     if (window_[offset] == kNone) continue;
@@ -136,7 +147,8 @@ inline bool BucketQueue::next_layer() {
 }
 
 // The window is empty: let it begin at the first layer beyond it.
-inline bool BucketQueue::move_window() {
+template <class Progress>
+inline bool BasicBucketQueue<Progress>::move_window() {
   if (beyond_ == kNone) return false;
   Time first = kNever;
   for (std::int32_t node = beyond_; node != kNone; node = pool_[node].next)

@@ -131,7 +131,6 @@ class LowLevelSearch::Workspace {
   bool postpone(const Entry& entry);
   void close_gate(const Entry& entry);
   void expand(const Entry& entry);
-  void enter_intervals(const Entry& from, Cell from_cell, Cell to);
   void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
   std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time) const;
   void write_path(Path& path);
@@ -284,26 +283,10 @@ void LowLevelSearch::Workspace::close_gate(const Entry& entry) {
 }
 
 void LowLevelSearch::Workspace::expand(const Entry& entry) {
-  const Cell cell = intervals_.cell_of(entry.slot);
-  for (Cell next : grid_.neighbors(cell)) {
-    if (intervals_.unconstrained(next))
-      arrive(entry, cell, next, next, entry.time + 1);
-    else
-      enter_intervals(entry, cell, next);
-  }
-}
-
-void LowLevelSearch::Workspace::enter_intervals(const Entry& from, Cell from_cell, Cell to) {
-  const Time last_arrival = intervals_.end_of(from.slot) + 1;
-  const int end_slot = intervals_.end_slot(to);
-  for (int slot = intervals_.first_slot(to); slot < end_slot; ++slot) {
-    const Time begin = intervals_.begin_of(slot);
-    const Time end = std::min(intervals_.end_of(slot), last_arrival);
-    if (begin > last_arrival) break;
-    if (end <= from.time) continue;
-    const Time time = intervals_.first_move(from_cell, to, std::max(begin, from.time + 1));
-    if (time <= end) arrive(from, from_cell, slot, to, time);
-  }
+  const Cell from = intervals_.cell_of(entry.slot);
+  intervals_.for_each_move(grid_, entry.slot, entry.time, [&](int slot, Cell cell, Time time) {
+    arrive(entry, from, slot, cell, time);
+  });
 }
 
 void LowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::int32_t slot,
@@ -313,7 +296,7 @@ void LowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::i
   if (f > stages_[progress].latest) return;
   Label& l = label(slot, progress);
   const bool known = l.stamp == stamp_;
-  if (known && l.time < time) return;
+  if (known && (l.time < time || (l.time == time && l.conflicts <= from.conflicts))) return;
   const std::uint16_t conflicts =
       others_ ? conflicts_on_arrival(from, from_cell, cell, time) : std::uint16_t{0};
   if (known && l.time == time && l.conflicts <= conflicts) return;

@@ -2,6 +2,7 @@
 // When an agent may be where: constraints turned into intervals.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -56,6 +57,19 @@ class SafeIntervals {
   // when there is none. Whether `to` is safe then is another matter.
   Time first_move(Cell from, Cell to, Time earliest) const;
 
+  // Calls arrive(slot, cell, time) for each slot next to `slot` that an agent in it at `from_time`
+  // can move to, with the first time at which it can be there.
+  template <class Arrive>
+  void for_each_move(const Grid& grid, int slot, Time from_time, Arrive arrive) const {
+    const Cell cell = cell_of(slot);
+    for (Cell next : grid.neighbors(cell)) {
+      if (unconstrained(next))
+        arrive(next, next, from_time + 1);
+      else
+        enter_intervals(slot, cell, from_time, next, arrive);
+    }
+  }
+
  private:
   // The constraints on one cell and the moves to it.
   struct Group {
@@ -65,6 +79,20 @@ class SafeIntervals {
     int end_move;
   };
   static constexpr std::int32_t kNoGroup = -1;
+
+  template <class Arrive>
+  void enter_intervals(int from_slot, Cell from, Time from_time, Cell to, Arrive arrive) const {
+    const Time last_arrival = end_of(from_slot) + 1;
+    const int end_of_cell = end_slot(to);
+    for (int slot = first_slot(to); slot < end_of_cell; ++slot) {
+      const Time begin = begin_of(slot);
+      const Time end = std::min(end_of(slot), last_arrival);
+      if (begin > last_arrival) break;
+      if (end <= from_time) continue;
+      const Time time = first_move(from, to, std::max(begin, from_time + 1));
+      if (time <= end) arrive(slot, to, time);
+    }
+  }
 
   const SafeInterval& interval(int slot) const { return intervals_[slot - cells_]; }
   void sort_valid(std::span<const Constraint> constraints);

@@ -6,14 +6,6 @@
 #include "rtsp_backends.h"
 
 namespace grove {
-namespace {
-
-// Up to here a table takes less than a millisecond and 0.5 MB; sequence graphs take about as long
-// from here on, stay small, and only deep lists come from them more slowly.
-constexpr int kTableStops = 14;
-
-}  // namespace
-
 std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatrix& matrix,
                                              const Limits& limits) {
   switch (backend) {

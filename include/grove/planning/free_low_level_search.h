@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The low level of CBS when it chooses the order of the tasks itself.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "grove/model/limits.h"
+#include "grove/model/plan.h"
+#include "grove/planning/conflict_avoidance_table.h"
+#include "grove/planning/constraint.h"
+#include "grove/planning/free_goals.h"
+
+namespace grove {
+
+// Safe-interval path planning with one label per (cell, safe interval, state), a state being what
+// is left to visit. The essay with the proof is at the head of free_low_level_search.cpp. Holds the
+// workspace of one thread: reuse it, do not share it.
+class FreeLowLevelSearch {
+ public:
+  enum class Outcome : std::uint8_t {
+    kFound,
+    kAbove,       // proven: no path costs `cutoff` or less (whether there is one is not known)
+    kInfeasible,  // proven: no path realizes a sequence of the class under the constraints
+    kStopped,     // a limit struck: nothing is known
+  };
+
+  // `grid` must outlive this.
+  explicit FreeLowLevelSearch(const Grid& grid);
+  ~FreeLowLevelSearch();
+
+  // Finds a path of least cost from the start at time 0 that realizes some sequence of the class
+  // and obeys `constraints` (also while resting at the end), if that cost is at most `cutoff`
+  // (kNever: any). Among equally cheap ways met it prefers few conflicts with `others` (may be
+  // null). The path ends when the agent comes to rest: its cost is path.size() - 1. Widens the
+  // completions of `goals` as needed. Writes `path` only on kFound.
+  Outcome find(FreeGoals& goals, std::span<const Constraint> constraints,
+               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
+
+  // Labels expanded by all calls so far.
+  std::int64_t expanded() const;
+
+ private:
+  class Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace grove

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What it costs one agent to complete a sequence, for all the states that may matter.
+#pragma once
+
+#include <memory>
+
+#include "grove/model/limits.h"
+#include "grove/sequencing/cost_matrix.h"
+
+namespace grove {
+
+// Exact costs to go of one agent, for every sequence cheaper than beyond(). A table of all states
+// where that is small, else a sequence graph that grows on demand. At first there is nothing:
+// widen(). Any number of threads may read one that nobody widens.
+class Completions {
+ public:
+  explicit Completions(CostMatrix matrix);
+  ~Completions();
+  Completions(Completions&&) noexcept;
+  Completions& operator=(Completions&&) noexcept;
+
+  const CostMatrix& matrix() const;
+
+  // Proven: a sequence with a state outside costs at least this. kNever: there is none such.
+  Time beyond() const;
+  // The least cost from `stop` through all of `left` (without it) to the end, over the ways known;
+  // kNever when there is none, or the state is outside.
+  Time completion(StopSet left, int stop) const;
+
+  // Afterwards beyond() > reach, and never less than before. False, and nothing changed, when a
+  // limit struck. `reach` < kNever.
+  bool widen(Time reach, const Limits& limits);
+
+ private:
+  class Store;
+  class Graph;
+  template <class Entry>
+  class Table;
+  std::unique_ptr<Store> store_;
+};
+
+}  // namespace grove

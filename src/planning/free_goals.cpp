@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// The states of a sequence class "prefix, then none of F, then free".
+//
+// A state is what is left to count, for the order of what has been counted no longer matters: while
+// the prefix lasts, one stop may be next; right after it any but those of F; later any.
+//
+// Touching counts. An agent on a stop that may be counted next loses nothing by counting it: a
+// continuation that counts it later realizes a sequence of the class without counting it a second
+// time, and if it was the first free stop, it is not of F, so it may be the first. (It is not so
+// that fewer stops left are always better: with F, a stop of F touched right after the prefix is
+// not counted, and must be visited again.) So each touch has one successor, with one exception.
+//
+// Without a destination the agent rests on the last stop of its sequence, so that every path has
+// one last stop, and the classes of a partition share no sequence. Being on a stop for the last
+// time is being on it at the end: a path that has counted everything may rest on any free stop v,
+// since moving v to the end of the order counted leaves a sequence of the class - if its first free
+// stop stays outside F. Moving v breaks that only if v itself was counted first and F is not empty.
+// Then the stop w that was counted first is no place to rest (unless it is the only free stop): the
+// state remembers it by its `rests`; and because that takes something away, touching a possible
+// first stop need not count: the search follows both ways. That is exact: a realized sequence with
+// first free stop w and last stop v != w is followed by counting w at its visit, skipping the
+// possible first stops before, and everything else as soon as touched. If only one stop can be the
+// first, skipping it leads nowhere and is left out. A prefix stop is a place to rest only if it is
+// the last one of a complete prefix.
+//
+// The distance from a cell is the least over the stops u next of dist(cell, u) + onward cost of u.
+// If onward(u) >= dist(u, w) + onward(w), then u is never needed beside w, whatever the cell, by
+// the triangle inequality of grid distances. What remains is a handful of stops. (Two stops have
+// different cells, so no two can rule out each other.)
+#include "grove/planning/free_goals.h"
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+#include <utility>
+
+namespace grove {
+namespace {
+
+StopSet bit(int stop) {
+  return StopSet{1} << stop;
+}
+
+bool holds(StopSet set, int stop) {
+  return (set & bit(stop)) != 0;
+}
+
+// The stops of a prefix.
+StopSet checked_set(const Sequence& prefix, StopSet all) {
+  StopSet set = 0;
+  for (Stop stop : prefix) {
+    if (stop >= kMaxTasksPerAgent || !holds(all & ~set, stop))
+      throw std::invalid_argument("a prefix must hold stops of its agent, each at most once");
+    set |= bit(stop);
+  }
+  return set;
+}
+
+}  // namespace
+
+AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent)
+    : start_(instance.agent(agent).start),
+      destination_(instance.agent(agent).goal),
+      stop_at_(instance.grid().cell_count(), kNoStop),
+      completions_(cost_matrix(instance, agent, distances)) {
+  for (TaskIndex task : instance.agent(agent).tasks) {
+    stop_at_[instance.task(task).cell] = static_cast<std::int8_t>(cells_.size());
+    cells_.push_back(instance.task(task).cell);
+  }
+  if (destination_)
+    to_destination_ = &distances.to(*destination_);
+  else if (cells_.empty())
+    throw std::invalid_argument("an agent without a destination needs a task");
+
+  distances_.resize(stop_at_.size() * cells_.size());
+  for (std::size_t stop = 0; stop < cells_.size(); ++stop) {
+    const DistanceField& field = distances.to(cells_[stop]);
+    for (std::size_t cell = 0; cell < field.size(); ++cell)
+      distances_[cell * cells_.size() + stop] = field[cell];
+  }
+}
+
+FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work)
+    : stops_(stops),
+      class_(std::move(work)),
+      free_(stops.all() & ~checked_set(class_.prefix, stops.all())),
+      first_free_(free_ & ~class_.forbidden_next),
+      rest_is_not_first_(!stops.destination() && first_free_ != free_ && std::popcount(free_) > 1),
+      stride_(static_cast<std::size_t>(stops.count())) {}
+
+bool FreeGoals::plausible() const {
+  if (free_ != 0 && first_free_ == 0) return false;
+  const Time* to_stop = stops_.distances_from(stops_.start());
+  const bool reachable = std::all_of(to_stop, to_stop + stride_, [](Time d) { return d < kNever; });
+  return reachable && (!stops_.destination() || stops_.to_destination(stops_.start()) < kNever);
+}
+
+FreeGoals::StateId FreeGoals::first_state() {
+  if (built_beyond_ == stops_.completions().beyond()) return first_state_;
+  built_beyond_ = stops_.completions().beyond();
+  states_.clear();
+  after_.clear();
+  onward_.clear();
+  index_.assign(rest_is_not_first_ ? stride_ + 1 : 1, {});
+  const StopSet rests = free_ != 0 ? free_ : class_.prefix.empty() ? 0 : bit(class_.prefix.back());
+  return first_state_ = make_state(stops_.all(), rests);
+}
+
+Time FreeGoals::to_rest(const State& state, Cell cell) const {
+  if (stops_.destination()) return stops_.to_destination(cell);
+  const Time* to_stop = stops_.distances_from(cell);
+  Time best = kNever;
+  for (StopSet rests = state.rests; rests != 0; rests &= rests - 1)
+    best = std::min(best, to_stop[std::countr_zero(rests)]);
+  return best;
+}
+
+// Those of `left` that may be counted next.
+StopSet FreeGoals::next_of(StopSet left) const {
+  for (Stop stop : class_.prefix)
+    if (holds(left, stop)) return bit(stop);
+  return left == free_ ? first_free_ : left;
+}
+
+StopSet FreeGoals::rests_after(const State& state, int stop) const {
+  const bool first = rest_is_not_first_ && state.left == free_;
+  return first ? state.rests & ~bit(stop) : state.rests;
+}
+
+// From `stop`, the next one, through the other stops of `left` to the end.
+Time FreeGoals::onward_cost(StopSet left, int stop) const {
+  left &= ~bit(stop);
+  const Completions& completions = stops_.completions();
+  if (left != free_ && (left & ~free_) == 0) return completions.completion(left, stop);
+  if (left == 0) return completions.completion(0, stop);
+  Time best = kNever;
+  for (StopSet next = next_of(left); next != 0; next &= next - 1) {
+    const int then = std::countr_zero(next);
+    const Time leg = completions.matrix().between(stop, then);
+    if (leg < kNever) best = std::min(best, leg + std::min(onward_cost(left, then), kNever));
+  }
+  return std::min(best, kNever);
+}
+
+FreeGoals::StateId FreeGoals::make_after(StateId id, int stop) {
+  const State from = states_[id];
+  const StateId to = make_state(from.left & ~bit(stop), rests_after(from, stop));
+  after_[static_cast<std::size_t>(id) * stride_ + static_cast<std::size_t>(stop)] = to;
+  return to;
+}
+
+FreeGoals::StateId FreeGoals::make_state(StopSet left, StopSet rests) {
+  const StopSet barred = rest_is_not_first_ ? free_ & ~rests : 0;
+  StopSetIndex& index = index_[barred == 0 ? 0 : 1 + std::countr_zero(barred)];
+  if (const std::uint32_t known = index.find(left); known != StopSetIndex::kAbsent)
+    return static_cast<StateId>(known);
+
+  State state{.left = left, .next = next_of(left), .rests = rests};
+  state.may_skip = rest_is_not_first_ && left == free_ && std::popcount(first_free_) > 1;
+  add_onward(state);
+  if (left != 0 && state.count == 0) return kOutside;
+  const auto id = static_cast<StateId>(states_.size());
+  index.insert(left, static_cast<std::uint32_t>(id));
+  states_.push_back(state);
+  after_.resize(after_.size() + stride_, kUnknown);
+  return id;
+}
+
+void FreeGoals::add_onward(State& state) {
+  state.first = static_cast<std::int32_t>(onward_.size());
+  for (StopSet next = state.next; next != 0; next &= next - 1) {
+    const int stop = std::countr_zero(next);
+    const Time cost = onward_cost(state.left, stop);
+    if (cost < kNever) onward_.push_back({stop, cost});
+  }
+  state.count = static_cast<std::int32_t>(onward_.size()) - state.first;
+  const auto ways = onward_.begin() + state.first;
+  const auto needed = [&](const Onward& u) {
+    const Time* from_u = stops_.distances_from(stops_.cell(u.stop));
+    return std::none_of(ways, onward_.end(), [&](const Onward& w) {
+      return w.stop != u.stop && u.cost >= from_u[w.stop] + w.cost;
+    });
+  };
+  std::vector<Onward> sorted;
+  std::copy_if(ways, onward_.end(), std::back_inserter(sorted), needed);
+  state.nearest = static_cast<std::int32_t>(sorted.size());
+  std::remove_copy_if(ways, onward_.end(), std::back_inserter(sorted), needed);
+  std::ranges::copy(sorted, ways);
+}
+
+Sequence realized_sequence(const FreeGoals& goals, const Path& path) {
+  const AgentStops& stops = goals.stops();
+  const SequenceClass& work = goals.sequence_class();
+  const auto next_in_class = [&](const Sequence& so_far, int stop) {
+    if (std::ranges::count(so_far, stop) > 0) return false;
+    if (so_far.size() < work.prefix.size()) return work.prefix[so_far.size()] == stop;
+    return so_far.size() > work.prefix.size() || !holds(work.forbidden_next, stop);
+  };
+  const auto complete = static_cast<std::size_t>(stops.count());
+  const int last =
+      stops.destination() || path.empty() ? AgentStops::kNoStop : stops.stop_at(path.back());
+  Sequence sequence;
+  for (Cell cell : path) {
+    const int stop = stops.stop_at(cell);
+    if (stop == AgentStops::kNoStop || !next_in_class(sequence, stop)) continue;
+    if (stop != last || sequence.size() + 1 == complete)
+      sequence.push_back(static_cast<Stop>(stop));
+  }
+  const bool rests = stops.destination() ? !path.empty() && path.back() == *stops.destination()
+                                         : !sequence.empty() && sequence.back() == last;
+  if (sequence.size() != complete || !rests)
+    throw std::invalid_argument("a path that realizes no sequence of the class");
+  return sequence;
+}
+
+}  // namespace grove

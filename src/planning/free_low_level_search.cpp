@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: MIT
+// The low level over all sequences of a class at once: A* over safe intervals (see
+// low_level_search.cpp for what the two share: intervals, dominance by the earliest arrival, ties)
+// in which a label is a (cell, safe interval, state), a state being what is left to visit
+// (free_goals.cpp: touching a stop that may be counted counts it). So it solves at once what the
+// low levels of multi-goal CBS split into orders and paths (MGCBS: Tang et al., IJCAI 2024), with
+// the exact cost of completing as heuristic, from the sequence graph.
+//
+// Heuristic. h(cell, state) = min over the stops u next of dist(cell, u) + completion of the rest
+// from u: exact without constraints if the completions know all sequences. Nothing left: the
+// distance to the destination, or without one to the nearest stop that may be rested on.
+//
+// Dominance. A path from a label on depends on the cell, the interval and the state alone, an
+// earlier arrival can wait for a later one, and waiting changes no state. So one label with the
+// earliest time each suffices, as with a fixed sequence.
+//
+// The end. Nothing left, on a place to rest, in an interval that never ends: a cell barred for ever
+// is no place to rest. No path costs less than the first begin of such an interval, so a finish at
+// that time is optimal at once.
+//
+// Exactness with a bounded graph. The completions know every sequence cheaper than beyond(). Labels
+// in states that they do not know are dropped, and so are labels of f > beyond().
+// *Claim: no path that costs less than beyond() is lost.* Take such a path P that realizes a
+// sequence of the class, and count as early as possible: that realizes a sequence s too. P visits
+// the stops of s in turn, so s costs at most what P costs, less than beyond(): all states of s are
+// known with their exact completions, which are at most what P still pays. So every label along P
+// has t + h <= cost(P). The search may hold, instead of P's label, an earlier one of the same cell,
+// interval and state; then the way there with the remainder of P after it, waiting in between, is
+// again a path of the class, no dearer than P, and the argument holds for it: what the graph misses
+// of other ways does not matter. With a deadline or gate below it is the same path that goes on.
+// So: a path found that costs at most beyond() is optimal, since a cheaper one would not have been
+// lost. If none is found, every path costs at least beyond(); then the graph is widened and the
+// search begun again, unless the cutoff is below beyond(): kAbove. And if no label was dropped for
+// its f or for its state, the search has seen all there is: kInfeasible, whatever the graph.
+//
+// Cutoff. Labels of f > cutoff are dropped. "Above" then says no more than that no path costs the
+// cutoff or less.
+//
+// Deadlines. If a stop is barred for ever after time d, a label that has it left is of use only if
+// t + dist(cell, stop) <= d.
+//
+// Gates. Let G be a label that was expanded on stop u, just counted at time g in an interval [..,
+// b] of u's cell, coming from state s; and L another label of s. A path P through L counts some
+// stop next. If that is u, at a time in [g, b], then G could stand there as well, waiting, in the
+// same state after u: from there on P is open to G. L cannot count u before t + dist(L, u). So if
+// that is g or later, L is needed for u only in a later interval, which begins at n: such paths
+// cost n + onward(u) or more. For each way u on that has no such G the bound is t + dist(L, u) +
+// onward(u). The least of all these is what L is postponed to; if there is none, it is dropped.
+// (Ways that the graph does not know cost beyond() or more, see above; a label dropped with such a
+// way counts as dropped for its state.) Soundness is that of the gates in low_level_search.cpp:
+// when L is postponed beyond the optimal cost, an optimal path changes over to a G with fewer stops
+// left, so this ends. With a fixed sequence a gate holds for all earlier states; here for one,
+// since the others may count other stops on the way to u. The states before are cut off by gates of
+// their own.
+//
+// Infeasible cases can cost all 2^n sets: with time windows the question is NP-hard. Most are a
+// door that shuts before or behind the agent, so once per hard call each stop is asked for alone
+// (visit_check.cpp), a necessary condition.
+//
+// Measured on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
+// call in microseconds; n = 5, 10, 20): 6, 14, 24 without constraints; 17, 35, 57 with 20 of them
+// on the paths found; 34, 64, 138 with 60. A fixed sequence takes 5, 8, 15; 12, 14, 22; 21, 24, 31.
+#include "grove/planning/free_low_level_search.h"
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "bucket_queue.h"
+#include "label_planes.h"
+#include "safe_intervals.h"
+#include "visit_check.h"
+
+namespace grove {
+namespace {
+
+constexpr std::int64_t kExpansionsPerPoll = 256;
+// After so many in one call, or before the completions are widened a second time, it is worth
+// asking whether each stop can be visited at all.
+constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 14;
+
+}  // namespace
+
+class FreeLowLevelSearch::Workspace {
+ public:
+  explicit Workspace(const Grid& grid)
+      : grid_(grid), intervals_(grid), visit_check_(grid, intervals_) {}
+
+  Outcome find(FreeGoals& goals, std::span<const Constraint> constraints,
+               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
+  std::int64_t expanded() const { return expanded_; }
+
+ private:
+  using StateId = FreeGoals::StateId;
+  using Queue = BasicBucketQueue<StateId>;
+  using Entry = Queue::Entry;
+
+  // A stop that is barred for ever after `time`.
+  struct Deadline {
+    int stop;
+    Time time;
+  };
+  // Of one onward way: a label that reaches its stop at `from` or later need not be looked at for
+  // the sake of that way, unless the stop is visited at `until` or later.
+  struct Gate {
+    Time from = kNever;
+    Time until = 0;
+  };
+
+  static constexpr std::int32_t kNoSlot = -1;
+  static constexpr std::int64_t kNoDoubt = std::numeric_limits<std::int64_t>::max();
+
+  bool prepare();
+  Time first_rest() const;
+  void find_deadlines();
+  Outcome find_within(Time cap, const Limits& limits, Path& path);
+  void start();
+  Outcome run(const Limits& limits, Path& path);
+
+  bool surely_infeasible();
+  bool misses_deadline(StateId state, Cell cell, Time time) const;
+  bool is_finish(const Entry& entry) const;
+  bool is_stale(const Entry& entry);
+  bool postpone(const Entry& entry);
+  Time postponed_to(const Entry& entry) const;
+  void close_gate(const Entry& entry);
+  void expand(const Entry& entry);
+  void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
+  void touch(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time, int stop);
+  void reach(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time,
+             StateId state);
+  std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time) const;
+  void write_path(const Entry& finish, Path& path);
+
+  const Grid& grid_;
+  SafeIntervals intervals_;
+  VisitCheck visit_check_;
+  Queue queue_;
+  LabelPlanes planes_;
+  std::vector<Gate> gates_;
+  std::vector<Deadline> deadlines_;
+  std::int64_t expanded_ = 0;
+
+  // Of the call under way.
+  FreeGoals* goals_ = nullptr;
+  const ConflictAvoidanceTable* others_ = nullptr;
+  const Limits* limits_ = nullptr;
+  Time first_rest_ = 0;        // no path costs less
+  Time cap_ = 0;               // dearer labels are dropped
+  bool over_ = false;          // one was
+  std::int64_t doubt_at_ = 0;  // the count of labels at which to ask, once, if it is feasible
+  bool outside_ = false;       // a label was dropped whose state the completions do not know
+};
+
+FreeLowLevelSearch::FreeLowLevelSearch(const Grid& grid)
+    : workspace_(std::make_unique<Workspace>(grid)) {}
+FreeLowLevelSearch::~FreeLowLevelSearch() = default;
+
+FreeLowLevelSearch::Outcome FreeLowLevelSearch::find(FreeGoals& goals,
+                                                     std::span<const Constraint> constraints,
+                                                     const ConflictAvoidanceTable* others,
+                                                     Time cutoff, const Limits& limits,
+                                                     Path& path) {
+  return workspace_->find(goals, constraints, others, cutoff, limits, path);
+}
+
+std::int64_t FreeLowLevelSearch::expanded() const {
+  return workspace_->expanded();
+}
+
+FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(
+    FreeGoals& goals, std::span<const Constraint> constraints, const ConflictAvoidanceTable* others,
+    Time cutoff, const Limits& limits, Path& path) {
+  if (limits.stop_requested()) return Outcome::kStopped;
+  goals_ = &goals;
+  others_ = others;
+  limits_ = &limits;
+  intervals_.assign(constraints);
+  if (!prepare()) return Outcome::kInfeasible;
+  if (first_rest_ > cutoff) return Outcome::kAbove;
+
+  doubt_at_ = expanded_ + kExpansionsBeforeDoubt;
+  Completions& completions = goals.stops().completions();
+  for (;;) {
+    const Outcome outcome = find_within(std::min(cutoff, completions.beyond()), limits, path);
+    if (outcome != Outcome::kAbove || cutoff < completions.beyond()) return outcome;
+    if (completions.beyond() == kNever) return outcome;
+    if (goals.first_state() != FreeGoals::kOutside && surely_infeasible())
+      return Outcome::kInfeasible;
+    if (!completions.widen(completions.beyond(), limits)) return Outcome::kStopped;
+  }
+}
+
+// False when there is plainly no path.
+bool FreeLowLevelSearch::Workspace::prepare() {
+  find_deadlines();
+  first_rest_ = first_rest();
+  return first_rest_ < kNever && goals_->plausible();
+}
+
+// When the agent may first come to rest anywhere for ever.
+Time FreeLowLevelSearch::Workspace::first_rest() const {
+  const AgentStops& stops = goals_->stops();
+  const auto rest_begin = [&](Cell cell) {
+    const int slot = intervals_.last_slot(cell);
+    return slot == kNoSlot ? kNever : intervals_.begin_of(slot);
+  };
+  if (stops.destination()) return rest_begin(*stops.destination());
+  Time first = kNever;
+  for (int stop = 0; stop < stops.count(); ++stop)
+    first = std::min(first, rest_begin(stops.cell(stop)));
+  return first;
+}
+
+void FreeLowLevelSearch::Workspace::find_deadlines() {
+  const AgentStops& stops = goals_->stops();
+  deadlines_.clear();
+  for (int stop = 0; stop < stops.count(); ++stop) {
+    const Cell cell = stops.cell(stop);
+    if (intervals_.last_slot(cell) != kNoSlot) continue;
+    const int last = intervals_.end_slot(cell) - 1;
+    const bool ever_safe = last >= intervals_.first_slot(cell);
+    deadlines_.push_back({stop, ever_safe ? intervals_.end_of(last) : -1});
+  }
+}
+
+// A path of least cost, if the cost is at most `cap`, which must not exceed beyond().
+FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_within(Time cap,
+                                                                       const Limits& limits,
+                                                                       Path& path) {
+  cap_ = cap;
+  over_ = outside_ = false;
+  gates_.clear();
+  planes_.begin_search(intervals_.slot_count());
+  start();
+  return run(limits, path);
+}
+
+void FreeLowLevelSearch::Workspace::start() {
+  const Cell cell = goals_->stops().start();
+  const StateId state = goals_->first_state();
+  queue_.reset(0);
+  const int slot = intervals_.slot_at(cell, 0);
+  if (slot == kNoSlot) return;
+  if (state == FreeGoals::kOutside) {
+    outside_ = true;
+    return;
+  }
+  arrive({.slot = kNoSlot, .time = -1, .progress = state}, cell, slot, cell, 0);
+}
+
+FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::run(const Limits& limits, Path& path) {
+  Entry entry;
+  while (queue_.pop(entry)) {
+    if (is_stale(entry) || postpone(entry)) continue;
+    if (is_finish(entry)) {
+      write_path(entry, path);
+      return Outcome::kFound;
+    }
+    if (++expanded_ % kExpansionsPerPoll == 0) {
+      if (limits.stop_requested()) return Outcome::kStopped;
+      if (expanded_ >= doubt_at_ && surely_infeasible()) return Outcome::kInfeasible;
+    }
+    close_gate(entry);
+    expand(entry);
+  }
+  if (planes_.exhausted()) return Outcome::kStopped;
+  const bool bounded = goals_->stops().completions().beyond() < kNever;
+  return over_ || (bounded && outside_) ? Outcome::kAbove : Outcome::kInfeasible;
+}
+
+// Asks once a call.
+bool FreeLowLevelSearch::Workspace::surely_infeasible() {
+  if (doubt_at_ == kNoDoubt) return false;
+  doubt_at_ = kNoDoubt;
+  const AgentStops& stops = goals_->stops();
+  std::vector<Cell> rests;
+  for (int stop = 0; stop < stops.count(); ++stop) rests.push_back(stops.cell(stop));
+  const std::vector<Cell> visits = rests;
+  if (stops.destination()) rests = {*stops.destination()};
+  return !std::ranges::all_of(
+      visits, [&](Cell cell) { return visit_check_.can_visit(stops.start(), cell, rests); });
+}
+
+bool FreeLowLevelSearch::Workspace::is_finish(const Entry& entry) const {
+  const FreeGoals::State& state = goals_->state(entry.progress);
+  return state.left == 0 && goals_->is_rest(state, intervals_.cell_of(entry.slot)) &&
+         intervals_.end_of(entry.slot) == kNever;
+}
+
+// The label was improved since it was queued.
+bool FreeLowLevelSearch::Workspace::is_stale(const Entry& entry) {
+  const LabelPlanes::Label& l = planes_.label(entry.slot, entry.progress);
+  return l.time != entry.time || l.conflicts != entry.conflicts;
+}
+
+bool FreeLowLevelSearch::Workspace::misses_deadline(StateId state, Cell cell, Time time) const {
+  const AgentStops& stops = goals_->stops();
+  const StopSet left = goals_->state(state).left;
+  return std::ranges::any_of(deadlines_, [&](const Deadline& d) {
+    return (left >> d.stop & 1) != 0 && time + stops.distances_from(cell)[d.stop] > d.time;
+  });
+}
+
+bool FreeLowLevelSearch::Workspace::postpone(const Entry& entry) {
+  if (planes_.gates(entry.progress) == LabelPlanes::kNoGates) return false;
+  const Time until = postponed_to(entry);
+  if (until <= queue_.layer()) return false;
+  const FreeGoals::State& state = goals_->state(entry.progress);
+  if (std::popcount(state.next) != state.count) outside_ = true;
+  if (until > cap_)
+    over_ |= until < kNever;
+  else
+    queue_.push(until, entry);
+  return true;
+}
+
+// The least f of a way on that no label expanded already stands for.
+Time FreeLowLevelSearch::Workspace::postponed_to(const Entry& entry) const {
+  const Gate* gate = &gates_[static_cast<std::size_t>(planes_.gates(entry.progress))];
+  const Time* to_stop = goals_->stops().distances_from(intervals_.cell_of(entry.slot));
+  Time until = kNever;
+  for (const FreeGoals::Onward& way : goals_->onward(goals_->state(entry.progress))) {
+    const Time there = entry.time + to_stop[way.stop];
+    const Time visit = there >= gate->from ? std::max(there, gate->until) : there;
+    if (visit < kNever) until = std::min(until, visit + way.cost);
+    ++gate;
+  }
+  return until;
+}
+
+// One gate is kept per way: the one that postpones furthest.
+void FreeLowLevelSearch::Workspace::close_gate(const Entry& entry) {
+  const Cell cell = intervals_.cell_of(entry.slot);
+  const int stop = goals_->stops().stop_at(cell);
+  if (stop == AgentStops::kNoStop) return;
+  const LabelPlanes::Label& l = planes_.label(entry.slot, entry.progress);
+  if (l.parent_slot == kNoSlot || l.parent_state == entry.progress) return;
+  const StateId from = l.parent_state;
+  const auto ways = goals_->onward(goals_->state(from));
+  const auto way = std::ranges::find(ways, stop, &FreeGoals::Onward::stop);
+  if (way == ways.end()) return;
+  if (planes_.gates(from) == LabelPlanes::kNoGates) {
+    planes_.set_gates(from, static_cast<std::int32_t>(gates_.size()));
+    gates_.resize(gates_.size() + ways.size());
+  }
+  Gate& gate = gates_[static_cast<std::size_t>(planes_.gates(from) + (way - ways.begin()))];
+  const Time until = intervals_.next_begin(entry.slot);
+  if (until > gate.until || (until == gate.until && entry.time < gate.from))
+    gate = {entry.time, until};
+}
+
+void FreeLowLevelSearch::Workspace::expand(const Entry& entry) {
+  const Cell from = intervals_.cell_of(entry.slot);
+  intervals_.for_each_move(grid_, entry.slot, entry.time, [&](int slot, Cell cell, Time time) {
+    arrive(entry, from, slot, cell, time);
+  });
+}
+
+void FreeLowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::int32_t slot,
+                                           Cell cell, Time time) {
+  const int stop = goals_->stops().stop_at(cell);
+  if (stop == AgentStops::kNoStop || (goals_->state(from.progress).next >> stop & 1) == 0)
+    reach(from, from_cell, slot, cell, time, from.progress);
+  else
+    touch(from, from_cell, slot, cell, time, stop);
+}
+
+void FreeLowLevelSearch::Workspace::touch(const Entry& from, Cell from_cell, std::int32_t slot,
+                                          Cell cell, Time time, int stop) {
+  if (goals_->state(from.progress).may_skip)
+    reach(from, from_cell, slot, cell, time, from.progress);
+  const StateId state = goals_->after(from.progress, stop);
+  if (state != FreeGoals::kOutside)
+    reach(from, from_cell, slot, cell, time, state);
+  else
+    outside_ = true;
+}
+
+void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std::int32_t slot,
+                                          Cell cell, Time time, StateId state) {
+  if (!deadlines_.empty() && misses_deadline(state, cell, time)) return;
+  if (!planes_.open(state, *limits_)) return;
+  LabelPlanes::Label& l = planes_.label(slot, state);
+  const bool known = planes_.is_current(l);
+  if (known && (l.time < time || (l.time == time && l.conflicts <= from.conflicts))) return;
+  const Time distance = goals_->distance(state, cell);
+  if (distance >= kNever) outside_ = true;
+  if (distance > cap_ - time) {
+    over_ |= distance < kNever;
+    return;
+  }
+  const std::uint16_t conflicts =
+      others_ && time > 0 ? conflicts_on_arrival(from, from_cell, cell, time) : std::uint16_t{0};
+  if (known && l.time == time && l.conflicts <= conflicts) return;
+
+  l = {.time = time,
+       .parent_slot = from.slot,
+       .parent_state = from.progress,
+       .stamp = planes_.stamp(),
+       .conflicts = conflicts};
+  const Entry entry{.slot = slot, .time = time, .conflicts = conflicts, .progress = state};
+  // No path is cheaper than a rest as early as any may be: it need not wait for its f.
+  const bool optimal = time == first_rest_ && is_finish(entry);
+  queue_.push(optimal ? queue_.layer() : std::max(time + distance, queue_.layer()), entry);
+}
+
+std::uint16_t FreeLowLevelSearch::Workspace::conflicts_on_arrival(const Entry& from, Cell from_cell,
+                                                                  Cell cell, Time time) const {
+  int count = from.conflicts + others_->conflicts(from_cell, cell, time);
+  if (time > from.time + 1)
+    count += others_->conflicts_of_waiting(from_cell, from.time + 1, time - 1);
+  return static_cast<std::uint16_t>(std::min<int>(count, Queue::kMostConflicts));
+}
+
+void FreeLowLevelSearch::Workspace::write_path(const Entry& finish, Path& path) {
+  std::int32_t slot = finish.slot;
+  StateId state = finish.progress;
+  Time end = finish.time;
+  path.resize(static_cast<std::size_t>(end) + 1);
+  while (slot != kNoSlot) {
+    const LabelPlanes::Label& l = planes_.label(slot, state);
+    std::fill(path.begin() + l.time, path.begin() + end + 1, intervals_.cell_of(slot));
+    end = l.time - 1;
+    slot = l.parent_slot;
+    state = l.parent_state;
+  }
+}
+
+}  // namespace grove

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The labels of a search over few of very many states.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "grove/model/limits.h"
+#include "grove/model/plan.h"
+
+namespace grove {
+
+// One *plane* of labels, by slot, for each state that a search touches; planes are made when first
+// needed and reused from search to search. Nothing is cleared: what an earlier search wrote has an
+// earlier stamp. Memory that no label was written to is never touched, so on a large map a plane
+// costs what the search sees of it.
+class LabelPlanes {
+ public:
+  struct Label {
+    Time time;
+    std::int32_t parent_slot;
+    std::int32_t parent_state;
+    std::uint32_t stamp;
+    std::uint16_t conflicts;
+  };
+  static constexpr std::int32_t kNoGates = -1;
+
+  // Forgets all labels.
+  void begin_search(int slots) {
+    if (static_cast<std::size_t>(slots) > capacity_) {
+      pool_.clear();
+      capacity_ = static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
+    }
+    if (++stamp_ == 0) {
+      pool_.clear();
+      by_state_.clear();
+      stamp_ = 1;
+    }
+    used_ = 0;
+    exhausted_ = false;
+  }
+
+  // Makes sure that the state has a plane. False, and exhausted(), when memory is refused.
+  bool open(std::int32_t state, const Limits& limits) {
+    if (static_cast<std::size_t>(state) < by_state_.size() && by_state_[state].stamp == stamp_)
+      return true;
+    return add(state, limits);
+  }
+  bool exhausted() const { return exhausted_; }
+
+  // The state must be open.
+  Label& label(std::int32_t slot, std::int32_t state) { return by_state_[state].labels[slot]; }
+  bool is_current(const Label& label) const { return label.stamp == stamp_; }
+  std::uint32_t stamp() const { return stamp_; }
+
+  // A number for the search's own use, kNoGates when the state is opened.
+  std::int32_t gates(std::int32_t state) const { return by_state_[state].gates; }
+  void set_gates(std::int32_t state, std::int32_t gates) { by_state_[state].gates = gates; }
+
+ private:
+  static constexpr std::size_t kSpare = 64;
+  static constexpr std::size_t kPlanesPerQuestion = 16;
+
+  struct Free {
+    void operator()(Label* labels) const { std::free(labels); }
+  };
+  using Plane = std::unique_ptr<Label[], Free>;
+  struct Use {
+    Label* labels = nullptr;
+    std::uint32_t stamp = 0;
+    std::int32_t gates = kNoGates;
+  };
+
+  bool add(std::int32_t state, const Limits& limits) {
+    if (exhausted_ || (used_ == pool_.size() && !add_plane(limits))) {
+      if (!exhausted_) limits.memory_exhausted();
+      exhausted_ = true;
+      return false;
+    }
+    if (static_cast<std::size_t>(state) >= by_state_.size())
+      by_state_.resize(2 * static_cast<std::size_t>(state) + 1);
+    by_state_[state] = {pool_[used_++].get(), stamp_, kNoGates};
+    return true;
+  }
+
+  bool add_plane(const Limits& limits) {
+    if (pool_.size() % kPlanesPerQuestion == 0 &&
+        !limits.memory_allows(kPlanesPerQuestion * capacity_ * sizeof(Label)))
+      return false;
+    Plane plane(static_cast<Label*>(std::calloc(capacity_, sizeof(Label))));
+    if (!plane) return false;
+    pool_.push_back(std::move(plane));
+    return true;
+  }
+
+  std::size_t capacity_ = 0;  // of a plane
+  std::vector<Plane> pool_;
+  std::size_t used_ = 0;
+  std::vector<Use> by_state_;
+  std::uint32_t stamp_ = 0;
+  bool exhausted_ = false;
+};
+
+}  // namespace grove

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// The Held-Karp table itself; the essay is at the head of held_karp.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include "grove/model/limits.h"
+#include "stop_set.h"
+
+namespace grove {
+
+inline constexpr int kMostTableStops = 26;  // 3.5 GB; a table beyond is nobody's wish
+
+// Twice this value still fits, so that no sum overflows; every true cost is below it.
+template <class Entry>
+inline constexpr Entry kNoWay = std::numeric_limits<Entry>::max() / 2;
+
+// No finite cost of a sequence exceeds this: every row of the matrix has one leg in it.
+inline std::int64_t most_expensive(const CostMatrix& matrix) {
+  std::int64_t sum = 0;
+  for (Eigen::Index row = 0; row < matrix.cost.rows(); ++row) {
+    Time most = 0;
+    for (Time cost : matrix.cost.row(row))
+      if (cost < kNever) most = std::max(most, cost);
+    sum += most;
+  }
+  return sum;
+}
+
+// May the table have 16-bit entries?
+inline bool fits_narrow_table(const CostMatrix& matrix) {
+  return most_expensive(matrix) < kNoWay<std::int16_t>;
+}
+
+// h[left][stop], once built. Immutable then; any thread may read it.
+template <class Entry>
+class HeldKarpTable {
+ public:
+  bool built() const { return table_ != nullptr; }
+
+  // False, and not built, when a limit struck.
+  bool build(const CostMatrix& matrix, const Limits& limits) {
+    stops_ = matrix.stops();
+    const std::size_t entries =
+        stops_ > kMostTableStops ? 0 : (std::size_t{1} << stops_) * stops_ + 4 * kLanes;
+    if (limits.stop_requested()) return false;
+    if (entries == 0 || !limits.memory_allows(entries * sizeof(Entry)) || !allocate(entries)) {
+      limits.memory_exhausted();
+      return false;
+    }
+    const bool complete = stops_ <= kLanes       ? fill<kLanes>(matrix, limits)
+                          : stops_ <= 2 * kLanes ? fill<2 * kLanes>(matrix, limits)
+                          : stops_ <= 3 * kLanes ? fill<3 * kLanes>(matrix, limits)
+                                                 : fill<4 * kLanes>(matrix, limits);
+    if (!complete) table_.reset();
+    return complete;
+  }
+
+  // The least cost from `stop` through all of `left` to the end; kNever when there is no way.
+  Time completion(StopSet left, int stop) const {
+    const Entry cost = table_[left * static_cast<StopSet>(stops_) + stop];
+    return cost == kNoWay<Entry> ? kNever : Time{cost};
+  }
+
+ private:
+  static constexpr int kLanes = 8;
+  static constexpr std::uint32_t kPollInterval = 4096;  // rows, together about 0.2 ms
+
+  bool allocate(std::size_t entries) {
+    table_.reset(new (std::nothrow) Entry[entries]);
+    return table_ != nullptr;
+  }
+
+  template <int kWidth>
+  bool fill(const CostMatrix& matrix, const Limits& limits) {
+    const int n = stops_;
+    const std::vector<Entry> into = columns(matrix, kWidth);
+    for (int v = 0; v < n; ++v) table_[v] = entry(matrix.to_end(v));
+    for (std::uint32_t set = 1; set < std::uint32_t{1} << n; ++set) {
+      if (set % kPollInterval == 0 && limits.stop_requested()) return false;
+      Entry row[kWidth];
+      std::fill_n(row, kWidth, kNoWay<Entry>);
+      for_each_stop(set, [&](int u) {
+        const Entry rest = table_[(set & ~bit(u)) * n + u];
+        const Entry* leg = &into[static_cast<std::size_t>(u) * kWidth];
+        for (int v = 0; v < kWidth; ++v)
+          row[v] = std::min(row[v], static_cast<Entry>(leg[v] + rest));
+      });
+      std::copy_n(row, kWidth, &table_[std::size_t{set} * n]);
+    }
+    return true;
+  }
+
+  // The cost matrix by columns: entry u * width + v is the leg from v to u.
+  static std::vector<Entry> columns(const CostMatrix& matrix, int width) {
+    const int n = matrix.stops();
+    std::vector<Entry> into(static_cast<std::size_t>(n) * width, kNoWay<Entry>);
+    for (int u = 0; u < n; ++u)
+      for (int v = 0; v < n; ++v) into[u * width + v] = entry(matrix.between(v, u));
+    return into;
+  }
+
+  static Entry entry(Time cost) {
+    return cost >= kNever ? kNoWay<Entry> : static_cast<Entry>(cost);
+  }
+
+  int stops_ = 0;
+  std::unique_ptr<Entry[]> table_;
+};
+
+}  // namespace grove

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What the free low level must find, by definition: time step by time step, and order by order.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "grove/planning/constraint.h"
+#include "grove/sequencing/rtsp.h"
+
+namespace grove::testing {
+
+struct FreeProblem {
+  const Grid* grid = nullptr;
+  Cell start = kNoCell;
+  std::vector<Cell> stops;
+  std::optional<Cell> destination;
+  SequenceClass work;
+  std::vector<Constraint> constraints;
+};
+
+// The cost of a cheapest path that realizes a sequence of the class, none if there is no path. An
+// agent on a stop may or may not count it; it rests on its destination, or without one on the stop
+// counted last.
+std::optional<Time> free_reference_cost(const FreeProblem& problem);
+
+// All members of a class of n stops.
+std::vector<Sequence> members_of(const SequenceClass& work, int n);
+
+}  // namespace grove::testing

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Costs to go against every order, and, where there are too many, against the Held-Karp table.
+#include "grove/sequencing/completions.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "grove/sequencing/rtsp.h"
+#include "tests/sequencing/matrices.h"
+
+namespace grove {
+namespace {
+
+using testing::fuzz_rounds;
+using testing::kVariants;
+using testing::Random;
+using testing::Variant;
+
+std::vector<int> members(StopSet set) {
+  std::vector<int> stops;
+  for (int stop = 0; stop < 64; ++stop)
+    if (set >> stop & 1) stops.push_back(stop);
+  return stops;
+}
+
+Time brute_force(const CostMatrix& matrix, StopSet left, int stop) {
+  std::vector<int> order = members(left);
+  std::int64_t best = kNever;
+  do {
+    std::int64_t cost = 0;
+    int at = stop;
+    for (int next : order) {
+      cost += matrix.cost(at, next);
+      at = next;
+    }
+    best = std::min(best, cost + matrix.cost(at, matrix.stops()));
+  } while (std::next_permutation(order.begin(), order.end()));
+  return static_cast<Time>(best);
+}
+
+void expect_exact(const CostMatrix& matrix) {
+  Completions completions(matrix);
+  ASSERT_TRUE(completions.widen(0, Limits()));
+  EXPECT_EQ(completions.beyond(), kNever);
+  for (StopSet left = 0; left <= matrix.all(); ++left)
+    for (int stop : members(matrix.all() & ~left))
+      ASSERT_EQ(completions.completion(left, stop), brute_force(matrix, left, stop));
+}
+
+TEST(Completions, SmallOnesAreExactAndComplete) {
+  Random random(1);
+  for (int round = fuzz_rounds(20); round > 0; --round)
+    for (const Variant variant : kVariants)
+      for (int n = 1; n <= 5; ++n) {
+        expect_exact(testing::grid_matrix(n, variant, random));
+        expect_exact(testing::wild_matrix(n, variant, random));
+      }
+}
+
+TEST(Completions, LargeCostsDoNotOverflow) {
+  Random random(2);
+  CostMatrix matrix = testing::metric_matrix(5, Variant::kCts, random);
+  matrix.cost *= 10'000;
+  expect_exact(matrix);
+}
+
+TEST(Completions, NothingIsKnownAtFirst) {
+  Random random(3);
+  for (const int n : {4, 16}) {
+    const CostMatrix matrix = testing::metric_matrix(n, Variant::kCts, random);
+    const Completions completions(matrix);
+    EXPECT_LT(completions.beyond(), kNever);
+    EXPECT_EQ(completions.completion(matrix.all() & ~StopSet{1}, 0), kNever);
+  }
+}
+
+// With 15 and 16 stops: from the graph here, from the table there.
+class GraphTest : public ::testing::Test {
+ protected:
+  // Every sequence below beyond() has its exact cost to go at every state: walks down all of them.
+  void expect_exact_below_beyond(const CostMatrix& matrix, const Completions& completions) {
+    const Limits limits;
+    const auto table = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
+    SequenceClass work;
+    walk(matrix, completions, *table, work, 0);
+  }
+
+ private:
+  void walk(const CostMatrix& matrix, const Completions& completions, RtspSolver& table,
+            SequenceClass& work, Time cost) {
+    StopSet left = matrix.all();
+    for (Stop stop : work.prefix) left &= ~(StopSet{1} << stop);
+    const Time exact = table.best(work, kNever).cost;
+    if (exact >= completions.beyond() || ++visited_ > kMostVisited) return;
+    if (!work.prefix.empty()) {
+      ASSERT_EQ(cost + completions.completion(left, work.prefix.back()), exact);
+    }
+    const int at = work.prefix.empty() ? matrix.stops() : work.prefix.back();
+    for (int stop : members(left)) {
+      work.prefix.push_back(static_cast<Stop>(stop));
+      walk(matrix, completions, table, work, cost + matrix.between(at, stop));
+      work.prefix.pop_back();
+    }
+  }
+
+  static constexpr int kMostVisited = 2000;
+  int visited_ = 0;
+};
+
+TEST_F(GraphTest, EverySequenceBelowBeyondIsExact) {
+  Random random(4);
+  for (const Variant variant : kVariants) {
+    const CostMatrix matrix = testing::grid_matrix(15, variant, random);
+    Completions completions(matrix);
+    for (int step = 0; step < 3 && completions.beyond() < kNever; ++step) {
+      const Time reach = completions.beyond();
+      ASSERT_TRUE(completions.widen(reach, Limits()));
+      EXPECT_GT(completions.beyond(), reach);
+      expect_exact_below_beyond(matrix, completions);
+    }
+  }
+}
+
+TEST_F(GraphTest, WideningToLessChangesNothing) {
+  Random random(5);
+  Completions completions(testing::metric_matrix(16, Variant::kCts, random));
+  ASSERT_TRUE(completions.widen(completions.beyond(), Limits()));
+  const Time beyond = completions.beyond();
+  ASSERT_TRUE(completions.widen(beyond - 1, Limits()));
+  EXPECT_EQ(completions.beyond(), beyond);
+}
+
+TEST(Completions, ALimitChangesNothing) {
+  Random random(6);
+  for (const int n : {4, 16}) {
+    Completions completions(testing::metric_matrix(n, Variant::kCts, random));
+    const Time beyond = completions.beyond();
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+    EXPECT_FALSE(completions.widen(beyond, limits));
+    EXPECT_EQ(completions.beyond(), beyond);
+  }
+}
+
+}  // namespace
+}  // namespace grove
