@@ -12,7 +12,7 @@
 #include "grove/io/map_file.h"
 #include "grove/io/scenario_file.h"
 #include "grove/search/expander.h"
-#include "grove/search/forest.h"
+#include "grove/search/sequence_forest.h"
 #include "grove/search/frontier.h"
 #include "tools/generate/instance_generator.h"
 
@@ -66,7 +66,7 @@ class Search {
   Limits limits_;
   Problem problem_;
   NodePool pool_;
-  Forest forest_;
+  SequenceForest forest_;
   Frontier frontier_;
   Expander expander_;
   std::int64_t generated_ = 0;

@@ -80,7 +80,8 @@ struct SolveArguments {
   bool quiet = false;
 };
 
-const std::map<std::string, Policy> kPolicies{{"auto", Policy::kAuto}, {"fixed", Policy::kFixed}};
+const std::map<std::string, Policy> kPolicies{
+    {"auto", Policy::kAuto}, {"fixed", Policy::kFixed}, {"free", Policy::kFree}};
 const std::map<std::string, RtspBackend> kBackends{
     {"auto", RtspBackend::kAuto}, {"dp", RtspBackend::kAuto}, {"cbc", RtspBackend::kCbc}};
 
@@ -128,8 +129,9 @@ void add_options(CLI::App& app, SolveArguments& a) {
   app.add_option(
          "--policy", a.policy,
          "what a tree of the forest fixes: a complete task sequence for every agent (fixed: the "
-         "paper's CTS-CBS), or Grove's choice (auto: today the same)")
-      ->type_name("auto|fixed")
+         "paper's CTS-CBS), or nothing, so that one tree holds all sequences (free); auto: "
+         "fixed")
+      ->type_name("auto|fixed|free")
       ->check(one_of(kPolicies))
       ->capture_default_str();
   app.add_option(
@@ -238,7 +240,7 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
   solution.stats.counts["seed"] = a.seed;
   solution.stats.texts["instance"] = a.instance.path();
   solution.stats.texts["options"] = options_text(app);
-  solution.stats.texts["policy"] = "fixed";
+  solution.stats.texts["policy"] = a.policy == "free" ? "free" : "fixed";
   solution.stats.texts["version"] = version_text();
 }
 

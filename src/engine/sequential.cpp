@@ -2,6 +2,7 @@
 // The sequential engine: one thread, one frontier, the expander and the gate. CTS-CBS (paper,
 // Algorithms 1 and 4); the proof that it may stop is at the head of search/gate.cpp.
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <string>
 #include <utility>
@@ -10,12 +11,19 @@
 #include "grove/engine/solve.h"
 #include "grove/search/expander.h"
 #include "grove/search/feasibility.h"
-#include "grove/search/forest.h"
 #include "grove/search/frontier.h"
 #include "grove/search/gate.h"
+#include "grove/search/sequence_forest.h"
+#include "grove/search/single_tree.h"
 
 namespace grove {
 namespace {
+
+std::unique_ptr<Forest> make_forest(const Problem& problem, NodePool& pool,
+                                    const SolveOptions& options, const Limits& limits) {
+  if (options.policy == Policy::kFree) return std::make_unique<SingleTree>(problem, pool, limits);
+  return std::make_unique<SequenceForest>(problem, pool, options.rtsp, limits);
+}
 
 class SequentialEngine {
  public:
@@ -25,7 +33,7 @@ class SequentialEngine {
         observer_(observer),
         omega_(options.omega),
         gate_(problem.instance, options.omega),
-        forest_(problem, pool_, options.rtsp, limits),
+        forest_(make_forest(problem, pool_, options, limits)),
         expander_(problem, options.seed) {}
   ~SequentialEngine() { frontier_.abandon(); }
   SequentialEngine(const SequentialEngine&) = delete;
@@ -50,7 +58,7 @@ class SequentialEngine {
   const Omega omega_;
   Gate gate_;
   NodePool pool_;
-  Forest forest_;
+  std::unique_ptr<Forest> forest_;
   Frontier frontier_;
   Expander expander_;
   std::int64_t nodes_expanded_ = 0;
@@ -82,12 +90,12 @@ void SequentialEngine::search() {
 // The node to expand next, after instantiating the next tree where Algorithm 4 finds that
 // necessary.
 NodePtr SequentialEngine::select() {
-  if (gate_.needs_new_tree(frontier_.bound(), forest_.last_cost())) grow();
+  if (gate_.needs_new_tree(frontier_.bound(), forest_->last_cost())) grow();
   return frontier_.take();
 }
 
 void SequentialEngine::grow() {
-  const NodePtr root = forest_.next_root();
+  const NodePtr root = forest_->next_root();
   if (root) {
     observer_.on_root(root);
     ++nodes_generated_;
@@ -128,12 +136,12 @@ void SequentialEngine::post(Plan plan) {
 
 void SequentialEngine::update_bound() {
   const Cost before = gate_.lower_bound();
-  gate_.update(frontier_.bound(), forest_.next_bound());
+  gate_.update(frontier_.bound(), forest_->next_bound());
   if (gate_.lower_bound() > before) tell(RunEvent::kBound);
 }
 
 Progress SequentialEngine::progress() const {
-  return {nodes_expanded_, static_cast<std::int64_t>(frontier_.open()), forest_.trees(),
+  return {nodes_expanded_, static_cast<std::int64_t>(frontier_.open()), forest_->trees(),
           gate_.lower_bound(), gate_.incumbent_cost()};
 }
 
@@ -163,8 +171,8 @@ Solution SequentialEngine::conclude() const {
   }
   solution.stats.counts = {{"nodes_expanded", nodes_expanded_},
                            {"nodes_generated", nodes_generated_},
-                           {"roots_generated", forest_.trees()},
-                           {"rtsp_calls", forest_.rtsp_calls()},
+                           {"roots_generated", forest_->trees()},
+                           {"rtsp_calls", forest_->rtsp_calls()},
                            {"low_level_calls", low_level_calls_},
                            {"low_level_expanded", expander_.low_level_expanded()}};
   // A limit that struck after the search had ended changed nothing.

@@ -10,14 +10,14 @@ Expander::Expander(const Problem& problem, std::uint64_t seed)
     : problem_(problem),
       conflicts_(problem.instance.grid(), seed),
       others_(problem.instance.grid()),
-      low_level_(problem.instance.grid()) {}
+      planner_(problem) {}
 
 Expansion Expander::expand(const NodePtr& node, const Limits& limits) {
   Expansion expansion;
   node->paths(problem_, paths_);
   const std::optional<Conflict> conflict = conflicts_.first(paths_);
   if (!conflict) {
-    expansion.plan = plan_at(problem_, *node);
+    expansion.plan = plan(*node);
     return expansion;
   }
 
@@ -32,6 +32,18 @@ Expansion Expander::expand(const NodePtr& node, const Limits& limits) {
     return stopped;
   }
   return expansion;
+}
+
+// The plan of paths_, the conflict-free paths of `node`.
+Plan Expander::plan(const Node& node) {
+  Plan plan;
+  for (AgentIndex i = 0; i < problem_.instance.agent_count(); ++i) {
+    const Sequence sequence = planner_.sequence(i, *node.tree().orders[i], paths_[i]);
+    const auto cost = static_cast<Time>(paths_[i].size() - 1);
+    plan.cost += cost;
+    plan.agents.push_back({cost, tasks_in_order(problem_.instance.agent(i), sequence), paths_[i]});
+  }
+  return plan;
 }
 
 // Brings the table up to the node's paths. Most are those of the node expanded before.
@@ -54,7 +66,7 @@ bool Expander::branch(const NodePtr& node, const AgentConstraint& added, const L
 
   ++expansion.low_level_calls;
   const LowLevelSearch::Outcome outcome =
-      low_level_.find(node->tree().orders[agent]->goals, constraints_, &others_, limits, path_);
+      planner_.find(agent, *node->tree().orders[agent], constraints_, &others_, limits, path_);
   if (outcome == LowLevelSearch::Outcome::kStopped) return false;
   if (outcome == LowLevelSearch::Outcome::kInfeasible) return true;
 

@@ -71,18 +71,4 @@ std::vector<TaskIndex> tasks_in_order(const Agent& agent, const Sequence& sequen
   return tasks;
 }
 
-Plan plan_at(const Problem& problem, const Node& node) {
-  std::vector<Path> paths;
-  node.paths(problem, paths);
-  Plan plan;
-  for (AgentIndex i = 0; i < problem.instance.agent_count(); ++i) {
-    const auto cost = static_cast<Time>(paths[i].size() - 1);
-    const Sequence& sequence = node.tree().orders[i]->sequences.prefix;
-    plan.cost += cost;
-    plan.agents.push_back(
-        {cost, tasks_in_order(problem.instance.agent(i), sequence), std::move(paths[i])});
-  }
-  return plan;
-}
-
 }  // namespace grove

@@ -16,12 +16,14 @@ namespace {
 using testing::AgentSpec;
 using testing::instance_of;
 
-Solution solve_to(const Instance& instance, const char* omega, double seconds = 20) {
+Solution solve_to(const Instance& instance, const char* omega, double seconds = 20,
+                  Policy policy = Policy::kFixed) {
   Limits limits;
   limits.set_deadline(Limits::Clock::now() + std::chrono::duration_cast<Limits::Clock::duration>(
                                                  std::chrono::duration<double>(seconds)));
   SolveOptions options;
   options.omega = Omega::parse(omega);
+  options.policy = policy;
   Solution solution = solve(instance, options, limits);
   if (solution.plan) {
     const auto violations = check(instance, solution);
@@ -32,10 +34,12 @@ Solution solve_to(const Instance& instance, const char* omega, double seconds = 
 }
 
 void expect_optimal(const Instance& instance, Cost cost) {
-  const Solution solution = solve_to(instance, "0");
-  ASSERT_EQ(solution.status, Status::kOptimal);
-  EXPECT_EQ(solution.plan->cost, cost);
-  EXPECT_EQ(solution.lower_bound, cost);
+  for (const Policy policy : {Policy::kFixed, Policy::kFree}) {
+    const Solution solution = solve_to(instance, "0", 20, policy);
+    ASSERT_EQ(solution.status, Status::kOptimal);
+    EXPECT_EQ(solution.plan->cost, cost);
+    EXPECT_EQ(solution.lower_bound, cost);
+  }
 }
 
 TEST(Solve, OneAgentTakesItsBestOrder) {

@@ -23,6 +23,8 @@ constexpr Names<RtspBackend, 4> kBackends{{{RtspBackend::kAuto, "auto"},
                                            {RtspBackend::kHeldKarp, "held-karp"},
                                            {RtspBackend::kBoundedDp, "bounded-dp"},
                                            {RtspBackend::kCbc, "cbc"}}};
+constexpr Names<Policy, 3> kPolicies{
+    {{Policy::kAuto, "auto"}, {Policy::kFixed, "fixed"}, {Policy::kFree, "free"}}};
 constexpr Names<Strike, 5> kStrikes{{{Strike::kNothing, "nothing"},
                                      {Strike::kExpired, "expired"},
                                      {Strike::kSoon, "soon"},
@@ -57,6 +59,8 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
   if (key.empty() || key.starts_with('#')) return;
   if (key == "omega")
     fuzz_case.options.omega = Omega::parse(value);
+  else if (key == "policy")
+    fuzz_case.options.policy = value_of(kPolicies, value);
   else if (key == "rtsp")
     fuzz_case.options.rtsp = value_of(kBackends, value);
   else if (key == "seed")
@@ -85,9 +89,10 @@ Strike random_strike(Random& random) {
 }  // namespace
 
 std::string FuzzCase::to_text() const {
-  return fmt::format("{}options\nomega {}\nrtsp {}\nseed {}\nstrike {}\n", instance.to_text(),
-                     options.omega.to_string(), name_of(kBackends, options.rtsp), options.seed,
-                     name_of(kStrikes, strike));
+  return fmt::format("{}options\nomega {}\npolicy {}\nrtsp {}\nseed {}\nstrike {}\n",
+                     instance.to_text(), options.omega.to_string(),
+                     name_of(kPolicies, options.policy), name_of(kBackends, options.rtsp),
+                     options.seed, name_of(kStrikes, strike));
 }
 
 FuzzCase FuzzCase::parse(std::string_view text) {
@@ -106,6 +111,8 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.instance = random_instance(seed);
   Random random(~seed);
   fuzz_case.options.omega = random_omega(random);
+  fuzz_case.options.policy =
+      random.pick<Policy>({Policy::kAuto, Policy::kFixed, Policy::kFree, Policy::kFree});
   fuzz_case.options.rtsp = random.pick<RtspBackend>(
       {RtspBackend::kAuto, RtspBackend::kAuto, RtspBackend::kHeldKarp, RtspBackend::kHeldKarp,
        RtspBackend::kBoundedDp, RtspBackend::kBoundedDp, RtspBackend::kCbc});

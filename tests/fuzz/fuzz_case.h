@@ -24,6 +24,7 @@ enum class Strike : std::uint8_t {
 //
 //     options
 //     omega 0.01
+//     policy free          (auto, fixed, free)
 //     rtsp held-karp       (auto, held-karp, bounded-dp, cbc)
 //     seed 7
 //     strike nothing       (nothing, expired, soon, memory, interrupt)

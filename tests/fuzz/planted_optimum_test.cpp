@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "grove/engine/solve.h"
-#include "grove/search/forest.h"
+#include "grove/search/sequence_forest.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/oracle/joint_oracle.h"
 
@@ -28,7 +28,7 @@ class PlantedInABay : public ::testing::Test {
   const Problem problem_{instance_, limits_};
   const Plan optimum_ = *oracle::solve_jointly(instance_).plan;
   NodePool pool_;
-  Forest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
+  SequenceForest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
   Expander expander_{problem_, 0};
   PlantedOptimum planted_{instance_, optimum_};
   const NodePtr root_ = forest_.next_root();

@@ -116,6 +116,7 @@ class Steps {
 
   void plainer_options() {
     plainer<Strike>([](FuzzCase& c) -> Strike& { return c.strike; }, Strike::kNothing);
+    plainer<Policy>([](FuzzCase& c) -> Policy& { return c.options.policy; }, Policy::kAuto);
     plainer<RtspBackend>([](FuzzCase& c) -> RtspBackend& { return c.options.rtsp; },
                          RtspBackend::kAuto);
     plainer<Omega>([](FuzzCase& c) -> Omega& { return c.options.omega; }, Omega());

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grove/search/forest.h"
+#include "grove/search/sequence_forest.h"
 #include "tests/support/instances.h"
 
 namespace grove {
@@ -24,7 +24,7 @@ struct Search {
   Instance instance;
   Problem problem;
   NodePool pool;
-  Forest forest;
+  SequenceForest forest;
   Expander expander;
   NodePtr root;
 };
@@ -36,6 +36,7 @@ TEST(Expander, TurnsAConflictFreeNodeIntoItsPlan) {
   EXPECT_TRUE(expansion.children.empty());
   EXPECT_EQ(expansion.plan->cost, s.root->cost());
   EXPECT_EQ(expansion.plan->agents[0].path, Path({0, 1, 2, 3}));
+  EXPECT_EQ(expansion.plan->agents[0].sequence, std::vector<TaskIndex>({0}));
 }
 
 TEST(Expander, MakesOneChildPerAgentUnderTheChildsConstraints) {

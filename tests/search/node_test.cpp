@@ -88,13 +88,6 @@ TEST_F(NodeTest, BoundIsNeverBelowTheParents) {
   EXPECT_EQ(node->bound(), 5);
 }
 
-TEST_F(NodeTest, PlanNamesTasksInTheirOrder) {
-  const Plan plan = plan_at(problem_, *root_);
-  EXPECT_EQ(plan.cost, 5);
-  EXPECT_EQ(plan.agents[1].sequence, std::vector<TaskIndex>({0}));
-  EXPECT_EQ(plan.agents[1].path, Path({4, 5, 6, 5}));
-}
-
 TEST_F(NodeTest, ReleasesVeryDeepChains) {
   NodePtr node = root_;
   for (int depth = 0; depth < 500'000; ++depth) node = child(node, 0, 1, {0, 1, 2}, 5);

@@ -98,6 +98,16 @@ TEST_F(SolveCommand, EveryBackendFindsTheSameOptimum) {
   }
 }
 
+TEST_F(SolveCommand, EveryPolicyFindsTheSameOptimum) {
+  for (const char* policy : {"auto", "fixed", "free"})
+    for (const char* name : {"first.cts.json", "random-32x32-20_n5_m10_mg.cts.json"}) {
+      solve(
+          {data(name), "--omega", "0", "--policy", policy, "--output", std::string(policy) + name});
+      EXPECT_EQ(plan(std::string(policy) + name)["status"], "optimal");
+      EXPECT_EQ(plan(std::string(policy) + name)["cost"], plan(std::string("auto") + name)["cost"]);
+    }
+}
+
 TEST_F(SolveCommand, EndsAtTheTimeLimitWithABound) {
   const ProcessResult solved = solve({"puzzle.json", "--time-limit", "0.3", "--output", "p.json"});
   EXPECT_EQ(solved.exit_code, 0);
@@ -234,7 +244,8 @@ TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--memory-limit", "-1"})),
               HasSubstr("--memory-limit"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--threads", "0"})), HasSubstr("--threads"));
-  EXPECT_THAT(complaint(solve({"puzzle.json", "--policy", "best"})), HasSubstr("auto, fixed"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--policy", "best"})),
+              HasSubstr("auto, fixed, free"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "gurobi"})), HasSubstr("auto, cbc, dp"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omgea", "0"})), HasSubstr("--omgea"));
   EXPECT_THAT(complaint(solve({"missing.json"})), HasSubstr("missing.json"));

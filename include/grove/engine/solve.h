@@ -14,8 +14,9 @@ class RunObserver;  // grove/engine/run_observer.h
 
 // What a tree of the forest fixes about the agents' orders of visits.
 enum class Policy : std::uint8_t {
-  kAuto,   // the engine's choice; today kFixed
+  kAuto,   // the engine's choice
   kFixed,  // one complete joint task sequence per tree: the paper's CTS-CBS
+  kFree,   // one tree for all sequences: the low level chooses the order
 };
 
 struct SolveOptions {

@@ -9,8 +9,8 @@
 #include "grove/conflicts/conflict.h"
 #include "grove/model/limits.h"
 #include "grove/planning/conflict_avoidance_table.h"
-#include "grove/planning/low_level_search.h"
 #include "grove/search/node.h"
+#include "grove/search/path_planner.h"
 
 namespace grove {
 
@@ -33,9 +33,10 @@ class Expander {
   Expansion expand(const NodePtr& node, const Limits& limits);
 
   // Labels expanded by the low level so far.
-  std::int64_t low_level_expanded() const { return low_level_.expanded(); }
+  std::int64_t low_level_expanded() const { return planner_.expanded(); }
 
  private:
+  Plan plan(const Node& node);
   void show_others();
   bool branch(const NodePtr& node, const AgentConstraint& added, const Limits& limits,
               Expansion& expansion);
@@ -43,7 +44,7 @@ class Expander {
   const Problem& problem_;
   ConflictFinder conflicts_;
   ConflictAvoidanceTable others_;
-  LowLevelSearch low_level_;
+  PathPlanner planner_;
   std::vector<Path> paths_;
   std::vector<Path> shown_;  // what others_ holds, by AgentIndex
   std::vector<Constraint> constraints_;

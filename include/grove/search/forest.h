@@ -1,60 +1,35 @@
 // SPDX-License-Identifier: MIT
-// The trees of the forest, in the order of their joint sequences' costs (paper, Algorithms 1 and
-// 4).
+// Where trees come from.
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <memory>
 #include <optional>
-#include <vector>
 
-#include "grove/model/limits.h"
-#include "grove/planning/conflict_avoidance_table.h"
-#include "grove/planning/low_level_search.h"
 #include "grove/search/node.h"
-#include "grove/sequencing/k_best_joint_sequences.h"
 
 namespace grove {
 
-// Instantiates one tree per joint task sequence, best first, as it is asked to. Not for two threads
-// at once.
+// The trees of a run, which together hold every plan, instantiated one by one as asked. What a tree
+// fixes is the policy: see sequence_forest.h and single_tree.h. Not for two threads at once;
+// outlives the nodes of its trees.
 class Forest {
  public:
-  // `problem`, `pool` - where the nodes of its trees will live - and `limits` must outlive the
-  // forest, and the forest its nodes. Builds the cost matrices; tables and sequences come with the
-  // first questions.
-  Forest(const Problem& problem, NodePool& pool, RtspBackend backend, const Limits& limits);
+  Forest() = default;
+  Forest(const Forest&) = delete;
+  Forest& operator=(const Forest&) = delete;
+  virtual ~Forest() = default;
 
   // A proven lower bound on every plan of every tree not yet instantiated; kInfiniteCost when all
   // are.
-  Cost next_bound() const;
+  virtual Cost next_bound() const = 0;
   // The root of the next tree; null when there is none or a limit struck.
-  NodePtr next_root();
+  virtual NodePtr next_root() = 0;
 
-  // The cost of the joint sequence instantiated last; none before the first.
-  std::optional<Cost> last_cost() const { return last_cost_; }
-  std::int64_t trees() const { return static_cast<std::int64_t>(trees_.size()); }
-  std::int64_t rtsp_calls() const { return sequences_.rtsp_calls(); }
-
- private:
-  std::shared_ptr<const AgentOrder>& slot(AgentIndex agent, std::uint32_t rank);
-  bool plan_missing_orders(const JointSequence& joint);
-  bool plan_order(AgentIndex agent, std::uint32_t rank);
-  void avoid(AgentIndex agent, const PackedSteps& path);
-
-  const Problem& problem_;
-  NodePool& pool_;
-  const Limits& limits_;
-  std::vector<CostMatrix> matrices_;
-  KBestJointSequences sequences_;
-  std::optional<JointSequence> pending_;  // taken from sequences_, not yet a tree
-  std::vector<std::vector<std::shared_ptr<const AgentOrder>>> orders_;  // by agent, then rank
-  LowLevelSearch low_level_;
-  ConflictAvoidanceTable others_;
-  Path path_;
-  std::optional<Cost> last_cost_;
-  std::deque<Tree> trees_;
+  // The cost of the tree instantiated last, its conflicts ignored; none before the first.
+  virtual std::optional<Cost> last_cost() const = 0;
+  virtual std::int64_t trees() const = 0;
+  // Sequencing problems solved so far.
+  virtual std::int64_t rtsp_calls() const = 0;
 };
 
 }  // namespace grove

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,9 +22,9 @@ namespace grove {
 // What a tree fixes about one agent's order of visits, and the agent's best path when nobody else
 // is there. Immutable; shared by all trees that fix the same.
 struct AgentOrder {
-  SequenceClass sequences;  // the paper's forest: a complete prefix
-  GoalSequence goals;
-  PackedPath path;  // shortest for `sequences`, no constraints
+  SequenceClass sequences;            // the paper's forest: a complete prefix
+  std::optional<GoalSequence> goals;  // of a complete prefix; else the low level chooses the order
+  PackedPath path;                    // shortest for `sequences`, no constraints
 };
 
 // One tree of the forest: a class of joint task sequences. Immutable; outlives its nodes.
@@ -125,8 +126,5 @@ inline NodePtr::~NodePtr() {
 
 // The tasks that the stops of a sequence stand for.
 std::vector<TaskIndex> tasks_in_order(const Agent& agent, const Sequence& sequence);
-
-// The plan at a node whose paths are conflict-free.
-Plan plan_at(const Problem& problem, const Node& node);
 
 }  // namespace grove

@@ -31,6 +31,7 @@ void pack(const Grid& grid, const Path& path, std::uint64_t* words);
 // A packed path that owns its words. Immutable.
 class PackedPath {
  public:
+  PackedPath() = default;  // no steps
   PackedPath(const Grid& grid, const Path& path)
       : steps_(static_cast<std::uint32_t>(path.size() - 1)), words_(packed_words(steps_)) {
     pack(grid, path, words_.data());
@@ -39,7 +40,7 @@ class PackedPath {
   Time cost() const { return view().cost(); }
 
  private:
-  std::uint32_t steps_;
+  std::uint32_t steps_ = 0;
   std::vector<std::uint64_t> words_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/forest.h"
+#include "grove/search/sequence_forest.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ class ForestTest : public ::testing::Test {
 };
 
 TEST_F(ForestTest, InstantiatesEveryTreeOnceInOrderOfCost) {
-  Forest forest(problem_, pool_, RtspBackend::kAuto, limits_);
+  SequenceForest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   std::set<std::string> seen;
   Cost last = 0;
   while (const NodePtr root = forest.next_root()) {
@@ -46,7 +46,7 @@ TEST_F(ForestTest, InstantiatesEveryTreeOnceInOrderOfCost) {
 }
 
 TEST_F(ForestTest, NextBoundNeverExceedsTheNextTree) {
-  Forest forest(problem_, pool_, RtspBackend::kAuto, limits_);
+  SequenceForest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   while (true) {
     const Cost bound = forest.next_bound();
     const NodePtr root = forest.next_root();
@@ -56,7 +56,7 @@ TEST_F(ForestTest, NextBoundNeverExceedsTheNextTree) {
 }
 
 TEST_F(ForestTest, TreesShareTheOrdersTheyHaveInCommon) {
-  Forest forest(problem_, pool_, RtspBackend::kAuto, limits_);
+  SequenceForest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   std::set<const AgentOrder*> orders;
   while (const NodePtr root = forest.next_root())
     for (const auto& order : root->tree().orders) orders.insert(order.get());
@@ -64,7 +64,7 @@ TEST_F(ForestTest, TreesShareTheOrdersTheyHaveInCommon) {
 }
 
 TEST_F(ForestTest, ALimitLosesNoTree) {
-  Forest forest(problem_, pool_, RtspBackend::kAuto, limits_);
+  SequenceForest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   const Cost first = forest.next_root()->cost();
   limits_.set_deadline(Limits::Clock::now());
   EXPECT_EQ(forest.next_root(), nullptr);

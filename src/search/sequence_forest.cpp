@@ -2,7 +2,7 @@
 // A root's paths are shortest for its sequences and independent of the constraints, so they are
 // planned once per (agent, rank) and shared by all trees that use them; the first to use one plans
 // it around the other agents' paths known then, which spares the tree conflicts that are mere ties.
-#include "grove/search/forest.h"
+#include "grove/search/sequence_forest.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -28,7 +28,8 @@ KBestJointSequences joint_sequences(const std::vector<CostMatrix>& matrices, Rts
 
 }  // namespace
 
-Forest::Forest(const Problem& problem, NodePool& pool, RtspBackend backend, const Limits& limits)
+SequenceForest::SequenceForest(const Problem& problem, NodePool& pool, RtspBackend backend,
+                               const Limits& limits)
     : problem_(problem),
       pool_(pool),
       limits_(limits),
@@ -38,12 +39,12 @@ Forest::Forest(const Problem& problem, NodePool& pool, RtspBackend backend, cons
       low_level_(problem.instance.grid()),
       others_(problem.instance.grid()) {}
 
-Cost Forest::next_bound() const {
+Cost SequenceForest::next_bound() const {
   const Cost rest = sequences_.lower_bound();
   return pending_ ? std::min(pending_->cost, rest) : rest;
 }
 
-NodePtr Forest::next_root() {
+NodePtr SequenceForest::next_root() {
   if (!pending_) pending_ = sequences_.next();
   if (!pending_ || !plan_missing_orders(*pending_)) return nullptr;
 
@@ -57,14 +58,14 @@ NodePtr Forest::next_root() {
   return root;
 }
 
-std::shared_ptr<const AgentOrder>& Forest::slot(AgentIndex agent, std::uint32_t rank) {
+std::shared_ptr<const AgentOrder>& SequenceForest::slot(AgentIndex agent, std::uint32_t rank) {
   auto& ranks = orders_[agent];
   if (ranks.size() <= rank) ranks.resize(rank + 1);
   return ranks[rank];
 }
 
 // Plans the orders that no earlier tree used. False when a limit struck.
-bool Forest::plan_missing_orders(const JointSequence& joint) {
+bool SequenceForest::plan_missing_orders(const JointSequence& joint) {
   std::vector<AgentIndex> missing;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
     if (!slot(agent, joint.ranks[agent])) missing.push_back(agent);
@@ -78,7 +79,7 @@ bool Forest::plan_missing_orders(const JointSequence& joint) {
   return true;
 }
 
-bool Forest::plan_order(AgentIndex agent, std::uint32_t rank) {
+bool SequenceForest::plan_order(AgentIndex agent, std::uint32_t rank) {
   const Instance& instance = problem_.instance;
   const Sequence& sequence = sequences_.sequence(agent, rank);
   GoalSequence goals(instance, problem_.distances, agent,
@@ -94,7 +95,7 @@ bool Forest::plan_order(AgentIndex agent, std::uint32_t rank) {
   return true;
 }
 
-void Forest::avoid(AgentIndex agent, const PackedSteps& path) {
+void SequenceForest::avoid(AgentIndex agent, const PackedSteps& path) {
   path.unpack(problem_.instance.grid(), problem_.instance.agent(agent).start, path_);
   others_.add(path_);
 }

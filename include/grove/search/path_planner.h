@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The low level, whatever a tree leaves open.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "grove/planning/free_low_level_search.h"
+#include "grove/planning/low_level_search.h"
+#include "grove/search/node.h"
+
+namespace grove {
+
+// Plans one agent under an AgentOrder: through its goals where the order is fixed, else choosing
+// the order. Workspace of one thread: reuse it, do not share it.
+class PathPlanner {
+ public:
+  // `problem` must outlive this.
+  explicit PathPlanner(const Problem& problem);
+
+  // As LowLevelSearch::find.
+  LowLevelSearch::Outcome find(AgentIndex agent, const AgentOrder& order,
+                               std::span<const Constraint> constraints,
+                               const ConflictAvoidanceTable* others, const Limits& limits,
+                               Path& path);
+
+  // A sequence of the order's class that `path`, which must realize one, visits its stops in.
+  Sequence sequence(AgentIndex agent, const AgentOrder& order, const Path& path);
+
+  // Labels expanded so far.
+  std::int64_t expanded() const { return fixed_.expanded() + free_.expanded(); }
+
+ private:
+  FreeGoals& free_goals(AgentIndex agent, const SequenceClass& work);
+
+  const Problem& problem_;
+  LowLevelSearch fixed_;
+  FreeLowLevelSearch free_;
+  std::vector<std::unique_ptr<AgentStops>> stops_;  // by AgentIndex; made when first needed
+  std::vector<std::unique_ptr<FreeGoals>>
+      free_goals_;  // by AgentIndex: of the class asked for last
+};
+
+}  // namespace grove

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The free policy: one tree for all sequences.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "grove/model/limits.h"
+#include "grove/search/forest.h"
+#include "grove/search/path_planner.h"
+
+namespace grove {
+
+// A forest of one tree that fixes nothing: each agent's class is empty-prefixed, so it holds every
+// sequence, and the low level chooses the order. No plan lies outside it.
+class SingleTree : public Forest {
+ public:
+  // `problem`, `pool` and `limits` must outlive this.
+  SingleTree(const Problem& problem, NodePool& pool, const Limits& limits);
+
+  Cost next_bound() const override { return tree_.empty() ? relaxed_bound_ : kInfiniteCost; }
+  NodePtr next_root() override;
+  std::optional<Cost> last_cost() const override { return cost_; }
+  std::int64_t trees() const override { return static_cast<std::int64_t>(tree_.size()); }
+  std::int64_t rtsp_calls() const override { return 0; }
+
+ private:
+  const Problem& problem_;
+  NodePool& pool_;
+  const Limits& limits_;
+  Cost relaxed_bound_ = 0;  // the agents' relaxation bounds, summed up
+  std::deque<Tree> tree_;   // none or one
+  std::optional<Cost> cost_;
+};
+
+}  // namespace grove
