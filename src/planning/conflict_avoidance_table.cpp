@@ -15,6 +15,7 @@ constexpr std::size_t kSparsity = 4;  // slots per key
 
 ConflictAvoidanceTable::ConflictAvoidanceTable(const Grid& grid)
     : counts_(std::size_t{1} << kFirstBits),
+      visited_(grid.cell_count()),
       mask_(counts_.size() - 1),
       stride_(static_cast<std::uint64_t>(grid.cell_count()) | 1),
       first_rest_(grid.cell_count(), kNever) {}
@@ -28,8 +29,19 @@ void ConflictAvoidanceTable::make_room(std::size_t steps) {
   std::vector<Counts> old(std::max(counts_.size(), size));
   old.swap(counts_);
   mask_ = counts_.size() - 1;
-  for (const Counts& counts : old)
-    if (in_use(counts)) counts_[slot(counts.key)] = counts;
+  std::ranges::fill(visited_, Visited{});
+  for (const Counts& counts : old) {
+    if (!in_use(counts)) continue;
+    counts_[slot(counts.key)] = counts;
+    mark(static_cast<Cell>(counts.key & ((std::uint64_t{1} << kCellBits) - 1)),
+         static_cast<Time>(counts.key >> kCellBits & kLastTime));
+  }
+}
+
+void ConflictAvoidanceTable::mark(Cell cell, Time time) {
+  Visited& visited = visited_[cell];
+  if (visited.generation != generation_) visited = {static_cast<std::uint32_t>(generation_), 0};
+  visited.times |= time_bit(time);
 }
 
 ConflictAvoidanceTable::Counts& ConflictAvoidanceTable::insert(std::uint64_t key) {
@@ -46,6 +58,7 @@ void ConflictAvoidanceTable::add(const Path& path) {
   make_room(path.size());
   const auto rest = static_cast<Time>(path.size() - 1);
   for (Time t = 0; t <= std::min(rest, kLastTime); ++t) {
+    mark(path[t], t);
     Counts& counts = insert(key(path[t], t));
     ++counts.visits;
     if (t > 0 && path[t - 1] != path[t]) ++counts.moves[direction(path[t - 1], path[t])];
@@ -76,6 +89,7 @@ void ConflictAvoidanceTable::remove(const Path& path) {
 void ConflictAvoidanceTable::clear() {
   if (generation_++ == kLastGeneration) {
     std::ranges::fill(counts_, Counts{});
+    std::ranges::fill(visited_, Visited{});
     generation_ = 1;
   }
   for (const Rest& rest : rests_) first_rest_[rest.cell] = kNever;

@@ -57,9 +57,9 @@
 // door that shuts before or behind the agent, so once per hard call each stop is asked for alone
 // (visit_check.cpp), a necessary condition.
 //
-// Measured on the benchmark's 32x32 maps (nine other agents, one core, median of a call; n = 5, 10,
-// 20): 10, 19, 30 us without constraints; 23, 40, 70 with 20 of them on the path; 43, 75, 180 with
-// 60. A fixed sequence takes 9, 16, 25; 19, 24, 34; 30, 35, 45.
+// Measured on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
+// call in microseconds; n = 5, 10, 20): 6, 14, 24 without constraints; 17, 35, 57 with 20 of them
+// on the paths found; 34, 64, 138 with 60. A fixed sequence takes 5, 8, 15; 12, 14, 22; 21, 24, 31.
 #include "grove/planning/free_low_level_search.h"
 
 #include <algorithm>
@@ -383,16 +383,16 @@ void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std
   if (!planes_.open(state, *limits_)) return;
   LabelPlanes::Label& l = planes_.label(slot, state);
   const bool known = planes_.is_current(l);
-  if (known && l.time < time) return;
-  const std::uint16_t conflicts =
-      others_ && time > 0 ? conflicts_on_arrival(from, from_cell, cell, time) : std::uint16_t{0};
-  if (known && l.time == time && l.conflicts <= conflicts) return;
+  if (known && (l.time < time || (l.time == time && l.conflicts <= from.conflicts))) return;
   const Time distance = goals_->distance(state, cell);
   if (distance >= kNever) outside_ = true;
   if (distance > cap_ - time) {
     over_ |= distance < kNever;
     return;
   }
+  const std::uint16_t conflicts =
+      others_ && time > 0 ? conflicts_on_arrival(from, from_cell, cell, time) : std::uint16_t{0};
+  if (known && l.time == time && l.conflicts <= conflicts) return;
 
   l = {.time = time,
        .parent_slot = from.slot,

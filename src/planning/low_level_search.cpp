@@ -296,7 +296,7 @@ void LowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::i
   if (f > stages_[progress].latest) return;
   Label& l = label(slot, progress);
   const bool known = l.stamp == stamp_;
-  if (known && l.time < time) return;
+  if (known && (l.time < time || (l.time == time && l.conflicts <= from.conflicts))) return;
   const std::uint16_t conflicts =
       others_ ? conflicts_on_arrival(from, from_cell, cell, time) : std::uint16_t{0};
   if (known && l.time == time && l.conflicts <= conflicts) return;

@@ -29,7 +29,7 @@ class ConflictAvoidanceTable {
   // wait).
   int conflicts(Cell from, Cell to, Time time) const {
     int count = visits(to, time);
-    if (from != to) {
+    if (from != to && perhaps(from, time)) {
       const Counts& left = counts_[slot(key(from, time))];
       if (left.key == key(from, time)) count += left.moves[direction(to, from)];
     }
@@ -81,16 +81,35 @@ class ConflictAvoidanceTable {
     return at;
   }
   int visits(Cell cell, Time time) const {
+    if (!perhaps(cell, time)) return 0;
     const Counts& counts = counts_[slot(key(cell, time))];
     return counts.key == key(cell, time) ? counts.visits : 0;
   }
+  // Few cells are visited at a given time: one small array settles most questions. Bits of paths
+  // that were removed may stay on for a while.
+  struct Visited {
+    std::uint32_t generation = 0;
+    std::uint32_t times = 0;  // a bit for kTimesPerBit times, over and over
+  };
+  static constexpr int kTimesPerBit = 8;
+  static std::uint32_t time_bit(Time time) {
+    return std::uint32_t{1} << (static_cast<std::uint32_t>(time) / kTimesPerBit % 32);
+  }
+  // False: no path is on this cell at this time, unless it rests there.
+  bool perhaps(Cell cell, Time time) const {
+    const Visited& visited = visited_[cell];
+    return (visited.times & time_bit(time)) != 0 && visited.generation == generation_;
+  }
+  void mark(Cell cell, Time time);
+
   Counts& insert(std::uint64_t key);
   int rests_before(Cell cell, Time time) const;
   void make_room(std::size_t steps);
 
-  std::vector<Counts> counts_;  // a power of two
-  std::size_t mask_;            // counts_.size() - 1
-  std::uint64_t stride_;        // of time: odd, so that no two times fold onto each other early
+  std::vector<Counts> counts_;    // a power of two
+  std::vector<Visited> visited_;  // by cell
+  std::size_t mask_;              // counts_.size() - 1
+  std::uint64_t stride_;          // of time: odd, so that no two times fold onto each other early
   std::uint64_t generation_ = 1;
   std::size_t keys_ = 0;          // of this generation, left-overs included
   Time horizon_ = 0;              // no path added since the last clear() moves after this time
