@@ -130,14 +130,14 @@ void add_options(CLI::App& app, SolveArguments& a) {
          "--policy", a.policy,
          "what a tree of the forest fixes: a complete task sequence for every agent (fixed: the "
          "paper's CTS-CBS), or nothing, so that one tree holds all sequences (free); auto: "
-         "fixed")
+         "free")
       ->type_name("auto|fixed|free")
       ->check(one_of(kPolicies))
       ->capture_default_str();
-  app.add_option(
-         "--rtsp", a.rtsp,
-         "what solves the sequencing problems: dynamic programming (dp), the integer programs of "
-         "CBC (cbc: slow, a cross-check), or Grove's choice (auto: dp)")
+  app.add_option("--rtsp", a.rtsp,
+                 "with fixed, what solves the sequencing problems: dynamic programming (dp), the "
+                 "integer programs of "
+                 "CBC (cbc: slow, a cross-check), or Grove's choice (auto: dp)")
       ->type_name("auto|dp|cbc")
       ->check(one_of(kBackends))
       ->capture_default_str();
@@ -240,7 +240,7 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
   solution.stats.counts["seed"] = a.seed;
   solution.stats.texts["instance"] = a.instance.path();
   solution.stats.texts["options"] = options_text(app);
-  solution.stats.texts["policy"] = a.policy == "free" ? "free" : "fixed";
+  solution.stats.texts["policy"] = a.policy == "fixed" ? "fixed" : "free";
   solution.stats.texts["version"] = version_text();
 }
 

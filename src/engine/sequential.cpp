@@ -21,8 +21,9 @@ namespace {
 
 std::unique_ptr<Forest> make_forest(const Problem& problem, NodePool& pool,
                                     const SolveOptions& options, const Limits& limits) {
-  if (options.policy == Policy::kFree) return std::make_unique<SingleTree>(problem, pool, limits);
-  return std::make_unique<SequenceForest>(problem, pool, options.rtsp, limits);
+  if (options.policy == Policy::kFixed)
+    return std::make_unique<SequenceForest>(problem, pool, options.rtsp, limits);
+  return std::make_unique<SingleTree>(problem, pool, limits);
 }
 
 class SequentialEngine {

@@ -93,7 +93,8 @@ TEST_F(SolveCommand, QuietSaysNothing) {
 
 TEST_F(SolveCommand, EveryBackendFindsTheSameOptimum) {
   for (const char* backend : {"auto", "dp", "cbc"}) {
-    solve({data("first.cts.json"), "--omega", "0", "--rtsp", backend, "--output", "p.json"});
+    solve({data("first.cts.json"), "--omega", "0", "--policy", "fixed", "--rtsp", backend,
+           "--output", "p.json"});
     EXPECT_EQ(plan("p.json")["cost"], 33) << backend;
   }
 }
@@ -168,7 +169,7 @@ TEST_F(SolveCommand, DeterministicRunsLogAndPlanTheSame) {
   std::vector<json> agents;
   for (int round = 0; round < 2; ++round) {
     logs.push_back(timeless(solve({data("random-32x32-20_n10_m30.cts.json"), "--omega", "0",
-                                   "--deterministic", "--output", "p.json"})
+                                   "--policy", "fixed", "--deterministic", "--output", "p.json"})
                                 .out));
     agents.push_back(plan("p.json")["agents"]);
   }
@@ -200,9 +201,9 @@ TEST_F(SolveCommand, DoesNotWriteOverItsInputs) {
 }
 
 TEST_F(SolveCommand, KeepsThePlanWhenNobodyReadsTheLog) {
-  const std::string pipeline = std::string(GROVE_PROGRAM) + " solve " +
-                               data("rooms-32x32_n10_m30.cts.json") +
-                               " --omega 0 --output p.json | true; exit ${PIPESTATUS[0]}";
+  const std::string pipeline =
+      std::string(GROVE_PROGRAM) + " solve " + data("rooms-32x32_n10_m30.cts.json") +
+      " --omega 0 --policy fixed --output p.json | true; exit ${PIPESTATUS[0]}";
   const ProcessResult solved = run_program({"/bin/bash", "-c", pipeline}, options_);
   EXPECT_EQ(solved.exit_code, 0);
   EXPECT_THAT(solved.err, HasSubstr("warning: standard output cannot be written"));

@@ -14,7 +14,7 @@ class RunObserver;  // grove/engine/run_observer.h
 
 // What a tree of the forest fixes about the agents' orders of visits.
 enum class Policy : std::uint8_t {
-  kAuto,   // the engine's choice
+  kAuto,   // the engine's choice: kFree
   kFixed,  // one complete joint task sequence per tree: the paper's CTS-CBS
   kFree,   // one tree for all sequences: the low level chooses the order
 };
@@ -22,7 +22,7 @@ enum class Policy : std::uint8_t {
 struct SolveOptions {
   Omega omega;
   Policy policy = Policy::kAuto;
-  RtspBackend rtsp = RtspBackend::kAuto;
+  RtspBackend rtsp = RtspBackend::kAuto;  // of kFixed
   // Breaks ties among conflicts of equal time; the same seed makes the same run, limits aside.
   std::uint64_t seed = 0;
 };
