@@ -287,11 +287,12 @@ class ManyStops {
   static constexpr int kSide = 9;
   static constexpr std::size_t kMostSequences = 100;
 
+  // A cell of the largest connected part.
   Cell some_passable() {
-    for (;;)
-      if (const Cell c = static_cast<Cell>(random_() % (kSide * kSide)); grid_->passable(c)) {
-        if (distance_count(c) > 40) return c;
-      }
+    Cell best = 0;
+    for (Cell c = 0; c < grid_->cell_count(); ++c)
+      if (grid_->passable(c) && distance_count(c) > distance_count(best)) best = c;
+    return best;
   }
   std::ptrdiff_t distance_count(Cell c) const {
     return std::ranges::count_if(distance_field(*grid_, c), [](Time d) { return d < kNever; });
