@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "commands.h"
 #include "grove/engine/solve.h"
@@ -74,6 +75,7 @@ struct SolveArguments {
   std::string policy = "auto";
   std::string rtsp = "auto";
   std::int64_t seed = 0;
+  std::vector<std::string> without;
   bool deterministic = false;
   std::filesystem::path output;
   std::filesystem::path log;
@@ -105,6 +107,20 @@ CLI::Validator one_of(const std::map<std::string, Value>& table) {
         return fmt::format("found '{}'; expected one of {}", text, names);
       },
       "");
+}
+
+std::string check_technique(const std::string& text) {
+  if (parse_technique(text)) return {};
+  std::string names;
+  for (Technique t : all_techniques())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(t));
+  return fmt::format("found '{}'; expected one of {}", text, names);
+}
+
+Techniques techniques_without(const std::vector<std::string>& names) {
+  Techniques techniques = Techniques::all();
+  for (const std::string& name : names) techniques = techniques.without(*parse_technique(name));
+  return techniques;
 }
 
 // The option table of grove solve: names, ranges, defaults and the texts of the help, once.
@@ -143,6 +159,12 @@ void add_options(CLI::App& app, SolveArguments& a) {
       ->capture_default_str();
   add_integer(app, "--seed", a.seed, kSeeds,
               "breaks ties among conflicts: another seed, another run");
+  app.add_option("--without", a.without,
+                 "do without a technique of the search; may be given several times. They speed up "
+                 "and prove the same: for ablation studies")
+      ->type_name("TECHNIQUE")
+      ->delimiter(',')
+      ->check(CLI::Validator(check_technique, ""));
   app.add_flag(
       "--deterministic", a.deterministic,
       "log by nodes expanded, not by the clock: two runs that no limit stops then log the same, "
@@ -168,7 +190,7 @@ std::string options_text(const CLI::App& app) {
     if (option->count() == 0 || option->get_positional()) continue;
     const bool is_flag = option->get_expected_max() == 0;
     text += fmt::format("{}{}{}{}", text.empty() ? "" : " ", option->get_name(), is_flag ? "" : " ",
-                        is_flag ? "" : option->results().front());
+                        is_flag ? "" : fmt::format("{}", fmt::join(option->results(), ",")));
   }
   return text;
 }
@@ -255,7 +277,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   Limits limits;
   set_limits(limits, a, start);
   const SolveOptions options{Omega::parse(a.omega), kPolicies.at(a.policy), kBackends.at(a.rtsp),
-                             static_cast<std::uint64_t>(a.seed)};
+                             static_cast<std::uint64_t>(a.seed), techniques_without(a.without)};
   RunLog log(sink, start, a.time_limit_s, a.deterministic);
   Solution solution = solve(loaded.instance, options, limits, &log);
 

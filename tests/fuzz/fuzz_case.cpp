@@ -51,6 +51,12 @@ std::uint64_t parse_seed(const std::string& text) {
   return seed;
 }
 
+Technique value_of_technique(const std::string& name) {
+  const auto technique = parse_technique(name);
+  if (!technique) throw std::invalid_argument(fmt::format("did not expect '{}'", name));
+  return *technique;
+}
+
 void read_option(const std::string& line, FuzzCase& fuzz_case) {
   std::istringstream in(line);
   std::string key;
@@ -65,10 +71,34 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     fuzz_case.options.rtsp = value_of(kBackends, value);
   else if (key == "seed")
     fuzz_case.options.seed = parse_seed(value);
+  else if (key == "without")
+    fuzz_case.options.techniques = fuzz_case.options.techniques.without(value_of_technique(value));
   else if (key == "strike")
     fuzz_case.strike = value_of(kStrikes, value);
   else
     throw std::invalid_argument(fmt::format("did not expect the option '{}'", key));
+}
+
+// All, none, all but one, one alone, or any.
+Techniques random_techniques(Random& random) {
+  const auto all = all_techniques();
+  const Technique one = all[random.below(static_cast<int>(all.size()))];
+  switch (random.below(6)) {
+    case 0:
+      return Techniques();
+    case 1:
+      return Techniques::all().without(one);
+    case 2:
+      return Techniques{one};
+    case 3: {
+      Techniques any = Techniques::all();
+      for (Technique t : all)
+        if (random.below(2) == 0) any = any.without(t);
+      return any;
+    }
+    default:
+      return Techniques::all();
+  }
 }
 
 Omega random_omega(Random& random) {
@@ -89,10 +119,13 @@ Strike random_strike(Random& random) {
 }  // namespace
 
 std::string FuzzCase::to_text() const {
-  return fmt::format("{}options\nomega {}\npolicy {}\nrtsp {}\nseed {}\nstrike {}\n",
-                     instance.to_text(), options.omega.to_string(),
-                     name_of(kPolicies, options.policy), name_of(kBackends, options.rtsp),
-                     options.seed, name_of(kStrikes, strike));
+  std::string text =
+      fmt::format("{}options\nomega {}\npolicy {}\nrtsp {}\nseed {}\nstrike {}\n",
+                  instance.to_text(), options.omega.to_string(), name_of(kPolicies, options.policy),
+                  name_of(kBackends, options.rtsp), options.seed, name_of(kStrikes, strike));
+  for (Technique t : all_techniques())
+    if (!options.techniques.has(t)) text += fmt::format("without {}\n", grove::name_of(t));
+  return text;
 }
 
 FuzzCase FuzzCase::parse(std::string_view text) {
@@ -117,6 +150,7 @@ FuzzCase random_case(std::uint64_t seed) {
       {RtspBackend::kAuto, RtspBackend::kAuto, RtspBackend::kHeldKarp, RtspBackend::kHeldKarp,
        RtspBackend::kBoundedDp, RtspBackend::kBoundedDp, RtspBackend::kCbc});
   fuzz_case.options.seed = static_cast<std::uint64_t>(random.below(1000));
+  fuzz_case.options.techniques = random_techniques(random);
   fuzz_case.strike = random_strike(random);
   return fuzz_case;
 }

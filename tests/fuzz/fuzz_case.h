@@ -27,6 +27,7 @@ enum class Strike : std::uint8_t {
 //     policy free          (auto, fixed, free)
 //     rtsp held-karp       (auto, held-karp, bounded-dp, cbc)
 //     seed 7
+//     without bypass       (a technique; may come again)
 //     strike nothing       (nothing, expired, soon, memory, interrupt)
 //
 // in which every line may be missing.

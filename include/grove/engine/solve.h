@@ -6,6 +6,7 @@
 
 #include "grove/model/limits.h"
 #include "grove/model/plan.h"
+#include "grove/search/techniques.h"
 #include "grove/sequencing/rtsp.h"
 
 namespace grove {
@@ -25,6 +26,7 @@ struct SolveOptions {
   RtspBackend rtsp = RtspBackend::kAuto;  // of kFixed
   // Breaks ties among conflicts of equal time; the same seed makes the same run, limits aside.
   std::uint64_t seed = 0;
+  Techniques techniques = Techniques::all();
 };
 
 // Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower

@@ -1,21 +1,38 @@
 // SPDX-License-Identifier: MIT
-// What a constraint-tree node forbids one agent.
+// What a constraint-tree node demands of one agent.
 #pragma once
+
+#include <cstdint>
 
 #include "grove/model/grid.h"
 
 namespace grove {
 
-// Bars one agent from a cell, or from a move, during a range of times (CBS: Sharon et al. 2015;
-// ranges as in Atzmon et al. 2020). Resting on a cell after the finish counts as being there.
-struct Constraint {
-  Cell cell = kNoCell;  // the cell barred; for a move, the cell it leads to
-  Cell from =
-      kNoCell;     // kNoCell: the cell itself is barred; else only moving from -> cell, never equal
-  Time begin = 0;  // first and last time barred, inclusive; for a move the time of arrival
-  Time end = 0;    // kNever: for ever
+enum class ConstraintKind : std::uint8_t {
+  // Not on `cell` (resting on it after the finish counts as being there), or, with `from` given,
+  // not moving from -> cell, at any time in [begin, end]; for a move the time of arrival.
+  kBar,
+  // Does not come to rest for ever on `cell` at `end` or earlier: if the agent ends there, it
+  // arrives there for the last time, by a move, later than `end`. (Target reasoning: Li et al.
+  // 2021.) `from` and `begin` are not used.
+  kNoRestBy,
+  // Comes to rest for ever on `cell`, at `end` or earlier. `from` and `begin` are not used.
+  kRestBy,
+  // Does not leave a chain (chains.h) for its end `cell` by way of the inner cell `from`, arriving
+  // at a time in [begin, end], after having entered it from its other end and stayed inside since.
+  // Turning round inside, and starting inside, are no traversals.
+  kNoTraversal,
+};
 
-  bool is_move() const { return from != kNoCell; }
+// Bars are those of CBS (Sharon et al. 2015), ranges as in Atzmon et al. 2020. Times are inclusive.
+struct Constraint {
+  Cell cell = kNoCell;
+  Cell from = kNoCell;
+  Time begin = 0;
+  Time end = 0;  // kNever: for ever
+  ConstraintKind kind = ConstraintKind::kBar;
+
+  bool is_move() const { return kind == ConstraintKind::kBar && from != kNoCell; }
   friend bool operator==(const Constraint&, const Constraint&) = default;
 };
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What the search may use beyond plain CBS, each of which can be switched off.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace grove {
+
+// One technique. None changes what is proven, only how fast; the policy `fixed` uses none but the
+// primal ones. Each is explained at the head of its own file.
+enum class Technique : std::uint8_t {
+  kPrimal,           // prioritised planning and large neighbourhood search for incumbents
+  kConfigurations,   // LaCAM for first plans on crowded maps
+  kStrongBranching,  // of several conflicts, split the one that raises the bounds most
+  kBypass,           // take an equally cheap path with fewer conflicts instead of splitting
+  kTarget,           // split on when an agent comes to rest
+  kTraversal,        // split on which of two agents passes a corridor
+  kDependencies,     // bound from pairs of agents that cannot both have their best paths
+  kJointPaths,       // see such pairs in their optimal paths, without a search
+  kClusters,         // bound from groups of agents at the root
+};
+
+// A set of techniques; a value.
+class Techniques {
+ public:
+  Techniques() = default;  // none
+  Techniques(std::initializer_list<Technique> techniques) {
+    for (Technique t : techniques) bits_ |= bit(t);
+  }
+  static Techniques all();
+
+  bool has(Technique t) const { return (bits_ & bit(t)) != 0; }
+  Techniques without(Technique t) const { return Techniques(bits_ & ~bit(t)); }
+  Techniques without(Techniques others) const { return Techniques(bits_ & ~others.bits_); }
+  friend bool operator==(Techniques, Techniques) = default;
+
+ private:
+  explicit Techniques(std::uint32_t bits) : bits_(bits) {}
+  static std::uint32_t bit(Technique t) { return std::uint32_t{1} << static_cast<unsigned>(t); }
+  std::uint32_t bits_ = 0;
+};
+
+// Every technique, and its name on the command line: lower case, words joined by '-'.
+std::span<const Technique> all_techniques();
+std::string_view name_of(Technique technique);
+std::optional<Technique> parse_technique(std::string_view name);
+
+}  // namespace grove
