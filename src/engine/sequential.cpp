@@ -26,6 +26,11 @@ std::unique_ptr<Forest> make_forest(const Problem& problem, NodePool& pool,
   return std::make_unique<SingleTree>(problem, pool, limits);
 }
 
+// The paper's policy is the cross-check: plain CBS.
+Techniques techniques_of(const SolveOptions& options) {
+  return options.policy == Policy::kFixed ? Techniques() : options.techniques;
+}
+
 class SequentialEngine {
  public:
   SequentialEngine(const Problem& problem, const SolveOptions& options, const Limits& limits,
@@ -35,7 +40,7 @@ class SequentialEngine {
         omega_(options.omega),
         gate_(problem.instance, options.omega),
         forest_(make_forest(problem, pool_, options, limits)),
-        expander_(problem, options.seed) {}
+        expander_(problem, techniques_of(options), options.seed) {}
   ~SequentialEngine() { frontier_.abandon(); }
   SequentialEngine(const SequentialEngine&) = delete;
   SequentialEngine& operator=(const SequentialEngine&) = delete;
@@ -64,7 +69,6 @@ class SequentialEngine {
   Expander expander_;
   std::int64_t nodes_expanded_ = 0;
   std::int64_t nodes_generated_ = 0;
-  std::int64_t low_level_calls_ = 0;
 };
 
 Solution SequentialEngine::run() {
@@ -107,8 +111,8 @@ void SequentialEngine::grow() {
 }
 
 void SequentialEngine::expand(const NodePtr& node) {
-  Expansion expansion = expander_.expand(node, limits_);
-  low_level_calls_ += expansion.low_level_calls;
+  Expansion expansion =
+      expander_.expand(node, gate_.incumbent_cost().value_or(kInfiniteCost), limits_);
   if (expansion.stopped) {
     frontier_.give_back(node);
     return;
@@ -170,12 +174,14 @@ Solution SequentialEngine::conclude() const {
     solution.status = Status::kInfeasible;
     solution.lower_bound = 0;
   }
+  const ExpansionCounts counts = expander_.counts();
   solution.stats.counts = {{"nodes_expanded", nodes_expanded_},
                            {"nodes_generated", nodes_generated_},
                            {"roots_generated", forest_->trees()},
                            {"rtsp_calls", forest_->rtsp_calls()},
-                           {"low_level_calls", low_level_calls_},
-                           {"low_level_expanded", expander_.low_level_expanded()}};
+                           {"low_level_calls", counts.low_level_calls},
+                           {"low_level_expanded", counts.low_level_expanded},
+                           {"pair_expansions", counts.pair_expansions}};
   // A limit that struck after the search had ended changed nothing.
   if (!gate_.finished()) {
     const std::string stop = stop_text(limits_.reason());

@@ -26,9 +26,9 @@ NodePtr SingleTree::next_root() {
   Path path;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
     AgentOrder open{{}, std::nullopt, PackedPath()};
-    const auto outcome = planner.find(agent, open, {}, &others, limits_, path);
-    if (outcome == LowLevelSearch::Outcome::kStopped) return nullptr;
-    if (outcome == LowLevelSearch::Outcome::kInfeasible)
+    const auto outcome = planner.find(agent, open, {}, &others, kNever, limits_, path);
+    if (outcome == PathPlanner::Outcome::kStopped) return nullptr;
+    if (outcome == PathPlanner::Outcome::kInfeasible)
       throw std::logic_error("internal error: an agent that can reach all its cells has no path");
     open.path = PackedPath(problem_.instance.grid(), path);
     others.add(path);

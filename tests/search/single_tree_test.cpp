@@ -49,8 +49,8 @@ TEST_F(SingleTreeTest, ALimitLeavesTheTreeWithItsBound) {
 
 TEST_F(SingleTreeTest, ItsPlansNameTheSequencesThatWereChosen) {
   SingleTree forest(problem_, pool_, limits_);
-  Expander expander(problem_, 0);
-  const Expansion expansion = expander.expand(forest.next_root(), limits_);
+  Expander expander(problem_, Techniques(), 0);
+  const Expansion expansion = expander.expand(forest.next_root(), kInfiniteCost, limits_);
   ASSERT_TRUE(expansion.plan);
   EXPECT_EQ(expansion.plan->agents[0].sequence.size(), 3u);
   const AgentPlan& free_end = expansion.plan->agents[1];

@@ -20,21 +20,25 @@ class PathPlanner {
   // `problem` must outlive this.
   explicit PathPlanner(const Problem& problem);
 
-  // As LowLevelSearch::find.
-  LowLevelSearch::Outcome find(AgentIndex agent, const AgentOrder& order,
-                               std::span<const Constraint> constraints,
-                               const ConflictAvoidanceTable* others, const Limits& limits,
-                               Path& path);
+  // As FreeLowLevelSearch::find.
+  using Outcome = FreeLowLevelSearch::Outcome;
+  Outcome find(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints,
+               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
 
   // A sequence of the order's class that `path`, which must realize one, visits its stops in.
   Sequence sequence(AgentIndex agent, const AgentOrder& order, const Path& path);
 
-  // Labels expanded so far.
+  // Calls of find(), and labels expanded by them, so far.
+  std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return fixed_.expanded() + free_.expanded(); }
 
  private:
   FreeGoals& free_goals(AgentIndex agent, const SequenceClass& work);
+  Outcome find_fixed(const GoalSequence& goals, std::span<const Constraint> constraints,
+                     const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits,
+                     Path& path);
 
+  std::int64_t calls_ = 0;
   const Problem& problem_;
   LowLevelSearch fixed_;
   FreeLowLevelSearch free_;
