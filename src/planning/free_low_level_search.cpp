@@ -118,7 +118,7 @@ class FreeLowLevelSearch::Workspace {
   static constexpr std::int64_t kNoDoubt = std::numeric_limits<std::int64_t>::max();
 
   Outcome find_around(FreeGoals& goals, const ConflictAvoidanceTable* others, const Effort& effort,
-                      Time cutoff, const Limits& limits, Path& path);
+                      bool doubts, Time cutoff, const Limits& limits, Path& path);
   bool prepare();
   void see_stops();
   Time first_rest() const;
@@ -194,7 +194,7 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(
     FreeGoals& goals, std::span<const Constraint> constraints, const ConflictAvoidanceTable* others,
     Time cutoff, const Limits& limits, Path& path) {
   intervals_.assign(constraints);
-  return find_around(goals, others, Effort(), cutoff, limits, path);
+  return find_around(goals, others, Effort(), true, cutoff, limits, path);
 }
 
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals,
@@ -202,12 +202,13 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals
                                                                 const Effort& effort, Time cutoff,
                                                                 const Limits& limits, Path& path) {
   intervals_.assign(reservations);
-  return find_around(goals, nullptr, effort, cutoff, limits, path);
+  // The cutoff of a replanned agent answers sooner what the doubt asks.
+  return find_around(goals, nullptr, effort, cutoff == kNever, cutoff, limits, path);
 }
 
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
-    FreeGoals& goals, const ConflictAvoidanceTable* others, const Effort& effort, Time cutoff,
-    const Limits& limits, Path& path) {
+    FreeGoals& goals, const ConflictAvoidanceTable* others, const Effort& effort, bool doubts,
+    Time cutoff, const Limits& limits, Path& path) {
   if (limits.stop_requested()) return Outcome::kStopped;
   goals_ = &goals;
   others_ = others;
@@ -219,7 +220,7 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
   if (!prepare()) return Outcome::kInfeasible;
   if (first_rest_ > cutoff) return Outcome::kAbove;
 
-  doubt_at_ = expanded_ + kExpansionsBeforeDoubt;
+  doubt_at_ = doubts ? expanded_ + kExpansionsBeforeDoubt : kNoDoubt;
   Completions& completions = goals.stops().completions();
   for (;;) {
     const Outcome outcome = find_within(std::min(cutoff, completions.beyond()), limits, path);

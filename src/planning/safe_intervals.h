@@ -102,7 +102,10 @@ class SafeIntervals {
       const Time begin = begin_of(slot);
       const Time end = std::min(end_of(slot), last_arrival);
       if (begin > last_arrival) break;
-      const Time time = first_move(from, to, std::max(begin, from_time + 1));
+      Time time = std::max(begin, from_time + 1);
+      // A reserved agent is met head-on only if it leaves `to` just then and comes to `from`.
+      if (!reservations_ || (time == begin && time == last_arrival))
+        time = first_move(from, to, time);
       if (time <= end) arrive(slot, to, time);
     }
   }
