@@ -28,15 +28,28 @@ std::string memory_text() {
   return fmt::format("{} MB", resident_bytes() / 1'000'000);
 }
 
-// The rarer the event, the more telling.
+char letter_of(PlanSource source) {
+  switch (source) {
+    case PlanSource::kStart:
+      return 'S';
+    case PlanSource::kPriorities:
+      return 'H';
+    case PlanSource::kNeighborhood:
+      return 'L';
+    case PlanSource::kTree:
+      break;
+  }
+  return '*';
+}
+
+// Of the events that are no plans. The rarer the event, the more telling.
 char letter_of(RunEvent event) {
   switch (event) {
-    case RunEvent::kIncumbent:
-      return '*';
     case RunEvent::kBound:
       return 'B';
     case RunEvent::kTree:
       return 'T';
+    case RunEvent::kIncumbent:
     case RunEvent::kProgress:
     case RunEvent::kEnd:
       break;
@@ -45,7 +58,7 @@ char letter_of(RunEvent event) {
 }
 
 int telling(char letter) {
-  return static_cast<int>(std::string_view(" TB*").find(letter));
+  return static_cast<int>(std::string_view(" TBLHS*").find(letter));
 }
 
 }  // namespace
@@ -95,6 +108,10 @@ RunLog::RunLog(LogSink& sink, Clock::time_point start, double time_limit_s, bool
 
 double RunLog::seconds() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
+  letter_ = letter_of(source);
 }
 
 void RunLog::on_event(RunEvent event, const Progress& progress) {

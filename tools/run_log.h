@@ -46,6 +46,7 @@ class RunLog : public RunObserver {
   using Clock = std::chrono::steady_clock;
   RunLog(LogSink& sink, Clock::time_point start, double time_limit_s, bool by_work);
 
+  void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
 

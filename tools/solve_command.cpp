@@ -19,10 +19,13 @@
 #include "commands.h"
 #include "grove/engine/solve.h"
 #include "grove/io/atomic_file.h"
+#include "grove/io/input_error.h"
 #include "grove/io/plan_file.h"
+#include "incumbent_files.h"
 #include "instance_arguments.h"
 #include "options.h"
 #include "run_log.h"
+#include "start_plan.h"
 #include "version.h"
 
 namespace grove {
@@ -77,6 +80,8 @@ struct SolveArguments {
   std::int64_t seed = 0;
   std::vector<std::string> without;
   bool deterministic = false;
+  std::filesystem::path start;
+  std::string incumbents;
   std::filesystem::path output;
   std::filesystem::path log;
   bool quiet = false;
@@ -157,8 +162,9 @@ void add_options(CLI::App& app, SolveArguments& a) {
       ->type_name("auto|dp|cbc")
       ->check(one_of(kBackends))
       ->capture_default_str();
-  add_integer(app, "--seed", a.seed, kSeeds,
-              "breaks ties among conflicts: another seed, another run");
+  add_integer(
+      app, "--seed", a.seed, kSeeds,
+      "breaks ties among conflicts and guides the search for plans: another seed, another run");
   app.add_option("--without", a.without,
                  "do without a technique of the search; may be given several times. They speed up "
                  "and prove the same: for ablation studies")
@@ -169,6 +175,13 @@ void add_options(CLI::App& app, SolveArguments& a) {
       "--deterministic", a.deterministic,
       "log by nodes expanded, not by the clock: two runs that no limit stops then log the same, "
       "times and memory aside");
+  app.add_option("--start", a.start,
+                 "a plan file of this instance: its plan is checked and is the first incumbent")
+      ->type_name("PLAN");
+  app.add_option("--incumbents", a.incumbents,
+                 "write every better plan, as soon as it is found, to PREFIX-1.plan.json, "
+                 "PREFIX-2.plan.json and so on")
+      ->type_name("PREFIX");
   app.add_option("--output", a.output,
                  "the plan file; by default the instance's name with .plan.json, in this directory")
       ->type_name("PLAN");
@@ -218,7 +231,10 @@ void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& a,
                         instance.grid().passable_count()));
   sink.line(fmt::format("Options       {}", options.empty() ? "all defaults" : options));
   sink.line();
-  sink.line("First column, since the row before: * better plan, B higher bound, T new tree.");
+  sink.line(
+      "First column, since the row before: a better plan (* from the tree, H by priorities, L by "
+      "large");
+  sink.line("neighbourhood search, S given), B higher bound, T new tree.");
   sink.line(
       "The lower bound holds for every plan: it is the least bound of an open node or of the next "
       "tree.");
@@ -238,14 +254,27 @@ std::filesystem::path default_output(const InstanceArguments& instance, int agen
   return name + (is_scenario ? fmt::format("-{}", agents) : "") + ".plan.json";
 }
 
+// The files of --incumbents must not replace any other of the run.
+void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
+  const std::filesystem::path instance = a.instance.path();
+  for (const auto& file : {a.output, a.log, a.start, instance, loaded.map_path})
+    if (IncumbentFiles::may_be_file(a.incumbents, file))
+      throw InputError(file.string(), "",
+                       fmt::format("--incumbents {} may write over it; expected another prefix",
+                                   one_line(a.incumbents)));
+  require_writable(IncumbentFiles::file(a.incumbents, 1));
+}
+
 void prepare_outputs(SolveArguments& a, const LoadedInstance& loaded) {
   if (a.output.empty()) a.output = default_output(a.instance, loaded.instance.agent_count());
   for (const auto& file : {a.output, a.log}) {
     require_distinct_files(file, a.instance.path(), "the instance");
     require_distinct_files(file, loaded.map_path, "the map");
   }
+  require_distinct_files(a.log, a.start, "the start plan");
   require_distinct_files(a.log, a.output, "the plan file");
   require_writable(a.output);
+  if (!a.incumbents.empty()) prepare_incumbents(a, loaded);
 }
 
 void set_limits(Limits& limits, const SolveArguments& a, Clock::time_point start) {
@@ -271,15 +300,21 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   stop_on_signals();
   const LoadedInstance loaded = a.instance.load();
   prepare_outputs(a, loaded);
+  SolveOptions options;
+  options.omega = Omega::parse(a.omega);
+  options.policy = kPolicies.at(a.policy);
+  options.rtsp = kBackends.at(a.rtsp);
+  options.seed = static_cast<std::uint64_t>(a.seed);
+  options.techniques = techniques_without(a.without);
+  if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
   LogSink sink(!a.quiet, a.log);
   log_head(sink, app, a, loaded);
 
   Limits limits;
   set_limits(limits, a, start);
-  const SolveOptions options{Omega::parse(a.omega), kPolicies.at(a.policy), kBackends.at(a.rtsp),
-                             static_cast<std::uint64_t>(a.seed), techniques_without(a.without)};
   RunLog log(sink, start, a.time_limit_s, a.deterministic);
-  Solution solution = solve(loaded.instance, options, limits, &log);
+  IncumbentFiles observer(a.incumbents, loaded.instance, options.omega, log);
+  Solution solution = solve(loaded.instance, options, limits, &observer);
 
   add_run_facts(solution, app, a, start);
   write_solution(a.output, loaded.instance, solution);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The sequential engine: one thread, one frontier, the expander and the gate. CTS-CBS (paper,
-// Algorithms 1 and 4); the proof that it may stop is at the head of search/gate.cpp.
+// The sequential engine: one thread, one frontier, the expander, the primal search and the gate.
+// CTS-CBS (paper, Algorithms 1 and 4); the proof that it may stop is at the head of
+// search/gate.cpp. The primal search (primal_share.cpp tells when it is its turn) posts plans like
+// any node: an incumbent prunes, and that is all it does.
 #include <algorithm>
 #include <memory>
 #include <new>
@@ -9,12 +11,14 @@
 
 #include "grove/engine/run_observer.h"
 #include "grove/engine/solve.h"
+#include "grove/primal/primal_search.h"
 #include "grove/search/expander.h"
 #include "grove/search/feasibility.h"
 #include "grove/search/frontier.h"
 #include "grove/search/gate.h"
 #include "grove/search/sequence_forest.h"
 #include "grove/search/single_tree.h"
+#include "primal_share.h"
 
 namespace grove {
 namespace {
@@ -31,16 +35,22 @@ Techniques techniques_of(const SolveOptions& options) {
   return options.policy == Policy::kFixed ? Techniques() : options.techniques;
 }
 
+constexpr std::int64_t kWorkPerCall = 16;  // in labels: what a call of the low level costs beside
+constexpr std::int64_t kStepsPerWork = 4;  // of the paths of a node that is looked through
+
 class SequentialEngine {
  public:
   SequentialEngine(const Problem& problem, const SolveOptions& options, const Limits& limits,
                    RunObserver& observer)
-      : limits_(limits),
+      : problem_(problem),
+        options_(options),
+        limits_(limits),
         observer_(observer),
         omega_(options.omega),
         gate_(problem.instance, options.omega),
         forest_(make_forest(problem, pool_, options, limits)),
-        expander_(problem, techniques_of(options), options.seed) {}
+        expander_(problem, techniques_of(options), options.seed),
+        share_(problem.instance.agent_count()) {}
   ~SequentialEngine() { frontier_.abandon(); }
   SequentialEngine(const SequentialEngine&) = delete;
   SequentialEngine& operator=(const SequentialEngine&) = delete;
@@ -49,16 +59,21 @@ class SequentialEngine {
 
  private:
   void search();
+  bool primal_is_due();
+  void step_primal();
+  void work_on_tree();
   NodePtr select();
   void grow();
   void expand(const NodePtr& node);
   void branch(const Expansion& expansion);
-  void post(Plan plan);
+  void post(Plan plan, PlanSource source);
   void update_bound();
   void tell(RunEvent event) { observer_.on_event(event, progress()); }
   Progress progress() const;
   Solution conclude() const;
 
+  const Problem& problem_;
+  const SolveOptions& options_;
   const Limits& limits_;
   RunObserver& observer_;
   const Omega omega_;
@@ -67,6 +82,10 @@ class SequentialEngine {
   std::unique_ptr<Forest> forest_;
   Frontier frontier_;
   Expander expander_;
+  std::unique_ptr<AgentStopsStore> stops_;
+  std::unique_ptr<PrimalSearch> primal_;  // made when it is first due
+  PrimalShare share_;
+  bool out_of_nodes_ = false;  // though not finished
   std::int64_t nodes_expanded_ = 0;
   std::int64_t nodes_generated_ = 0;
 };
@@ -83,13 +102,49 @@ Solution SequentialEngine::run() {
 
 void SequentialEngine::search() {
   update_bound();
-  while (!gate_.finished() && !limits_.stop_requested()) {
-    const NodePtr node = select();
-    if (!node) break;
-    expand(node);
-    update_bound();
+  if (options_.start) post(*options_.start, PlanSource::kStart);
+  while (!gate_.finished() && !out_of_nodes_ && !limits_.stop_requested()) {
+    if (primal_is_due())
+      step_primal();
+    else
+      work_on_tree();
     tell(RunEvent::kProgress);
   }
+}
+
+bool SequentialEngine::primal_is_due() {
+  const bool wanted =
+      options_.policy != Policy::kFixed && options_.techniques.has(Technique::kPrimal);
+  if (!wanted || !share_.may_begin()) return false;
+  if (!primal_) {
+    const Instance& instance = problem_.instance;
+    stops_ = std::make_unique<AgentStopsStore>(instance, problem_.distances);
+    primal_ = std::make_unique<PrimalSearch>(problem_, *stops_, options_.seed);
+    if (const auto plan = gate_.incumbent()) primal_->adopt(*plan);
+  }
+  return share_.due(*primal_);
+}
+
+void SequentialEngine::step_primal() {
+  const std::int64_t before = primal_->work();
+  std::optional<Plan> plan = primal_->step(limits_);
+  if (plan) post(std::move(*plan), primal_->source());
+  share_.primal_worked(*primal_, primal_->work() - before);
+}
+
+void SequentialEngine::work_on_tree() {
+  const NodePtr node = select();
+  if (!node) {
+    out_of_nodes_ = true;
+    return;
+  }
+  const ExpansionCounts before = expander_.counts();
+  expand(node);
+  const ExpansionCounts after = expander_.counts();
+  share_.tree_worked(after.low_level_expanded - before.low_level_expanded +
+                     kWorkPerCall * (after.low_level_calls - before.low_level_calls) +
+                     node->cost() / kStepsPerWork + 1);
+  update_bound();
 }
 
 // The node to expand next, after instantiating the next tree where Algorithm 4 finds that
@@ -120,7 +175,7 @@ void SequentialEngine::expand(const NodePtr& node) {
   ++nodes_expanded_;
   observer_.on_expanded(node, expansion);
   branch(expansion);
-  if (expansion.plan) post(std::move(*expansion.plan));
+  if (expansion.plan) post(std::move(*expansion.plan), PlanSource::kTree);
   frontier_.settle(node);
 }
 
@@ -131,11 +186,14 @@ void SequentialEngine::branch(const Expansion& expansion) {
   }
 }
 
-void SequentialEngine::post(Plan plan) {
+void SequentialEngine::post(Plan plan, PlanSource source) {
   const Cost cost = plan.cost;
   if (!gate_.post(std::move(plan))) return;
   frontier_.prune(cost);
   observer_.on_pruned(cost);
+  const std::optional<Plan> kept = gate_.incumbent();
+  if (primal_) primal_->adopt(*kept);
+  observer_.on_incumbent(*kept, source, progress());
   tell(RunEvent::kIncumbent);
 }
 
@@ -182,6 +240,12 @@ Solution SequentialEngine::conclude() const {
                            {"low_level_calls", counts.low_level_calls},
                            {"low_level_expanded", counts.low_level_expanded},
                            {"pair_expansions", counts.pair_expansions}};
+  const auto primal = primal_ ? primal_->counts() : PrimalSearch::Counts();
+  solution.stats.counts["primal_steps"] = primal.steps;
+  solution.stats.counts["primal_attempts"] = primal.attempts;
+  solution.stats.counts["primal_neighborhoods"] = primal.neighborhoods;
+  solution.stats.counts["primal_low_level_calls"] = primal.low_level_calls;
+  solution.stats.counts["primal_low_level_expanded"] = primal.low_level_expanded;
   // A limit that struck after the search had ended changed nothing.
   if (!gate_.finished()) {
     const std::string stop = stop_text(limits_.reason());

@@ -53,6 +53,11 @@
 // since the others may count other stops on the way to u. The states before are cut off by gates of
 // their own.
 //
+// Greed. With a weight on the cost to go (Pohl 1970) labels come out in another order; what is
+// dropped is dropped by t + h and by gates as before, and neither argument speaks of the order. So
+// the first finish is a path within the cutoff, if perhaps not the cheapest, and the other outcomes
+// are proven.
+//
 // Infeasible cases can cost all 2^n sets: with time windows the question is NP-hard. Most are a
 // door that shuts before or behind the agent, so once per hard call each stop is asked for alone
 // (visit_check.cpp), a necessary condition.
@@ -88,6 +93,8 @@ class FreeLowLevelSearch::Workspace {
 
   Outcome find(FreeGoals& goals, std::span<const Constraint> constraints,
                const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
+  Outcome find(FreeGoals& goals, const Reservations& reservations, const Effort& effort,
+               Time cutoff, const Limits& limits, Path& path);
   std::int64_t expanded() const { return expanded_; }
 
  private:
@@ -110,7 +117,10 @@ class FreeLowLevelSearch::Workspace {
   static constexpr std::int32_t kNoSlot = -1;
   static constexpr std::int64_t kNoDoubt = std::numeric_limits<std::int64_t>::max();
 
+  Outcome find_around(FreeGoals& goals, const ConflictAvoidanceTable* others, const Effort& effort,
+                      bool doubts, Time cutoff, const Limits& limits, Path& path);
   bool prepare();
+  void see_stops();
   Time first_rest() const;
   void find_deadlines();
   Outcome find_within(Time cap, const Limits& limits, Path& path);
@@ -130,6 +140,9 @@ class FreeLowLevelSearch::Workspace {
   void reach(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time,
              StateId state);
   std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time) const;
+  Time layer_of(Time least_cost, Time distance) const {
+    return least_cost + static_cast<Time>(std::int64_t{distance} * greed_percent_ / 100);
+  }
   void write_path(const Entry& finish, Path& path);
 
   const Grid& grid_;
@@ -145,11 +158,13 @@ class FreeLowLevelSearch::Workspace {
   FreeGoals* goals_ = nullptr;
   const ConflictAvoidanceTable* others_ = nullptr;
   const Limits* limits_ = nullptr;
-  Time first_rest_ = 0;        // no path costs less
-  Time cap_ = 0;               // dearer labels are dropped
-  bool over_ = false;          // one was
-  std::int64_t doubt_at_ = 0;  // the count of labels at which to ask, once, if it is feasible
-  bool outside_ = false;       // a label was dropped whose state the completions do not know
+  int greed_percent_ = 0;
+  std::int64_t give_up_at_ = 0;  // the count of labels
+  Time first_rest_ = 0;          // no path costs less
+  Time cap_ = 0;                 // dearer labels are dropped
+  bool over_ = false;            // one was
+  std::int64_t doubt_at_ = 0;    // the count of labels at which to ask, once, if it is feasible
+  bool outside_ = false;         // a label was dropped whose state the completions do not know
 };
 
 FreeLowLevelSearch::FreeLowLevelSearch(const Grid& grid)
@@ -164,6 +179,13 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::find(FreeGoals& goals,
   return workspace_->find(goals, constraints, others, cutoff, limits, path);
 }
 
+FreeLowLevelSearch::Outcome FreeLowLevelSearch::find(FreeGoals& goals,
+                                                     const Reservations& reservations,
+                                                     const Effort& effort, Time cutoff,
+                                                     const Limits& limits, Path& path) {
+  return workspace_->find(goals, reservations, effort, cutoff, limits, path);
+}
+
 std::int64_t FreeLowLevelSearch::expanded() const {
   return workspace_->expanded();
 }
@@ -171,15 +193,34 @@ std::int64_t FreeLowLevelSearch::expanded() const {
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(
     FreeGoals& goals, std::span<const Constraint> constraints, const ConflictAvoidanceTable* others,
     Time cutoff, const Limits& limits, Path& path) {
+  intervals_.assign(constraints);
+  return find_around(goals, others, Effort(), true, cutoff, limits, path);
+}
+
+FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals,
+                                                                const Reservations& reservations,
+                                                                const Effort& effort, Time cutoff,
+                                                                const Limits& limits, Path& path) {
+  intervals_.assign(reservations);
+  // The cutoff of a replanned agent answers sooner what the doubt asks.
+  return find_around(goals, nullptr, effort, cutoff == kNever, cutoff, limits, path);
+}
+
+FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
+    FreeGoals& goals, const ConflictAvoidanceTable* others, const Effort& effort, bool doubts,
+    Time cutoff, const Limits& limits, Path& path) {
   if (limits.stop_requested()) return Outcome::kStopped;
   goals_ = &goals;
   others_ = others;
   limits_ = &limits;
-  intervals_.assign(constraints);
+  greed_percent_ = effort.greed_percent;
+  give_up_at_ = effort.most_labels < std::numeric_limits<std::int64_t>::max() - expanded_
+                    ? expanded_ + effort.most_labels
+                    : std::numeric_limits<std::int64_t>::max();
   if (!prepare()) return Outcome::kInfeasible;
   if (first_rest_ > cutoff) return Outcome::kAbove;
 
-  doubt_at_ = expanded_ + kExpansionsBeforeDoubt;
+  doubt_at_ = doubts ? expanded_ + kExpansionsBeforeDoubt : kNoDoubt;
   Completions& completions = goals.stops().completions();
   for (;;) {
     const Outcome outcome = find_within(std::min(cutoff, completions.beyond()), limits, path);
@@ -193,9 +234,17 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(
 
 // False when there is plainly no path.
 bool FreeLowLevelSearch::Workspace::prepare() {
+  see_stops();
   find_deadlines();
   first_rest_ = first_rest();
   return first_rest_ < kNever && goals_->plausible();
+}
+
+void FreeLowLevelSearch::Workspace::see_stops() {
+  const AgentStops& stops = goals_->stops();
+  intervals_.see(stops.start());
+  if (stops.destination()) intervals_.see(*stops.destination());
+  for (int stop = 0; stop < stops.count(); ++stop) intervals_.see(stops.cell(stop));
 }
 
 // When the agent may first come to rest anywhere for ever.
@@ -231,7 +280,7 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_within(Time cap,
   cap_ = cap;
   over_ = outside_ = false;
   gates_.clear();
-  planes_.begin_search(intervals_.slot_count());
+  planes_.begin_search(intervals_.slot_limit());
   start();
   return run(limits, path);
 }
@@ -258,7 +307,7 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::run(const Limits& lim
       return Outcome::kFound;
     }
     if (++expanded_ % kExpansionsPerPoll == 0) {
-      if (limits.stop_requested()) return Outcome::kStopped;
+      if (expanded_ >= give_up_at_ || limits.stop_requested()) return Outcome::kStopped;
       if (expanded_ >= doubt_at_ && surely_infeasible()) return Outcome::kInfeasible;
     }
     close_gate(entry);
@@ -305,13 +354,17 @@ bool FreeLowLevelSearch::Workspace::misses_deadline(StateId state, Cell cell, Ti
 bool FreeLowLevelSearch::Workspace::postpone(const Entry& entry) {
   if (planes_.gates(entry.progress) == LabelPlanes::kNoGates) return false;
   const Time until = postponed_to(entry);
-  if (until <= queue_.layer()) return false;
+  if (until > cap_) {
+    over_ |= until < kNever;
+  } else {
+    const Time distance =
+        greed_percent_ == 0 ? 0 : goals_->distance(entry.progress, intervals_.cell_of(entry.slot));
+    const Time layer = layer_of(until, distance);
+    if (layer <= queue_.layer()) return false;
+    queue_.push(layer, entry);
+  }
   const FreeGoals::State& state = goals_->state(entry.progress);
   if (std::popcount(state.next) != state.count) outside_ = true;
-  if (until > cap_)
-    over_ |= until < kNever;
-  else
-    queue_.push(until, entry);
   return true;
 }
 
@@ -402,7 +455,9 @@ void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std
   const Entry entry{.slot = slot, .time = time, .conflicts = conflicts, .progress = state};
   // No path is cheaper than a rest as early as any may be: it need not wait for its f.
   const bool optimal = time == first_rest_ && is_finish(entry);
-  queue_.push(optimal ? queue_.layer() : std::max(time + distance, queue_.layer()), entry);
+  queue_.push(
+      optimal ? queue_.layer() : std::max(layer_of(time + distance, distance), queue_.layer()),
+      entry);
 }
 
 std::uint16_t FreeLowLevelSearch::Workspace::conflicts_on_arrival(const Entry& from, Cell from_cell,

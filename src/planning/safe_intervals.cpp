@@ -15,7 +15,7 @@ bool in_order(const Constraint& a, const Constraint& b) {
 }  // namespace
 
 SafeIntervals::SafeIntervals(const Grid& grid)
-    : cells_(grid.cell_count()), group_of_(grid.cell_count(), kNoGroup) {}
+    : cells_(grid.cell_count()), slot_limit_(cells_), group_of_(grid.cell_count(), kNoGroup) {}
 
 void SafeIntervals::assign(std::span<const Constraint> constraints) {
   forget_groups();
@@ -23,6 +23,7 @@ void SafeIntervals::assign(std::span<const Constraint> constraints) {
   for (std::size_t i = 0; i < sorted_.size();) {
     const Cell cell = sorted_[i].cell;
     Group group{};
+    group.cell = cell;
     group.first_slot = slot_count();
     i = add_intervals(cell, i);
     group.end_slot = slot_count();
@@ -32,10 +33,39 @@ void SafeIntervals::assign(std::span<const Constraint> constraints) {
     group_of_[cell] = static_cast<std::int32_t>(groups_.size());
     groups_.push_back(group);
   }
+  slot_limit_ = slot_count();
+}
+
+void SafeIntervals::assign(const Reservations& reservations) {
+  forget_groups();
+  reservations_ = &reservations;
+  // k stays leave at most k + 1 intervals.
+  slot_limit_ = cells_ + static_cast<int>(2 * reservations.count());
+}
+
+void SafeIntervals::look_up(Cell cell) {
+  const std::span<const Reservations::Stay> stays = reservations_->stays(cell);
+  if (stays.empty()) return;
+  Group group{};
+  group.cell = cell;
+  group.first_slot = slot_count();
+  group.first_move = static_cast<int>(sorted_.size());
+  Time safe_from = 0;
+  for (const Reservations::Stay& stay : stays) {
+    if (safe_from < stay.first) intervals_.push_back({cell, safe_from, stay.first - 1});
+    safe_from = stay.last + 1;
+    if (stay.last < kNever) sorted_.push_back({cell, stay.next, safe_from, safe_from});
+  }
+  if (safe_from < kNever) intervals_.push_back({cell, safe_from, kNever});
+  group.end_slot = slot_count();
+  group.end_move = static_cast<int>(sorted_.size());
+  group_of_[cell] = static_cast<std::int32_t>(groups_.size());
+  groups_.push_back(group);
 }
 
 void SafeIntervals::forget_groups() {
-  for (const Constraint& c : sorted_) group_of_[c.cell] = kNoGroup;
+  for (const Group& group : groups_) group_of_[group.cell] = kNoGroup;
+  reservations_ = nullptr;
   groups_.clear();
   intervals_.clear();
   sorted_.clear();
@@ -83,12 +113,23 @@ Time SafeIntervals::first_move(Cell from, Cell to, Time earliest) const {
   if (unconstrained(to)) return earliest;
   const Group& group = groups_[group_of_[to]];
   // One pass will do: the bars are in order of their begin.
-  for (int i = group.first_move; i < group.end_move; ++i) {
+  for (int i = first_bar(group, earliest); i < group.end_move; ++i) {
     const Constraint& bar = sorted_[i];
-    if (bar.from == from && bar.begin <= earliest && earliest <= bar.end)
-      earliest = std::min(bar.end, kNever) + 1;
+    if (bar.begin > earliest) break;
+    if (bar.from == from && earliest <= bar.end) earliest = std::min(bar.end, kNever) + 1;
   }
   return earliest;
+}
+
+// Bars of moves to the group's cell before this one end before `time`.
+int SafeIntervals::first_bar(const Group& group, Time time) const {
+  if (!reservations_) return group.first_move;
+  const auto bars = std::span(sorted_).subspan(
+      static_cast<std::size_t>(group.first_move),
+      static_cast<std::size_t>(group.end_move - group.first_move));  // one time each
+  return group.first_move +
+         static_cast<int>(std::ranges::lower_bound(bars, time, {}, &Constraint::begin) -
+                          bars.begin());
 }
 
 }  // namespace grove

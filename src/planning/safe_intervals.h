@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grove/planning/constraint.h"
+#include "grove/planning/reservations.h"
 
 namespace grove {
 
@@ -24,6 +25,9 @@ struct SafeInterval {
 // the cell. The intervals of the other cells are the slots from cell_count() on, those of one cell
 // in a row and in order of time. Reused from list to list; O(constraints) each time but for
 // sorting.
+//
+// With reservations instead of constraints the intervals of a cell are made when it is first seen:
+// see() must come before any other question about a cell. With constraints it does nothing.
 class SafeIntervals {
  public:
   explicit SafeIntervals(const Grid& grid);
@@ -31,7 +35,15 @@ class SafeIntervals {
   // Replaces the constraints. They may come in any order, overlap and repeat. Throws
   // std::invalid_argument for a cell outside the grid or a move from a cell to itself.
   void assign(std::span<const Constraint> constraints);
+  // Bars what would collide with a reserved path. `reservations` must stay as they are until the
+  // next assign().
+  void assign(const Reservations& reservations);
 
+  void see(Cell cell) {
+    if (reservations_ && group_of_[cell] == kNoGroup) look_up(cell);
+  }
+  // There will not be more slots than this.
+  int slot_limit() const { return slot_limit_; }
   int slot_count() const { return cells_ + static_cast<int>(intervals_.size()); }
   Cell cell_of(int slot) const { return slot < cells_ ? slot : interval(slot).cell; }
   Time begin_of(int slot) const { return slot < cells_ ? 0 : interval(slot).begin; }
@@ -60,9 +72,10 @@ class SafeIntervals {
   // Calls arrive(slot, cell, time) for each slot next to `slot` that an agent in it at `from_time`
   // can move to, with the first time at which it can be there.
   template <class Arrive>
-  void for_each_move(const Grid& grid, int slot, Time from_time, Arrive arrive) const {
+  void for_each_move(const Grid& grid, int slot, Time from_time, Arrive arrive) {
     const Cell cell = cell_of(slot);
     for (Cell next : grid.neighbors(cell)) {
+      see(next);
       if (unconstrained(next))
         arrive(next, next, from_time + 1);
       else
@@ -73,6 +86,7 @@ class SafeIntervals {
  private:
   // The constraints on one cell and the moves to it.
   struct Group {
+    Cell cell;
     int first_slot;
     int end_slot;
     int first_move;  // barred moves to the cell: positions in sorted_
@@ -84,17 +98,36 @@ class SafeIntervals {
   void enter_intervals(int from_slot, Cell from, Time from_time, Cell to, Arrive arrive) const {
     const Time last_arrival = end_of(from_slot) + 1;
     const int end_of_cell = end_slot(to);
-    for (int slot = first_slot(to); slot < end_of_cell; ++slot) {
+    for (int slot = first_slot_after(to, from_time); slot < end_of_cell; ++slot) {
       const Time begin = begin_of(slot);
       const Time end = std::min(end_of(slot), last_arrival);
       if (begin > last_arrival) break;
-      if (end <= from_time) continue;
-      const Time time = first_move(from, to, std::max(begin, from_time + 1));
+      Time time = std::max(begin, from_time + 1);
+      // A reserved agent is met head-on only if it leaves `to` just then and comes to `from`.
+      if (!reservations_ || (time == begin && time == last_arrival))
+        time = first_move(from, to, time);
       if (time <= end) arrive(slot, to, time);
     }
   }
 
   const SafeInterval& interval(int slot) const { return intervals_[slot - cells_]; }
+  // The first slot of a constrained cell that ends after `time`, or the end of its slots.
+  int first_slot_after(Cell cell, Time time) const {
+    const Group& group = groups_[group_of_[cell]];
+    int first = group.first_slot;
+    for (int many = group.end_slot - first; many > 0;) {
+      const int half = many / 2;
+      if (end_of(first + half) <= time) {
+        first += half + 1;
+        many -= half + 1;
+      } else {
+        many = half;
+      }
+    }
+    return first;
+  }
+  int first_bar(const Group& group, Time time) const;
+  void look_up(Cell cell);
   void sort_valid(std::span<const Constraint> constraints);
   void forget_groups();
   // Both read sorted_ from `position` and return where the next kind or cell begins.
@@ -102,6 +135,8 @@ class SafeIntervals {
   std::size_t skip_moves(Cell cell, std::size_t position) const;
 
   Cell cells_;
+  int slot_limit_ = 0;
+  const Reservations* reservations_ = nullptr;
   std::vector<std::int32_t> group_of_;  // by cell
   std::vector<Group> groups_;
   std::vector<SafeInterval> intervals_;

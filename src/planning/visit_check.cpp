@@ -10,8 +10,9 @@ namespace grove {
 
 bool VisitCheck::can_visit(Cell start, Cell via, std::span<const Cell> rests) {
   via_ = via;
-  earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_count()), kNever);
+  earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_limit()), kNever);
   queue_.reset(0);
+  intervals_.see(start);
   if (const int slot = intervals_.slot_at(start, 0); slot >= 0) reach(slot, start, 0, false);
   Queue::Entry entry;
   while (queue_.pop(entry)) {

@@ -15,8 +15,7 @@ namespace grove {
 // it settles the common infeasible case, a door shut before or behind the agent.
 class VisitCheck {
  public:
-  VisitCheck(const Grid& grid, const SafeIntervals& intervals)
-      : grid_(grid), intervals_(intervals) {}
+  VisitCheck(const Grid& grid, SafeIntervals& intervals) : grid_(grid), intervals_(intervals) {}
 
   // From `start` at time 0 by way of `via` to one of `rests` in an interval that never ends.
   bool can_visit(Cell start, Cell via, std::span<const Cell> rests);
@@ -27,7 +26,7 @@ class VisitCheck {
   void reach(int slot, Cell cell, Time time, bool visited);
 
   const Grid& grid_;
-  const SafeIntervals& intervals_;
+  SafeIntervals& intervals_;
   Queue queue_;
   std::vector<Time> earliest_;  // by slot, then progress
   Cell via_ = kNoCell;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "grove/model/plan.h"
+#include "grove/primal/plan_source.h"
 #include "grove/search/expander.h"
 #include "grove/search/node.h"
 
@@ -35,6 +37,10 @@ class RunObserver {
  public:
   virtual ~RunObserver() = default;
 
+  // A better plan was found; comes right before its kIncumbent. Save it, if at all, before it
+  // returns: what is announced ought to be safe.
+  virtual void on_incumbent(const Plan& /*plan*/, PlanSource /*source*/,
+                            const Progress& /*progress*/) {}
   virtual void on_event(RunEvent /*event*/, const Progress& /*progress*/) {}
   // The instance was seen to have no plan before any search; `reason` is a sentence.
   virtual void on_infeasible(std::string_view /*reason*/) {}

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "grove/model/limits.h"
 #include "grove/model/plan.h"
@@ -24,15 +25,19 @@ struct SolveOptions {
   Omega omega;
   Policy policy = Policy::kAuto;
   RtspBackend rtsp = RtspBackend::kAuto;  // of kFixed
-  // Breaks ties among conflicts of equal time; the same seed makes the same run, limits aside.
+  // Breaks ties among conflicts of equal time and guides the primal search; the same seed makes the
+  // same run, limits aside.
   std::uint64_t seed = 0;
+  // Technique::kPrimal is not used with kFixed.
   Techniques techniques = Techniques::all();
+  std::optional<Plan> start;  // the first incumbent, a valid plan
 };
 
 // Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower
 // bound. Single-threaded. `observer` (may be null) is told what happens, from the calling thread.
 // Throws what the observer throws, and std::logic_error or std::runtime_error when a part of the
-// search turns out to be broken (a plan that the checker refuses, CBC failing).
+// search turns out to be broken (a plan that the checker refuses, `options.start` included; CBC
+// failing).
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer = nullptr);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -11,6 +12,7 @@
 #include "grove/planning/conflict_avoidance_table.h"
 #include "grove/planning/constraint.h"
 #include "grove/planning/free_goals.h"
+#include "grove/planning/reservations.h"
 
 namespace grove {
 
@@ -37,6 +39,17 @@ class FreeLowLevelSearch {
   // completions of `goals` as needed. Writes `path` only on kFound.
   Outcome find(FreeGoals& goals, std::span<const Constraint> constraints,
                const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
+
+  // How to search around reservations, where a good path may be worth more than the best one late.
+  struct Effort {
+    int greed_percent = 0;  // labels come in order of time + (1 + greed) * cost to go
+    std::int64_t most_labels = std::numeric_limits<std::int64_t>::max();  // give up: kStopped
+  };
+
+  // The same around the paths of `reservations`, in place of constraints. With greed the path found
+  // need not be of least cost, but costs at most `cutoff`; what is proven stays proven.
+  Outcome find(FreeGoals& goals, const Reservations& reservations, const Effort& effort,
+               Time cutoff, const Limits& limits, Path& path);
 
   // Labels expanded by all calls so far.
   std::int64_t expanded() const;

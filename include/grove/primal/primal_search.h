@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The primal side: valid plans, ever cheaper, from heuristics that prove nothing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "grove/model/limits.h"
+#include "grove/model/plan.h"
+#include "grove/planning/agent_stops_store.h"
+#include "grove/primal/plan_source.h"
+#include "grove/search/problem.h"
+
+namespace grove {
+
+// Prioritised planning until there is a plan, then large neighbourhood search on it, from other
+// seeds when that stalls (primal_search.cpp tells how). In small steps, so that one thread can do
+// other things in between. The same seed, steps and adoptions make the same plans, limits aside.
+// For one thread.
+class PrimalSearch {
+ public:
+  struct Counts {
+    std::int64_t steps = 0;
+    std::int64_t attempts = 0;       // of prioritised planning, failed ones included
+    std::int64_t neighborhoods = 0;  // destroyed and replanned
+    std::int64_t low_level_calls = 0;
+    std::int64_t low_level_expanded = 0;
+  };
+
+  // All must outlive this; `stops` may be shared with other searches of the same thread.
+  PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed);
+  ~PrimalSearch();
+
+  // Goes on for about a millisecond (or one call of the low level, where that is longer). Returns a
+  // plan if it is cheaper than any returned or adopted before; source() then tells how it was
+  // found. Returns nothing when a limit struck.
+  std::optional<Plan> step(const Limits& limits);
+  PlanSource source() const;
+
+  // From now on looks for plans cheaper than `plan`, a valid one, beginning in its neighbourhood.
+  // Ignored unless it is cheaper than all before.
+  void adopt(const Plan& plan);
+
+  // The cheapest plan returned or adopted.
+  std::optional<Cost> best_cost() const;
+  // Every agent is on a path as short as if it were alone: there is nothing left to do.
+  bool optimal() const;
+
+  // Work done so far, in units of about one label of the low level expanded. No clock, so the same
+  // in every run.
+  std::int64_t work() const;
+  // The work after which the last plan was returned.
+  std::int64_t work_at_last_plan() const;
+  Counts counts() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grove

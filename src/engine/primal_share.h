@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// How one thread divides its work between the tree and the primal search.
+#pragma once
+
+#include <cstdint>
+
+#include "grove/primal/primal_search.h"
+
+namespace grove {
+
+// Counts work, not seconds, so that a run can be repeated. The rule is at the head of the .cpp.
+class PrimalShare {
+ public:
+  explicit PrimalShare(int agents) : agents_(agents) {}
+
+  // The tree has done so much more work, in the units of PrimalSearch::work().
+  void tree_worked(std::int64_t work);
+  // Has the tree done enough for the primal search to begin?
+  bool may_begin() const;
+  // Is it the turn of the primal search?
+  bool due(const PrimalSearch& primal) const;
+  void primal_worked(const PrimalSearch& primal, std::int64_t work);
+
+ private:
+  const std::int64_t agents_;
+  std::int64_t tree_ = 0;
+  double credit_ = 0;  // work that the primal search may do at once
+  double ratio_ = 0;   // and for each unit that the tree does
+};
+
+}  // namespace grove

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Where it is crowded the low level's heuristic, blind to the others, lets it expand every label
+// with f below the best path's cost. A greedy order finds good paths much sooner there, and
+// somewhat worse ones elsewhere. So each order is a way of its own, with what it gained of late and
+// what work that took; mostly the one with the better rate is used.
+//
+// The cutoff of a call is what is left of the old cost, less what the agents still to come need at
+// least: beyond it the neighbourhood is lost anyway.
+#include "neighborhood_search.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace grove {
+namespace {
+
+constexpr double kMemory = 0.98;            // of a way's gain and work, per neighbourhood
+constexpr int kNeighborhoodsPerTrial = 10;  // one of so many goes to a way at random
+constexpr std::int64_t kWorkPerCall = 16;   // in labels
+
+}  // namespace
+
+void NeighborhoodSearch::step(const Limits& limits) {
+  ++steps_;
+  const std::vector<AgentIndex>& agents = neighborhoods_.choose();
+  Way& way = choose_way();
+  const std::int64_t work_before = router_.expanded() + kWorkPerCall * router_.calls();
+  Cost old_cost = 0;
+  old_paths_.clear();
+  for (AgentIndex agent : agents) {
+    old_cost += paths_.cost(agent);
+    old_paths_.push_back(paths_.take(agent));
+  }
+  const Cost others = paths_.cost();
+  if (!plan_anew(agents, old_cost, way, limits)) {
+    for (std::size_t i = 0; i < agents.size(); ++i) {
+      if (!paths_.path(agents[i]).empty()) paths_.take(agents[i]);
+    }
+    for (std::size_t i = 0; i < agents.size(); ++i) paths_.put(agents[i], std::move(old_paths_[i]));
+  }
+  const Cost gain = others + old_cost - paths_.cost();
+  neighborhoods_.reward(gain);
+  const std::int64_t work = router_.expanded() + kWorkPerCall * router_.calls() - work_before;
+  way.gain = kMemory * way.gain + static_cast<double>(gain);
+  way.work = kMemory * way.work + static_cast<double>(work);
+}
+
+NeighborhoodSearch::Way& NeighborhoodSearch::choose_way() {
+  if (random_.below(kNeighborhoodsPerTrial) == 0)
+    return ways_[static_cast<std::size_t>(random_.below(std::ssize(ways_)))];
+  return *std::ranges::max_element(ways_, {},
+                                   [](const Way& way) { return (way.gain + 1) / way.work; });
+}
+
+// False if the agents cannot be planned at `old_cost` or less, at least not in this order.
+bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost old_cost,
+                                   const Way& way, const Limits& limits) {
+  Cost left = old_cost;
+  for (AgentIndex agent : agents) left -= router_.own_cost(agent);
+  for (AgentIndex agent : agents) {
+    const Cost cutoff = left + router_.own_cost(agent);
+    if (router_.find(agent, paths_.reservations(), way.effort, static_cast<Time>(cutoff), limits,
+                     path_) != Router::Outcome::kFound)
+      return false;
+    paths_.put(agent, std::move(path_));
+    path_.clear();
+    left = cutoff - paths_.cost(agent);
+  }
+  return true;
+}
+
+}  // namespace grove

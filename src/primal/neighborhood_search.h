@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Large neighbourhood search: from a plan to a cheaper one, a few agents at a time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "neighborhoods.h"
+#include "path_set.h"
+#include "random.h"
+#include "router.h"
+
+namespace grove {
+
+// Takes the paths of a few agents away and plans them anew, one after the other, in random order.
+// The new paths stay if they cost no more together. (MAPF-LNS: Li et al., IJCAI 2021; the low level
+// here chooses the order of the tasks too.)
+class NeighborhoodSearch {
+ public:
+  // All must outlive this.
+  NeighborhoodSearch(const Problem& problem, Router& router, PathSet& paths, Random& random)
+      : router_(router),
+        paths_(paths),
+        random_(random),
+        neighborhoods_(problem, router, paths, random) {}
+
+  // One neighbourhood; all agents must have paths, and have them afterwards whatever happens.
+  void step(const Limits& limits);
+
+  std::int64_t steps() const { return steps_; }
+
+ private:
+  // How the low level searches: exactly or greedily; which does better is found out on the way.
+  struct Way {
+    FreeLowLevelSearch::Effort effort;
+    double gain = 0;  // of late
+    double work = 1;  // of late, in labels
+  };
+
+  Way& choose_way();
+  bool plan_anew(const std::vector<AgentIndex>& agents, Cost old_cost, const Way& way,
+                 const Limits& limits);
+
+  Router& router_;
+  PathSet& paths_;
+  Random& random_;
+  Neighborhoods neighborhoods_;
+  std::vector<Way> ways_{{}, {{30}}};
+  std::vector<Path> old_paths_;
+  Path path_;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The kinds:
+// - delayed: an agent that pays more than it would alone, chosen by how much more, and those that
+//   stand in the way of its own best path, or of that path a little later;
+// - anyone: agents drawn from all;
+// - one spot: agents that pass around one cell at about one time.
+#include "neighborhoods.h"
+
+#include <algorithm>
+
+namespace grove {
+namespace {
+
+constexpr int kFewest = 2;
+constexpr int kMost = 8;
+constexpr double kMemory = 0.99;       // of a kind's weight, per neighbourhood
+constexpr double kLeastWeight = 0.02;  // of the sum of all
+constexpr int kDelayedStarts = 8;      // tries to fill a neighbourhood of the delayed kind
+constexpr Time kAboutNow = 8;          // steps before and after, at one spot
+
+}  // namespace
+
+const std::vector<AgentIndex>& Neighborhoods::choose() {
+  const int agents = problem_.instance.agent_count();
+  chosen_.clear();
+  wanted_ = std::min<int>(agents, kFewest + static_cast<int>(random_.below(kMost - kFewest + 1)));
+  kind_ = choose_kind();
+  if (kind_ == kDelayed) add_delayed();
+  if (kind_ == kOneSpot) add_around_spot();
+  if (chosen_.size() < kFewest) add_anyone();
+  random_.shuffle(chosen_);
+  return chosen_;
+}
+
+Neighborhoods::Kind Neighborhoods::choose_kind() {
+  double sum = 0;
+  for (double weight : weights_) sum += weight;
+  double at = random_.unit() * sum * (1 + kKinds * kLeastWeight);
+  for (int kind = 0; kind < kKinds; ++kind) {
+    at -= weights_[static_cast<std::size_t>(kind)] + sum * kLeastWeight;
+    if (at < 0) return static_cast<Kind>(kind);
+  }
+  return kAnyone;
+}
+
+void Neighborhoods::reward(Cost gain) {
+  double& weight = weights_[kind_];
+  weight = kMemory * weight + (1 - kMemory) * static_cast<double>(gain);
+}
+
+void Neighborhoods::add(AgentIndex agent) {
+  if (agent == Reservations::kNobody || full()) return;
+  if (std::ranges::find(chosen_, agent) == chosen_.end()) chosen_.push_back(agent);
+}
+
+void Neighborhoods::add_anyone() {
+  while (!full()) add(static_cast<AgentIndex>(random_.below(problem_.instance.agent_count())));
+}
+
+void Neighborhoods::add_delayed() {
+  const AgentIndex agent = some_delayed_agent();
+  if (agent == Reservations::kNobody) return;
+  add(agent);
+  add_those_in_the_way(agent, 0);
+  const Time delay = paths_.cost(agent) - router_.own_cost(agent);
+  for (int tries = 0; tries < kDelayedStarts && !full(); ++tries) {
+    const AgentIndex member =
+        chosen_[static_cast<std::size_t>(random_.below(static_cast<std::int64_t>(chosen_.size())))];
+    add_those_in_the_way(member, static_cast<Time>(random_.below(delay + 1)));
+  }
+}
+
+AgentIndex Neighborhoods::some_delayed_agent() {
+  Cost sum = 0;
+  const int agents = problem_.instance.agent_count();
+  for (AgentIndex agent = 0; agent < agents; ++agent)
+    sum += paths_.cost(agent) - router_.own_cost(agent);
+  if (sum <= 0) return Reservations::kNobody;
+  Cost at = random_.below(sum);
+  for (AgentIndex agent = 0; agent < agents; ++agent) {
+    at -= paths_.cost(agent) - router_.own_cost(agent);
+    if (at < 0) return agent;
+  }
+  return Reservations::kNobody;
+}
+
+// Those that the agent would run into on its own best path, `late` steps late.
+void Neighborhoods::add_those_in_the_way(AgentIndex agent, Time late) {
+  const Path& path = router_.own_path(agent);
+  const Reservations& reservations = paths_.reservations();
+  for (Time t = 1; t < static_cast<Time>(path.size()) && !full(); ++t) {
+    const Cell from = path[t - 1];
+    const Cell to = path[t];
+    const AgentIndex there = reservations.agent_at(to, t + late);
+    if (there != agent) add(there);
+    const AgentIndex before = reservations.agent_at(to, t + late - 1);
+    if (before != agent && before != Reservations::kNobody &&
+        before == reservations.agent_at(from, t + late))
+      add(before);
+  }
+  const Time end = static_cast<Time>(path.size()) - 1 + late;
+  for (const Reservations::Stay& stay : reservations.stays(path.back()))
+    if (stay.last >= end && stay.agent != agent) add(stay.agent);
+}
+
+// Breadth first from a cell on somebody's path, about the time when it is there.
+void Neighborhoods::add_around_spot() {
+  const Grid& grid = problem_.instance.grid();
+  const Path& path =
+      paths_.path(static_cast<AgentIndex>(random_.below(problem_.instance.agent_count())));
+  const Time time = static_cast<Time>(random_.below(static_cast<std::int64_t>(path.size())));
+  seen_at_.resize(static_cast<std::size_t>(grid.cell_count()), 0);
+  ++search_;
+  queue_.assign(1, path[time]);
+  seen_at_[path[time]] = search_;
+  for (std::size_t next = 0; next < queue_.size() && !full(); ++next) {
+    const Cell cell = queue_[next];
+    add_visitors(cell, time);
+    for (Cell neighbor : grid.neighbors(cell)) {
+      if (seen_at_[neighbor] == search_) continue;
+      seen_at_[neighbor] = search_;
+      queue_.push_back(neighbor);
+    }
+  }
+}
+
+void Neighborhoods::add_visitors(Cell cell, Time time) {
+  for (const Reservations::Stay& stay : paths_.reservations().stays(cell))
+    if (stay.first <= time + kAboutNow && stay.last >= time - kAboutNow) add(stay.agent);
+}
+
+}  // namespace grove

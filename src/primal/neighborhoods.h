@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Which agents to plan anew together.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "grove/search/problem.h"
+#include "path_set.h"
+#include "random.h"
+#include "router.h"
+
+namespace grove {
+
+// Chooses neighbourhoods of 2 to 8 agents, of three kinds, each as often as it did well of late
+// (adaptive large neighbourhood search: Ropke and Pisinger 2006; for MAPF: Li et al., IJCAI 2021).
+class Neighborhoods {
+ public:
+  // All must outlive this.
+  Neighborhoods(const Problem& problem, const Router& router, const PathSet& paths, Random& random)
+      : problem_(problem), router_(router), paths_(paths), random_(random) {}
+
+  // The next one, in random order; all agents must have paths. Valid until the next call.
+  const std::vector<AgentIndex>& choose();
+  // How much cheaper the plan became by the neighbourhood chosen last.
+  void reward(Cost gain);
+
+ private:
+  enum Kind : std::uint8_t { kDelayed, kAnyone, kOneSpot };
+  static constexpr int kKinds = 3;
+
+  Kind choose_kind();
+  void add(AgentIndex agent);
+  bool full() const { return static_cast<int>(chosen_.size()) >= wanted_; }
+  void add_anyone();
+  void add_delayed();
+  AgentIndex some_delayed_agent();
+  void add_those_in_the_way(AgentIndex agent, Time late);
+  void add_around_spot();
+  void add_visitors(Cell cell, Time time);
+
+  const Problem& problem_;
+  const Router& router_;
+  const PathSet& paths_;
+  Random& random_;
+  std::array<double, kKinds> weights_{1, 1, 1};
+  Kind kind_ = kAnyone;
+  int wanted_ = 0;
+  std::vector<AgentIndex> chosen_;
+  std::vector<Cell> queue_;
+  std::vector<std::int32_t> seen_at_;  // by cell: the search that saw it
+  std::int32_t search_ = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The paths of those agents that have one, with their reservations.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "grove/planning/reservations.h"
+
+namespace grove {
+
+// Paths that do not collide, by AgentIndex; an agent without one has an empty path.
+class PathSet {
+ public:
+  PathSet(const Grid& grid, int agents) : reservations_(grid), paths_(agents) {}
+
+  const Reservations& reservations() const { return reservations_; }
+  const std::vector<Path>& paths() const { return paths_; }
+  const Path& path(AgentIndex agent) const { return paths_[agent]; }
+  Time cost(AgentIndex agent) const { return static_cast<Time>(paths_[agent].size()) - 1; }
+  // Of all paths that are there.
+  Cost cost() const { return cost_; }
+
+  // The agent must have none; `path` must collide with no other.
+  void put(AgentIndex agent, Path path) {
+    reservations_.add(agent, path);
+    paths_[agent] = std::move(path);
+    cost_ += cost(agent);
+    steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
+  }
+  // The agent must have one.
+  Path take(AgentIndex agent) {
+    cost_ -= cost(agent);
+    steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
+    reservations_.remove(agent, paths_[agent]);
+    return std::exchange(paths_[agent], {});
+  }
+  void clear() {
+    reservations_.clear();
+    for (Path& path : paths_) path.clear();
+    cost_ = 0;
+  }
+
+  // Lengths of all paths put or taken so far: what that work is worth.
+  std::int64_t steps_moved() const { return steps_moved_; }
+
+ private:
+  Reservations reservations_;
+  std::vector<Path> paths_;
+  Cost cost_ = 0;
+  std::int64_t steps_moved_ = 0;
+};
+
+}  // namespace grove

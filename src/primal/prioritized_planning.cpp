@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Prioritised planning (Erdmann and Lozano-Perez 1987; Silver 2005). An agent planned later takes
+// the paths before it for walls, their rest at the end included, and may not come to rest where one
+// of them still passes. So it fails when the walls shut it in, which is mostly the doing of a few
+// agents that were planned too late: the one that fails is moved to the front and all is begun
+// again (so did Bennewitz et al. 2002 with random exchanges; measured, this succeeds on far more
+// crowded maps than random orders). Agents that shut out each other would take turns for ever:
+// after as many failures as there are agents the order is drawn anew.
+#include "prioritized_planning.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace grove {
+
+void PrioritizedPlanning::begin(std::vector<AgentIndex> order) {
+  order_ = std::move(order);
+  failures_ = 0;
+  begin_again();
+}
+
+void PrioritizedPlanning::begin_again() {
+  paths_.clear();
+  next_ = 0;
+  ++attempts_;
+}
+
+PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits) {
+  if (next_ == order_.size()) return State::kDone;
+  const AgentIndex agent = order_[next_];
+  switch (router_.find(agent, paths_.reservations(), {}, kNever, limits, path_)) {
+    case Router::Outcome::kStopped:
+      return State::kStopped;
+    case Router::Outcome::kFound:
+      paths_.put(agent, std::move(path_));
+      path_.clear();
+      return ++next_ == order_.size() ? State::kDone : State::kWorking;
+    case Router::Outcome::kAbove:
+    case Router::Outcome::kInfeasible:
+      break;
+  }
+  if (++failures_ % static_cast<std::int64_t>(order_.size()) == 0)
+    random_.shuffle(order_);
+  else
+    std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(next_),
+                order_.begin() + static_cast<std::ptrdiff_t>(next_) + 1);
+  begin_again();
+  return State::kWorking;
+}
+
+}  // namespace grove

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// A first plan: one agent after the other.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "path_set.h"
+#include "random.h"
+#include "router.h"
+
+namespace grove {
+
+// Plans the agents in an order, each around those before it, and begins again in another order when
+// one of them has no path. The argument for the other order is at the head of the .cpp.
+class PrioritizedPlanning {
+ public:
+  enum class State : std::uint8_t {
+    kWorking,
+    kDone,     // all agents have a path
+    kStopped,  // a limit struck; step() may be called again
+  };
+
+  // All must outlive this.
+  PrioritizedPlanning(Router& router, PathSet& paths, Random& random)
+      : router_(router), paths_(paths), random_(random) {}
+
+  // Takes all paths away and begins; agents must have been met.
+  void begin(std::vector<AgentIndex> order);
+  // Plans one agent. Not to be called after kDone.
+  State step(const Limits& limits);
+
+  // Orders begun so far.
+  std::int64_t attempts() const { return attempts_; }
+
+ private:
+  void begin_again();
+
+  Router& router_;
+  PathSet& paths_;
+  Random& random_;
+  std::vector<AgentIndex> order_;
+  std::size_t next_ = 0;  // in order_
+  std::int64_t attempts_ = 0;
+  std::int64_t failures_ = 0;  // since begin()
+  Path path_;
+};
+
+}  // namespace grove

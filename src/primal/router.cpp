@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "router.h"
+
+#include <stdexcept>
+
+#include "grove/search/node.h"
+
+namespace grove {
+
+Router::Router(const Problem& problem, AgentStopsStore& stops)
+    : problem_(problem),
+      stops_(stops),
+      low_level_(problem.instance.grid()),
+      goals_(problem.instance.agent_count()),
+      own_paths_(problem.instance.agent_count()),
+      nobody_(problem.instance.grid()) {}
+
+FreeGoals& Router::goals(AgentIndex agent) {
+  auto& goals = goals_[agent];
+  if (!goals) goals = std::make_unique<FreeGoals>(stops_.of(agent), SequenceClass());
+  return *goals;
+}
+
+bool Router::meet(AgentIndex agent, const Limits& limits) {
+  if (!own_paths_[agent].empty()) return true;
+  switch (find(agent, nobody_, {}, kNever, limits, own_paths_[agent])) {
+    case Outcome::kFound:
+      return true;
+    case Outcome::kStopped:
+      return false;
+    case Outcome::kAbove:
+    case Outcome::kInfeasible:
+      break;
+  }
+  throw std::logic_error("internal error: an agent that can reach all its cells has no path");
+}
+
+Router::Outcome Router::find(AgentIndex agent, const Reservations& others,
+                             const FreeLowLevelSearch::Effort& effort, Time cutoff,
+                             const Limits& limits, Path& path) {
+  ++calls_;
+  return low_level_.find(goals(agent), others, effort, cutoff, limits, path);
+}
+
+Plan Router::plan(const std::vector<Path>& paths) {
+  Plan plan;
+  for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
+    const Path& path = paths[agent];
+    const auto cost = static_cast<Time>(path.size()) - 1;
+    const Sequence sequence = realized_sequence(goals(agent), path);
+    plan.cost += cost;
+    plan.agents.push_back({cost, tasks_in_order(problem_.instance.agent(agent), sequence), path});
+  }
+  return plan;
+}
+
+}  // namespace grove

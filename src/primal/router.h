@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// One agent's way around those already planned.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "grove/planning/agent_stops_store.h"
+#include "grove/planning/free_low_level_search.h"
+#include "grove/planning/reservations.h"
+#include "grove/search/problem.h"
+
+namespace grove {
+
+// The low level with what it needs of every agent. Each agent chooses the order of its tasks.
+class Router {
+ public:
+  using Outcome = FreeLowLevelSearch::Outcome;
+
+  // Both must outlive this.
+  Router(const Problem& problem, AgentStopsStore& stops);
+
+  // Finds the agent's best path when nobody else is there; to be called for an agent before any
+  // other question about it. False when a limit struck.
+  bool meet(AgentIndex agent, const Limits& limits);
+
+  // A path around `others` that costs at most `cutoff`.
+  Outcome find(AgentIndex agent, const Reservations& others,
+               const FreeLowLevelSearch::Effort& effort, Time cutoff, const Limits& limits,
+               Path& path);
+
+  // The agent's best path when nobody else is there, and its cost.
+  const Path& own_path(AgentIndex agent) const { return own_paths_[agent]; }
+  Time own_cost(AgentIndex agent) const { return static_cast<Time>(own_paths_[agent].size()) - 1; }
+
+  // The plan that `paths`, by AgentIndex, make.
+  Plan plan(const std::vector<Path>& paths);
+
+  std::int64_t calls() const { return calls_; }
+  std::int64_t expanded() const { return low_level_.expanded(); }
+
+ private:
+  FreeGoals& goals(AgentIndex agent);
+
+  const Problem& problem_;
+  AgentStopsStore& stops_;
+  FreeLowLevelSearch low_level_;
+  std::vector<std::unique_ptr<FreeGoals>> goals_;  // by AgentIndex
+  std::vector<Path> own_paths_;                    // by AgentIndex
+  const Reservations nobody_;
+  std::int64_t calls_ = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Every better plan of a run as a file of its own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "grove/engine/run_observer.h"
+#include "grove/model/instance.h"
+#include "grove/model/omega.h"
+
+namespace grove {
+
+// Writes the k-th plan of a run to PREFIX-<k>.plan.json, whole or not at all, and passes everything
+// on to another observer; a plan is on disk before that one hears of it. A file that cannot be
+// written is told on stderr, once; the run goes on.
+class IncumbentFiles : public RunObserver {
+ public:
+  // `prefix` empty: writes nothing. `instance` and `next` must outlive this.
+  IncumbentFiles(std::string prefix, const Instance& instance, Omega omega, RunObserver& next)
+      : prefix_(std::move(prefix)), instance_(instance), omega_(omega), next_(next) {}
+
+  // The file of the k-th plan, from 1.
+  static std::filesystem::path file(const std::string& prefix, int k);
+  // Could that be one of the files? Such a path must not be anything else in the run.
+  static bool may_be_file(const std::string& prefix, const std::filesystem::path& path);
+
+  void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
+  void on_event(RunEvent event, const Progress& progress) override {
+    next_.on_event(event, progress);
+  }
+  void on_infeasible(std::string_view reason) override { next_.on_infeasible(reason); }
+
+ private:
+  void write(const Plan& plan, const Progress& progress);
+
+  const std::string prefix_;
+  const Instance& instance_;
+  const Omega omega_;
+  RunObserver& next_;
+  int written_ = 0;
+  bool failed_ = false;
+};
+
+}  // namespace grove
