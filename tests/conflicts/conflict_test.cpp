@@ -5,8 +5,12 @@
 
 #include <random>
 
+#include "tests/support/obeys.h"
+
 namespace grove {
 namespace {
+
+using testing::obeys;
 
 Grid open_grid(int width, int height) {
   return Grid(width, height, std::vector<bool>(static_cast<std::size_t>(width) * height, true));
@@ -28,14 +32,6 @@ std::optional<Time> first_collision(const std::vector<Path>& paths) {
       for (std::size_t b = a + 1; b < paths.size(); ++b)
         if (collide(paths[a], paths[b], t)) return t;
   return std::nullopt;
-}
-
-bool obeys(const Path& path, const Constraint& c) {
-  for (Time t = c.begin; t <= c.end; ++t) {
-    if (!c.is_move() && at(path, t) == c.cell) return false;
-    if (c.is_move() && t > 0 && at(path, t) == c.cell && at(path, t - 1) == c.from) return false;
-  }
-  return true;
 }
 
 TEST(ConflictFinder, SeesVertexConflicts) {
@@ -98,13 +94,13 @@ TEST(ConflictFinder, FindsTheFirstCollisionOfRandomPathsAndSplitLosesNone) {
     EXPECT_TRUE(collide(paths[conflict->first], paths[conflict->second], conflict->time));
     // Both colliding paths break their constraint: each child must replan.
     for (const AgentConstraint& branch : split(*conflict))
-      EXPECT_FALSE(obeys(paths[branch.agent], branch.constraint));
+      EXPECT_FALSE(obeys(grid, paths[branch.agent], branch.constraint));
     // Any two paths that do not collide there obey at least one of the two.
     const auto branches = split(*conflict);
     for (const Path& a : paths)
       for (const Path& b : paths)
-        EXPECT_TRUE(collide(a, b, conflict->time) || obeys(a, branches[0].constraint) ||
-                    obeys(b, branches[1].constraint));
+        EXPECT_TRUE(collide(a, b, conflict->time) || obeys(grid, a, branches[0].constraint) ||
+                    obeys(grid, b, branches[1].constraint));
   }
   EXPECT_GT(with_conflict, 500);
 }
