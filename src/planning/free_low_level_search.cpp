@@ -14,9 +14,20 @@
 // earlier arrival can wait for a later one, and waiting changes no state. So one label with the
 // earliest time each suffices, as with a fixed sequence.
 //
-// The end. Nothing left, on a place to rest, in an interval that never ends: a cell barred for ever
-// is no place to rest. No path costs less than the first begin of such an interval, so a finish at
-// that time is optimal at once.
+// The end. Nothing left, on a place to rest, in an interval in which one may rest: a cell barred
+// for ever is no place to rest. No path costs less than the first begin of such an interval, so a
+// finish at that time is optimal at once.
+//
+// Target reasoning. "Does not rest on v by t" (kNoRestBy) makes two overlapping intervals of v's
+// last one, by the time of arrival: up to t, where one may not rest, and later. "Rests on v by t"
+// (kRestBy) leaves one place to rest and acts as a cutoff of t, but what is above it is infeasible.
+// The heuristic then is at least the distance to v.
+//
+// Traversals. A move that kNoTraversal bars is barred to those who came in at the other end. That
+// is all of the past that a future can depend on, and the inner cells of such a chain have their
+// intervals once for each end, and once for whoever has been inside since the start (an end whose
+// traversals are free shares that one: safe_intervals.h). So a path is again a matter of cell,
+// interval and state, and the move is delayed like any barred move.
 //
 // Exactness with a bounded graph. The completions know every sequence cheaper than beyond(). Labels
 // in states that they do not know are dropped, and so are labels of f > beyond().
@@ -52,6 +63,11 @@
 // left, so this ends. With a fixed sequence a gate holds for all earlier states; here for one,
 // since the others may count other stops on the way to u. The states before are cut off by gates of
 // their own.
+//
+// "Later interval" goes by the time of arrival: if u may not be rested on by t and G came by then,
+// P comes by t, and then it leaves u again, as G can, or it comes at n = t + 1 or later. And "stand
+// there as well" must leave open what P does next: if u has copies, a G in one that is barred from
+// leaving the chain makes no gate. One in the free copy does: it can do what the others can.
 //
 // Greed. With a weight on the cost to go (Pohl 1970) labels come out in another order; what is
 // dropped is dropped by t + h and by gates as before, and neither argument speaks of the order. So
@@ -121,6 +137,7 @@ class FreeLowLevelSearch::Workspace {
                       bool doubts, Time cutoff, const Limits& limits, Path& path);
   bool prepare();
   void see_stops();
+  void find_only_rest();
   Time first_rest() const;
   void find_deadlines();
   Outcome find_within(Time cap, const Limits& limits, Path& path);
@@ -128,6 +145,7 @@ class FreeLowLevelSearch::Workspace {
   Outcome run(const Limits& limits, Path& path);
 
   bool surely_infeasible();
+  Time distance(StateId state, Cell cell) const;
   bool misses_deadline(StateId state, Cell cell, Time time) const;
   bool is_finish(const Entry& entry) const;
   bool is_stale(const Entry& entry);
@@ -161,6 +179,7 @@ class FreeLowLevelSearch::Workspace {
   int greed_percent_ = 0;
   std::int64_t give_up_at_ = 0;  // the count of labels
   Time first_rest_ = 0;          // no path costs less
+  int only_rest_ = -1;           // without a destination: the only stop to rest on, perhaps
   Time cap_ = 0;                 // dearer labels are dropped
   bool over_ = false;            // one was
   std::int64_t doubt_at_ = 0;    // the count of labels at which to ask, once, if it is feasible
@@ -218,13 +237,18 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
                     ? expanded_ + effort.most_labels
                     : std::numeric_limits<std::int64_t>::max();
   if (!prepare()) return Outcome::kInfeasible;
-  if (first_rest_ > cutoff) return Outcome::kAbove;
+  const Time latest = std::min(cutoff, intervals_.latest_rest());
+  const bool must_rest = intervals_.latest_rest() < kNever;
+  const Outcome above =
+      must_rest && intervals_.latest_rest() <= cutoff ? Outcome::kInfeasible : Outcome::kAbove;
+  if (first_rest_ > latest) return above;
 
   doubt_at_ = doubts ? expanded_ + kExpansionsBeforeDoubt : kNoDoubt;
   Completions& completions = goals.stops().completions();
   for (;;) {
-    const Outcome outcome = find_within(std::min(cutoff, completions.beyond()), limits, path);
-    if (outcome != Outcome::kAbove || cutoff < completions.beyond()) return outcome;
+    const Outcome outcome = find_within(std::min(latest, completions.beyond()), limits, path);
+    if (outcome == Outcome::kAbove && latest < completions.beyond()) return above;
+    if (outcome != Outcome::kAbove) return outcome;
     if (completions.beyond() == kNever) return outcome;
     if (goals.first_state() != FreeGoals::kOutside && surely_infeasible())
       return Outcome::kInfeasible;
@@ -236,8 +260,9 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
 bool FreeLowLevelSearch::Workspace::prepare() {
   see_stops();
   find_deadlines();
+  find_only_rest();
   first_rest_ = first_rest();
-  return first_rest_ < kNever && goals_->plausible();
+  return first_rest_ < kNever && first_rest_ <= intervals_.latest_rest() && goals_->plausible();
 }
 
 void FreeLowLevelSearch::Workspace::see_stops() {
@@ -250,26 +275,35 @@ void FreeLowLevelSearch::Workspace::see_stops() {
 // When the agent may first come to rest anywhere for ever.
 Time FreeLowLevelSearch::Workspace::first_rest() const {
   const AgentStops& stops = goals_->stops();
-  const auto rest_begin = [&](Cell cell) {
-    const int slot = intervals_.last_slot(cell);
-    return slot == kNoSlot ? kNever : intervals_.begin_of(slot);
-  };
-  if (stops.destination()) return rest_begin(*stops.destination());
+  if (stops.destination()) return intervals_.rest_begin(*stops.destination());
   Time first = kNever;
   for (int stop = 0; stop < stops.count(); ++stop)
-    first = std::min(first, rest_begin(stops.cell(stop)));
+    first = std::min(first, intervals_.rest_begin(stops.cell(stop)));
   return first;
+}
+
+// Of use only without a destination: with one, the heuristic knows it.
+void FreeLowLevelSearch::Workspace::find_only_rest() {
+  only_rest_ = AgentStops::kNoStop;
+  const AgentStops& stops = goals_->stops();
+  if (stops.destination()) return;
+  for (int stop = 0; stop < stops.count(); ++stop)
+    if (stops.cell(stop) == intervals_.only_rest()) only_rest_ = stop;
+}
+
+// At most what a path from here on costs.
+Time FreeLowLevelSearch::Workspace::distance(StateId state, Cell cell) const {
+  const Time distance = goals_->distance(state, cell);
+  if (only_rest_ == AgentStops::kNoStop) return distance;
+  return std::max(distance, goals_->stops().distances_from(cell)[only_rest_]);
 }
 
 void FreeLowLevelSearch::Workspace::find_deadlines() {
   const AgentStops& stops = goals_->stops();
   deadlines_.clear();
   for (int stop = 0; stop < stops.count(); ++stop) {
-    const Cell cell = stops.cell(stop);
-    if (intervals_.last_slot(cell) != kNoSlot) continue;
-    const int last = intervals_.end_slot(cell) - 1;
-    const bool ever_safe = last >= intervals_.first_slot(cell);
-    deadlines_.push_back({stop, ever_safe ? intervals_.end_of(last) : -1});
+    const Time last = intervals_.last_time(stops.cell(stop));
+    if (last < kNever) deadlines_.push_back({stop, last});
   }
 }
 
@@ -289,7 +323,7 @@ void FreeLowLevelSearch::Workspace::start() {
   const Cell cell = goals_->stops().start();
   const StateId state = goals_->first_state();
   queue_.reset(0);
-  const int slot = intervals_.slot_at(cell, 0);
+  const int slot = intervals_.start_slot(cell);
   if (slot == kNoSlot) return;
   if (state == FreeGoals::kOutside) {
     outside_ = true;
@@ -334,7 +368,7 @@ bool FreeLowLevelSearch::Workspace::surely_infeasible() {
 bool FreeLowLevelSearch::Workspace::is_finish(const Entry& entry) const {
   const FreeGoals::State& state = goals_->state(entry.progress);
   return state.left == 0 && goals_->is_rest(state, intervals_.cell_of(entry.slot)) &&
-         intervals_.end_of(entry.slot) == kNever;
+         intervals_.may_rest(entry.slot);
 }
 
 // The label was improved since it was queued.
@@ -386,7 +420,7 @@ Time FreeLowLevelSearch::Workspace::postponed_to(const Entry& entry) const {
 void FreeLowLevelSearch::Workspace::close_gate(const Entry& entry) {
   const Cell cell = intervals_.cell_of(entry.slot);
   const int stop = goals_->stops().stop_at(cell);
-  if (stop == AgentStops::kNoStop) return;
+  if (stop == AgentStops::kNoStop || !intervals_.is_free_of_traversals(entry.slot)) return;
   const LabelPlanes::Label& l = planes_.label(entry.slot, entry.progress);
   if (l.parent_slot == kNoSlot || l.parent_state == entry.progress) return;
   const StateId from = l.parent_state;
@@ -437,7 +471,7 @@ void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std
   LabelPlanes::Label& l = planes_.label(slot, state);
   const bool known = planes_.is_current(l);
   if (known && (l.time < time || (l.time == time && l.conflicts <= from.conflicts))) return;
-  const Time distance = goals_->distance(state, cell);
+  const Time distance = this->distance(state, cell);
   if (distance >= kNever) outside_ = true;
   if (distance > cap_ - time) {
     over_ |= distance < kNever;

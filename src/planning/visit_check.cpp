@@ -13,11 +13,11 @@ bool VisitCheck::can_visit(Cell start, Cell via, std::span<const Cell> rests) {
   earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_limit()), kNever);
   queue_.reset(0);
   intervals_.see(start);
-  if (const int slot = intervals_.slot_at(start, 0); slot >= 0) reach(slot, start, 0, false);
+  if (const int slot = intervals_.start_slot(start); slot >= 0) reach(slot, start, 0, false);
   Queue::Entry entry;
   while (queue_.pop(entry)) {
     const bool visited = entry.progress != 0;
-    if (visited && intervals_.end_of(entry.slot) == kNever &&
+    if (visited && intervals_.may_rest(entry.slot) &&
         std::ranges::count(rests, intervals_.cell_of(entry.slot)) > 0)
       return true;
     intervals_.for_each_move(grid_, entry.slot, entry.time, [&](int slot, Cell cell, Time time) {

@@ -17,7 +17,7 @@ class VisitCheck {
  public:
   VisitCheck(const Grid& grid, SafeIntervals& intervals) : grid_(grid), intervals_(intervals) {}
 
-  // From `start` at time 0 by way of `via` to one of `rests` in an interval that never ends.
+  // From `start` at time 0 by way of `via` to one of `rests` in an interval where it may rest.
   bool can_visit(Cell start, Cell via, std::span<const Cell> rests);
 
  private:

@@ -9,8 +9,12 @@
 #include <set>
 #include <tuple>
 
+#include "tests/support/obeys.h"
+
 namespace grove {
 namespace {
+
+using testing::obeys;
 
 Grid open_grid(int width, int height) {
   return Grid(width, height, std::vector<bool>(static_cast<std::size_t>(width) * height, true));
@@ -47,14 +51,6 @@ std::vector<Conflict> conflicts_of(ConflictFinder& finder, const std::vector<Pat
   std::vector<Conflict> conflicts;
   finder.all(paths, all, conflicts);
   return conflicts;
-}
-
-bool obeys(const Path& path, const Constraint& c) {
-  for (Time t = c.begin; t <= c.end; ++t) {
-    if (!c.is_move() && at(path, t) == c.cell) return false;
-    if (c.is_move() && t > 0 && at(path, t) == c.cell && at(path, t - 1) == c.from) return false;
-  }
-  return true;
 }
 
 TEST(ConflictFinder, SeesVertexConflicts) {
@@ -124,12 +120,12 @@ TEST(ConflictFinder, FindsTheCollisionsOfRandomPathsAndSplitLosesNone) {
       // Both colliding paths break their constraint: each child must replan.
       const Split branches = split(conflict);
       for (const AgentConstraint& branch : branches)
-        EXPECT_FALSE(obeys(paths[branch.agent], branch.constraint));
+        EXPECT_FALSE(obeys(grid, paths[branch.agent], branch.constraint));
       // Any two paths that do not collide there obey at least one of the two.
       for (const Path& a : paths)
         for (const Path& b : paths)
-          EXPECT_TRUE(collide(a, b, conflict.time) || obeys(a, branches[0].constraint) ||
-                      obeys(b, branches[1].constraint));
+          EXPECT_TRUE(collide(a, b, conflict.time) || obeys(grid, a, branches[0].constraint) ||
+                      obeys(grid, b, branches[1].constraint));
     }
   }
   EXPECT_GT(with_conflict, 500);

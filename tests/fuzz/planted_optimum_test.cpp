@@ -104,17 +104,6 @@ TEST(Realizes, ReadsOrdersOffAPath) {
   EXPECT_FALSE(realizes(instance, 0, {0, 1, 2, 3, 2, 1}, {0, 1}));
 }
 
-TEST(Obeys, CountsTheRestForEver) {
-  const Path path{0, 1, 2};
-  EXPECT_TRUE(obeys(path, {1, kNoCell, 2, kNever}));
-  EXPECT_FALSE(obeys(path, {1, kNoCell, 1, 1}));
-  EXPECT_FALSE(obeys(path, {2, kNoCell, 90, 90}));
-  EXPECT_FALSE(obeys(path, {2, kNoCell, 0, kNever}));
-  EXPECT_FALSE(obeys(path, {2, 1, 2, 2}));
-  EXPECT_TRUE(obeys(path, {2, 1, 3, kNever}));
-  EXPECT_TRUE(obeys(path, {1, 2, 0, kNever}));
-}
-
 TEST(PlantedOptimum, SurvivesWholeSearches) {
   std::size_t followed = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
@@ -125,7 +114,9 @@ TEST(PlantedOptimum, SurvivesWholeSearches) {
     PlantedOptimum planted(instance, *truth.plan);
     Limits limits;
     limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(100));
-    solve(instance, {.omega = fuzz_case.options.omega}, limits, &planted);
+    SolveOptions options;
+    options.omega = fuzz_case.options.omega;
+    solve(instance, options, limits, &planted);
     EXPECT_THAT(planted.complaints(), IsEmpty()) << fuzz_case.to_text();
     followed += planted.nodes_followed();
   }

@@ -14,6 +14,7 @@
 #include "grove/planning/low_level_search.h"
 #include "grove/sequencing/k_best_sequences.h"
 #include "tests/planning/free_reference.h"
+#include "tests/planning/random_constraint.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 
@@ -107,7 +108,8 @@ struct Agent {
 // Random problems on tiny maps, each made harder one constraint at a time.
 class Fuzzer {
  public:
-  explicit Fuzzer(unsigned seed) : random_(seed) {}
+  // `conditional`: constraints of all kinds, not bars alone.
+  Fuzzer(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
 
   void run() {
     const Grid grid = random_grid();
@@ -128,6 +130,7 @@ class Fuzzer {
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
 
   Grid random_grid() {
+    if (conditional_ && below(3) > 0) return testing::random_corridor_map(random_);
     switch (below(6)) {
       case 0:
         return grid_of({"......"});
@@ -190,6 +193,8 @@ class Fuzzer {
     const Path& path = agent.path;
     std::vector<Cell> goals = agent.problem.stops;
     if (agent.problem.destination) goals.push_back(*agent.problem.destination);
+    if (conditional_ && below(2) == 0)
+      return testing::random_conditional_constraint(*agent.problem.grid, path, goals, random_);
     Constraint c;
     const int at = below(static_cast<int>(path.size()));
     c.cell = path[at];
@@ -233,23 +238,29 @@ class Fuzzer {
   }
 
   std::mt19937 random_;
+  const bool conditional_;
 };
 
-TEST(FreeLowLevel, AgreesWithItsDefinition) {
+class FreeLowLevelFuzz : public ::testing::TestWithParam<bool> {};
+
+TEST_P(FreeLowLevelFuzz, AgreesWithItsDefinition) {
   int checked = 0;
   int infeasible = 0;
   const int seeds = rounds(1200);
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Fuzzer fuzzer(static_cast<unsigned>(seed));
+    Fuzzer fuzzer(static_cast<unsigned>(seed), GetParam());
     fuzzer.run();
     if (HasFailure()) return;
     checked += fuzzer.checked;
     infeasible += fuzzer.infeasible;
   }
-  EXPECT_GT(checked, 3 * seeds);
+  EXPECT_GT(checked, 2 * seeds);
   EXPECT_GT(infeasible, seeds / 4);
 }
+
+INSTANTIATE_TEST_SUITE_P(, FreeLowLevelFuzz, ::testing::Bool(),
+                         [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
 // Many stops, so that the completions are a graph that holds the good sequences alone.
 class ManyStops {
