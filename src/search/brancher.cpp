@@ -26,6 +26,7 @@
 #include <utility>
 
 #include "grove/conflicts/target.h"
+#include "grove/conflicts/traversal.h"
 
 namespace grove {
 namespace {
@@ -106,6 +107,9 @@ void Brancher::collect_splits() {
     splits_.push_back(split(conflict));
     if (techniques_.has(Technique::kTarget))
       if (const auto by_target = target_split(conflict, paths_)) splits_.push_back(*by_target);
+    if (techniques_.has(Technique::kTraversal))
+      if (const auto by_traversal = traversal_split(conflict, paths_, problem_.chains))
+        splits_.push_back(*by_traversal);
   }
 }
 
@@ -137,6 +141,9 @@ Split Brancher::earliest() const {
   }
   if (techniques_.has(Technique::kTarget))
     if (const auto by_target = target_split(*best, paths_)) return *by_target;
+  if (techniques_.has(Technique::kTraversal))
+    if (const auto by_traversal = traversal_split(*best, paths_, problem_.chains))
+      return *by_traversal;
   return split(*best);
 }
 
