@@ -12,8 +12,8 @@
 #include "grove/io/map_file.h"
 #include "grove/io/scenario_file.h"
 #include "grove/search/expander.h"
-#include "grove/search/sequence_forest.h"
 #include "grove/search/frontier.h"
+#include "grove/search/sequence_forest.h"
 #include "tools/generate/instance_generator.h"
 
 namespace grove {
@@ -40,7 +40,8 @@ class Search {
   explicit Search(const Instance& instance)
       : problem_(instance, limits_),
         forest_(problem_, pool_, RtspBackend::kAuto, limits_),
-        expander_(problem_, Techniques(), 0) {
+        stops_(instance, problem_.distances),
+        expander_(problem_, stops_, Techniques(), 0) {
     frontier_.push(forest_.next_root());
   }
   ~Search() { frontier_.abandon(); }
@@ -66,6 +67,7 @@ class Search {
   NodePool pool_;
   SequenceForest forest_;
   Frontier frontier_;
+  AgentStopsStore stops_;
   Expander expander_;
   std::int64_t generated_ = 0;
 };
@@ -85,8 +87,8 @@ void BM_Expansions(benchmark::State& state) {
   state.counters["bytes_per_node"] =
       (static_cast<double>(resident_bytes()) - memory_before) / nodes;
   const ExpansionCounts counts = search.counts();
-  state.counters["labels_per_call"] = static_cast<double>(counts.low_level_expanded) /
-                                      static_cast<double>(counts.low_level_calls);
+  state.counters["labels_per_call"] =
+      static_cast<double>(counts.low_level_expanded) / static_cast<double>(counts.low_level_calls);
   state.SetLabel(files.map.filename().string());
 }
 BENCHMARK(BM_Expansions)

@@ -23,11 +23,11 @@
 namespace grove {
 namespace {
 
-std::unique_ptr<Forest> make_forest(const Problem& problem, NodePool& pool,
+std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
                                     const SolveOptions& options, const Limits& limits) {
   if (options.policy == Policy::kFixed)
     return std::make_unique<SequenceForest>(problem, pool, options.rtsp, limits);
-  return std::make_unique<SingleTree>(problem, pool, limits);
+  return std::make_unique<SingleTree>(problem, stops, pool, limits);
 }
 
 // The paper's policy is the cross-check: plain CBS.
@@ -48,8 +48,9 @@ class SequentialEngine {
         observer_(observer),
         omega_(options.omega),
         gate_(problem.instance, options.omega),
-        forest_(make_forest(problem, pool_, options, limits)),
-        expander_(problem, techniques_of(options), options.seed),
+        stops_(problem.instance, problem.distances),
+        forest_(make_forest(problem, stops_, pool_, options, limits)),
+        expander_(problem, stops_, techniques_of(options), options.seed),
         share_(problem.instance.agent_count()) {}
   ~SequentialEngine() { frontier_.abandon(); }
   SequentialEngine(const SequentialEngine&) = delete;
@@ -78,11 +79,11 @@ class SequentialEngine {
   RunObserver& observer_;
   const Omega omega_;
   Gate gate_;
+  AgentStopsStore stops_;
   NodePool pool_;
   std::unique_ptr<Forest> forest_;
   Frontier frontier_;
   Expander expander_;
-  std::unique_ptr<AgentStopsStore> stops_;
   std::unique_ptr<PrimalSearch> primal_;  // made when it is first due
   PrimalShare share_;
   bool out_of_nodes_ = false;  // though not finished
@@ -117,9 +118,7 @@ bool SequentialEngine::primal_is_due() {
       options_.policy != Policy::kFixed && options_.techniques.has(Technique::kPrimal);
   if (!wanted || !share_.may_begin()) return false;
   if (!primal_) {
-    const Instance& instance = problem_.instance;
-    stops_ = std::make_unique<AgentStopsStore>(instance, problem_.distances);
-    primal_ = std::make_unique<PrimalSearch>(problem_, *stops_, options_.seed);
+    primal_ = std::make_unique<PrimalSearch>(problem_, stops_, options_.seed);
     if (const auto plan = gate_.incumbent()) primal_->adopt(*plan);
   }
   return share_.due(*primal_);

@@ -13,10 +13,11 @@ constexpr std::size_t kMostMemory = std::size_t{1} << 29;  // of what is remembe
 
 }  // namespace
 
-Expander::Expander(const Problem& problem, Techniques techniques, std::uint64_t seed)
+Expander::Expander(const Problem& problem, AgentStopsStore& stops, Techniques techniques,
+                   std::uint64_t seed)
     : problem_(problem),
       techniques_(techniques),
-      planner_(problem),
+      planner_(problem, stops),
       brancher_(problem, techniques, seed, planner_, situations_),
       dependencies_(problem, techniques, seed, planner_, situations_),
       all_(static_cast<std::size_t>(problem.instance.agent_count())) {

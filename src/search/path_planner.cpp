@@ -3,11 +3,10 @@
 
 namespace grove {
 
-PathPlanner::PathPlanner(const Problem& problem)
-    : problem_(problem),
-      fixed_(problem.instance.grid()),
+PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops)
+    : fixed_(problem.instance.grid()),
       free_(problem.instance.grid()),
-      stops_(problem.instance.agent_count()),
+      stops_(stops),
       free_goals_(problem.instance.agent_count()) {}
 
 PathPlanner::Outcome PathPlanner::find(AgentIndex agent, const AgentOrder& order,
@@ -40,11 +39,9 @@ Sequence PathPlanner::sequence(AgentIndex agent, const AgentOrder& order, const 
 }
 
 FreeGoals& PathPlanner::free_goals(AgentIndex agent, const SequenceClass& work) {
-  auto& stops = stops_[agent];
   auto& goals = free_goals_[agent];
-  if (!stops) stops = std::make_unique<AgentStops>(problem_.instance, problem_.distances, agent);
   if (!goals || !(goals->sequence_class() == work))
-    goals = std::make_unique<FreeGoals>(*stops, work);
+    goals = std::make_unique<FreeGoals>(stops_.of(agent), work);
   return *goals;
 }
 

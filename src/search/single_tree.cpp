@@ -10,8 +10,9 @@
 
 namespace grove {
 
-SingleTree::SingleTree(const Problem& problem, NodePool& pool, const Limits& limits)
-    : problem_(problem), pool_(pool), limits_(limits) {
+SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
+                       const Limits& limits)
+    : problem_(problem), stops_(stops), pool_(pool), limits_(limits) {
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     relaxed_bound_ += relaxation_bound(cost_matrix(problem.instance, agent, problem.distances));
 }
@@ -20,7 +21,7 @@ SingleTree::SingleTree(const Problem& problem, NodePool& pool, const Limits& lim
 // ties.
 NodePtr SingleTree::next_root() {
   if (!tree_.empty()) return nullptr;
-  PathPlanner planner(problem_);
+  PathPlanner planner(problem_, stops_);
   ConflictAvoidanceTable others(problem_.instance.grid());
   std::vector<std::shared_ptr<const AgentOrder>> orders;
   Path path;

@@ -17,7 +17,8 @@ struct Search {
       : instance(testing::instance_of(rows, agents)),
         problem(instance, limits),
         forest(problem, pool, RtspBackend::kAuto, limits),
-        expander(problem, Techniques(), 0),
+        stops(instance, problem.distances),
+        expander(problem, stops, Techniques(), 0),
         root(forest.next_root()) {}
 
   Limits limits;
@@ -25,6 +26,7 @@ struct Search {
   Problem problem;
   NodePool pool;
   SequenceForest forest;
+  AgentStopsStore stops;
   Expander expander;
   NodePtr root;
 };

@@ -37,8 +37,10 @@ struct ExpansionCounts {
 // no bound. Engines give each worker its own; all of them compute the same.
 class Expander {
  public:
-  // `problem` must outlive the expander. `seed` breaks ties among conflicts.
-  Expander(const Problem& problem, Techniques techniques, std::uint64_t seed);
+  // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same
+  // thread. `seed` breaks ties among conflicts.
+  Expander(const Problem& problem, AgentStopsStore& stops, Techniques techniques,
+           std::uint64_t seed);
 
   // `cutoff`: plans that cost so much or more are of no interest (the incumbent's cost;
   // kInfiniteCost: all are).

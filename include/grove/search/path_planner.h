@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "grove/planning/agent_stops_store.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/search/node.h"
@@ -17,8 +18,8 @@ namespace grove {
 // the order. Workspace of one thread: reuse it, do not share it.
 class PathPlanner {
  public:
-  // `problem` must outlive this.
-  explicit PathPlanner(const Problem& problem);
+  // Both must outlive this; `stops` may be shared with others of the same thread.
+  PathPlanner(const Problem& problem, AgentStopsStore& stops);
 
   // As FreeLowLevelSearch::find.
   using Outcome = FreeLowLevelSearch::Outcome;
@@ -39,10 +40,9 @@ class PathPlanner {
                      Path& path);
 
   std::int64_t calls_ = 0;
-  const Problem& problem_;
   LowLevelSearch fixed_;
   FreeLowLevelSearch free_;
-  std::vector<std::unique_ptr<AgentStops>> stops_;  // by AgentIndex; made when first needed
+  AgentStopsStore& stops_;
   std::vector<std::unique_ptr<FreeGoals>>
       free_goals_;  // by AgentIndex: of the class asked for last
 };
