@@ -377,6 +377,30 @@ TEST(FreeLowLevel, ACellBarredForEverIsNoPlaceToRest) {
   EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 0}));
 }
 
+// Who comes to 3 early may not rest there and cannot get out again in time.
+TEST(FreeLowLevel, AGateSparesThoseWhoComeLateEnoughToRest) {
+  const Grid grid = grid_of({"...."});
+  FreeProblem problem = corridor(grid, {3}, std::nullopt);
+  problem.constraints = {
+      {3, kNoCell, 0, 6, ConstraintKind::kNoRestBy}, {2, kNoCell, 4, 6}, {2, 3, 0, 20}};
+  EXPECT_EQ(Agent(problem).cost(), 8);
+}
+
+TEST(FreeLowLevel, TellsNoRestInTimeFromNoneBelowTheCutoff) {
+  const Grid grid = grid_of({"......"});
+  FreeProblem problem = corridor(grid, {1, 3}, std::nullopt);
+  problem.constraints = {{1, kNoCell, 0, 4, ConstraintKind::kRestBy}};
+  Agent agent(problem);
+  Path path;
+  EXPECT_EQ(agent.find(3, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(4, path), Outcome::kInfeasible);
+  EXPECT_EQ(agent.find(kNever, path), Outcome::kInfeasible);
+  agent.problem.constraints[0].end = 5;
+  EXPECT_EQ(agent.find(4, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(5, path), Outcome::kFound);
+  EXPECT_EQ(path.back(), 1);
+}
+
 // Without a destination the stop it rests on is the last one: it cannot be the first one too.
 TEST(FreeLowLevel, DoesNotRestOnTheStopThatMustBeFirst) {
   const Grid grid = grid_of({"......"});
