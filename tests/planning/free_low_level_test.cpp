@@ -433,6 +433,23 @@ TEST(FreeLowLevel, ADoorThatShutsIsProvenWithoutTryingAllOrders) {
   }
 }
 
+// The same door, shut for long: far too dear for the cutoff.
+TEST(FreeLowLevel, ADoorThatShutsForLongIsProvenAboveWithoutTryingAllOrders) {
+  const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
+  FreeProblem problem = corridor(grid, {39}, 20);
+  for (Cell cell = 1; problem.stops.size() < 20; ++cell)
+    if (grid.passable(cell) && cell != 18) problem.stops.push_back(cell);
+  problem.constraints = {{18, kNoCell, 13, 500}};
+  Agent agent(problem);
+  Path path;
+  EXPECT_EQ(agent.find(100, path), Outcome::kAbove);
+  EXPECT_LT(agent.free.expanded(), 20'000);
+  problem.constraints.push_back({20, kNoCell, 0, 100, ConstraintKind::kRestBy});
+  Agent in_time(problem);
+  EXPECT_EQ(in_time.cost(), std::nullopt);
+  EXPECT_LT(in_time.free.expanded(), 20'000);
+}
+
 TEST(FreeLowLevel, SaysAboveOnlyForTheCutoff) {
   const Grid grid = grid_of({"......"});
   Agent agent(corridor(grid, {5, 1}, 0));
