@@ -144,7 +144,6 @@ class FreeLowLevelSearch::Workspace {
   void close_gate(const Entry& entry);
   void expand(const Entry& entry);
   void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
-  void touch(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time, int stop);
   void reach(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time,
              StateId state);
   std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time) const;
@@ -401,22 +400,9 @@ void FreeLowLevelSearch::Workspace::expand(const Entry& entry) {
 
 void FreeLowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::int32_t slot,
                                            Cell cell, Time time) {
-  const int stop = goals_->stops().stop_at(cell);
-  if (stop == AgentStops::kNoStop || (goals_->state(from.progress).next >> stop & 1) == 0)
-    reach(from, from_cell, slot, cell, time, from.progress);
-  else
-    touch(from, from_cell, slot, cell, time, stop);
-}
-
-void FreeLowLevelSearch::Workspace::touch(const Entry& from, Cell from_cell, std::int32_t slot,
-                                          Cell cell, Time time, int stop) {
-  if (goals_->state(from.progress).may_skip)
-    reach(from, from_cell, slot, cell, time, from.progress);
-  const StateId state = goals_->after(from.progress, stop);
-  if (state != FreeGoals::kOutside)
-    reach(from, from_cell, slot, cell, time, state);
-  else
-    outside_ = true;
+  const bool known = goals_->on_arrival(
+      from.progress, cell, [&](StateId state) { reach(from, from_cell, slot, cell, time, state); });
+  if (!known) outside_ = true;
 }
 
 void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std::int32_t slot,

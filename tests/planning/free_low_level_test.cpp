@@ -25,6 +25,7 @@ using Outcome = FreeLowLevelSearch::Outcome;
 using testing::free_reference_cost;
 using testing::FreeProblem;
 using testing::grid_of;
+using testing::instance_of;
 using testing::members_of;
 using testing::path_error;
 using testing::Problem;
@@ -33,17 +34,6 @@ using testing::SingleAgent;
 int rounds(int count) {
   const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
   return factor ? count * std::max(1, std::atoi(factor)) : count;
-}
-
-Instance instance_of(const FreeProblem& problem) {
-  InstanceBuilder builder(*problem.grid);
-  std::optional<Position> goal;
-  if (problem.destination) goal = problem.grid->position(*problem.destination);
-  builder.add_agent("a", problem.grid->position(problem.start), goal);
-  for (std::size_t k = 0; k < problem.stops.size(); ++k)
-    builder.add_task("t" + std::to_string(k), problem.grid->position(problem.stops[k]),
-                     std::vector<std::string>{"a"});
-  return std::move(builder).build();
 }
 
 // One agent, its class and both searches.
