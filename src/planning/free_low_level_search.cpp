@@ -74,9 +74,9 @@
 // the first finish is a path within the cutoff, if perhaps not the cheapest, and the other outcomes
 // are proven.
 //
-// Infeasible cases can cost all 2^n sets: with time windows the question is NP-hard. Most are a
-// door that shuts before or behind the agent, so once per hard call each stop is asked for alone
-// (visit_check.cpp), a necessary condition.
+// Infeasible cases can cost all 2^n sets: with time windows the question is NP-hard; and so can
+// cases far above the cutoff. Most are a door shut before or behind the agent, so once per hard
+// call each stop is asked for alone (visit_check.cpp): a bound on the cost.
 //
 // Measured on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
 // call in microseconds; n = 5, 10, 20): 6, 14, 24 without constraints; 17, 35, 57 with 20 of them
@@ -97,8 +97,8 @@ namespace {
 
 constexpr std::int64_t kExpansionsPerPoll = 256;
 // After so many in one call, or before the completions are widened a second time, it is worth
-// asking whether each stop can be visited at all.
-constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 14;
+// asking whether each stop can be visited at all, or in time.
+constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 12;
 
 }  // namespace
 
@@ -144,7 +144,7 @@ class FreeLowLevelSearch::Workspace {
   void start();
   Outcome run(const Limits& limits, Path& path);
 
-  bool surely_infeasible();
+  bool is_hopeless();
   Time distance(StateId state, Cell cell) const;
   bool misses_deadline(StateId state, Cell cell, Time time) const;
   bool is_finish(const Entry& entry) const;
@@ -154,7 +154,6 @@ class FreeLowLevelSearch::Workspace {
   void close_gate(const Entry& entry);
   void expand(const Entry& entry);
   void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
-  void touch(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time, int stop);
   void reach(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time,
              StateId state);
   std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time) const;
@@ -177,13 +176,16 @@ class FreeLowLevelSearch::Workspace {
   const ConflictAvoidanceTable* others_ = nullptr;
   const Limits* limits_ = nullptr;
   int greed_percent_ = 0;
-  std::int64_t give_up_at_ = 0;  // the count of labels
-  Time first_rest_ = 0;          // no path costs less
-  int only_rest_ = -1;           // without a destination: the only stop to rest on, perhaps
-  Time cap_ = 0;                 // dearer labels are dropped
-  bool over_ = false;            // one was
-  std::int64_t doubt_at_ = 0;    // the count of labels at which to ask, once, if it is feasible
-  bool outside_ = false;         // a label was dropped whose state the completions do not know
+  std::int64_t give_up_at_ = 0;         // the count of labels
+  Time first_rest_ = 0;                 // no path costs less
+  int only_rest_ = -1;                  // without a destination: the only stop to rest on, perhaps
+  Time cap_ = 0;                        // dearer labels are dropped
+  bool over_ = false;                   // one was
+  Time latest_ = 0;                     // dearer paths are of no use,
+  Outcome above_ = Outcome::kAbove;     // and this is the answer if all are
+  Outcome hopeless_ = Outcome::kAbove;  // what is_hopeless() found
+  std::int64_t doubt_at_ = 0;  // the count of labels at which to ask, once, if there is hope
+  bool outside_ = false;       // a label was dropped whose state the completions do not know
 };
 
 FreeLowLevelSearch::FreeLowLevelSearch(const Grid& grid)
@@ -237,21 +239,19 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
                     ? expanded_ + effort.most_labels
                     : std::numeric_limits<std::int64_t>::max();
   if (!prepare()) return Outcome::kInfeasible;
-  const Time latest = std::min(cutoff, intervals_.latest_rest());
+  latest_ = std::min(cutoff, intervals_.latest_rest());
   const bool must_rest = intervals_.latest_rest() < kNever;
-  const Outcome above =
-      must_rest && intervals_.latest_rest() <= cutoff ? Outcome::kInfeasible : Outcome::kAbove;
-  if (first_rest_ > latest) return above;
+  above_ = must_rest && intervals_.latest_rest() <= cutoff ? Outcome::kInfeasible : Outcome::kAbove;
+  if (first_rest_ > latest_) return above_;
 
   doubt_at_ = doubts ? expanded_ + kExpansionsBeforeDoubt : kNoDoubt;
   Completions& completions = goals.stops().completions();
   for (;;) {
-    const Outcome outcome = find_within(std::min(latest, completions.beyond()), limits, path);
-    if (outcome == Outcome::kAbove && latest < completions.beyond()) return above;
+    const Outcome outcome = find_within(std::min(latest_, completions.beyond()), limits, path);
+    if (outcome == Outcome::kAbove && latest_ < completions.beyond()) return above_;
     if (outcome != Outcome::kAbove) return outcome;
     if (completions.beyond() == kNever) return outcome;
-    if (goals.first_state() != FreeGoals::kOutside && surely_infeasible())
-      return Outcome::kInfeasible;
+    if (goals.first_state() != FreeGoals::kOutside && is_hopeless()) return hopeless_;
     if (!completions.widen(completions.beyond(), limits)) return Outcome::kStopped;
   }
 }
@@ -342,7 +342,7 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::run(const Limits& lim
     }
     if (++expanded_ % kExpansionsPerPoll == 0) {
       if (expanded_ >= give_up_at_ || limits.stop_requested()) return Outcome::kStopped;
-      if (expanded_ >= doubt_at_ && surely_infeasible()) return Outcome::kInfeasible;
+      if (expanded_ >= doubt_at_ && is_hopeless()) return hopeless_;
     }
     close_gate(entry);
     expand(entry);
@@ -352,8 +352,8 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::run(const Limits& lim
   return over_ || (bounded && outside_) ? Outcome::kAbove : Outcome::kInfeasible;
 }
 
-// Asks once a call.
-bool FreeLowLevelSearch::Workspace::surely_infeasible() {
+// Is there surely no path, or none in time, or no time to find out? Asks once a call.
+bool FreeLowLevelSearch::Workspace::is_hopeless() {
   if (doubt_at_ == kNoDoubt) return false;
   doubt_at_ = kNoDoubt;
   const AgentStops& stops = goals_->stops();
@@ -361,8 +361,15 @@ bool FreeLowLevelSearch::Workspace::surely_infeasible() {
   for (int stop = 0; stop < stops.count(); ++stop) rests.push_back(stops.cell(stop));
   const std::vector<Cell> visits = rests;
   if (stops.destination()) rests = {*stops.destination()};
-  return !std::ranges::all_of(
-      visits, [&](Cell cell) { return visit_check_.can_visit(stops.start(), cell, rests); });
+  Time rest = 0;
+  for (const Cell cell : visits) {
+    rest = std::max(rest, visit_check_.first_rest(stops.start(), cell, rests));
+    if (!limits_->stop_requested()) continue;
+    hopeless_ = Outcome::kStopped;
+    return true;
+  }
+  hopeless_ = rest >= kNever ? Outcome::kInfeasible : above_;
+  return rest >= kNever || rest > latest_;
 }
 
 bool FreeLowLevelSearch::Workspace::is_finish(const Entry& entry) const {
@@ -446,22 +453,9 @@ void FreeLowLevelSearch::Workspace::expand(const Entry& entry) {
 
 void FreeLowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::int32_t slot,
                                            Cell cell, Time time) {
-  const int stop = goals_->stops().stop_at(cell);
-  if (stop == AgentStops::kNoStop || (goals_->state(from.progress).next >> stop & 1) == 0)
-    reach(from, from_cell, slot, cell, time, from.progress);
-  else
-    touch(from, from_cell, slot, cell, time, stop);
-}
-
-void FreeLowLevelSearch::Workspace::touch(const Entry& from, Cell from_cell, std::int32_t slot,
-                                          Cell cell, Time time, int stop) {
-  if (goals_->state(from.progress).may_skip)
-    reach(from, from_cell, slot, cell, time, from.progress);
-  const StateId state = goals_->after(from.progress, stop);
-  if (state != FreeGoals::kOutside)
-    reach(from, from_cell, slot, cell, time, state);
-  else
-    outside_ = true;
+  const bool known = goals_->on_arrival(
+      from.progress, cell, [&](StateId state) { reach(from, from_cell, slot, cell, time, state); });
+  if (!known) outside_ = true;
 }
 
 void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std::int32_t slot,

@@ -25,6 +25,7 @@ using Outcome = FreeLowLevelSearch::Outcome;
 using testing::free_reference_cost;
 using testing::FreeProblem;
 using testing::grid_of;
+using testing::instance_of;
 using testing::members_of;
 using testing::path_error;
 using testing::Problem;
@@ -33,17 +34,6 @@ using testing::SingleAgent;
 int rounds(int count) {
   const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
   return factor ? count * std::max(1, std::atoi(factor)) : count;
-}
-
-Instance instance_of(const FreeProblem& problem) {
-  InstanceBuilder builder(*problem.grid);
-  std::optional<Position> goal;
-  if (problem.destination) goal = problem.grid->position(*problem.destination);
-  builder.add_agent("a", problem.grid->position(problem.start), goal);
-  for (std::size_t k = 0; k < problem.stops.size(); ++k)
-    builder.add_task("t" + std::to_string(k), problem.grid->position(problem.stops[k]),
-                     std::vector<std::string>{"a"});
-  return std::move(builder).build();
 }
 
 // One agent, its class and both searches.
@@ -377,6 +367,30 @@ TEST(FreeLowLevel, ACellBarredForEverIsNoPlaceToRest) {
   EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 0}));
 }
 
+// Who comes to 3 early may not rest there and cannot get out again in time.
+TEST(FreeLowLevel, AGateSparesThoseWhoComeLateEnoughToRest) {
+  const Grid grid = grid_of({"...."});
+  FreeProblem problem = corridor(grid, {3}, std::nullopt);
+  problem.constraints = {
+      {3, kNoCell, 0, 6, ConstraintKind::kNoRestBy}, {2, kNoCell, 4, 6}, {2, 3, 0, 20}};
+  EXPECT_EQ(Agent(problem).cost(), 8);
+}
+
+TEST(FreeLowLevel, TellsNoRestInTimeFromNoneBelowTheCutoff) {
+  const Grid grid = grid_of({"......"});
+  FreeProblem problem = corridor(grid, {1, 3}, std::nullopt);
+  problem.constraints = {{1, kNoCell, 0, 4, ConstraintKind::kRestBy}};
+  Agent agent(problem);
+  Path path;
+  EXPECT_EQ(agent.find(3, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(4, path), Outcome::kInfeasible);
+  EXPECT_EQ(agent.find(kNever, path), Outcome::kInfeasible);
+  agent.problem.constraints[0].end = 5;
+  EXPECT_EQ(agent.find(4, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(5, path), Outcome::kFound);
+  EXPECT_EQ(path.back(), 1);
+}
+
 // Without a destination the stop it rests on is the last one: it cannot be the first one too.
 TEST(FreeLowLevel, DoesNotRestOnTheStopThatMustBeFirst) {
   const Grid grid = grid_of({"......"});
@@ -407,6 +421,23 @@ TEST(FreeLowLevel, ADoorThatShutsIsProvenWithoutTryingAllOrders) {
     EXPECT_EQ(agent.cost(), std::nullopt);
     EXPECT_LT(agent.free.expanded(), 200'000);
   }
+}
+
+// The same door, shut for long: far too dear for the cutoff.
+TEST(FreeLowLevel, ADoorThatShutsForLongIsProvenAboveWithoutTryingAllOrders) {
+  const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
+  FreeProblem problem = corridor(grid, {39}, 20);
+  for (Cell cell = 1; problem.stops.size() < 20; ++cell)
+    if (grid.passable(cell) && cell != 18) problem.stops.push_back(cell);
+  problem.constraints = {{18, kNoCell, 13, 500}};
+  Agent agent(problem);
+  Path path;
+  EXPECT_EQ(agent.find(100, path), Outcome::kAbove);
+  EXPECT_LT(agent.free.expanded(), 20'000);
+  problem.constraints.push_back({20, kNoCell, 0, 100, ConstraintKind::kRestBy});
+  Agent in_time(problem);
+  EXPECT_EQ(in_time.cost(), std::nullopt);
+  EXPECT_LT(in_time.free.expanded(), 20'000);
 }
 
 TEST(FreeLowLevel, SaysAboveOnlyForTheCutoff) {

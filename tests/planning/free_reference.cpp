@@ -89,6 +89,17 @@ class Layers {
 
 }  // namespace
 
+Instance instance_of(const FreeProblem& problem) {
+  InstanceBuilder builder(*problem.grid);
+  std::optional<Position> goal;
+  if (problem.destination) goal = problem.grid->position(*problem.destination);
+  builder.add_agent("a", problem.grid->position(problem.start), goal);
+  for (std::size_t k = 0; k < problem.stops.size(); ++k)
+    builder.add_task("t" + std::to_string(k), problem.grid->position(problem.stops[k]),
+                     std::vector<std::string>{"a"});
+  return std::move(builder).build();
+}
+
 std::optional<Time> free_reference_cost(const FreeProblem& problem) {
   Layers layers(problem);
   for (Time t = 0;; ++t) {
