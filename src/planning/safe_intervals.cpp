@@ -49,16 +49,15 @@ void SafeIntervals::look_up(Cell cell) {
   Group group{};
   group.cell = cell;
   group.first_slot = slot_count();
-  group.first_move = static_cast<int>(sorted_.size());
   Time safe_from = 0;
+  Cell left_for = kNoCell;
   for (const Reservations::Stay& stay : stays) {
-    if (safe_from < stay.first) intervals_.push_back({cell, safe_from, stay.first - 1});
+    if (safe_from < stay.first) intervals_.push_back({cell, safe_from, stay.first - 1, left_for});
     safe_from = stay.last + 1;
-    if (stay.last < kNever) sorted_.push_back({cell, stay.next, safe_from, safe_from});
+    left_for = stay.next;
   }
-  if (safe_from < kNever) intervals_.push_back({cell, safe_from, kNever});
+  if (safe_from < kNever) intervals_.push_back({cell, safe_from, kNever, left_for});
   group.end_slot = slot_count();
-  group.end_move = static_cast<int>(sorted_.size());
   group_of_[cell] = static_cast<std::int32_t>(groups_.size());
   groups_.push_back(group);
 }
@@ -113,23 +112,12 @@ Time SafeIntervals::first_move(Cell from, Cell to, Time earliest) const {
   if (unconstrained(to)) return earliest;
   const Group& group = groups_[group_of_[to]];
   // One pass will do: the bars are in order of their begin.
-  for (int i = first_bar(group, earliest); i < group.end_move; ++i) {
+  for (int i = group.first_move; i < group.end_move; ++i) {
     const Constraint& bar = sorted_[i];
-    if (bar.begin > earliest) break;
-    if (bar.from == from && earliest <= bar.end) earliest = std::min(bar.end, kNever) + 1;
+    if (bar.from == from && bar.begin <= earliest && earliest <= bar.end)
+      earliest = std::min(bar.end, kNever) + 1;
   }
   return earliest;
-}
-
-// Bars of moves to the group's cell before this one end before `time`.
-int SafeIntervals::first_bar(const Group& group, Time time) const {
-  if (!reservations_) return group.first_move;
-  const auto bars = std::span(sorted_).subspan(
-      static_cast<std::size_t>(group.first_move),
-      static_cast<std::size_t>(group.end_move - group.first_move));  // one time each
-  return group.first_move +
-         static_cast<int>(std::ranges::lower_bound(bars, time, {}, &Constraint::begin) -
-                          bars.begin());
 }
 
 }  // namespace grove

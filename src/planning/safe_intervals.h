@@ -18,6 +18,8 @@ struct SafeInterval {
   Cell cell = kNoCell;
   Time begin = 0;
   Time end = kNever;  // inclusive; kNever: for ever
+  // With reservations: who was here before moves there at `begin`.
+  Cell left_for = kNoCell;
 };
 
 // The safe intervals of all cells under one list of constraints. Most cells have no constraint and
@@ -66,7 +68,7 @@ class SafeIntervals {
   Time next_begin(int slot) const;
 
   // The first time from `earliest` on at which the move from -> to is not barred; later than kNever
-  // when there is none. Whether `to` is safe then is another matter.
+  // when there is none. Whether `to` is safe then is another matter. Not with reservations.
   Time first_move(Cell from, Cell to, Time earliest) const;
 
   // Calls arrive(slot, cell, time) for each slot next to `slot` that an agent in it at `from_time`
@@ -103,9 +105,10 @@ class SafeIntervals {
       const Time end = std::min(end_of(slot), last_arrival);
       if (begin > last_arrival) break;
       Time time = std::max(begin, from_time + 1);
-      // A reserved agent is met head-on only if it leaves `to` just then and comes to `from`.
-      if (!reservations_ || (time == begin && time == last_arrival))
+      if (!reservations_)
         time = first_move(from, to, time);
+      else if (time == begin && interval(slot).left_for == from)
+        continue;  // head-on; and later `from` is not safe any more
       if (time <= end) arrive(slot, to, time);
     }
   }
@@ -126,7 +129,6 @@ class SafeIntervals {
     }
     return first;
   }
-  int first_bar(const Group& group, Time time) const;
   void look_up(Cell cell);
   void sort_valid(std::span<const Constraint> constraints);
   void forget_groups();
