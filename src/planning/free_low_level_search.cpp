@@ -53,6 +53,10 @@
 // since the others may count other stops on the way to u. The states before are cut off by gates of
 // their own.
 //
+// Known sequences. A heuristic that wants any good path may do without the others: then the cap is
+// the cutoff itself, a path found is one of a known sequence, and none found proves nothing, unless
+// all are known.
+//
 // Greed. With a weight on the cost to go (Pohl 1970) labels come out in another order; what is
 // dropped is dropped by t + h and by gates as before, and neither argument speaks of the order. So
 // the first finish is a path within the cutoff, if perhaps not the cheapest, and the other outcomes
@@ -222,6 +226,11 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
 
   doubt_at_ = doubts ? expanded_ + kExpansionsBeforeDoubt : kNoDoubt;
   Completions& completions = goals.stops().completions();
+  if (effort.known_sequences && completions.beyond() <= cutoff) {
+    const Outcome outcome = find_within(cutoff, limits, path);
+    const bool all_known = completions.beyond() == kNever;
+    return outcome == Outcome::kFound || all_known ? outcome : Outcome::kStopped;
+  }
   for (;;) {
     const Outcome outcome = find_within(std::min(cutoff, completions.beyond()), limits, path);
     if (outcome != Outcome::kAbove || cutoff < completions.beyond()) return outcome;
@@ -273,7 +282,7 @@ void FreeLowLevelSearch::Workspace::find_deadlines() {
   }
 }
 
-// A path of least cost, if the cost is at most `cap`, which must not exceed beyond().
+// A path of least cost, if the cost is at most `cap`; of least cost if that is at most beyond().
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_within(Time cap,
                                                                        const Limits& limits,
                                                                        Path& path) {

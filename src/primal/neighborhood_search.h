@@ -49,7 +49,8 @@ class NeighborhoodSearch {
   PathSet& paths_;
   Random& random_;
   Neighborhoods neighborhoods_;
-  std::vector<Way> ways_{{}, {{30}}};
+  std::vector<Way> ways_{{{.known_sequences = true}},
+                         {{.greed_percent = 30, .known_sequences = true}}};
   std::vector<Path> old_paths_;
   Path path_;
   std::int64_t steps_ = 0;

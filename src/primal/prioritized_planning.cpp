@@ -28,17 +28,14 @@ void PrioritizedPlanning::begin_again() {
 PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits) {
   if (next_ == order_.size()) return State::kDone;
   const AgentIndex agent = order_[next_];
-  switch (router_.find(agent, paths_.reservations(), {}, kNever, limits, path_)) {
-    case Router::Outcome::kStopped:
-      return State::kStopped;
-    case Router::Outcome::kFound:
-      paths_.put(agent, std::move(path_));
-      path_.clear();
-      return ++next_ == order_.size() ? State::kDone : State::kWorking;
-    case Router::Outcome::kAbove:
-    case Router::Outcome::kInfeasible:
-      break;
+  const Router::Outcome outcome =
+      router_.find(agent, paths_.reservations(), {.known_sequences = true}, kNever, limits, path_);
+  if (outcome == Router::Outcome::kFound) {
+    paths_.put(agent, std::move(path_));
+    path_.clear();
+    return ++next_ == order_.size() ? State::kDone : State::kWorking;
   }
+  if (limits.stop_requested()) return State::kStopped;
   if (++failures_ % static_cast<std::int64_t>(order_.size()) == 0)
     random_.shuffle(order_);
   else
