@@ -206,8 +206,9 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals
                                                                 const Effort& effort, Time cutoff,
                                                                 const Limits& limits, Path& path) {
   intervals_.assign(reservations);
-  // The cutoff of a replanned agent answers sooner what the doubt asks.
-  return find_around(goals, nullptr, effort, cutoff == kNever, cutoff, limits, path);
+  // Whoever gives up after so many labels wants no proof.
+  const bool doubts = effort.most_labels == Effort().most_labels;
+  return find_around(goals, nullptr, effort, doubts, cutoff, limits, path);
 }
 
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
