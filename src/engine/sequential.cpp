@@ -262,6 +262,21 @@ Solution without_search(const SolveOptions& options, Status status, const std::s
   return solution;
 }
 
+// A limit struck before there was a bound: all there may be is the plan that was given.
+Solution stopped_before_search(const Instance& instance, const SolveOptions& options,
+                               const Limits& limits, RunObserver& observer) {
+  Solution solution =
+      without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
+  if (!options.start) return solution;
+  Gate gate(instance, options.omega);
+  gate.post(*options.start);
+  solution.plan = gate.incumbent();
+  solution.status = status_of(solution.plan->cost, solution.lower_bound, options.omega);
+  observer.on_incumbent(*solution.plan, PlanSource::kStart,
+                        Progress{0, 0, 0, 0, solution.plan->cost});
+  return solution;
+}
+
 }  // namespace
 
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
@@ -271,7 +286,7 @@ Solution solve(const Instance& instance, const SolveOptions& options, const Limi
   try {
     const Problem problem(instance, limits);
     if (!problem.distances.complete())
-      return without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
+      return stopped_before_search(instance, options, limits, watcher);
     if (const auto reason = evident_infeasibility(problem)) {
       watcher.on_infeasible(*reason);
       return without_search(options, Status::kInfeasible, "reason", *reason);
@@ -279,7 +294,7 @@ Solution solve(const Instance& instance, const SolveOptions& options, const Limi
     return SequentialEngine(problem, options, limits, watcher).run();
   } catch (const std::bad_alloc&) {  // before the search: nothing is known yet
     limits.memory_exhausted();
-    return without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
+    return stopped_before_search(instance, options, limits, watcher);
   }
 }
 

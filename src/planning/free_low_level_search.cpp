@@ -69,6 +69,10 @@
 // there as well" must leave open what P does next: if u has copies, a G in one that is barred from
 // leaving the chain makes no gate. One in the free copy does: it can do what the others can.
 //
+// Known sequences. A heuristic that wants any good path may do without the others: then the cap is
+// the cutoff itself, a path found is one of a known sequence, and none found proves nothing, unless
+// all are known.
+//
 // Greed. With a weight on the cost to go (Pohl 1970) labels come out in another order; what is
 // dropped is dropped by t + h and by gates as before, and neither argument speaks of the order. So
 // the first finish is a path within the cutoff, if perhaps not the cheapest, and the other outcomes
@@ -223,8 +227,9 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals
                                                                 const Effort& effort, Time cutoff,
                                                                 const Limits& limits, Path& path) {
   intervals_.assign(reservations);
-  // The cutoff of a replanned agent answers sooner what the doubt asks.
-  return find_around(goals, nullptr, effort, cutoff == kNever, cutoff, limits, path);
+  // Whoever gives up after so many labels wants no proof.
+  const bool doubts = effort.most_labels == Effort().most_labels;
+  return find_around(goals, nullptr, effort, doubts, cutoff, limits, path);
 }
 
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
@@ -246,6 +251,11 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
 
   doubt_at_ = doubts ? expanded_ + kExpansionsBeforeDoubt : kNoDoubt;
   Completions& completions = goals.stops().completions();
+  if (effort.known_sequences && completions.beyond() <= cutoff) {
+    const Outcome outcome = find_within(cutoff, limits, path);
+    const bool all_known = completions.beyond() == kNever;
+    return outcome == Outcome::kFound || all_known ? outcome : Outcome::kStopped;
+  }
   for (;;) {
     const Outcome outcome = find_within(std::min(latest_, completions.beyond()), limits, path);
     if (outcome == Outcome::kAbove && latest_ < completions.beyond()) return above_;
@@ -307,7 +317,7 @@ void FreeLowLevelSearch::Workspace::find_deadlines() {
   }
 }
 
-// A path of least cost, if the cost is at most `cap`, which must not exceed beyond().
+// A path of least cost, if the cost is at most `cap`; of least cost if that is at most beyond().
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_within(Time cap,
                                                                        const Limits& limits,
                                                                        Path& path) {

@@ -31,7 +31,7 @@ class LabelPlanes {
   void begin_search(int slots) {
     if (static_cast<std::size_t>(slots) > capacity_) {
       pool_.clear();
-      capacity_ = static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
+      capacity_ = static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 2 + kSpare;
     }
     if (++stamp_ == 0) {
       pool_.clear();

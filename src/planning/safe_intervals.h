@@ -23,6 +23,8 @@ struct SafeInterval {
   Time last_arrival = kNever;  // whoever arrives later is in another interval
   std::uint8_t copy = 0;       // of the cell, see SafeIntervals
   bool may_rest = false;       // for ever
+  // With reservations: who was here before moves there at `begin`.
+  Cell left_for = kNoCell;
 };
 
 // The safe intervals of all cells under one list of constraints. Most cells have no constraint and
@@ -101,6 +103,7 @@ class SafeIntervals {
 
   // The first time from `earliest` on at which an agent in `from_slot` is not barred from moving to
   // `to`; later than kNever when there is none. Whether `to` is safe then is another matter.
+  // Not with reservations.
   Time first_move(int from_slot, Cell to, Time earliest) const;
 
   // Calls arrive(slot, cell, time) for each slot next to `slot` that an agent in it at `from_time`
@@ -165,9 +168,10 @@ class SafeIntervals {
       const Time end = std::min(interval(slot).last_arrival, last_arrival);
       if (begin > last_arrival) break;
       Time time = std::max(begin, from_time + 1);
-      // A reserved agent is met head-on only if it leaves `to` just then and comes to `from`.
-      if (!reservations_ || (time == begin && time == last_arrival))
+      if (!reservations_)
         time = first_move(from_slot, to, time);
+      else if (time == begin && interval(slot).left_for == from)
+        continue;  // head-on; and later `from` is not safe any more
       if (time <= end) arrive(slot, to, time);
     }
   }
@@ -204,7 +208,6 @@ class SafeIntervals {
     }
     return first;
   }
-  int first_bar(const Group& group, Time time) const;
   void look_up(Cell cell);
   void forget();
   void check(const Constraint& constraint);

@@ -4,6 +4,9 @@
 // somewhat worse ones elsewhere. So each order is a way of its own, with what it gained of late and
 // what work that took; mostly the one with the better rate is used.
 //
+// A call that takes many times the labels of those that find a path is given up: mostly there is
+// none to be found, and the time is better spent elsewhere.
+//
 // The cutoff of a call is what is left of the old cost, less what the agents still to come need at
 // least: beyond it the neighbourhood is lost anyway.
 #include "neighborhood_search.h"
@@ -14,6 +17,8 @@
 namespace grove {
 namespace {
 
+constexpr double kLabelsOfOthers = 16;  // a call may take so many times what others did
+constexpr double kLeastLabels = 2000;
 constexpr double kMemory = 0.98;            // of a way's gain and work, per neighbourhood
 constexpr int kNeighborhoodsPerTrial = 10;  // one of so many goes to a way at random
 constexpr std::int64_t kWorkPerCall = 16;   // in labels
@@ -53,20 +58,37 @@ NeighborhoodSearch::Way& NeighborhoodSearch::choose_way() {
 }
 
 // False if the agents cannot be planned at `old_cost` or less, at least not in this order.
-bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost old_cost,
-                                   const Way& way, const Limits& limits) {
+bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost old_cost, Way& way,
+                                   const Limits& limits) {
   Cost left = old_cost;
   for (AgentIndex agent : agents) left -= router_.own_cost(agent);
   for (AgentIndex agent : agents) {
     const Cost cutoff = left + router_.own_cost(agent);
-    if (router_.find(agent, paths_.reservations(), way.effort, static_cast<Time>(cutoff), limits,
-                     path_) != Router::Outcome::kFound)
-      return false;
+    if (!find(agent, cutoff, way, limits)) return false;
     paths_.put(agent, std::move(path_));
     path_.clear();
     left = cutoff - paths_.cost(agent);
   }
   return true;
+}
+
+bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Limits& limits) {
+  if (way.found > 0)
+    way.effort.most_labels =
+        static_cast<std::int64_t>(kLeastLabels + kLabelsOfOthers * way.labels / way.found);
+  const std::int64_t before = router_.expanded();
+  if (router_.find(agent, paths_.reservations(), way.effort, static_cast<Time>(cutoff), limits,
+                   path_) != Router::Outcome::kFound)
+    return false;
+  way.labels = kMemory * way.labels + static_cast<double>(router_.expanded() - before);
+  way.found = kMemory * way.found + 1;
+  return true;
+}
+
+void NeighborhoodSearch::restore(const std::vector<AgentIndex>& agents) {
+  for (AgentIndex agent : agents)
+    if (!paths_.path(agent).empty()) paths_.take(agent);
+  for (std::size_t i = 0; i < agents.size(); ++i) paths_.put(agents[i], std::move(old_paths_[i]));
 }
 
 }  // namespace grove

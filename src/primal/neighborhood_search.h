@@ -33,19 +33,24 @@ class NeighborhoodSearch {
   // How the low level searches: exactly or greedily; which does better is found out on the way.
   struct Way {
     FreeLowLevelSearch::Effort effort;
-    double gain = 0;  // of late
-    double work = 1;  // of late, in labels
+    double gain = 0;    // of late
+    double work = 1;    // of late, in labels
+    double labels = 0;  // of late, of calls that found a path
+    double found = 0;   // of late, such calls
   };
 
   Way& choose_way();
-  bool plan_anew(const std::vector<AgentIndex>& agents, Cost old_cost, const Way& way,
+  bool plan_anew(const std::vector<AgentIndex>& agents, Cost old_cost, Way& way,
                  const Limits& limits);
+  bool find(AgentIndex agent, Cost cutoff, Way& way, const Limits& limits);
+  void restore(const std::vector<AgentIndex>& agents);
 
   Router& router_;
   PathSet& paths_;
   Random& random_;
   Neighborhoods neighborhoods_;
-  std::vector<Way> ways_{{}, {{30}}};
+  std::vector<Way> ways_{{{.known_sequences = true}},
+                         {{.greed_percent = 30, .known_sequences = true}}};
   std::vector<Path> old_paths_;
   Path path_;
   std::int64_t steps_ = 0;

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The course of the search: every agent's own best path; prioritised planning, in order of those
-// costs, longest first, until there is a plan; large neighbourhood search on it. That works quickly
-// at first and then stalls in a local optimum, and other seeds end in other ones. So when a round
-// has gone on without success for as long as it took to come where it is, a new round begins with
-// prioritised planning in a random order.
+// The course of the search: every agent's own best path; prioritised planning until there is a
+// plan; large neighbourhood search on it. That works quickly at first and then stalls in a local
+// optimum, and other seeds end in other ones. So when a round has gone on without success for as
+// long as it took to come where it is, a new round begins with prioritised planning.
+//
+// The first order is by the agents' own costs, the cheapest first: an agent may not come to rest
+// where one before it still passes, so cheap agents planned late would wait for dear ones, while
+// these find ways around those that rest. Measured on maps of 64x64 cells and den312d, with 100
+// agents and 300 tasks: first plans 0.7-8 % above the sum of own costs; in random order 8-14 %, the
+// dearest first 12-18 %. Later rounds sort by costs with some noise.
 #include "grove/primal/primal_search.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "neighborhood_search.h"
@@ -23,6 +27,8 @@ constexpr std::int64_t kWorkPerStep = 4000;
 constexpr std::int64_t kWorkPerCall = 16;
 constexpr std::int64_t kStepsMovedPerWork = 8;
 constexpr std::int64_t kLeastStall_neighborhoods = 200;
+constexpr std::int64_t kLeastStallPerAgent_neighborhoods = 10;
+constexpr double kSpread = 0.5;  // of the costs by which later rounds sort, as a part of them
 
 }  // namespace
 
@@ -131,12 +137,14 @@ void PrimalSearch::Impl::meet(const Limits& limits) {
 }
 
 void PrimalSearch::Impl::begin_round(bool first) {
-  std::vector<AgentIndex> order(static_cast<std::size_t>(agents_));
-  std::iota(order.begin(), order.end(), AgentIndex{0});
-  random_.shuffle(order);
-  if (first)
-    std::ranges::stable_sort(order, std::ranges::greater(),
-                             [this](AgentIndex agent) { return router_.own_cost(agent); });
+  std::vector<std::pair<double, AgentIndex>> keys;
+  for (AgentIndex agent = 0; agent < agents_; ++agent) {
+    const double spread = first ? 0 : kSpread * (random_.unit() - 0.5);
+    keys.emplace_back((1 + spread) * router_.own_cost(agent), agent);
+  }
+  std::ranges::sort(keys);
+  std::vector<AgentIndex> order;
+  for (const auto& [key, agent] : keys) order.push_back(agent);
   planning_.begin(std::move(order));
   phase_ = Phase::kPlanning;
   round_began_ = work();
@@ -162,7 +170,9 @@ void PrimalSearch::Impl::improve(const Limits& limits) {
 }
 
 bool PrimalSearch::Impl::stalled() const {
-  return neighborhoods_.steps() - round_improved_step_ >= kLeastStall_neighborhoods &&
+  const std::int64_t least =
+      std::max(kLeastStall_neighborhoods, kLeastStallPerAgent_neighborhoods * agents_);
+  return neighborhoods_.steps() - round_improved_step_ >= least &&
          work() - round_improved_ >= round_improved_ - round_began_;
 }
 

@@ -35,6 +35,7 @@ class PrioritizedPlanning {
 
  private:
   void begin_again();
+  std::int64_t most_labels() const;
 
   Router& router_;
   PathSet& paths_;
@@ -42,7 +43,8 @@ class PrioritizedPlanning {
   std::vector<AgentIndex> order_;
   std::size_t next_ = 0;  // in order_
   std::int64_t attempts_ = 0;
-  std::int64_t failures_ = 0;  // since begin()
+  std::int64_t failures_ = 0;         // since begin()
+  std::int64_t labels_of_found_ = 0;  // the most that a call with a path took
   Path path_;
 };
 

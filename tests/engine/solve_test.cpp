@@ -5,6 +5,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <string>
+#include <vector>
 
 #include "grove/engine/run_observer.h"
 #include "grove/model/check.h"
@@ -179,6 +181,149 @@ TEST(Solve, TheReportedBoundNeverFalls) {
   limits.set_deadline(Limits::Clock::now() + std::chrono::seconds(5));
   const Solution solution = solve(instance, SolveOptions(), limits, &watcher);
   EXPECT_NE(solution.status, Status::kInfeasible);
+}
+
+// Agents that change sides through two doors: the tree alone finds no plan in seconds.
+Instance two_doors() {
+  std::vector<std::string> rows(10, "....@....");
+  rows[2] = rows[6] = ".........";
+  std::vector<AgentSpec> agents;
+  for (int i = 0; i < 10; ++i) {
+    agents.push_back({{0, i}, Position{8, 9 - i}, {{6, i}}});
+    agents.push_back({{8, i}, Position{0, 9 - i}});
+  }
+  return instance_of(rows, agents);
+}
+
+// What a run tells of its incumbents.
+class IncumbentWatcher : public RunObserver {
+ public:
+  void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {
+    EXPECT_EQ(plan.cost, progress.incumbent);
+    EXPECT_TRUE(costs.empty() || plan.cost < costs.back());
+    costs.push_back(plan.cost);
+    sources.push_back(source);
+    if (static_cast<int>(costs.size()) == stop_after) flag = true;
+  }
+  void on_event(RunEvent event, const Progress& progress) override {
+    if (event != RunEvent::kIncumbent) return;
+    ++announced;
+    EXPECT_EQ(progress.incumbent, costs.back());
+    EXPECT_EQ(announced, costs.size());
+  }
+
+  std::atomic<bool> flag{false};
+  int stop_after = -1;
+  std::size_t announced = 0;
+  std::vector<Cost> costs;
+  std::vector<PlanSource> sources;
+};
+
+// Until so many incumbents were found.
+Solution solve_until(const Instance& instance, const SolveOptions& options,
+                     IncumbentWatcher& watcher, int incumbents) {
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() + std::chrono::seconds(20));
+  limits.watch_interrupt(&watcher.flag);
+  watcher.stop_after = incumbents;
+  return solve(instance, options, limits, &watcher);
+}
+
+TEST(Solve, ThePrimalSearchFindsAndImprovesPlans) {
+  const Instance instance = two_doors();
+  IncumbentWatcher watcher;
+  const Solution solution = solve_until(instance, SolveOptions(), watcher, 5);
+  ASSERT_TRUE(solution.plan);
+  EXPECT_TRUE(check(instance, solution).empty());
+  EXPECT_EQ(watcher.sources.front(), PlanSource::kPriorities);
+  EXPECT_EQ(watcher.sources.back(), PlanSource::kNeighborhood);
+  EXPECT_GT(solution.stats.counts.at("primal_low_level_calls"), 0);
+  EXPECT_GT(solution.stats.counts.at("primal_neighborhoods"), 0);
+}
+
+TEST(Solve, TwoRunsFindTheSamePlans) {
+  const Instance instance = two_doors();
+  IncumbentWatcher first;
+  IncumbentWatcher second;
+  IncumbentWatcher other_seed;
+  SolveOptions options;
+  options.seed = 7;
+  solve_until(instance, options, first, 8);
+  solve_until(instance, options, second, 8);
+  EXPECT_EQ(first.costs, second.costs);
+  options.seed = 8;
+  solve_until(instance, options, other_seed, 8);
+  EXPECT_NE(first.costs, other_seed.costs);
+}
+
+TEST(Solve, ThePrimalSearchCanBeSwitchedOffAndIsNotOfThePaper) {
+  const Instance instance = two_doors();
+  SolveOptions without;
+  without.techniques = Techniques::all().without(Technique::kPrimal);
+  SolveOptions fixed;
+  fixed.policy = Policy::kFixed;
+  for (const SolveOptions& options : {without, fixed}) {
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(300));
+    const Solution solution = solve(instance, options, limits);
+    EXPECT_EQ(solution.stats.counts.at("primal_steps"), 0);
+  }
+}
+
+TEST(Solve, AStartPlanIsTheFirstIncumbent) {
+  const Instance instance = two_doors();
+  IncumbentWatcher watcher;
+  SolveOptions options;
+  const Solution poor = solve_until(instance, options, watcher, 3);
+  ASSERT_TRUE(poor.plan);
+  options.start = poor.plan;
+  for (const Policy policy : {Policy::kFixed, Policy::kFree}) {
+    options.policy = policy;
+    IncumbentWatcher again;
+    const int incumbents = policy == Policy::kFixed ? 1 : 3;
+    const Solution solution = solve_until(instance, options, again, incumbents);
+    EXPECT_EQ(again.costs.front(), poor.plan->cost);
+    EXPECT_EQ(again.sources.front(), PlanSource::kStart);
+    if (policy == Policy::kFree) {
+      EXPECT_LT(solution.plan->cost, poor.plan->cost);
+    }
+  }
+}
+
+TEST(Solve, AnOptimalStartPlanEndsAsSoonAsTheBoundIsThere) {
+  const Instance instance =
+      instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
+  const Solution best = solve_to(instance, "0", 20, Policy::kFree);
+  for (const Policy policy : {Policy::kFixed, Policy::kFree}) {
+    SolveOptions options;
+    options.policy = policy;
+    options.start = best.plan;
+    IncumbentWatcher watcher;
+    const Solution solution = solve(instance, options, Limits(), &watcher);
+    EXPECT_EQ(solution.status, Status::kOptimal);
+    EXPECT_EQ(solution.lower_bound, 11);
+    EXPECT_EQ(watcher.costs, std::vector<Cost>{11});
+  }
+}
+
+TEST(Solve, AStartPlanOutlivesADeadlineThatIsPast) {
+  const Instance instance =
+      instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
+  SolveOptions options;
+  options.start = solve_to(instance, "0", 20, Policy::kFree).plan;
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  const Solution solution = solve(instance, options, limits);
+  EXPECT_EQ(solution.status, Status::kFeasible);
+  EXPECT_EQ(solution.plan->cost, 11);
+  EXPECT_LE(solution.lower_bound, 11);
+}
+
+TEST(Solve, AnInvalidStartPlanIsRefused) {
+  const Instance instance = two_doors();
+  SolveOptions options;
+  options.start = Plan{1, std::vector<AgentPlan>(20)};
+  EXPECT_THROW(solve(instance, options, Limits()), std::logic_error);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "grove/model/omega.h"
 #include "program.h"
 #include "tests/support/temporary_directory.h"
 
@@ -254,6 +256,116 @@ TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(complaint(solve(
                   {data("empty-32x32.scen"), "--map", data("empty-32x32.map"), "--agents", "900"})),
               HasSubstr("900"));
+}
+
+// --- plans from the heuristics, from files, to files ---
+
+// Ten agents through two doors: many better plans in a second.
+std::string doors_instance() {
+  std::string agents;
+  for (int i = 0; i < 8; ++i)
+    agents += fmt::format(R"({}{{"id": "r{}", "start": [0, {}], "goal": [8, {}]}},
+      {{"id": "l{}", "start": [8, {}], "goal": [0, {}]}})",
+                          i == 0 ? "" : ",", i, i, 7 - i, i, i, 7 - i);
+  return R"({"map": "doors.map", "tasks": [], "agents": [)" + agents + "]}";
+}
+
+class Incumbents : public SolveCommand {
+ protected:
+  Incumbents() {
+    std::string map = "type octile\nheight 8\nwidth 9\nmap\n";
+    for (int row = 0; row < 8; ++row) map += row == 2 || row == 5 ? ".........\n" : "....@....\n";
+    directory_.write("doors.map", map);
+    directory_.write("doors.json", doors_instance());
+  }
+};
+
+TEST_F(Incumbents, AreFilesThatTheCheckerAccepts) {
+  const ProcessResult solved = solve({"doors.json", "--omega", "0", "--time-limit", "1",
+                                      "--incumbents", "best", "--output", "p.json"});
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  int k = 1;
+  for (std::int64_t last = kInfiniteCost; exists(fmt::format("best-{}.plan.json", k)); ++k) {
+    const std::string file = fmt::format("best-{}.plan.json", k);
+    EXPECT_LT(plan(file)["cost"], last);
+    last = plan(file)["cost"];
+    EXPECT_EQ(run_grove({"check", "doors.json", file}, options_).exit_code, 0);
+  }
+  ASSERT_GT(k, 3);
+  EXPECT_EQ(plan(fmt::format("best-{}.plan.json", k - 1))["cost"], plan("p.json")["cost"]);
+}
+
+TEST_F(Incumbents, AreMarkedInTheLogByWhereTheyCameFrom) {
+  const ProcessResult solved =
+      solve({"doors.json", "--omega", "0", "--time-limit", "0.5", "--output", "p.json"});
+  EXPECT_THAT(solved.out, HasSubstr("\nH  "));
+  EXPECT_THAT(solved.out, HasSubstr("\nL  "));
+  EXPECT_GT(plan("p.json")["stats"]["primal_neighborhoods"], 0);
+  EXPECT_THAT(solve({data("first.cts.json")}).out, HasSubstr("\n*  "));
+  EXPECT_THAT(solve({"doors.json", "--time-limit", "0.5", "--start", "p.json"}).out,
+              HasSubstr("\nS  "));
+}
+
+TEST_F(Incumbents, CanStartTheNextRun) {
+  solve({"doors.json", "--time-limit", "0.3", "--output", "p.json"});
+  const ProcessResult solved = solve({"doors.json", "--time-limit", "0.3", "--policy", "fixed",
+                                      "--start", "p.json", "--output", "q.json"});
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_LE(plan("q.json")["cost"], plan("p.json")["cost"]);
+}
+
+TEST_F(Incumbents, AreRefusedAsAStartUnlessValid) {
+  solve({"doors.json", "--time-limit", "0.3", "--output", "p.json"});
+  const auto complaint_about = [&](const json& changed) {
+    directory_.write("bad.json", changed.dump());
+    return complaint(solve({"doors.json", "--start", "bad.json"}));
+  };
+  json changed = plan("p.json");
+  changed["agents"][1]["path"][0] = {1, 1};
+  EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /agents/1/path/0: "));
+  EXPECT_THAT(complaint_about(changed), HasSubstr("expected a valid plan for this instance"));
+  changed = plan("p.json");
+  changed["cost"] = plan("p.json")["cost"].get<int>() - 1;
+  EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /cost: "));
+  changed = plan("p.json");
+  changed["agents"].erase(0);
+  EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /agents"));
+  changed = plan("p.json");
+  changed["agents"][0]["id"] = "someone";
+  EXPECT_THAT(complaint_about(changed), HasSubstr("there is no agent 'someone'"));
+  changed = plan("p.json");
+  changed.erase("agents");
+  changed.erase("cost");
+  changed["status"] = "unknown";
+  EXPECT_THAT(complaint_about(changed), HasSubstr("no plan (status unknown)"));
+  EXPECT_THAT(complaint(solve({"doors.json", "--start", "nowhere.json"})),
+              HasSubstr("nowhere.json"));
+  EXPECT_FALSE(exists("doors.plan.json"));
+}
+
+// What a start plan claims beside its paths does not count.
+TEST_F(Incumbents, BringNoBound) {
+  solve({"doors.json", "--time-limit", "0.3", "--output", "p.json"});
+  json changed = plan("p.json");
+  changed["lower_bound"] = changed["cost"];
+  changed["status"] = "optimal";
+  directory_.write("claim.json", changed.dump());
+  solve({"doors.json", "--omega", "0", "--time-limit", "0", "--start", "claim.json", "--output",
+         "q.json"});
+  EXPECT_LT(plan("q.json")["lower_bound"], plan("q.json")["cost"]);
+}
+
+TEST_F(Incumbents, DoNotReplaceOtherFilesOfTheRun) {
+  solve({"doors.json", "--time-limit", "0.3", "--output", "p-1.plan.json"});
+  EXPECT_THAT(complaint(solve({"doors.json", "--incumbents", "p", "--start", "p-1.plan.json"})),
+              HasSubstr("expected another prefix"));
+  EXPECT_THAT(complaint(solve({"doors.json", "--incumbents", "./p", "--output", "p-12.plan.json"})),
+              HasSubstr("expected another prefix"));
+  EXPECT_THAT(complaint(solve({"doors.json", "--incumbents", "nowhere/p"})), HasSubstr("nowhere"));
+  EXPECT_EQ(
+      solve({"doors.json", "--time-limit", "0.1", "--incumbents", "p", "--output", "p-x.plan.json"})
+          .exit_code,
+      0);
 }
 
 }  // namespace

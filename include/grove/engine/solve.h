@@ -30,7 +30,7 @@ struct SolveOptions {
   std::uint64_t seed = 0;
   // Technique::kPrimal is not used with kFixed.
   Techniques techniques = Techniques::all();
-  std::optional<Plan> start;  // the first incumbent, a valid plan
+  std::optional<Plan> start = std::nullopt;  // the first incumbent, a valid plan
 };
 
 // Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower

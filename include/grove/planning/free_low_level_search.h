@@ -44,10 +44,13 @@ class FreeLowLevelSearch {
   struct Effort {
     int greed_percent = 0;  // labels come in order of time + (1 + greed) * cost to go
     std::int64_t most_labels = std::numeric_limits<std::int64_t>::max();  // give up: kStopped
+    // Make do with the sequences that the completions know, at least one; kStopped if that is why
+    // there is no path. The path found may be dearer than one of another sequence.
+    bool known_sequences = false;
   };
 
-  // The same around the paths of `reservations`, in place of constraints. With greed the path found
-  // need not be of least cost, but costs at most `cutoff`; what is proven stays proven.
+  // The same around the paths of `reservations`, in place of constraints. The path found may
+  // then not be of least cost, but costs at most `cutoff`; what is proven stays proven.
   Outcome find(FreeGoals& goals, const Reservations& reservations, const Effort& effort,
                Time cutoff, const Limits& limits, Path& path);
 

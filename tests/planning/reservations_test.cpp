@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// Reservations, and the free low level around them against the same search under the constraints
+// that say the same. GROVE_FUZZ_FACTOR multiplies the number of cases.
+#include "grove/planning/reservations.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "grove/planning/free_low_level_search.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+using Outcome = FreeLowLevelSearch::Outcome;
+
+struct StayIs {
+  Time first;
+  Time last;
+  Cell next;
+  AgentIndex agent;
+  friend bool operator==(const StayIs&, const StayIs&) = default;
+};
+
+std::vector<StayIs> stays_of(const Reservations& reservations, Cell cell) {
+  std::vector<StayIs> result;
+  for (const Reservations::Stay& s : reservations.stays(cell))
+    result.push_back({s.first, s.last, s.next, s.agent});
+  return result;
+}
+
+TEST(Reservations, HoldTheStaysOfPathsInOrderOfTime) {
+  Reservations reservations(testing::grid_of({"....", "...."}));
+  reservations.add(7, {4, 0, 0, 1, 0});
+  reservations.add(3, {0, 1, 2, 3, 7});
+  EXPECT_EQ(stays_of(reservations, 0),
+            (std::vector<StayIs>{{0, 0, 1, 3}, {1, 2, 1, 7}, {4, kNever, kNoCell, 7}}));
+  EXPECT_EQ(reservations.count(), 9);
+  EXPECT_EQ(reservations.agent_at(0, 0), 3);
+  EXPECT_EQ(reservations.agent_at(0, 2), 7);
+  EXPECT_EQ(reservations.agent_at(0, 3), Reservations::kNobody);
+  EXPECT_EQ(reservations.agent_at(0, kNever), 7);
+  EXPECT_EQ(reservations.agent_at(6, 0), Reservations::kNobody);
+
+  reservations.remove(7, {4, 0, 0, 1, 0});
+  EXPECT_EQ(stays_of(reservations, 0), (std::vector<StayIs>{{0, 0, 1, 3}}));
+  EXPECT_EQ(reservations.count(), 5);
+  reservations.clear();
+  EXPECT_EQ(reservations.count(), 0);
+  EXPECT_TRUE(reservations.stays(0).empty());
+}
+
+Cell at(const Path& path, Time time) {
+  return path[static_cast<std::size_t>(std::min<Time>(time, static_cast<Time>(path.size()) - 1))];
+}
+
+bool collide(const Path& a, const Path& b) {
+  const auto end = static_cast<Time>(std::max(a.size(), b.size()));
+  for (Time t = 0; t < end; ++t) {
+    if (at(a, t) == at(b, t)) return true;
+    if (t > 0 && at(a, t) == at(b, t - 1) && at(a, t - 1) == at(b, t)) return true;
+  }
+  return false;
+}
+
+void bar(const Path& path, std::vector<Constraint>& constraints) {
+  for (Time t = 0; t < static_cast<Time>(path.size()); ++t) {
+    constraints.push_back({path[t], kNoCell, t, t});
+    if (t > 0 && path[t] != path[t - 1]) constraints.push_back({path[t - 1], path[t], t, t});
+  }
+  constraints.push_back({path.back(), kNoCell, static_cast<Time>(path.size()) - 1, kNever});
+}
+
+// One agent with tasks among others that walk about, on a random map.
+class Crowd {
+ public:
+  explicit Crowd(unsigned seed) : random_(seed), grid_(random_grid()), instance_(make_instance()) {}
+
+  void check() {
+    const DistanceFields distances(instance_);
+    AgentStops stops(instance_, distances, 0);
+    FreeGoals goals(stops, {});
+    FreeLowLevelSearch search(grid_);
+    Reservations reservations(grid_);
+    std::vector<Path> walks;
+    for (int round = 0; round < 12 && !::testing::Test::HasFailure(); ++round) {
+      if (!walks.empty() && below(3) == 0) {
+        const auto gone = walks.begin() + below(static_cast<int>(walks.size()));
+        const AgentIndex agent = names_[static_cast<std::size_t>(gone - walks.begin())];
+        reservations.remove(agent, *gone);
+        names_.erase(names_.begin() + (gone - walks.begin()));
+        walks.erase(gone);
+      } else if (Path walk = random_walk(); std::ranges::none_of(
+                     walks, [&](const Path& other) { return collide(walk, other); })) {
+        reservations.add(next_name_, walk);
+        names_.push_back(next_name_++);
+        walks.push_back(std::move(walk));
+      }
+      compare(goals, search, reservations, walks);
+    }
+  }
+
+  int compared = 0;
+  int found = 0;
+
+ private:
+  int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
+
+  Grid random_grid() {
+    const int width = 2 + below(5);
+    const int height = 1 + below(5);
+    std::vector<bool> passable(static_cast<std::size_t>(width * height));
+    for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = below(6) > 0;
+    passable[0] = passable[1] = true;
+    return Grid(width, height, passable);
+  }
+  Cell random_cell() {
+    for (;;)
+      if (const Cell cell = below(grid_.cell_count()); grid_.passable(cell)) return cell;
+  }
+  Instance make_instance() {
+    InstanceBuilder builder(grid_);
+    const bool rests_anywhere = below(3) == 0;
+    std::optional<Position> goal;
+    if (!rests_anywhere) goal = grid_.position(random_cell());
+    builder.add_agent("a", grid_.position(random_cell()), goal);
+    std::vector<Cell> cells;
+    for (int n = below(5) + (rests_anywhere ? 1 : 0); n > 0; --n)
+      if (const Cell cell = random_cell(); std::ranges::count(cells, cell) == 0)
+        cells.push_back(cell);
+    for (Cell cell : cells)
+      builder.add_task("t" + std::to_string(cell), grid_.position(cell),
+                       std::vector<std::string>{"a"});
+    return std::move(builder).build();
+  }
+  Path random_walk() {
+    Path path{random_cell()};
+    for (int n = below(25); n > 0; --n) {
+      const auto neighbors = grid_.neighbors(path.back());
+      const int choice = below(static_cast<int>(neighbors.size()) + 1);
+      path.push_back(choice == 0 ? path.back() : neighbors[choice - 1]);
+    }
+    while (path.size() > 1 && path.back() == path[path.size() - 2]) path.pop_back();
+    return path;
+  }
+
+  void compare(FreeGoals& goals, FreeLowLevelSearch& search, const Reservations& reservations,
+               const std::vector<Path>& walks) {
+    ++compared;
+    std::vector<Constraint> constraints;
+    for (const Path& walk : walks) bar(walk, constraints);
+    Path expected;
+    Path path;
+    const Limits limits;
+    const Outcome outcome = search.find(goals, constraints, nullptr, kNever, limits, expected);
+    ASSERT_EQ(search.find(goals, reservations, {}, kNever, limits, path), outcome);
+    if (outcome != Outcome::kFound) {
+      const Time cutoff = below(40);
+      EXPECT_NE(search.find(goals, reservations, {below(3) * 50}, cutoff, limits, path),
+                Outcome::kFound);
+      return;
+    }
+    ++found;
+    EXPECT_EQ(path.size(), expected.size());
+    expect_valid(goals, path, walks);
+    const Time cost = static_cast<Time>(expected.size()) - 1;
+    for (const int greed : {0, 30, 200}) {
+      EXPECT_EQ(search.find(goals, reservations, {greed}, cost - 1, limits, path), Outcome::kAbove);
+      const Time cutoff = cost + below(10);
+      ASSERT_EQ(search.find(goals, reservations, {greed}, cutoff, limits, path), Outcome::kFound);
+      EXPECT_LE(static_cast<Time>(path.size()) - 1, greed == 0 ? cost : cutoff);
+      expect_valid(goals, path, walks);
+    }
+    ASSERT_EQ(search.find(goals, reservations, {200}, kNever, limits, path), Outcome::kFound);
+    expect_valid(goals, path, walks);
+  }
+
+  void expect_valid(const FreeGoals& goals, const Path& path, const std::vector<Path>& walks) {
+    EXPECT_EQ(path[0], goals.stops().start());
+    EXPECT_NO_THROW(realized_sequence(goals, path));
+    for (std::size_t t = 1; t < path.size(); ++t)
+      EXPECT_TRUE(path[t] == path[t - 1] ||
+                  std::ranges::count(grid_.neighbors(path[t - 1]), path[t]) == 1);
+    for (const Path& walk : walks) EXPECT_FALSE(collide(path, walk));
+  }
+
+  std::mt19937 random_;
+  Grid grid_;
+  Instance instance_;
+  std::vector<AgentIndex> names_;
+  AgentIndex next_name_ = 0;
+};
+
+TEST(Reservations, TheLowLevelFindsWhatItFindsUnderTheSameConstraints) {
+  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
+  const int seeds = 1500 * (factor ? std::max(1, std::atoi(factor)) : 1);
+  int compared = 0;
+  int found = 0;
+  for (int seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Crowd crowd(static_cast<unsigned>(seed));
+    crowd.check();
+    if (HasFailure()) return;
+    compared += crowd.compared;
+    found += crowd.found;
+  }
+  EXPECT_EQ(compared, 12 * seeds);
+  EXPECT_GT(found, compared / 5);
+  EXPECT_LT(found, compared * 4 / 5);
+}
+
+TEST(Reservations, AnEffortIsLimited) {
+  const Instance instance =
+      testing::instance_of({std::string(60, '.'), std::string(60, '.'), std::string(60, '.')},
+                           {{{0, 0}, Position{59, 2}, {{30, 0}, {2, 2}, {50, 1}, {20, 1}}}});
+  const DistanceFields distances(instance);
+  AgentStops stops(instance, distances, 0);
+  FreeGoals goals(stops, {});
+  Reservations reservations(instance.grid());
+  Path late(300, 30);  // on a task for long
+  late.push_back(31);
+  reservations.add(1, late);
+  FreeLowLevelSearch search(instance.grid());
+  Path path;
+  const FreeLowLevelSearch::Effort effort{0, 500};
+  EXPECT_EQ(search.find(goals, reservations, effort, kNever, Limits(), path), Outcome::kStopped);
+  EXPECT_LT(search.expanded(), 1000);
+  EXPECT_EQ(search.find(goals, reservations, {}, kNever, Limits(), path), Outcome::kFound);
+  EXPECT_GE(path.size(), 300u);
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "src/primal/neighborhoods.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "src/primal/prioritized_planning.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+// `count` agents that cross an open square from left to right, each one row up or down.
+Instance crossing(int count) {
+  std::vector<testing::AgentSpec> agents;
+  for (int i = 0; i < count; ++i)
+    agents.push_back({{0, i}, Position{11, (i * 5 + 3) % count}, {{5, (i * 7 + 1) % count}}});
+  return testing::instance_of(std::vector<std::string>(12, std::string(12, '.')), agents);
+}
+
+class NeighborhoodsTest : public ::testing::TestWithParam<int> {};
+
+TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
+  const Instance instance = crossing(GetParam());
+  const Problem problem(instance, Limits());
+  AgentStopsStore stops(instance, problem.distances);
+  Router router(problem, stops);
+  PathSet paths(instance.grid(), instance.agent_count());
+  Random random(1);
+  PrioritizedPlanning planning(router, paths, random);
+  std::vector<AgentIndex> order;
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+    ASSERT_TRUE(router.meet(agent, Limits()));
+    order.push_back(agent);
+  }
+  planning.begin(order);
+  while (planning.step(Limits()) == PrioritizedPlanning::State::kWorking) {
+  }
+
+  Neighborhoods neighborhoods(problem, router, paths, random);
+  std::set<std::size_t> sizes;
+  std::set<AgentIndex> seen;
+  for (int round = 0; round < 500; ++round) {
+    const std::vector<AgentIndex> chosen = neighborhoods.choose();
+    const std::set<AgentIndex> distinct(chosen.begin(), chosen.end());
+    EXPECT_EQ(distinct.size(), chosen.size());
+    EXPECT_GE(chosen.size(), std::min<std::size_t>(2, order.size()));
+    EXPECT_LE(chosen.size(), 8u);
+    sizes.insert(chosen.size());
+    seen.insert(chosen.begin(), chosen.end());
+    neighborhoods.reward(round % 3);
+  }
+  EXPECT_EQ(seen.size(), order.size());
+  EXPECT_EQ(sizes.size(), GetParam() == 12 ? 7u : static_cast<std::size_t>(GetParam()) - 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Agents, NeighborhoodsTest, ::testing::Values(2, 3, 12));
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "grove/primal/primal_search.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "grove/model/check.h"
+#include "grove/search/feasibility.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+using testing::instance_of;
+
+std::string first_violation(const Instance& instance, const Plan& plan) {
+  Solution claim;
+  claim.status = status_of(plan.cost, 0, claim.omega);
+  claim.plan = plan;
+  const auto violations = check(instance, claim, 1);
+  return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
+}
+
+// A search with what it needs.
+struct Search {
+  explicit Search(const Instance& the_instance, std::uint64_t seed = 0)
+      : instance(the_instance),
+        problem(instance, limits),
+        stops(instance, problem.distances),
+        primal(problem, stops, seed) {}
+
+  // The plans of so many steps, each checked.
+  std::vector<Plan> plans(int steps) {
+    std::vector<Plan> result;
+    for (int step = 0; step < steps; ++step)
+      if (auto plan = primal.step(limits)) {
+        EXPECT_EQ(first_violation(instance, *plan), "");
+        EXPECT_EQ(plan->cost, primal.best_cost());
+        EXPECT_TRUE(result.empty() || plan->cost < result.back().cost);
+        result.push_back(std::move(*plan));
+      }
+    return result;
+  }
+
+  Limits limits;
+  const Instance& instance;
+  Problem problem;
+  AgentStopsStore stops;
+  PrimalSearch primal;
+};
+
+bool searchable(const Instance& instance) {
+  return !evident_infeasibility(Problem(instance, Limits()));
+}
+
+TEST(PrimalSearch, EveryPlanIsValid) {
+  int solved = 0;
+  int tried = 0;
+  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = fuzz::random_instance(seed).build();
+    if (!searchable(instance)) continue;
+    ++tried;
+    Search search(instance, seed);
+    if (!search.plans(6).empty()) ++solved;
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(tried, 1000);
+  EXPECT_GT(solved, tried * 8 / 10);
+}
+
+TEST(PrimalSearch, TheSameSeedMakesTheSamePlans) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const Instance instance = fuzz::random_instance(seed).build();
+    if (!searchable(instance)) continue;
+    std::vector<std::int64_t> work[2];
+    for (auto& counts : work) {
+      Search search(instance, seed);
+      for (int step = 0; step < 8; ++step) {
+        const auto plan = search.primal.step(search.limits);
+        counts.push_back(plan ? plan->cost : -1);
+        counts.push_back(search.primal.work());
+      }
+    }
+    EXPECT_EQ(work[0], work[1]);
+  }
+}
+
+// Wherever a limit strikes, the search can go on as if nothing had been.
+TEST(PrimalSearch, LimitsLeaveItWhole) {
+  std::mt19937 random(1);
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = fuzz::random_instance(seed).build();
+    if (!searchable(instance)) continue;
+    Search search(instance, seed);
+    for (int round = 0; round < 5; ++round) {
+      Limits limits;
+      limits.set_deadline(Limits::Clock::now() + std::chrono::microseconds(random() % 60));
+      for (int step = 0; step < 3; ++step)
+        if (const auto plan = search.primal.step(limits)) {
+          EXPECT_EQ(first_violation(instance, *plan), "");
+        }
+      search.plans(1);
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST(PrimalSearch, APastDeadlineDoesNothing) {
+  const Instance instance = instance_of({"....."}, {{{0, 0}, Position{4, 0}, {{2, 0}}}});
+  Search search(instance);
+  search.limits.set_deadline(Limits::Clock::now());
+  EXPECT_FALSE(search.primal.step(search.limits));
+  EXPECT_EQ(search.primal.counts().low_level_calls, 0);
+  EXPECT_FALSE(search.primal.best_cost());
+}
+
+TEST(PrimalSearch, MovesTheAgentThatFailsToTheFront) {
+  // a0 has the shorter way and is planned first; its destination shuts a1 in.
+  const Instance instance = instance_of({"......", "@@@.@@", "@@@.@@"},
+                                        {{{2, 0}, Position{3, 1}}, {{3, 2}, Position{0, 0}}});
+  Search search(instance);
+  const std::vector<Plan> plans = search.plans(3);
+  ASSERT_FALSE(plans.empty());
+  EXPECT_GT(search.primal.counts().attempts, 1);
+}
+
+TEST(PrimalSearch, StopsWhenEveryAgentIsOnItsOwnBestPath) {
+  const Instance instance =
+      instance_of({"....", "...."}, {{{0, 0}, Position{3, 0}, {{1, 0}}}, {{0, 1}, Position{0, 1}}});
+  Search search(instance);
+  const std::vector<Plan> plans = search.plans(5);
+  ASSERT_EQ(plans.size(), 1u);
+  EXPECT_EQ(plans[0].cost, 3);
+  EXPECT_EQ(search.primal.source(), PlanSource::kPriorities);
+  EXPECT_TRUE(search.primal.optimal());
+  const std::int64_t work = search.primal.work();
+  EXPECT_TRUE(search.plans(3).empty());
+  EXPECT_EQ(search.primal.work(), work);
+}
+
+// Two columns of agents that change sides through a wall with two doors.
+Instance doors() {
+  std::vector<std::string> rows(8, "....@....");
+  rows[2] = rows[5] = ".........";
+  std::vector<testing::AgentSpec> agents;
+  for (int i = 0; i < 8; ++i) {
+    agents.push_back({{0, i}, Position{8, 7 - i}, {{6, i}}});
+    agents.push_back({{8, i}, Position{0, 7 - i}});
+  }
+  return instance_of(rows, agents);
+}
+
+TEST(PrimalSearch, ImprovesItsFirstPlan) {
+  const Instance instance = doors();
+  Search search(instance);
+  const std::vector<Plan> plans = search.plans(200);
+  ASSERT_GT(plans.size(), 2u);
+  EXPECT_EQ(search.primal.source(), PlanSource::kNeighborhood);
+  EXPECT_GT(search.primal.counts().neighborhoods, 100);
+}
+
+TEST(PrimalSearch, BeginsAnewWhenItStalls) {
+  const Instance instance = doors();
+  Search search(instance);
+  search.plans(1500);
+  EXPECT_GT(search.primal.counts().attempts, 2);
+}
+
+TEST(PrimalSearch, TakesOverABetterPlan) {
+  const Instance instance = doors();
+  Plan good = [&] { return Search(instance, 1).plans(400).back(); }();
+  const Plan poor = [&] { return Search(instance, 2).plans(400).front(); }();
+  ASSERT_LT(good.cost, poor.cost);
+  good.agents[0].path.push_back(good.agents[0].path.back());  // a file may write out a rest
+  for (const int steps : {0, 1, 5}) {
+    Search search(instance, 3);
+    search.plans(steps);
+    const auto before = search.primal.best_cost();
+    search.primal.adopt(good);
+    const Cost best = before ? std::min(*before, good.cost) : good.cost;
+    EXPECT_EQ(search.primal.best_cost(), best);
+    search.primal.adopt(poor);
+    EXPECT_EQ(search.primal.best_cost(), best);
+    for (const Plan& plan : search.plans(100)) EXPECT_LT(plan.cost, best);
+  }
+}
+
+}  // namespace
+}  // namespace grove
