@@ -35,7 +35,7 @@ class ConfigurationSearch {
   ConfigurationSearch(ConfigurationSearch&&) noexcept;
   ConfigurationSearch& operator=(ConfigurationSearch&&) noexcept;
 
-  // Makes at most `slice` joint steps, each some 0.1 us for every agent. May be called again after
+  // Makes at most `slice` joint steps, each some 0.15 us for every agent. May be called again after
   // kWorking and kStopped.
   Outcome run(const Limits& limits, std::int64_t slice);
 
