@@ -141,7 +141,7 @@ TEST(ConfigurationSearch, SolvesWhatTinyInstancesCanBeSolved) {
 
 class Crowds : public ::testing::TestWithParam<Crowd> {};
 
-// A few random crowds have no plan, or none that is found soon; not the first ten of a kind.
+// A few random crowds have no plan, or none that is found soon.
 TEST_P(Crowds, GetAValidPlan) {
   const std::uint64_t cases = times_factor(10);
   std::uint64_t unsolved = 0;
@@ -153,7 +153,7 @@ TEST_P(Crowds, GetAValidPlan) {
     else
       ++unsolved;
   }
-  EXPECT_LE(unsolved, cases / 25);
+  EXPECT_LE(unsolved, 1 + cases / 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -180,6 +180,36 @@ TEST(ConfigurationSearch, TheSeedDecidesAlone) {
   EXPECT_FALSE(same_plan(*whole.search.plan(), *other.search.plan()));
 }
 
+// Agents that would have to pass each other in a tree without room: no plan, and more joint states
+// than anyone looks at.
+Instance hopeless() {
+  return instance_of({".........", "@.@.@.@.@", "@.@.@.@.@"}, {{{0, 0}, Position{8, 0}},
+                                                               {{8, 0}, Position{0, 0}},
+                                                               {{1, 2}, Position{1, 1}},
+                                                               {{1, 1}, Position{1, 2}},
+                                                               {{3, 2}, Position{3, 1}},
+                                                               {{3, 1}, Position{3, 2}},
+                                                               {{5, 2}, Position{5, 1}},
+                                                               {{5, 1}, Position{5, 2}},
+                                                               {{7, 2}, Position{7, 1}},
+                                                               {{7, 1}, Position{7, 2}},
+                                                               {{4, 0}, Position{4, 0}}});
+}
+
+TEST(ConfigurationSearch, BeginsAnewWhenItTakesLong) {
+  const Instance instance = hopeless();
+  Trial run(instance);
+  std::int64_t kept = 0;
+  int begun_anew = 0;
+  for (int slice = 0; slice < 40; ++slice) {
+    ASSERT_EQ(run.run(1000), Outcome::kWorking);
+    begun_anew += run.search.configurations() < kept;
+    kept = run.search.configurations();
+  }
+  EXPECT_GE(begun_anew, 2);
+  EXPECT_LE(begun_anew, 4);
+}
+
 TEST(ConfigurationSearch, StopsAtLimitsAndGoesOnAfterwards) {
   const Instance instance = random_crowd({.agents = 40}, 2);
   Trial whole(instance);
@@ -198,21 +228,6 @@ TEST(ConfigurationSearch, StopsAtLimitsAndGoesOnAfterwards) {
     ASSERT_EQ(run.run(), Outcome::kFound);
     EXPECT_TRUE(same_plan(*whole.search.plan(), *run.search.plan()));
   }
-}
-
-// Six agents that can only go round in a tree: no plan, and more joint states than fit.
-Instance hopeless() {
-  return instance_of({".........", "@.@.@.@.@", "@.@.@.@.@"}, {{{0, 0}, Position{8, 0}},
-                                                               {{8, 0}, Position{0, 0}},
-                                                               {{1, 2}, Position{1, 1}},
-                                                               {{1, 1}, Position{1, 2}},
-                                                               {{3, 2}, Position{3, 1}},
-                                                               {{3, 1}, Position{3, 2}},
-                                                               {{5, 2}, Position{5, 1}},
-                                                               {{5, 1}, Position{5, 2}},
-                                                               {{7, 2}, Position{7, 1}},
-                                                               {{7, 1}, Position{7, 2}},
-                                                               {{4, 0}, Position{4, 0}}});
 }
 
 TEST(ConfigurationSearch, LeavesTheLastMemoryToOthers) {

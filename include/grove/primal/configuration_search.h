@@ -15,7 +15,8 @@
 namespace grove {
 
 // Searches for any valid plan, in slices as short as one likes; cheap plans are not its business.
-// The same arguments make the same plan, however the work is sliced. One thread at a time.
+// Begins anew when it takes long. The same arguments make the same plan, however the work is
+// sliced. One thread at a time.
 class ConfigurationSearch {
  public:
   enum class Outcome : std::uint8_t {
@@ -40,7 +41,7 @@ class ConfigurationSearch {
   Outcome run(const Limits& limits, std::int64_t slice);
 
   const std::optional<Plan>& plan() const;
-  // Joint states kept so far.
+  // Joint states kept now.
   std::int64_t configurations() const;
 
  private:
