@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "configurations.h"
-#include "random.h"
+#include "dice.h"
 #include "swaps.h"
 
 namespace grove {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "random.h"
+#include "dice.h"
 
 namespace grove {
 namespace {
