@@ -391,7 +391,8 @@ bool FreeLowLevelSearch::Workspace::price_anew() {
   if (!matrix) return false;
   FreeGoals* const plain_goals = goals_;
   late_goals_.reset();
-  late_completions_.emplace(std::move(*matrix));
+  if (!late_completions_ || late_completions_->matrix().cost != matrix->cost)
+    late_completions_.emplace(std::move(*matrix));  // else those of a call before serve on
   late_goals_.emplace(plain_goals->stops(), plain_goals->sequence_class(), *late_completions_);
   goals_ = &*late_goals_;
   while (late_completions_->beyond() <= plain && least_cost() >= late_completions_->beyond())
