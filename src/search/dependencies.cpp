@@ -85,9 +85,11 @@ bool Dependencies::solve_conflicting(const NodePtr& node, Brancher& view, Cost s
       if (!dependence) return false;
       known.exact = *dependence == Dependence::kCompatible;
       known.excess = *dependence == Dependence::kDependent ? 1 : 0;
-      if (known.exact) continue;
     }
-    if (!solve(node, std::array{a, b}, slack, kExpansionsPerPair, limits, known)) return false;
+    const bool solved =
+        known.exact || solve(node, std::array{a, b}, slack, kExpansionsPerPair, limits, known);
+    if (!solved) return false;
+    if (known.excess > 0) note(a, b, known.excess);
   }
   return true;
 }
@@ -123,6 +125,19 @@ const OptimalPaths* Dependencies::optimal_paths(Brancher& view, AgentIndex agent
   }
   optimal_nodes_ += static_cast<std::size_t>(paths.node_count());
   return &paths;
+}
+
+// Keeps a pair for collect().
+void Dependencies::note(AgentIndex a, AgentIndex b, Cost excess) {
+  const auto id = static_cast<std::size_t>(situation_[a]);
+  if (id >= partners_.size()) partners_.resize(2 * id + 1);
+  auto& partners = partners_[id];
+  const auto same = [&](const Partner& p) { return p.agent == b && p.situation == situation_[b]; };
+  const auto known = std::ranges::find_if(partners, same);
+  if (known != partners.end())
+    known->excess = excess;
+  else
+    partners.push_back({b, situation_[b], excess});
 }
 
 // Looks into every group that conflicts among itself though no pair of it has to cost more.
@@ -192,12 +207,11 @@ bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group,
 
 // Every pair that is known to cost more in its present situations.
 void Dependencies::collect(std::vector<GroupExcess>& statements) const {
-  for (AgentIndex a = 0; a < agents_; ++a)
-    for (AgentIndex b = a + 1; b < agents_; ++b) {
-      const auto known = known_.find(key(a, b));
-      if (known != known_.end() && known->second.excess > 0)
-        statements.push_back({{a, b}, known->second.excess});
-    }
+  for (AgentIndex a = 0; a < agents_; ++a) {
+    if (static_cast<std::size_t>(situation_[a]) >= partners_.size()) continue;
+    for (const Partner& b : partners_[situation_[a]])
+      if (situation_[b.agent] == b.situation) statements.push_back({{a, b.agent}, b.excess});
+  }
   for (const auto& group : groups_) {
     const auto known = known_groups_.find(key(group));
     if (known != known_groups_.end() && known->second.excess > 0)
@@ -207,6 +221,7 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) const {
 
 void Dependencies::clear() {
   known_.clear();
+  partners_.clear();
   known_groups_.clear();
   groups_.clear();
   optimal_paths_.clear();

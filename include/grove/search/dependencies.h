@@ -54,6 +54,7 @@ class Dependencies {
   std::optional<Dependence> compare(Brancher& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
   const OptimalPaths* optimal_paths(Brancher& view, AgentIndex agent, const Limits& limits);
+  void note(AgentIndex a, AgentIndex b, Cost excess);
   bool solve_groups(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const Brancher& view) const;
   std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;
@@ -67,6 +68,13 @@ class Dependencies {
   Brancher pair_view_;
   PairDependency pair_dependency_;
   std::unordered_map<std::uint64_t, Known> known_;
+  // By situation of the first agent: the pairs that are known to cost more.
+  struct Partner {
+    AgentIndex agent;
+    Situations::Id situation;
+    Cost excess;
+  };
+  std::vector<std::vector<Partner>> partners_;
   std::map<std::vector<Situations::Id>, Known> known_groups_;
   std::set<std::vector<AgentIndex>> groups_;                        // those that occur in it
   std::unordered_map<Situations::Id, OptimalPaths> optimal_paths_;  // empty: too many to keep
