@@ -12,8 +12,8 @@
 #include "grove/io/map_file.h"
 #include "grove/io/scenario_file.h"
 #include "grove/search/expander.h"
-#include "grove/search/sequence_forest.h"
 #include "grove/search/frontier.h"
+#include "grove/search/sequence_forest.h"
 #include "tools/generate/instance_generator.h"
 
 namespace grove {
@@ -40,7 +40,8 @@ class Search {
   explicit Search(const Instance& instance)
       : problem_(instance, limits_),
         forest_(problem_, pool_, RtspBackend::kAuto, limits_),
-        expander_(problem_, 0) {
+        stops_(instance, problem_.distances),
+        expander_(problem_, stops_, Techniques(), 0) {
     frontier_.push(forest_.next_root());
   }
   ~Search() { frontier_.abandon(); }
@@ -51,16 +52,14 @@ class Search {
     if (frontier_.bound() > *forest_.last_cost())
       if (NodePtr root = forest_.next_root()) frontier_.push(std::move(root));
     const NodePtr node = frontier_.take();
-    const Expansion expansion = expander_.expand(node, limits_);
+    const Expansion expansion = expander_.expand(node, kInfiniteCost, limits_);
     for (const NodePtr& child : expansion.children) frontier_.push(child);
     generated_ += static_cast<std::int64_t>(expansion.children.size());
-    low_level_calls_ += expansion.low_level_calls;
     frontier_.settle(node);
   }
 
   std::int64_t generated() const { return generated_; }
-  std::int64_t low_level_calls() const { return low_level_calls_; }
-  std::int64_t low_level_expanded() const { return expander_.low_level_expanded(); }
+  ExpansionCounts counts() const { return expander_.counts(); }
 
  private:
   Limits limits_;
@@ -68,9 +67,9 @@ class Search {
   NodePool pool_;
   SequenceForest forest_;
   Frontier frontier_;
+  AgentStopsStore stops_;
   Expander expander_;
   std::int64_t generated_ = 0;
-  std::int64_t low_level_calls_ = 0;
 };
 
 void BM_Expansions(benchmark::State& state) {
@@ -87,8 +86,9 @@ void BM_Expansions(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
   state.counters["bytes_per_node"] =
       (static_cast<double>(resident_bytes()) - memory_before) / nodes;
-  state.counters["labels_per_call"] = static_cast<double>(search.low_level_expanded()) /
-                                      static_cast<double>(search.low_level_calls());
+  const ExpansionCounts counts = search.counts();
+  state.counters["labels_per_call"] =
+      static_cast<double>(counts.low_level_expanded) / static_cast<double>(counts.low_level_calls);
   state.SetLabel(files.map.filename().string());
 }
 BENCHMARK(BM_Expansions)

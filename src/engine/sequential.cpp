@@ -23,11 +23,16 @@
 namespace grove {
 namespace {
 
-std::unique_ptr<Forest> make_forest(const Problem& problem, NodePool& pool,
+std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
                                     const SolveOptions& options, const Limits& limits) {
   if (options.policy == Policy::kFixed)
     return std::make_unique<SequenceForest>(problem, pool, options.rtsp, limits);
-  return std::make_unique<SingleTree>(problem, pool, limits);
+  return std::make_unique<SingleTree>(problem, stops, pool, limits);
+}
+
+// The paper's policy is the cross-check: plain CBS.
+Techniques techniques_of(const SolveOptions& options) {
+  return options.policy == Policy::kFixed ? Techniques() : options.techniques;
 }
 
 constexpr std::int64_t kWorkPerCall = 16;  // in labels: what a call of the low level costs beside
@@ -43,8 +48,9 @@ class SequentialEngine {
         observer_(observer),
         omega_(options.omega),
         gate_(problem.instance, options.omega),
-        forest_(make_forest(problem, pool_, options, limits)),
-        expander_(problem, options.seed),
+        stops_(problem.instance, problem.distances),
+        forest_(make_forest(problem, stops_, pool_, options, limits)),
+        expander_(problem, stops_, techniques_of(options), options.seed),
         share_(problem.instance.agent_count()) {}
   ~SequentialEngine() { frontier_.abandon(); }
   SequentialEngine(const SequentialEngine&) = delete;
@@ -73,17 +79,16 @@ class SequentialEngine {
   RunObserver& observer_;
   const Omega omega_;
   Gate gate_;
+  AgentStopsStore stops_;
   NodePool pool_;
   std::unique_ptr<Forest> forest_;
   Frontier frontier_;
   Expander expander_;
-  std::unique_ptr<AgentStopsStore> stops_;
   std::unique_ptr<PrimalSearch> primal_;  // made when it is first due
   PrimalShare share_;
   bool out_of_nodes_ = false;  // though not finished
   std::int64_t nodes_expanded_ = 0;
   std::int64_t nodes_generated_ = 0;
-  std::int64_t low_level_calls_ = 0;
 };
 
 Solution SequentialEngine::run() {
@@ -113,9 +118,7 @@ bool SequentialEngine::primal_is_due() {
       options_.policy != Policy::kFixed && options_.techniques.has(Technique::kPrimal);
   if (!wanted || !share_.may_begin()) return false;
   if (!primal_) {
-    const Instance& instance = problem_.instance;
-    stops_ = std::make_unique<AgentStopsStore>(instance, problem_.distances);
-    primal_ = std::make_unique<PrimalSearch>(problem_, *stops_, options_.seed);
+    primal_ = std::make_unique<PrimalSearch>(problem_, stops_, options_.seed);
     if (const auto plan = gate_.incumbent()) primal_->adopt(*plan);
   }
   return share_.due(*primal_);
@@ -134,11 +137,12 @@ void SequentialEngine::work_on_tree() {
     out_of_nodes_ = true;
     return;
   }
-  const std::int64_t calls = low_level_calls_;
-  const std::int64_t labels = expander_.low_level_expanded();
+  const ExpansionCounts before = expander_.counts();
   expand(node);
-  share_.tree_worked(expander_.low_level_expanded() - labels +
-                     kWorkPerCall * (low_level_calls_ - calls) + node->cost() / kStepsPerWork + 1);
+  const ExpansionCounts after = expander_.counts();
+  share_.tree_worked(after.low_level_expanded - before.low_level_expanded +
+                     kWorkPerCall * (after.low_level_calls - before.low_level_calls) +
+                     node->cost() / kStepsPerWork + 1);
   update_bound();
 }
 
@@ -161,8 +165,8 @@ void SequentialEngine::grow() {
 }
 
 void SequentialEngine::expand(const NodePtr& node) {
-  Expansion expansion = expander_.expand(node, limits_);
-  low_level_calls_ += expansion.low_level_calls;
+  Expansion expansion =
+      expander_.expand(node, gate_.incumbent_cost().value_or(kInfiniteCost), limits_);
   if (expansion.stopped) {
     frontier_.give_back(node);
     return;
@@ -227,12 +231,14 @@ Solution SequentialEngine::conclude() const {
     solution.status = Status::kInfeasible;
     solution.lower_bound = 0;
   }
+  const ExpansionCounts counts = expander_.counts();
   solution.stats.counts = {{"nodes_expanded", nodes_expanded_},
                            {"nodes_generated", nodes_generated_},
                            {"roots_generated", forest_->trees()},
                            {"rtsp_calls", forest_->rtsp_calls()},
-                           {"low_level_calls", low_level_calls_},
-                           {"low_level_expanded", expander_.low_level_expanded()}};
+                           {"low_level_calls", counts.low_level_calls},
+                           {"low_level_expanded", counts.low_level_expanded},
+                           {"pair_expansions", counts.pair_expansions}};
   const auto primal = primal_ ? primal_->counts() : PrimalSearch::Counts();
   solution.stats.counts["primal_steps"] = primal.steps;
   solution.stats.counts["primal_attempts"] = primal.attempts;

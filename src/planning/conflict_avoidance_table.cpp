@@ -119,4 +119,11 @@ int ConflictAvoidanceTable::conflicts_of_resting(Cell cell, Time time) const {
   return count;
 }
 
+int ConflictAvoidanceTable::conflicts_of(const Path& path) const {
+  int count = 0;
+  for (std::size_t t = 1; t < path.size(); ++t)
+    count += conflicts(path[t - 1], path[t], static_cast<Time>(t));
+  return count + conflicts_of_resting(path.back(), static_cast<Time>(path.size()) - 1);
+}
+
 }  // namespace grove

@@ -14,9 +14,20 @@
 // earlier arrival can wait for a later one, and waiting changes no state. So one label with the
 // earliest time each suffices, as with a fixed sequence.
 //
-// The end. Nothing left, on a place to rest, in an interval that never ends: a cell barred for ever
-// is no place to rest. No path costs less than the first begin of such an interval, so a finish at
-// that time is optimal at once.
+// The end. Nothing left, on a place to rest, in an interval in which one may rest: a cell barred
+// for ever is no place to rest. No path costs less than the first begin of such an interval, so a
+// finish at that time is optimal at once.
+//
+// Target reasoning. "Does not rest on v by t" (kNoRestBy) makes two overlapping intervals of v's
+// last one, by the time of arrival: up to t, where one may not rest, and later. "Rests on v by t"
+// (kRestBy) leaves one place to rest and acts as a cutoff of t, but what is above it is infeasible.
+// The heuristic then is at least the distance to v.
+//
+// Traversals. A move that kNoTraversal bars is barred to those who came in at the other end. That
+// is all of the past that a future can depend on, and the inner cells of such a chain have their
+// intervals once for each end, and once for whoever has been inside since the start (an end whose
+// traversals are free shares that one: safe_intervals.h). So a path is again a matter of cell,
+// interval and state, and the move is delayed like any barred move.
 //
 // Exactness with a bounded graph. The completions know every sequence cheaper than beyond(). Labels
 // in states that they do not know are dropped, and so are labels of f > beyond().
@@ -53,6 +64,11 @@
 // since the others may count other stops on the way to u. The states before are cut off by gates of
 // their own.
 //
+// "Later interval" goes by the time of arrival: if u may not be rested on by t and G came by then,
+// P comes by t, and then it leaves u again, as G can, or it comes at n = t + 1 or later. And "stand
+// there as well" must leave open what P does next: if u has copies, a G in one that is barred from
+// leaving the chain makes no gate. One in the free copy does: it can do what the others can.
+//
 // Known sequences. A heuristic that wants any good path may do without the others: then the cap is
 // the cutoff itself, a path found is one of a known sequence, and none found proves nothing, unless
 // all are known.
@@ -62,9 +78,9 @@
 // the first finish is a path within the cutoff, if perhaps not the cheapest, and the other outcomes
 // are proven.
 //
-// Infeasible cases can cost all 2^n sets: with time windows the question is NP-hard. Most are a
-// door that shuts before or behind the agent, so once per hard call each stop is asked for alone
-// (visit_check.cpp), a necessary condition.
+// Infeasible cases can cost all 2^n sets: with time windows the question is NP-hard; and so can
+// cases far above the cutoff. Most are a door shut before or behind the agent, so once per hard
+// call each stop is asked for alone (visit_check.cpp): a bound on the cost.
 //
 // Measured on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
 // call in microseconds; n = 5, 10, 20): 6, 14, 24 without constraints; 17, 35, 57 with 20 of them
@@ -85,8 +101,8 @@ namespace {
 
 constexpr std::int64_t kExpansionsPerPoll = 256;
 // After so many in one call, or before the completions are widened a second time, it is worth
-// asking whether each stop can be visited at all.
-constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 14;
+// asking whether each stop can be visited at all, or in time.
+constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 12;
 
 }  // namespace
 
@@ -125,13 +141,15 @@ class FreeLowLevelSearch::Workspace {
                       bool doubts, Time cutoff, const Limits& limits, Path& path);
   bool prepare();
   void see_stops();
+  void find_only_rest();
   Time first_rest() const;
   void find_deadlines();
   Outcome find_within(Time cap, const Limits& limits, Path& path);
   void start();
   Outcome run(const Limits& limits, Path& path);
 
-  bool surely_infeasible();
+  bool is_hopeless();
+  Time distance(StateId state, Cell cell) const;
   bool misses_deadline(StateId state, Cell cell, Time time) const;
   bool is_finish(const Entry& entry) const;
   bool is_stale(const Entry& entry);
@@ -140,7 +158,6 @@ class FreeLowLevelSearch::Workspace {
   void close_gate(const Entry& entry);
   void expand(const Entry& entry);
   void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
-  void touch(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time, int stop);
   void reach(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time,
              StateId state);
   std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time) const;
@@ -163,12 +180,16 @@ class FreeLowLevelSearch::Workspace {
   const ConflictAvoidanceTable* others_ = nullptr;
   const Limits* limits_ = nullptr;
   int greed_percent_ = 0;
-  std::int64_t give_up_at_ = 0;  // the count of labels
-  Time first_rest_ = 0;          // no path costs less
-  Time cap_ = 0;                 // dearer labels are dropped
-  bool over_ = false;            // one was
-  std::int64_t doubt_at_ = 0;    // the count of labels at which to ask, once, if it is feasible
-  bool outside_ = false;         // a label was dropped whose state the completions do not know
+  std::int64_t give_up_at_ = 0;         // the count of labels
+  Time first_rest_ = 0;                 // no path costs less
+  int only_rest_ = -1;                  // without a destination: the only stop to rest on, perhaps
+  Time cap_ = 0;                        // dearer labels are dropped
+  bool over_ = false;                   // one was
+  Time latest_ = 0;                     // dearer paths are of no use,
+  Outcome above_ = Outcome::kAbove;     // and this is the answer if all are
+  Outcome hopeless_ = Outcome::kAbove;  // what is_hopeless() found
+  std::int64_t doubt_at_ = 0;  // the count of labels at which to ask, once, if there is hope
+  bool outside_ = false;       // a label was dropped whose state the completions do not know
 };
 
 FreeLowLevelSearch::FreeLowLevelSearch(const Grid& grid)
@@ -223,7 +244,10 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
                     ? expanded_ + effort.most_labels
                     : std::numeric_limits<std::int64_t>::max();
   if (!prepare()) return Outcome::kInfeasible;
-  if (first_rest_ > cutoff) return Outcome::kAbove;
+  latest_ = std::min(cutoff, intervals_.latest_rest());
+  const bool must_rest = intervals_.latest_rest() < kNever;
+  above_ = must_rest && intervals_.latest_rest() <= cutoff ? Outcome::kInfeasible : Outcome::kAbove;
+  if (first_rest_ > latest_) return above_;
 
   doubt_at_ = doubts ? expanded_ + kExpansionsBeforeDoubt : kNoDoubt;
   Completions& completions = goals.stops().completions();
@@ -233,11 +257,11 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
     return outcome == Outcome::kFound || all_known ? outcome : Outcome::kStopped;
   }
   for (;;) {
-    const Outcome outcome = find_within(std::min(cutoff, completions.beyond()), limits, path);
-    if (outcome != Outcome::kAbove || cutoff < completions.beyond()) return outcome;
+    const Outcome outcome = find_within(std::min(latest_, completions.beyond()), limits, path);
+    if (outcome == Outcome::kAbove && latest_ < completions.beyond()) return above_;
+    if (outcome != Outcome::kAbove) return outcome;
     if (completions.beyond() == kNever) return outcome;
-    if (goals.first_state() != FreeGoals::kOutside && surely_infeasible())
-      return Outcome::kInfeasible;
+    if (goals.first_state() != FreeGoals::kOutside && is_hopeless()) return hopeless_;
     if (!completions.widen(completions.beyond(), limits)) return Outcome::kStopped;
   }
 }
@@ -246,8 +270,9 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
 bool FreeLowLevelSearch::Workspace::prepare() {
   see_stops();
   find_deadlines();
+  find_only_rest();
   first_rest_ = first_rest();
-  return first_rest_ < kNever && goals_->plausible();
+  return first_rest_ < kNever && first_rest_ <= intervals_.latest_rest() && goals_->plausible();
 }
 
 void FreeLowLevelSearch::Workspace::see_stops() {
@@ -260,26 +285,35 @@ void FreeLowLevelSearch::Workspace::see_stops() {
 // When the agent may first come to rest anywhere for ever.
 Time FreeLowLevelSearch::Workspace::first_rest() const {
   const AgentStops& stops = goals_->stops();
-  const auto rest_begin = [&](Cell cell) {
-    const int slot = intervals_.last_slot(cell);
-    return slot == kNoSlot ? kNever : intervals_.begin_of(slot);
-  };
-  if (stops.destination()) return rest_begin(*stops.destination());
+  if (stops.destination()) return intervals_.rest_begin(*stops.destination());
   Time first = kNever;
   for (int stop = 0; stop < stops.count(); ++stop)
-    first = std::min(first, rest_begin(stops.cell(stop)));
+    first = std::min(first, intervals_.rest_begin(stops.cell(stop)));
   return first;
+}
+
+// Of use only without a destination: with one, the heuristic knows it.
+void FreeLowLevelSearch::Workspace::find_only_rest() {
+  only_rest_ = AgentStops::kNoStop;
+  const AgentStops& stops = goals_->stops();
+  if (stops.destination()) return;
+  for (int stop = 0; stop < stops.count(); ++stop)
+    if (stops.cell(stop) == intervals_.only_rest()) only_rest_ = stop;
+}
+
+// At most what a path from here on costs.
+Time FreeLowLevelSearch::Workspace::distance(StateId state, Cell cell) const {
+  const Time distance = goals_->distance(state, cell);
+  if (only_rest_ == AgentStops::kNoStop) return distance;
+  return std::max(distance, goals_->stops().distances_from(cell)[only_rest_]);
 }
 
 void FreeLowLevelSearch::Workspace::find_deadlines() {
   const AgentStops& stops = goals_->stops();
   deadlines_.clear();
   for (int stop = 0; stop < stops.count(); ++stop) {
-    const Cell cell = stops.cell(stop);
-    if (intervals_.last_slot(cell) != kNoSlot) continue;
-    const int last = intervals_.end_slot(cell) - 1;
-    const bool ever_safe = last >= intervals_.first_slot(cell);
-    deadlines_.push_back({stop, ever_safe ? intervals_.end_of(last) : -1});
+    const Time last = intervals_.last_time(stops.cell(stop));
+    if (last < kNever) deadlines_.push_back({stop, last});
   }
 }
 
@@ -299,7 +333,7 @@ void FreeLowLevelSearch::Workspace::start() {
   const Cell cell = goals_->stops().start();
   const StateId state = goals_->first_state();
   queue_.reset(0);
-  const int slot = intervals_.slot_at(cell, 0);
+  const int slot = intervals_.start_slot(cell);
   if (slot == kNoSlot) return;
   if (state == FreeGoals::kOutside) {
     outside_ = true;
@@ -318,7 +352,7 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::run(const Limits& lim
     }
     if (++expanded_ % kExpansionsPerPoll == 0) {
       if (expanded_ >= give_up_at_ || limits.stop_requested()) return Outcome::kStopped;
-      if (expanded_ >= doubt_at_ && surely_infeasible()) return Outcome::kInfeasible;
+      if (expanded_ >= doubt_at_ && is_hopeless()) return hopeless_;
     }
     close_gate(entry);
     expand(entry);
@@ -328,8 +362,8 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::run(const Limits& lim
   return over_ || (bounded && outside_) ? Outcome::kAbove : Outcome::kInfeasible;
 }
 
-// Asks once a call.
-bool FreeLowLevelSearch::Workspace::surely_infeasible() {
+// Is there surely no path, or none in time, or no time to find out? Asks once a call.
+bool FreeLowLevelSearch::Workspace::is_hopeless() {
   if (doubt_at_ == kNoDoubt) return false;
   doubt_at_ = kNoDoubt;
   const AgentStops& stops = goals_->stops();
@@ -337,14 +371,21 @@ bool FreeLowLevelSearch::Workspace::surely_infeasible() {
   for (int stop = 0; stop < stops.count(); ++stop) rests.push_back(stops.cell(stop));
   const std::vector<Cell> visits = rests;
   if (stops.destination()) rests = {*stops.destination()};
-  return !std::ranges::all_of(
-      visits, [&](Cell cell) { return visit_check_.can_visit(stops.start(), cell, rests); });
+  Time rest = 0;
+  for (const Cell cell : visits) {
+    rest = std::max(rest, visit_check_.first_rest(stops.start(), cell, rests));
+    if (!limits_->stop_requested()) continue;
+    hopeless_ = Outcome::kStopped;
+    return true;
+  }
+  hopeless_ = rest >= kNever ? Outcome::kInfeasible : above_;
+  return rest >= kNever || rest > latest_;
 }
 
 bool FreeLowLevelSearch::Workspace::is_finish(const Entry& entry) const {
   const FreeGoals::State& state = goals_->state(entry.progress);
   return state.left == 0 && goals_->is_rest(state, intervals_.cell_of(entry.slot)) &&
-         intervals_.end_of(entry.slot) == kNever;
+         intervals_.may_rest(entry.slot);
 }
 
 // The label was improved since it was queued.
@@ -396,7 +437,7 @@ Time FreeLowLevelSearch::Workspace::postponed_to(const Entry& entry) const {
 void FreeLowLevelSearch::Workspace::close_gate(const Entry& entry) {
   const Cell cell = intervals_.cell_of(entry.slot);
   const int stop = goals_->stops().stop_at(cell);
-  if (stop == AgentStops::kNoStop) return;
+  if (stop == AgentStops::kNoStop || !intervals_.is_free_of_traversals(entry.slot)) return;
   const LabelPlanes::Label& l = planes_.label(entry.slot, entry.progress);
   if (l.parent_slot == kNoSlot || l.parent_state == entry.progress) return;
   const StateId from = l.parent_state;
@@ -422,22 +463,9 @@ void FreeLowLevelSearch::Workspace::expand(const Entry& entry) {
 
 void FreeLowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::int32_t slot,
                                            Cell cell, Time time) {
-  const int stop = goals_->stops().stop_at(cell);
-  if (stop == AgentStops::kNoStop || (goals_->state(from.progress).next >> stop & 1) == 0)
-    reach(from, from_cell, slot, cell, time, from.progress);
-  else
-    touch(from, from_cell, slot, cell, time, stop);
-}
-
-void FreeLowLevelSearch::Workspace::touch(const Entry& from, Cell from_cell, std::int32_t slot,
-                                          Cell cell, Time time, int stop) {
-  if (goals_->state(from.progress).may_skip)
-    reach(from, from_cell, slot, cell, time, from.progress);
-  const StateId state = goals_->after(from.progress, stop);
-  if (state != FreeGoals::kOutside)
-    reach(from, from_cell, slot, cell, time, state);
-  else
-    outside_ = true;
+  const bool known = goals_->on_arrival(
+      from.progress, cell, [&](StateId state) { reach(from, from_cell, slot, cell, time, state); });
+  if (!known) outside_ = true;
 }
 
 void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std::int32_t slot,
@@ -447,7 +475,7 @@ void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std
   LabelPlanes::Label& l = planes_.label(slot, state);
   const bool known = planes_.is_current(l);
   if (known && (l.time < time || (l.time == time && l.conflicts <= from.conflicts))) return;
-  const Time distance = goals_->distance(state, cell);
+  const Time distance = this->distance(state, cell);
   if (distance >= kNever) outside_ = true;
   if (distance > cap_ - time) {
     over_ |= distance < kNever;

@@ -18,9 +18,10 @@
 // no continuation. One path through all goals is planned as one path. Planning leg after leg with
 // the earliest arrival of each is neither optimal nor complete.
 //
-// The end. The agent may come to rest only where nothing bars it for ever after: in the safe
-// interval of the last goal that never ends, with all other goals visited. That label is the
-// *finish*; without such an interval there is no path. f = t + h, where h = GoalSequence::distance
+// The end. The agent may come to rest only where nothing bars it for ever after: in a safe interval
+// of the last goal that never ends and that one may rest in (kNoRestBy: it is split by the time of
+// arrival, see safe_intervals.h), with all other goals visited. Such a label is a *finish*; without
+// such an interval there is no path. f = t + h, where h = GoalSequence::distance
 // is exact without constraints, so consistent. No path costs less than the begin of that interval,
 // so a finish at that very time is optimal at once, whatever f the search has come to; that is what
 // a raised heuristic, max(t + h, begin), would give, without its plateau.
@@ -29,7 +30,8 @@
 //
 // - *Deadlines.* If goal k is barred for ever after time d, a label of progress p <= k is of use
 //   only if t + (distance on through goal k) <= d, that is f <= d + after_goal(k). The smallest
-//   right side over all k >= p is latest_[p].
+//   right side over all k >= p is latest_[p]. That the agent must rest by t (kRestBy) is such a
+//   deadline of the last goal.
 //
 // - *Gates.* Let G be a label of goal k just visited, in interval [a, b], reached at time g, and L
 //   a label that has yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A
@@ -43,6 +45,10 @@
 //   the path through G costs the same, and the first label on it that is not yet expanded has more
 //   progress than L had, so this ends. With unconstrained goals (b = kNever) the search thus
 //   falls into legs by itself, and it is still exact when it must not.
+//
+//   A chain that may not be traversed (kNoTraversal) gives its inner cells several copies of each
+//   interval, by the end the agent came in at. For G to stand where P does is of use only if G may
+//   leave as P does: only a label in the free copy closes a gate.
 //
 // Postponing makes f come out of order, so a label may be improved after it was expanded; it is
 // then expanded again. Its old children keep it as their parent: waiting there a little longer is
@@ -120,7 +126,8 @@ class LowLevelSearch::Workspace {
     return labels_[static_cast<std::size_t>(progress) * slots_ + static_cast<std::size_t>(slot)];
   }
   bool is_finish(std::int32_t slot, int progress) const {
-    return slot == finish_slot_ && progress == last_progress_;
+    return progress == last_progress_ && intervals_.cell_of(slot) == last_goal_ &&
+           intervals_.may_rest(slot);
   }
   int advance(Cell cell, int progress) const {
     while (stages_[progress].next_goal == cell) ++progress;
@@ -133,7 +140,7 @@ class LowLevelSearch::Workspace {
   void expand(const Entry& entry);
   void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
   std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time) const;
-  void write_path(Path& path);
+  void write_path(const Entry& finish, Path& path);
 
   const Grid& grid_;
   SafeIntervals intervals_;
@@ -147,8 +154,8 @@ class LowLevelSearch::Workspace {
   // Of the call under way.
   const ConflictAvoidanceTable* others_ = nullptr;
   int last_progress_ = 0;
-  std::int32_t finish_slot_ = kNoSlot;
-  Time finish_begin_ = 0;
+  Cell last_goal_ = kNoCell;
+  Time finish_begin_ = 0;  // no path costs less
 };
 
 LowLevelSearch::LowLevelSearch(const Grid& grid) : workspace_(std::make_unique<Workspace>(grid)) {}
@@ -184,21 +191,20 @@ bool LowLevelSearch::Workspace::prepare(const GoalSequence& goals,
   intervals_.assign(constraints);
   slots_ = static_cast<std::size_t>(intervals_.slot_count());
   last_progress_ = goals.size() - 1;
-  finish_slot_ = intervals_.last_slot(goals.last());
-  if (finish_slot_ == kNoSlot || goals.distance(goals.start(), 0) >= kNever) return false;
-  finish_begin_ = intervals_.begin_of(finish_slot_);
+  last_goal_ = goals.last();
+  finish_begin_ = intervals_.rest_begin(last_goal_);
+  if (finish_begin_ >= kNever || goals.distance(goals.start(), 0) >= kNever) return false;
   prepare_stages(goals);
   return true;
 }
 
 void LowLevelSearch::Workspace::prepare_stages(const GoalSequence& goals) {
   stages_.resize(static_cast<std::size_t>(goals.size()));
-  Time latest = std::numeric_limits<Time>::max();
+  Time latest = intervals_.latest_rest();
+  if (latest == kNever) latest = std::numeric_limits<Time>::max();
   for (int k = last_progress_; k >= 0; --k) {
     const Cell goal = goals.goal(k);
-    const int last_slot = intervals_.end_slot(goal) - 1;
-    const bool ever_safe = last_slot >= intervals_.first_slot(goal);
-    const Time deadline = ever_safe ? intervals_.end_of(last_slot) : -1;
+    const Time deadline = intervals_.last_time(goal);
     if (deadline < kNever) latest = std::min(latest, deadline + goals.after_goal(k));
     stages_[k] = {.to_goal = goals.to_goal(k).data(),
                   .after_goal = goals.after_goal(k),
@@ -229,7 +235,7 @@ void LowLevelSearch::Workspace::start(Cell cell) {
   const int progress = advance(cell, 0);
   const Time f = f_of(cell, progress, 0);
   queue_.reset(f);
-  const int slot = intervals_.slot_at(cell, 0);
+  const int slot = intervals_.start_slot(cell);
   if (slot == kNoSlot || f > stages_[progress].latest) return;
   label(slot, progress) = {.time = 0, .parent_slot = kNoSlot, .stamp = stamp_};
   queue_.push(f, {.slot = slot, .progress = static_cast<std::uint8_t>(progress)});
@@ -240,7 +246,7 @@ LowLevelSearch::Outcome LowLevelSearch::Workspace::run(const Limits& limits, Pat
   while (queue_.pop(entry)) {
     if (is_stale(entry) || postpone(entry)) continue;
     if (is_finish(entry.slot, entry.progress)) {
-      write_path(path);
+      write_path(entry, path);
       return Outcome::kFound;
     }
     if (++expanded_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
@@ -270,6 +276,7 @@ void LowLevelSearch::Workspace::close_gate(const Entry& entry) {
   const int goal = entry.progress - 1;
   const Cell cell = intervals_.cell_of(entry.slot);
   if (goal < 0 || stages_[goal].next_goal != cell) return;
+  if (!intervals_.is_free_of_traversals(entry.slot)) return;
   const Time from = entry.time + stages_[goal].after_goal;
   const Time next = intervals_.next_begin(entry.slot);
   const Time until = next == kNever ? kNever : next + stages_[goal].after_goal;
@@ -323,10 +330,10 @@ std::uint16_t LowLevelSearch::Workspace::conflicts_on_arrival(const Entry& from,
   return static_cast<std::uint16_t>(std::min<int>(count, BucketQueue::kMostConflicts));
 }
 
-void LowLevelSearch::Workspace::write_path(Path& path) {
-  std::int32_t slot = finish_slot_;
-  int progress = last_progress_;
-  Time end = label(slot, progress).time;
+void LowLevelSearch::Workspace::write_path(const Entry& finish, Path& path) {
+  std::int32_t slot = finish.slot;
+  int progress = finish.progress;
+  Time end = finish.time;
   path.resize(static_cast<std::size_t>(end) + 1);
   while (slot != kNoSlot) {
     const Label& l = label(slot, progress);

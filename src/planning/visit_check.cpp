@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
 // Earliest arrivals over (safe interval, been on the cell), in order of time. The earliest arrival
 // in an interval can do all that a later one can, after waiting; so what is not reached is not
-// reachable.
+// reachable, and what is reached is not reachable earlier.
 #include "visit_check.h"
 
 #include <algorithm>
 
 namespace grove {
 
-bool VisitCheck::can_visit(Cell start, Cell via, std::span<const Cell> rests) {
+Time VisitCheck::first_rest(Cell start, Cell via, std::span<const Cell> rests) {
   via_ = via;
   earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_limit()), kNever);
   queue_.reset(0);
   intervals_.see(start);
-  if (const int slot = intervals_.slot_at(start, 0); slot >= 0) reach(slot, start, 0, false);
+  if (const int slot = intervals_.start_slot(start); slot >= 0) reach(slot, start, 0, false);
   Queue::Entry entry;
   while (queue_.pop(entry)) {
     const bool visited = entry.progress != 0;
-    if (visited && intervals_.end_of(entry.slot) == kNever &&
+    if (visited && intervals_.may_rest(entry.slot) &&
         std::ranges::count(rests, intervals_.cell_of(entry.slot)) > 0)
-      return true;
+      return entry.time;
     intervals_.for_each_move(grid_, entry.slot, entry.time, [&](int slot, Cell cell, Time time) {
       reach(slot, cell, time, visited);
     });
   }
-  return false;
+  return kNever;
 }
 
 void VisitCheck::reach(int slot, Cell cell, Time time, bool visited) {

@@ -10,15 +10,17 @@
 
 namespace grove {
 
-// Can the agent be on one cell at some time, and after that come to rest? Each stop of an agent
-// must pass this, whatever the order. Polynomial where the question for all stops together is not:
-// it settles the common infeasible case, a door shut before or behind the agent.
+// When can the agent come to rest, having been on one given cell? What it must visit besides only
+// makes it later: so each stop of an agent bounds its cost. Polynomial where the question for all
+// stops together is not: it settles the common hopeless case, a door shut before or behind the
+// agent, for ever or for long.
 class VisitCheck {
  public:
   VisitCheck(const Grid& grid, SafeIntervals& intervals) : grid_(grid), intervals_(intervals) {}
 
-  // From `start` at time 0 by way of `via` to one of `rests` in an interval that never ends.
-  bool can_visit(Cell start, Cell via, std::span<const Cell> rests);
+  // The first time at which an agent that starts on `start` can rest on one of `rests` for ever,
+  // having been on `via`; kNever: it cannot at all.
+  Time first_rest(Cell start, Cell via, std::span<const Cell> rests);
 
  private:
   using Queue = BasicBucketQueue<std::uint8_t>;  // progress: has been on `via`

@@ -1,79 +1,90 @@
 // SPDX-License-Identifier: MIT
-// Algorithm 1 of the paper, lines 9-22: validate the node's paths; on a conflict make one child for
-// each agent involved, which replans under the *child's* constraints (the paper's line 17 plans
-// under the parent's and would repeat the conflict for ever).
+// Algorithm 1 of the paper, lines 9-22: validate the node's paths; if they conflict, first see what
+// more can be said about the node's bound - a node whose bound rises goes back to the frontier,
+// where others may now be better - then branch.
 #include "grove/search/expander.h"
 
+#include <numeric>
+
 namespace grove {
+namespace {
 
-Expander::Expander(const Problem& problem, std::uint64_t seed)
+constexpr std::size_t kMostMemory = std::size_t{1} << 29;  // of what is remembered, in bytes
+
+}  // namespace
+
+Expander::Expander(const Problem& problem, AgentStopsStore& stops, Techniques techniques,
+                   std::uint64_t seed)
     : problem_(problem),
-      conflicts_(problem.instance.grid(), seed),
-      others_(problem.instance.grid()),
-      planner_(problem) {}
+      techniques_(techniques),
+      planner_(problem, stops),
+      brancher_(problem, techniques, seed, planner_, situations_),
+      dependencies_(problem, techniques, seed, planner_, situations_),
+      all_(static_cast<std::size_t>(problem.instance.agent_count())) {
+  std::iota(all_.begin(), all_.end(), 0);
+}
 
-Expansion Expander::expand(const NodePtr& node, const Limits& limits) {
+Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limits) {
   Expansion expansion;
-  node->paths(problem_, paths_);
-  const std::optional<Conflict> conflict = conflicts_.first(paths_);
-  if (!conflict) {
+  const auto stopped = [] {
+    Expansion nothing;
+    nothing.stopped = true;
+    return nothing;
+  };
+  bound_memory();
+  brancher_.enter(node, all_);
+  if (brancher_.conflict_free()) {
     expansion.plan = plan(*node);
     return expansion;
   }
-
-  show_others();
-  for (const AgentConstraint& added : split(*conflict)) {
-    others_.remove(paths_[added.agent]);
-    const bool done = branch(node, added, limits, expansion);
-    others_.add(paths_[added.agent]);
-    if (done) continue;
-    Expansion stopped;
-    stopped.stopped = true;
-    return stopped;
+  if (techniques_.has(Technique::kDependencies) && !node->is_bounded()) {
+    const auto bound = dependencies_.bound(node, brancher_, cutoff, limits);
+    if (!bound) return stopped();
+    if (*bound >= cutoff) return expansion;
+    if (*bound > node->bound()) {
+      Change change;
+      change.cost = node->cost();
+      change.bound = *bound;
+      change.conflicts = node->conflicts();
+      change.bounded = true;
+      expansion.children.push_back(Node::child(node, problem_.instance.grid(), change));
+      return expansion;
+    }
+  }
+  switch (brancher_.branch(cutoff, limits, expansion.children)) {
+    case Brancher::Outcome::kStopped:
+      return stopped();
+    case Brancher::Outcome::kConflictFree:
+      expansion.plan = plan(*node);
+      break;
+    case Brancher::Outcome::kBranched:
+      break;
   }
   return expansion;
 }
 
-// The plan of paths_, the conflict-free paths of `node`.
+// The plan of the brancher's paths, which are conflict-free.
 Plan Expander::plan(const Node& node) {
   Plan plan;
   for (AgentIndex i = 0; i < problem_.instance.agent_count(); ++i) {
-    const Sequence sequence = planner_.sequence(i, *node.tree().orders[i], paths_[i]);
-    const auto cost = static_cast<Time>(paths_[i].size() - 1);
+    const Path& path = brancher_.path(i);
+    const Sequence sequence = planner_.sequence(i, *node.tree().orders[i], path);
+    const auto cost = static_cast<Time>(path.size() - 1);
     plan.cost += cost;
-    plan.agents.push_back({cost, tasks_in_order(problem_.instance.agent(i), sequence), paths_[i]});
+    plan.agents.push_back({cost, tasks_in_order(problem_.instance.agent(i), sequence), path});
   }
   return plan;
 }
 
-// Brings the table up to the node's paths. Most are those of the node expanded before.
-void Expander::show_others() {
-  shown_.resize(paths_.size());
-  for (std::size_t agent = 0; agent < paths_.size(); ++agent) {
-    if (shown_[agent] == paths_[agent]) continue;
-    others_.remove(shown_[agent]);
-    others_.add(paths_[agent]);
-    shown_[agent] = paths_[agent];
-  }
+// Forgets everything when it has become too much.
+void Expander::bound_memory() {
+  if (situations_.bytes() + dependencies_.bytes() < kMostMemory) return;
+  situations_.clear();
+  dependencies_.clear();
 }
 
-// Adds the child that obeys `added`, if it has a path. False when a limit struck.
-bool Expander::branch(const NodePtr& node, const AgentConstraint& added, const Limits& limits,
-                      Expansion& expansion) {
-  const AgentIndex agent = added.agent;
-  constraints_.assign(1, added.constraint);
-  node->constraints(agent, constraints_);
-
-  ++expansion.low_level_calls;
-  const LowLevelSearch::Outcome outcome =
-      planner_.find(agent, *node->tree().orders[agent], constraints_, &others_, limits, path_);
-  if (outcome == LowLevelSearch::Outcome::kStopped) return false;
-  if (outcome == LowLevelSearch::Outcome::kInfeasible) return true;
-
-  const auto old_cost = static_cast<Cost>(paths_[agent].size());
-  const Cost cost = node->cost() - old_cost + static_cast<Cost>(path_.size());
-  expansion.children.push_back(Node::child(node, problem_.instance.grid(), added, path_, cost));
-  return true;
+ExpansionCounts Expander::counts() const {
+  return {planner_.calls(), planner_.expanded(), dependencies_.expansions()};
 }
 
 }  // namespace grove

@@ -11,8 +11,16 @@ void Frontier::push(NodePtr node) {
   push_locked(std::move(node));
 }
 
+// The order within a bound, for heaps with the best at the front.
+bool Frontier::later(const Open& a, const Open& b) {
+  if (a.node->conflicts() != b.node->conflicts()) return a.node->conflicts() > b.node->conflicts();
+  return a.serial < b.serial;
+}
+
 void Frontier::push_locked(NodePtr node) {
-  open_[node->bound()].push_back(std::move(node));
+  auto& heap = open_[node->bound()];
+  heap.push_back({serial_++, std::move(node)});
+  std::ranges::push_heap(heap, later);
   ++open_count_;
 }
 
@@ -20,7 +28,8 @@ NodePtr Frontier::take() {
   const std::lock_guard lock(mutex_);
   if (open_.empty()) return nullptr;
   const auto best = open_.begin();
-  NodePtr node = std::move(best->second.back());
+  std::ranges::pop_heap(best->second, later);
+  NodePtr node = std::move(best->second.back().node);
   best->second.pop_back();
   if (best->second.empty()) open_.erase(best);
   --open_count_;
@@ -56,7 +65,7 @@ std::size_t Frontier::prune(Cost bound) {
 void Frontier::abandon() {
   const std::lock_guard lock(mutex_);
   for (auto& [bound, nodes] : open_)
-    for (NodePtr& node : nodes) node.abandon();
+    for (Open& open : nodes) open.node.abandon();
   open_.clear();
   open_count_ = 0;
 }

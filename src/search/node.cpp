@@ -2,6 +2,7 @@
 #include "grove/search/node.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace grove {
@@ -16,20 +17,38 @@ Cost cost_of_root(const Tree& tree) {
 }  // namespace
 
 NodePtr Node::root(const Tree& tree) {
-  const Cost cost = cost_of_root(tree);
-  void* memory = tree.pool->allocate(bytes(0));
-  return NodePtr(new (memory) Node(nullptr, tree, cost, cost, AgentConstraint(), 0));
+  Change change;
+  change.cost = change.bound = cost_of_root(tree);
+  void* memory = tree.pool->allocate(bytes(change.paths));
+  return NodePtr(new (memory) Node(nullptr, tree, change));
 }
 
-NodePtr Node::child(const NodePtr& parent, const Grid& grid, const AgentConstraint& added,
-                    const Path& path, Cost cost) {
+NodePtr Node::child(const NodePtr& parent, const Grid& grid, const Change& change) {
   const Tree& tree = parent->tree();
-  const auto steps = static_cast<std::uint32_t>(path.size() - 1);
-  void* memory = tree.pool->allocate(bytes(steps));
-  const Cost bound = std::max(parent->bound(), cost);
-  Node* node = new (memory) Node(parent, tree, bound, cost, added, steps);
-  pack(grid, path, reinterpret_cast<std::uint64_t*>(node + 1));
+  void* memory = tree.pool->allocate(bytes(change.paths));
+  Node* node = new (memory) Node(parent, tree, change);
+  node->bound_ = std::max({change.bound, change.cost, parent->bound()});
+  auto* word = reinterpret_cast<std::uint64_t*>(node + 1);
+  for (const NewPath& path : change.paths) {
+    const auto steps = static_cast<std::uint32_t>(path.path->size() - 1);
+    *word++ = std::bit_cast<std::uint64_t>(PathHead{path.agent, steps});
+    pack(grid, *path.path, word);
+    word += packed_words(steps);
+  }
   return NodePtr(node);
+}
+
+std::size_t Node::bytes(std::span<const NewPath> paths) {
+  std::size_t words = paths.size();
+  for (const NewPath& path : paths)
+    words += packed_words(static_cast<std::uint32_t>(path.path->size() - 1));
+  return sizeof(Node) + words * sizeof(std::uint64_t);
+}
+
+std::size_t Node::bytes() const {
+  std::size_t words = path_count_;
+  for_each_path([&](AgentIndex, const PackedSteps& path) { words += packed_words(path.steps); });
+  return sizeof(Node) + words * sizeof(std::uint64_t);
 }
 
 // A chain of ancestors that nobody else holds is released in a loop: recursion would need a stack
@@ -39,7 +58,7 @@ void Node::release(const Node* node) {
     const Node* parent = node->parent_.get();
     node->parent_.abandon();
     NodePool& pool = *node->tree_->pool;
-    const std::size_t size = bytes(node->steps_);
+    const std::size_t size = node->bytes();
     node->~Node();
     pool.release(const_cast<Node*>(node), size);
     node = parent;
@@ -47,22 +66,46 @@ void Node::release(const Node* node) {
 }
 
 void Node::paths(const Problem& problem, std::vector<Path>& paths) const {
+  std::vector<AgentIndex> all(static_cast<std::size_t>(problem.instance.agent_count()));
+  std::iota(all.begin(), all.end(), 0);
+  this->paths(problem, all, paths);
+}
+
+void Node::paths(const Problem& problem, std::span<const AgentIndex> agents,
+                 std::vector<Path>& paths) const {
   const Instance& instance = problem.instance;
   paths.resize(instance.agent_count());
   for (Path& path : paths) path.clear();
-  const auto unpack = [&](const PackedSteps& packed, AgentIndex agent) {
-    if (paths[agent].empty())
+  std::vector<bool> wanted(paths.size());
+  for (AgentIndex agent : agents) wanted[agent] = true;
+  const auto unpack = [&](AgentIndex agent, const PackedSteps& packed) {
+    if (wanted[agent] && paths[agent].empty())
       packed.unpack(instance.grid(), instance.agent(agent).start, paths[agent]);
   };
   for (const Node* node = this; !node->is_root(); node = node->parent_.get())
-    unpack(node->path(), node->added_.agent);
-  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
-    unpack(tree_->orders[agent]->path.view(), agent);
+    node->for_each_path(unpack);
+  for (AgentIndex agent : agents) unpack(agent, tree_->orders[agent]->path.view());
 }
 
 void Node::constraints(AgentIndex agent, std::vector<Constraint>& constraints) const {
   for (const Node* node = this; !node->is_root(); node = node->parent_.get())
-    if (node->added_.agent == agent) constraints.push_back(node->added_.constraint);
+    if (const auto constraint = demand_on(agent, node->added_)) constraints.push_back(*constraint);
+}
+
+void Node::constraints(std::vector<std::vector<Constraint>>& constraints) const {
+  const auto agents = static_cast<AgentIndex>(tree_->orders.size());
+  constraints.resize(tree_->orders.size());
+  for (auto& list : constraints) list.clear();
+  for (const Node* node = this; !node->is_root(); node = node->parent_.get()) {
+    const AgentConstraint& added = node->added_;
+    if (added.agent < 0) continue;
+    if (added.constraint.kind != ConstraintKind::kRestBy) {
+      constraints[added.agent].push_back(added.constraint);
+      continue;
+    }
+    for (AgentIndex agent = 0; agent < agents; ++agent)
+      constraints[agent].push_back(*demand_on(agent, added));
+  }
 }
 
 std::vector<TaskIndex> tasks_in_order(const Agent& agent, const Sequence& sequence) {

@@ -3,27 +3,31 @@
 
 namespace grove {
 
-using Outcome = LowLevelSearch::Outcome;
-
-PathPlanner::PathPlanner(const Problem& problem)
-    : problem_(problem),
-      fixed_(problem.instance.grid()),
+PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops)
+    : fixed_(problem.instance.grid()),
       free_(problem.instance.grid()),
-      stops_(problem.instance.agent_count()),
+      stops_(stops),
       free_goals_(problem.instance.agent_count()) {}
 
-Outcome PathPlanner::find(AgentIndex agent, const AgentOrder& order,
-                          std::span<const Constraint> constraints,
-                          const ConflictAvoidanceTable* others, const Limits& limits, Path& path) {
-  if (order.goals) return fixed_.find(*order.goals, constraints, others, limits, path);
-  FreeGoals& goals = free_goals(agent, order.sequences);
-  switch (free_.find(goals, constraints, others, kNever, limits, path)) {
-    case FreeLowLevelSearch::Outcome::kFound:
-      return Outcome::kFound;
-    case FreeLowLevelSearch::Outcome::kInfeasible:
-    case FreeLowLevelSearch::Outcome::kAbove:  // above kNever: there is none
+PathPlanner::Outcome PathPlanner::find(AgentIndex agent, const AgentOrder& order,
+                                       std::span<const Constraint> constraints,
+                                       const ConflictAvoidanceTable* others, Time cutoff,
+                                       const Limits& limits, Path& path) {
+  ++calls_;
+  if (order.goals) return find_fixed(*order.goals, constraints, others, cutoff, limits, path);
+  return free_.find(free_goals(agent, order.sequences), constraints, others, cutoff, limits, path);
+}
+
+PathPlanner::Outcome PathPlanner::find_fixed(const GoalSequence& goals,
+                                             std::span<const Constraint> constraints,
+                                             const ConflictAvoidanceTable* others, Time cutoff,
+                                             const Limits& limits, Path& path) {
+  switch (fixed_.find(goals, constraints, others, limits, path)) {
+    case LowLevelSearch::Outcome::kFound:
+      return static_cast<Time>(path.size()) - 1 <= cutoff ? Outcome::kFound : Outcome::kAbove;
+    case LowLevelSearch::Outcome::kInfeasible:
       return Outcome::kInfeasible;
-    case FreeLowLevelSearch::Outcome::kStopped:
+    case LowLevelSearch::Outcome::kStopped:
       break;
   }
   return Outcome::kStopped;
@@ -35,11 +39,9 @@ Sequence PathPlanner::sequence(AgentIndex agent, const AgentOrder& order, const 
 }
 
 FreeGoals& PathPlanner::free_goals(AgentIndex agent, const SequenceClass& work) {
-  auto& stops = stops_[agent];
   auto& goals = free_goals_[agent];
-  if (!stops) stops = std::make_unique<AgentStops>(problem_.instance, problem_.distances, agent);
   if (!goals || !(goals->sequence_class() == work))
-    goals = std::make_unique<FreeGoals>(*stops, work);
+    goals = std::make_unique<FreeGoals>(stops_.of(agent), work);
   return *goals;
 }
 

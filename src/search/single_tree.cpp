@@ -10,8 +10,9 @@
 
 namespace grove {
 
-SingleTree::SingleTree(const Problem& problem, NodePool& pool, const Limits& limits)
-    : problem_(problem), pool_(pool), limits_(limits) {
+SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
+                       const Limits& limits)
+    : problem_(problem), stops_(stops), pool_(pool), limits_(limits) {
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     relaxed_bound_ += relaxation_bound(cost_matrix(problem.instance, agent, problem.distances));
 }
@@ -20,15 +21,15 @@ SingleTree::SingleTree(const Problem& problem, NodePool& pool, const Limits& lim
 // ties.
 NodePtr SingleTree::next_root() {
   if (!tree_.empty()) return nullptr;
-  PathPlanner planner(problem_);
+  PathPlanner planner(problem_, stops_);
   ConflictAvoidanceTable others(problem_.instance.grid());
   std::vector<std::shared_ptr<const AgentOrder>> orders;
   Path path;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
     AgentOrder open{{}, std::nullopt, PackedPath()};
-    const auto outcome = planner.find(agent, open, {}, &others, limits_, path);
-    if (outcome == LowLevelSearch::Outcome::kStopped) return nullptr;
-    if (outcome == LowLevelSearch::Outcome::kInfeasible)
+    const auto outcome = planner.find(agent, open, {}, &others, kNever, limits_, path);
+    if (outcome == PathPlanner::Outcome::kStopped) return nullptr;
+    if (outcome == PathPlanner::Outcome::kInfeasible)
       throw std::logic_error("internal error: an agent that can reach all its cells has no path");
     open.path = PackedPath(problem_.instance.grid(), path);
     others.add(path);

@@ -3,10 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <random>
+#include <set>
+#include <tuple>
+
+#include "tests/support/obeys.h"
 
 namespace grove {
 namespace {
+
+using testing::obeys;
 
 Grid open_grid(int width, int height) {
   return Grid(width, height, std::vector<bool>(static_cast<std::size_t>(width) * height, true));
@@ -22,27 +30,35 @@ bool collide(const Path& a, const Path& b, Time t) {
   return t > 0 && at(a, t) == at(b, t - 1) && at(b, t) == at(a, t - 1);
 }
 
-std::optional<Time> first_collision(const std::vector<Path>& paths) {
+// Every time at which a pair collides, but for those at which both stand where they stood together.
+using Meetings = std::multiset<std::tuple<Time, AgentIndex, AgentIndex>>;
+
+Meetings meetings(const std::vector<Path>& paths, const std::vector<AgentIndex>& agents) {
+  Meetings all;
   for (Time t = 0; t < 50; ++t)
-    for (std::size_t a = 0; a < paths.size(); ++a)
-      for (std::size_t b = a + 1; b < paths.size(); ++b)
-        if (collide(paths[a], paths[b], t)) return t;
-  return std::nullopt;
+    for (AgentIndex a : agents)
+      for (AgentIndex b : agents)
+        if (a < b && collide(paths[a], paths[b], t) &&
+            !(t > 0 && at(paths[a], t - 1) == at(paths[a], t) &&
+              at(paths[b], t - 1) == at(paths[b], t)))
+          all.emplace(t, a, b);
+  return all;
 }
 
-bool obeys(const Path& path, const Constraint& c) {
-  for (Time t = c.begin; t <= c.end; ++t) {
-    if (!c.is_move() && at(path, t) == c.cell) return false;
-    if (c.is_move() && t > 0 && at(path, t) == c.cell && at(path, t - 1) == c.from) return false;
-  }
-  return true;
+std::vector<Conflict> conflicts_of(ConflictFinder& finder, const std::vector<Path>& paths) {
+  std::vector<AgentIndex> all(paths.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Conflict> conflicts;
+  finder.all(paths, all, conflicts);
+  return conflicts;
 }
 
 TEST(ConflictFinder, SeesVertexConflicts) {
   const Grid grid = open_grid(3, 1);
-  ConflictFinder finder(grid, 0);
-  const auto conflict = finder.first(std::vector<Path>{{0, 1, 2}, {2, 1, 0}});
-  ASSERT_TRUE(conflict);
+  ConflictFinder finder(grid);
+  const auto conflicts = conflicts_of(finder, std::vector<Path>{{0, 1, 2}, {2, 1, 0}});
+  ASSERT_EQ(conflicts.size(), 1u);
+  const Conflict* conflict = conflicts.data();
   EXPECT_FALSE(conflict->is_swap());
   EXPECT_EQ(conflict->cell, 1);
   EXPECT_EQ(conflict->time, 1);
@@ -50,9 +66,10 @@ TEST(ConflictFinder, SeesVertexConflicts) {
 
 TEST(ConflictFinder, SeesSwaps) {
   const Grid grid = open_grid(4, 1);
-  ConflictFinder finder(grid, 0);
-  const auto conflict = finder.first(std::vector<Path>{{0, 1, 2}, {3, 2, 1}});
-  ASSERT_TRUE(conflict);
+  ConflictFinder finder(grid);
+  const auto conflicts = conflicts_of(finder, std::vector<Path>{{0, 1, 2}, {3, 2, 1}});
+  ASSERT_EQ(conflicts.size(), 1u);
+  const Conflict* conflict = conflicts.data();
   EXPECT_TRUE(conflict->is_swap());
   EXPECT_EQ(conflict->time, 2);
   EXPECT_EQ(conflict->from, 1);
@@ -61,25 +78,27 @@ TEST(ConflictFinder, SeesSwaps) {
 
 TEST(ConflictFinder, SeesAgentsThatRestInTheWay) {
   const Grid grid = open_grid(4, 1);
-  ConflictFinder finder(grid, 0);
-  const auto conflict = finder.first(std::vector<Path>{{2}, {0, 1, 2, 3}});
-  ASSERT_TRUE(conflict);
+  ConflictFinder finder(grid);
+  const auto conflicts = conflicts_of(finder, std::vector<Path>{{2}, {0, 1, 2, 3}});
+  ASSERT_EQ(conflicts.size(), 1u);
+  const Conflict* conflict = conflicts.data();
   EXPECT_EQ(conflict->time, 2);
 }
 
 TEST(ConflictFinder, AllowsFollowingAndRotation) {
   const Grid grid = open_grid(2, 2);
-  ConflictFinder finder(grid, 0);
-  EXPECT_FALSE(finder.first(std::vector<Path>{{0, 1}, {1, 3}, {3, 2}, {2, 0}}));
+  ConflictFinder finder(grid);
+  EXPECT_TRUE(conflicts_of(finder, std::vector<Path>{{0, 1}, {1, 3}, {3, 2}, {2, 0}}).empty());
 }
 
-TEST(ConflictFinder, FindsTheFirstCollisionOfRandomPathsAndSplitLosesNone) {
+TEST(ConflictFinder, FindsTheCollisionsOfRandomPathsAndSplitLosesNone) {
   const Grid grid = open_grid(5, 4);
   std::mt19937 random(7);
-  ConflictFinder finder(grid, 3);
+  ConflictFinder finder(grid);
   int with_conflict = 0;
   for (int round = 0; round < 3000; ++round) {
-    std::vector<Path> paths(2 + random() % 3);
+    std::vector<Path> paths(2 + random() % 4);
+    std::vector<AgentIndex> agents;
     for (Path& path : paths) {
       path.push_back(static_cast<Cell>(random() % 20));
       const auto steps = random() % 8;
@@ -88,23 +107,26 @@ TEST(ConflictFinder, FindsTheFirstCollisionOfRandomPathsAndSplitLosesNone) {
         const auto pick = random() % (neighbors.size() + 1);
         path.push_back(pick < neighbors.size() ? neighbors[pick] : path.back());
       }
+      if (random() % 4 > 0) agents.push_back(static_cast<AgentIndex>(&path - paths.data()));
     }
-    const auto expected = first_collision(paths);
-    const auto conflict = finder.first(paths);
-    ASSERT_EQ(conflict.has_value(), expected.has_value());
-    if (!conflict) continue;
-    ++with_conflict;
-    EXPECT_EQ(conflict->time, *expected);
-    EXPECT_TRUE(collide(paths[conflict->first], paths[conflict->second], conflict->time));
-    // Both colliding paths break their constraint: each child must replan.
-    for (const AgentConstraint& branch : split(*conflict))
-      EXPECT_FALSE(obeys(paths[branch.agent], branch.constraint));
-    // Any two paths that do not collide there obey at least one of the two.
-    const auto branches = split(*conflict);
-    for (const Path& a : paths)
-      for (const Path& b : paths)
-        EXPECT_TRUE(collide(a, b, conflict->time) || obeys(a, branches[0].constraint) ||
-                    obeys(b, branches[1].constraint));
+    std::vector<Conflict> conflicts;
+    finder.all(paths, agents, conflicts);
+    Meetings found;
+    for (const Conflict& c : conflicts) found.emplace(c.time, c.first, c.second);
+    ASSERT_EQ(found, meetings(paths, agents));
+    ASSERT_TRUE(std::ranges::is_sorted(conflicts, {}, &Conflict::time));
+    for (const Conflict& conflict : conflicts) {
+      ++with_conflict;
+      // Both colliding paths break their constraint: each child must replan.
+      const Split branches = split(conflict);
+      for (const AgentConstraint& branch : branches)
+        EXPECT_FALSE(obeys(grid, paths[branch.agent], branch.constraint));
+      // Any two paths that do not collide there obey at least one of the two.
+      for (const Path& a : paths)
+        for (const Path& b : paths)
+          EXPECT_TRUE(collide(a, b, conflict.time) || obeys(grid, a, branches[0].constraint) ||
+                      obeys(grid, b, branches[1].constraint));
+    }
   }
   EXPECT_GT(with_conflict, 500);
 }

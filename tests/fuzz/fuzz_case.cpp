@@ -145,7 +145,7 @@ FuzzCase random_case(std::uint64_t seed) {
   Random random(~seed);
   fuzz_case.options.omega = random_omega(random);
   fuzz_case.options.policy =
-      random.pick<Policy>({Policy::kAuto, Policy::kFixed, Policy::kFixed, Policy::kFree});
+      random.pick<Policy>({Policy::kAuto, Policy::kFixed, Policy::kFree, Policy::kFree});
   fuzz_case.options.rtsp = random.pick<RtspBackend>(
       {RtspBackend::kAuto, RtspBackend::kAuto, RtspBackend::kHeldKarp, RtspBackend::kHeldKarp,
        RtspBackend::kBoundedDp, RtspBackend::kBoundedDp, RtspBackend::kCbc});

@@ -9,12 +9,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "tests/support/obeys.h"
+
 namespace grove::fuzz {
 namespace {
-
-Cell position_at(const Path& path, Time time) {
-  return time < static_cast<Time>(path.size()) ? path[time] : path.back();
-}
 
 bool in_class(const SequenceClass& sequences, const Sequence& sequence) {
   const std::size_t fixed = sequences.prefix.size();
@@ -37,17 +35,6 @@ bool realizes(const Instance& instance, AgentIndex agent, const Path& path,
   return instance.agent(agent).goal || path.back() == cell(sequence.back());
 }
 
-bool obeys(const Path& path, const Constraint& constraint) {
-  // After its end the path changes no more: one step of rest stands for all.
-  const Time last = std::max(static_cast<Time>(path.size()), constraint.begin);
-  for (Time t = constraint.begin; t <= std::min(constraint.end, last); ++t) {
-    if (position_at(path, t) != constraint.cell) continue;
-    if (!constraint.is_move() || (t > 0 && position_at(path, t - 1) == constraint.from))
-      return false;
-  }
-  return true;
-}
-
 bool PlantedOptimum::order_allows(const AgentOrder& order, AgentIndex agent) const {
   Sequence sequence(instance_.agent(agent).tasks.size());
   std::iota(sequence.begin(), sequence.end(), Stop{0});
@@ -66,7 +53,7 @@ bool PlantedOptimum::held_by(const Node& node) const {
     constraints.clear();
     node.constraints(agent, constraints);
     for (const Constraint& constraint : constraints)
-      if (!obeys(optimum_.agents[agent].path, constraint)) return false;
+      if (!testing::obeys(instance_.grid(), optimum_.agents[agent].path, constraint)) return false;
   }
   return true;
 }

@@ -52,7 +52,4 @@ class PlantedOptimum : public RunObserver {
 bool realizes(const Instance& instance, AgentIndex agent, const Path& path,
               const Sequence& sequence);
 
-// Does `path`, its rest for ever included, obey `constraint`?
-bool obeys(const Path& path, const Constraint& constraint);
-
 }  // namespace grove::fuzz

@@ -29,7 +29,8 @@ class PlantedInABay : public ::testing::Test {
   const Plan optimum_ = *oracle::solve_jointly(instance_).plan;
   NodePool pool_;
   SequenceForest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
-  Expander expander_{problem_, 0};
+  AgentStopsStore stops_{instance_, problem_.distances};
+  Expander expander_{problem_, stops_, Techniques(), 0};
   PlantedOptimum planted_{instance_, optimum_};
   const NodePtr root_ = forest_.next_root();
 
@@ -43,7 +44,7 @@ class PlantedInABay : public ::testing::Test {
 
 TEST_F(PlantedInABay, IsKeptByTheRealExpander) {
   planted_.on_root(root_);
-  const Expansion expansion = expander_.expand(root_, limits_);
+  const Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   planted_.on_expanded(root_, expansion);
   EXPECT_THAT(planted_.complaints(), IsEmpty());
   EXPECT_GE(planted_.nodes_followed(), 2u);
@@ -52,7 +53,7 @@ TEST_F(PlantedInABay, IsKeptByTheRealExpander) {
 
 TEST_F(PlantedInABay, IsMissedWhenItsChildIsDropped) {
   planted_.on_root(root_);
-  Expansion expansion = expander_.expand(root_, limits_);
+  Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   std::erase_if(expansion.children, [&](const NodePtr& c) { return planted_.held_by(*c); });
   planted_.on_expanded(root_, expansion);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
@@ -60,11 +61,12 @@ TEST_F(PlantedInABay, IsMissedWhenItsChildIsDropped) {
 
 TEST_F(PlantedInABay, IsMissedWhenAConstraintForbidsIt) {
   planted_.on_root(root_);
-  Expansion expansion = expander_.expand(root_, limits_);
+  Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   for (NodePtr& child : expansion.children) {
-    const Path& path = optimum_.agents[0].path;
-    const AgentConstraint ban{0, {path[1], kNoCell, 1, 1}};
-    child = Node::child(child, instance_.grid(), ban, path, child->cost());
+    Change ban;
+    ban.added = {0, {optimum_.agents[0].path[1], kNoCell, 1, 1}};
+    ban.cost = child->cost();
+    child = Node::child(child, instance_.grid(), ban);
   }
   planted_.on_expanded(root_, expansion);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
@@ -72,11 +74,12 @@ TEST_F(PlantedInABay, IsMissedWhenAConstraintForbidsIt) {
 
 TEST_F(PlantedInABay, SeesABoundThatIsTooHigh) {
   planted_.on_root(root_);
-  Expansion expansion = expander_.expand(root_, limits_);
+  Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   for (NodePtr& child : expansion.children) {
-    const AgentConstraint harmless{0, {instance_.agent(0).start, kNoCell, 1000, 1000}};
-    child =
-        Node::child(child, instance_.grid(), harmless, optimum_.agents[0].path, optimum_.cost + 1);
+    Change raise;
+    raise.cost = child->cost();
+    raise.bound = optimum_.cost + 1;
+    child = Node::child(child, instance_.grid(), raise);
   }
   planted_.on_expanded(root_, expansion);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("claims the bound")));
@@ -102,17 +105,6 @@ TEST(Realizes, ReadsOrdersOffAPath) {
   EXPECT_FALSE(realizes(instance, 0, {0, 1, 2, 3, 2, 1}, {0, 1}));
 }
 
-TEST(Obeys, CountsTheRestForEver) {
-  const Path path{0, 1, 2};
-  EXPECT_TRUE(obeys(path, {1, kNoCell, 2, kNever}));
-  EXPECT_FALSE(obeys(path, {1, kNoCell, 1, 1}));
-  EXPECT_FALSE(obeys(path, {2, kNoCell, 90, 90}));
-  EXPECT_FALSE(obeys(path, {2, kNoCell, 0, kNever}));
-  EXPECT_FALSE(obeys(path, {2, 1, 2, 2}));
-  EXPECT_TRUE(obeys(path, {2, 1, 3, kNever}));
-  EXPECT_TRUE(obeys(path, {1, 2, 0, kNever}));
-}
-
 TEST(PlantedOptimum, SurvivesWholeSearches) {
   std::size_t followed = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
@@ -123,7 +115,9 @@ TEST(PlantedOptimum, SurvivesWholeSearches) {
     PlantedOptimum planted(instance, *truth.plan);
     Limits limits;
     limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(100));
-    solve(instance, {.omega = fuzz_case.options.omega}, limits, &planted);
+    SolveOptions options;
+    options.omega = fuzz_case.options.omega;
+    solve(instance, options, limits, &planted);
     EXPECT_THAT(planted.complaints(), IsEmpty()) << fuzz_case.to_text();
     followed += planted.nodes_followed();
   }

@@ -14,6 +14,7 @@
 #include "grove/planning/low_level_search.h"
 #include "grove/sequencing/k_best_sequences.h"
 #include "tests/planning/free_reference.h"
+#include "tests/planning/random_constraint.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 
@@ -24,6 +25,7 @@ using Outcome = FreeLowLevelSearch::Outcome;
 using testing::free_reference_cost;
 using testing::FreeProblem;
 using testing::grid_of;
+using testing::instance_of;
 using testing::members_of;
 using testing::path_error;
 using testing::Problem;
@@ -32,17 +34,6 @@ using testing::SingleAgent;
 int rounds(int count) {
   const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
   return factor ? count * std::max(1, std::atoi(factor)) : count;
-}
-
-Instance instance_of(const FreeProblem& problem) {
-  InstanceBuilder builder(*problem.grid);
-  std::optional<Position> goal;
-  if (problem.destination) goal = problem.grid->position(*problem.destination);
-  builder.add_agent("a", problem.grid->position(problem.start), goal);
-  for (std::size_t k = 0; k < problem.stops.size(); ++k)
-    builder.add_task("t" + std::to_string(k), problem.grid->position(problem.stops[k]),
-                     std::vector<std::string>{"a"});
-  return std::move(builder).build();
 }
 
 // One agent, its class and both searches.
@@ -107,7 +98,8 @@ struct Agent {
 // Random problems on tiny maps, each made harder one constraint at a time.
 class Fuzzer {
  public:
-  explicit Fuzzer(unsigned seed) : random_(seed) {}
+  // `conditional`: constraints of all kinds, not bars alone.
+  Fuzzer(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
 
   void run() {
     const Grid grid = random_grid();
@@ -128,6 +120,7 @@ class Fuzzer {
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
 
   Grid random_grid() {
+    if (conditional_ && below(3) > 0) return testing::random_corridor_map(random_);
     switch (below(6)) {
       case 0:
         return grid_of({"......"});
@@ -190,6 +183,8 @@ class Fuzzer {
     const Path& path = agent.path;
     std::vector<Cell> goals = agent.problem.stops;
     if (agent.problem.destination) goals.push_back(*agent.problem.destination);
+    if (conditional_ && below(2) == 0)
+      return testing::random_conditional_constraint(*agent.problem.grid, path, goals, random_);
     Constraint c;
     const int at = below(static_cast<int>(path.size()));
     c.cell = path[at];
@@ -233,23 +228,29 @@ class Fuzzer {
   }
 
   std::mt19937 random_;
+  const bool conditional_;
 };
 
-TEST(FreeLowLevel, AgreesWithItsDefinition) {
+class FreeLowLevelFuzz : public ::testing::TestWithParam<bool> {};
+
+TEST_P(FreeLowLevelFuzz, AgreesWithItsDefinition) {
   int checked = 0;
   int infeasible = 0;
   const int seeds = rounds(1200);
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Fuzzer fuzzer(static_cast<unsigned>(seed));
+    Fuzzer fuzzer(static_cast<unsigned>(seed), GetParam());
     fuzzer.run();
     if (HasFailure()) return;
     checked += fuzzer.checked;
     infeasible += fuzzer.infeasible;
   }
-  EXPECT_GT(checked, 3 * seeds);
+  EXPECT_GT(checked, 2 * seeds);
   EXPECT_GT(infeasible, seeds / 4);
 }
+
+INSTANTIATE_TEST_SUITE_P(, FreeLowLevelFuzz, ::testing::Bool(),
+                         [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
 // Many stops, so that the completions are a graph that holds the good sequences alone.
 class ManyStops {
@@ -366,6 +367,30 @@ TEST(FreeLowLevel, ACellBarredForEverIsNoPlaceToRest) {
   EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 0}));
 }
 
+// Who comes to 3 early may not rest there and cannot get out again in time.
+TEST(FreeLowLevel, AGateSparesThoseWhoComeLateEnoughToRest) {
+  const Grid grid = grid_of({"...."});
+  FreeProblem problem = corridor(grid, {3}, std::nullopt);
+  problem.constraints = {
+      {3, kNoCell, 0, 6, ConstraintKind::kNoRestBy}, {2, kNoCell, 4, 6}, {2, 3, 0, 20}};
+  EXPECT_EQ(Agent(problem).cost(), 8);
+}
+
+TEST(FreeLowLevel, TellsNoRestInTimeFromNoneBelowTheCutoff) {
+  const Grid grid = grid_of({"......"});
+  FreeProblem problem = corridor(grid, {1, 3}, std::nullopt);
+  problem.constraints = {{1, kNoCell, 0, 4, ConstraintKind::kRestBy}};
+  Agent agent(problem);
+  Path path;
+  EXPECT_EQ(agent.find(3, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(4, path), Outcome::kInfeasible);
+  EXPECT_EQ(agent.find(kNever, path), Outcome::kInfeasible);
+  agent.problem.constraints[0].end = 5;
+  EXPECT_EQ(agent.find(4, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(5, path), Outcome::kFound);
+  EXPECT_EQ(path.back(), 1);
+}
+
 // Without a destination the stop it rests on is the last one: it cannot be the first one too.
 TEST(FreeLowLevel, DoesNotRestOnTheStopThatMustBeFirst) {
   const Grid grid = grid_of({"......"});
@@ -396,6 +421,23 @@ TEST(FreeLowLevel, ADoorThatShutsIsProvenWithoutTryingAllOrders) {
     EXPECT_EQ(agent.cost(), std::nullopt);
     EXPECT_LT(agent.free.expanded(), 200'000);
   }
+}
+
+// The same door, shut for long: far too dear for the cutoff.
+TEST(FreeLowLevel, ADoorThatShutsForLongIsProvenAboveWithoutTryingAllOrders) {
+  const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
+  FreeProblem problem = corridor(grid, {39}, 20);
+  for (Cell cell = 1; problem.stops.size() < 20; ++cell)
+    if (grid.passable(cell) && cell != 18) problem.stops.push_back(cell);
+  problem.constraints = {{18, kNoCell, 13, 500}};
+  Agent agent(problem);
+  Path path;
+  EXPECT_EQ(agent.find(100, path), Outcome::kAbove);
+  EXPECT_LT(agent.free.expanded(), 20'000);
+  problem.constraints.push_back({20, kNoCell, 0, 100, ConstraintKind::kRestBy});
+  Agent in_time(problem);
+  EXPECT_EQ(in_time.cost(), std::nullopt);
+  EXPECT_LT(in_time.free.expanded(), 20'000);
 }
 
 TEST(FreeLowLevel, SaysAboveOnlyForTheCutoff) {

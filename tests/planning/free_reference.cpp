@@ -6,63 +6,60 @@
 #include <set>
 #include <tuple>
 
+#include "tests/planning/step_rules.h"
+
 namespace grove::testing {
 namespace {
 
-// (cell, stops counted, the last one of them or -1)
-using Place = std::tuple<Cell, unsigned, int>;
+struct Place {
+  Cell cell;
+  unsigned counted;  // stops
+  int last;          // the last one of them or -1
+  Mouth mouth;       // inside a chain: by which it came in, none if inside since time 0
+  bool late;         // it came here after all times by which it may not have come to rest here
+
+  auto key() const { return std::tuple(cell, counted, last, mouth.end, mouth.inner, late); }
+  bool operator<(const Place& other) const { return key() < other.key(); }
+  bool operator==(const Place& other) const { return key() == other.key(); }
+};
 
 class Layers {
  public:
-  explicit Layers(const FreeProblem& problem) : problem_(problem) {
-    if (!barred(problem.start, 0)) reach(problem.start, 0, -1);
+  explicit Layers(const FreeProblem& problem)
+      : problem_(problem), rules_(*problem.grid, problem.constraints) {
+    if (!barred(problem.start, 0))
+      reach({problem.start, 0, -1, {}, rules_.is_late(problem.start, 0)});
     now_.swap(next_);
   }
 
   bool finished(Time time) const {
     const unsigned all = (1U << problem_.stops.size()) - 1;
     return std::ranges::any_of(now_, [&](const Place& place) {
-      const auto [cell, counted, last] = place;
-      if (counted != all || !may_rest(cell, time)) return false;
-      return problem_.destination ? cell == *problem_.destination : problem_.stops[last] == cell;
+      if (place.counted != all || !place.late || !rules_.may_rest(place.cell, time)) return false;
+      const Cell goal = problem_.destination ? *problem_.destination : problem_.stops[place.last];
+      return place.cell == goal;
     });
   }
 
   // False if nothing changes any more.
   bool step(Time time) {
     next_.clear();
-    for (const auto& [cell, counted, last] : now_) {
-      if (!barred(cell, time)) reach(cell, counted, last);
-      for (Cell to : problem_.grid->neighbors(cell))
-        if (!barred(to, time) && !move_barred(cell, to, time)) reach(to, counted, last);
+    for (const Place& place : now_) {
+      if (!barred(place.cell, time)) reach(place);
+      for (Cell to : problem_.grid->neighbors(place.cell)) {
+        if (barred(to, time) || rules_.move_barred(place.cell, to, place.mouth, time)) continue;
+        Place there = place;
+        there.cell = to;
+        there.mouth = rules_.mouth_after(place.cell, to, place.mouth);
+        there.late = rules_.is_late(to, time);
+        reach(there);
+      }
     }
     now_.swap(next_);
-    return time <= last_change() || now_ != next_;
+    return time <= rules_.last_change() || now_ != next_;
   }
 
  private:
-  bool barred(Cell cell, Time time) const {
-    return std::ranges::any_of(problem_.constraints, [&](const Constraint& c) {
-      return !c.is_move() && c.cell == cell && c.begin <= time && time <= c.end;
-    });
-  }
-  bool move_barred(Cell from, Cell to, Time time) const {
-    return std::ranges::any_of(problem_.constraints, [&](const Constraint& c) {
-      return c.is_move() && c.from == from && c.cell == to && c.begin <= time && time <= c.end;
-    });
-  }
-  bool may_rest(Cell cell, Time time) const {
-    return std::ranges::none_of(problem_.constraints, [&](const Constraint& c) {
-      return !c.is_move() && c.cell == cell && c.begin <= c.end && c.end >= time;
-    });
-  }
-  Time last_change() const {
-    Time last = 0;
-    for (const Constraint& c : problem_.constraints)
-      last = std::max({last, c.begin + 1, c.end >= kNever ? 0 : c.end + 1});
-    return last;
-  }
-
   bool may_follow(unsigned counted, int stop) const {
     const SequenceClass& work = problem_.work;
     const auto position = static_cast<std::size_t>(__builtin_popcount(counted));
@@ -71,19 +68,37 @@ class Layers {
     return position > work.prefix.size() || (work.forbidden_next >> stop & 1) == 0;
   }
 
-  void reach(Cell cell, unsigned counted, int last) {
-    next_.insert({cell, counted, last});
-    for (int stop = 0; stop < static_cast<int>(problem_.stops.size()); ++stop)
-      if (problem_.stops[stop] == cell && may_follow(counted, stop))
-        next_.insert({cell, counted | 1U << stop, stop});
+  bool barred(Cell cell, Time time) const { return rules_.barred(cell, time); }
+
+  void reach(Place place) {
+    next_.insert(place);
+    for (int stop = 0; stop < static_cast<int>(problem_.stops.size()); ++stop) {
+      if (problem_.stops[stop] != place.cell || !may_follow(place.counted, stop)) continue;
+      Place counting = place;
+      counting.counted |= 1U << stop;
+      counting.last = stop;
+      next_.insert(counting);
+    }
   }
 
   const FreeProblem& problem_;
+  const StepRules rules_;
   std::set<Place> now_;
   std::set<Place> next_;
 };
 
 }  // namespace
+
+Instance instance_of(const FreeProblem& problem) {
+  InstanceBuilder builder(*problem.grid);
+  std::optional<Position> goal;
+  if (problem.destination) goal = problem.grid->position(*problem.destination);
+  builder.add_agent("a", problem.grid->position(problem.start), goal);
+  for (std::size_t k = 0; k < problem.stops.size(); ++k)
+    builder.add_task("t" + std::to_string(k), problem.grid->position(problem.stops[k]),
+                     std::vector<std::string>{"a"});
+  return std::move(builder).build();
+}
 
 std::optional<Time> free_reference_cost(const FreeProblem& problem) {
   Layers layers(problem);

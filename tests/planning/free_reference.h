@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "grove/model/instance.h"
 #include "grove/planning/constraint.h"
 #include "grove/sequencing/rtsp.h"
 
@@ -18,6 +19,9 @@ struct FreeProblem {
   SequenceClass work;
   std::vector<Constraint> constraints;
 };
+
+// With this one agent.
+Instance instance_of(const FreeProblem& problem);
 
 // The cost of a cheapest path that realizes a sequence of the class, none if there is no path. An
 // agent on a stop may or may not count it; it rests on its destination, or without one on the stop

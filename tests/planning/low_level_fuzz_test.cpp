@@ -8,6 +8,7 @@
 #include <random>
 
 #include "grove/planning/low_level_search.h"
+#include "tests/planning/random_constraint.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 
@@ -30,7 +31,8 @@ int rounds(int count) {
 // Random problems on tiny maps, each made harder one constraint at a time.
 class Fuzzer {
  public:
-  explicit Fuzzer(unsigned seed) : random_(seed) {}
+  // `conditional`: constraints of all kinds, not bars alone.
+  Fuzzer(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
 
   void run() {
     const Grid grid = random_grid();
@@ -45,6 +47,7 @@ class Fuzzer {
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
 
   Grid random_grid() {
+    if (conditional_ && below(3) > 0) return testing::random_corridor_map(random_);
     switch (below(6)) {
       case 0:
         return grid_of({"......"});  // a corridor
@@ -116,6 +119,8 @@ class Fuzzer {
 
   // Often on the path, often on a goal.
   Constraint random_constraint(const Problem& problem, const Path& path) {
+    if (conditional_ && below(2) == 0)
+      return testing::random_conditional_constraint(*problem.grid, path, problem.goals, random_);
     Constraint c;
     const int at = below(static_cast<int>(path.size()));
     c.cell = path[at];
@@ -163,24 +168,30 @@ class Fuzzer {
   }
 
   std::mt19937 random_;
+  const bool conditional_;
 };
 
-TEST(LowLevelFuzz, AgreesWithATimeExpandedSearch) {
+class LowLevelFuzz : public ::testing::TestWithParam<bool> {};
+
+TEST_P(LowLevelFuzz, AgreesWithATimeExpandedSearch) {
   int delayed = 0;
   int infeasible = 0;
   const int seeds = rounds(2000);
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Fuzzer fuzzer(static_cast<unsigned>(seed));
+    Fuzzer fuzzer(static_cast<unsigned>(seed), GetParam());
     fuzzer.run();
     if (HasFatalFailure()) return;
     delayed += fuzzer.delayed;
     infeasible += fuzzer.infeasible;
   }
   // Most cases must be worth something.
-  EXPECT_GT(delayed, 5 * seeds);
+  EXPECT_GT(delayed, GetParam() ? 2 * seeds : 5 * seeds);
   EXPECT_GT(infeasible, seeds / 2);
 }
+
+INSTANTIATE_TEST_SUITE_P(, LowLevelFuzz, ::testing::Bool(),
+                         [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
 }  // namespace
 }  // namespace grove

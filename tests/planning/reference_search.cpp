@@ -4,78 +4,104 @@
 #include <algorithm>
 #include <limits>
 
+#include "tests/planning/step_rules.h"
+#include "tests/support/obeys.h"
+
 namespace grove::testing {
 namespace {
 
 constexpr int kUnreached = std::numeric_limits<int>::max();
 
-bool barred(const Problem& problem, Cell cell, Time time) {
-  return std::ranges::any_of(problem.constraints, [&](const Constraint& c) {
-    return !c.is_move() && c.cell == cell && c.begin <= time && time <= c.end;
-  });
-}
+// An agent in the course of its way.
+struct State {
+  Cell cell;
+  std::size_t visited;
+  std::size_t mouth;  // in Layers::mouths_: by which it came into the chain it is in
+  bool late;          // it came here later than all times by which it may not have come to rest
+};
 
-bool move_barred(const Problem& problem, Cell from, Cell to, Time time) {
-  return std::ranges::any_of(problem.constraints, [&](const Constraint& c) {
-    return c.is_move() && c.from == from && c.cell == to && c.begin <= time && time <= c.end;
-  });
-}
-
-bool may_rest(const Problem& problem, Cell cell, Time time) {
-  return std::ranges::none_of(problem.constraints, [&](const Constraint& c) {
-    return !c.is_move() && c.cell == cell && c.begin <= c.end && c.end >= time;
-  });
-}
-
-// From here on nothing changes any more.
-Time time_of_last_change(const Problem& problem) {
-  Time last = 0;
-  for (const Constraint& c : problem.constraints)
-    last = std::max({last, c.begin + 1, c.end >= kNever ? 0 : c.end + 1});
-  return last;
-}
-
-// Fewest conflicts to each (cell, visited) at one time, step by step.
+// Fewest conflicts to each state at one time, step by step.
 class Layers {
  public:
   Layers(const Problem& problem, const NaiveConflicts& others)
-      : problem_(problem), others_(others), width_(problem.goals.size() + 1) {
-    now_.assign(problem.grid->cell_count() * width_, kUnreached);
-    if (!barred(problem, problem.start, 0)) reach(now_, problem.start, 0, 0);
+      : problem_(problem),
+        others_(others),
+        rules_(*problem.grid, problem.constraints),
+        width_(problem.goals.size() + 1) {
+    find_mouths();
+    now_.assign(problem.grid->cell_count() * width_ * mouths_.size() * 2, kUnreached);
+    if (!rules_.barred(problem.start, 0))
+      reach(now_, {problem.start, 0, 0, rules_.is_late(problem.start, 0)}, 0);
   }
 
-  int conflicts(Cell cell, std::size_t visited) const { return now_[cell * width_ + visited]; }
+  // All goals visited, at rest on the last one.
+  int conflicts_at_rest(Time time) const {
+    const Cell cell = problem_.goals.back();
+    int fewest = kUnreached;
+    if (!rules_.may_rest(cell, time)) return fewest;
+    for (std::size_t mouth = 0; mouth < mouths_.size(); ++mouth)
+      fewest = std::min(fewest, now_[index({cell, width_ - 1, mouth, true})]);
+    return fewest;
+  }
 
-  void step(Time time) {
+  // False if nothing changes any more.
+  bool step(Time time) {
     std::vector<int> next(now_.size(), kUnreached);
     for (Cell cell = 0; cell < problem_.grid->cell_count(); ++cell)
       for (std::size_t visited = 0; visited < width_; ++visited)
-        if (conflicts(cell, visited) != kUnreached) leave(next, cell, visited, time);
-    now_ = std::move(next);
+        for (std::size_t mouth = 0; mouth < mouths_.size(); ++mouth)
+          for (const bool late : {false, true}) leave(next, {cell, visited, mouth, late}, time);
+    now_.swap(next);
+    return time <= rules_.last_change() || now_ != next;
   }
 
  private:
-  void leave(std::vector<int>& next, Cell cell, std::size_t visited, Time time) {
-    const auto go = [&](Cell to) {
-      if (barred(problem_, to, time)) return;
-      if (to != cell && move_barred(problem_, cell, to, time)) return;
-      reach(next, to, visited, conflicts(cell, visited) + others_.conflicts(cell, to, time));
-    };
-    go(cell);
-    for (Cell to : problem_.grid->neighbors(cell)) go(to);
+  // Only if it matters; the first one stands for none.
+  void find_mouths() {
+    if (std::ranges::none_of(problem_.constraints, [](const Constraint& c) {
+          return c.kind == ConstraintKind::kNoTraversal;
+        }))
+      return;
+    for (Cell end = 0; end < problem_.grid->cell_count(); ++end)
+      for (Cell inner : problem_.grid->neighbors(end))
+        if (is_mouth(*problem_.grid, end, inner)) mouths_.push_back({end, inner});
   }
 
-  void reach(std::vector<int>& layer, Cell cell, std::size_t visited, int conflicts) {
-    for (;; ++visited) {
-      int& best = layer[cell * width_ + visited];
+  std::size_t index(const State& s) const {
+    return ((s.cell * width_ + s.visited) * mouths_.size() + s.mouth) * 2 +
+           static_cast<std::size_t>(s.late);
+  }
+
+  void leave(std::vector<int>& next, const State& from, Time time) {
+    const int so_far = now_[index(from)];
+    if (so_far == kUnreached) return;
+    const auto go = [&](const State& to) {
+      if (!rules_.barred(to.cell, time))
+        reach(next, to, so_far + others_.conflicts(from.cell, to.cell, time));
+    };
+    go(from);
+    const Mouth mouth = mouths_[from.mouth];
+    for (Cell to : problem_.grid->neighbors(from.cell)) {
+      if (rules_.move_barred(from.cell, to, mouth, time)) continue;
+      const auto after = std::ranges::find(mouths_, rules_.mouth_after(from.cell, to, mouth));
+      const std::size_t number = after == mouths_.end() ? 0 : after - mouths_.begin();
+      go({to, from.visited, number, rules_.is_late(to, time)});
+    }
+  }
+
+  void reach(std::vector<int>& layer, State state, int conflicts) {
+    for (;; ++state.visited) {
+      int& best = layer[index(state)];
       best = std::min(best, conflicts);
-      if (visited + 1 == width_ || problem_.goals[visited] != cell) return;
+      if (state.visited + 1 == width_ || problem_.goals[state.visited] != state.cell) return;
     }
   }
 
   const Problem& problem_;
   const NaiveConflicts& others_;
+  const StepRules rules_;
   std::size_t width_;
+  std::vector<Mouth> mouths_{Mouth{}};
   std::vector<int> now_;
 };
 
@@ -84,39 +110,34 @@ class Layers {
 std::optional<Time> reference_cost(const Problem& problem) {
   const NaiveConflicts nobody;
   Layers layers(problem, nobody);
-  const Cell last = problem.goals.back();
-  const Time states = problem.grid->cell_count() * static_cast<Time>(problem.goals.size() + 1);
-  const Time horizon = time_of_last_change(problem) + states;
-  for (Time t = 0; t <= horizon; layers.step(++t))
-    if (layers.conflicts(last, problem.goals.size()) != kUnreached && may_rest(problem, last, t))
-      return t;
-  return std::nullopt;
+  for (Time t = 0;; ++t) {
+    if (layers.conflicts_at_rest(t) != kUnreached) return t;
+    if (!layers.step(t + 1)) return std::nullopt;
+  }
 }
 
 int reference_conflicts(const Problem& problem, const NaiveConflicts& others, Time cost) {
   Layers layers(problem, others);
   for (Time t = 1; t <= cost; ++t) layers.step(t);
-  const Cell last = problem.goals.back();
-  return layers.conflicts(last, problem.goals.size()) + others.conflicts_of_resting(last, cost);
+  return layers.conflicts_at_rest(cost) + others.conflicts_of_resting(problem.goals.back(), cost);
 }
 
 std::string path_error(const Problem& problem, const Path& path) {
   if (path.empty() || path.front() != problem.start) return "does not begin at the start";
   if (path.back() != problem.goals.back()) return "does not end at the last goal";
-  const auto cost = static_cast<Time>(path.size() - 1);
   std::size_t visited = 0;
-  for (Time t = 0; t <= cost; ++t) {
+  for (Time t = 0; t < static_cast<Time>(path.size()); ++t) {
     const std::string when = " at time " + std::to_string(t);
     if (!problem.grid->passable(path[t])) return "on a blocked cell" + when;
-    if (barred(problem, path[t], t)) return "on a barred cell" + when;
     while (visited < problem.goals.size() && problem.goals[visited] == path[t]) ++visited;
-    if (t == 0 || path[t] == path[t - 1]) continue;
-    if (std::ranges::count(problem.grid->neighbors(path[t - 1]), path[t]) == 0)
+    if (t > 0 && path[t] != path[t - 1] &&
+        std::ranges::count(problem.grid->neighbors(path[t - 1]), path[t]) == 0)
       return "jumps" + when;
-    if (move_barred(problem, path[t - 1], path[t], t)) return "makes a barred move" + when;
   }
   if (visited < problem.goals.size()) return "misses goal " + std::to_string(visited);
-  if (!may_rest(problem, path.back(), cost)) return "rests where it is barred later";
+  for (std::size_t i = 0; i < problem.constraints.size(); ++i)
+    if (!obeys(*problem.grid, path, problem.constraints[i]))
+      return "breaks constraint " + std::to_string(i);
   return "";
 }
 

@@ -20,9 +20,9 @@ struct Problem {
   std::vector<Constraint> constraints;
 };
 
-// The cost of a cheapest path, none if there is no path. Reachable sets of (cell, visited goals)
-// for each time, up to one at which every bounded constraint is over and every state had its turn.
-// An agent on its next goal may or may not count it as visited: the definition, not a rule.
+// The cost of a cheapest path, none if there is no path. Reachable sets of states for each time,
+// until every bounded constraint is over and nothing changes any more. An agent on its next goal
+// may or may not count it as visited: the definition, not a rule.
 std::optional<Time> reference_cost(const Problem& problem);
 
 // What is wrong with `path` as a solution; empty if nothing.

@@ -23,6 +23,13 @@ class SafeIntervalsTest : public ::testing::Test {
     return result;
   }
 
+  static Constraint no_rest(Cell cell, Time by) {
+    return {cell, kNoCell, 0, by, ConstraintKind::kNoRestBy};
+  }
+  static Constraint rest(Cell cell, Time by) {
+    return {cell, kNoCell, 0, by, ConstraintKind::kRestBy};
+  }
+
   Grid grid_{3, 1, std::vector<bool>(3, true)};
   SafeIntervals intervals_{grid_};
 };
@@ -44,16 +51,20 @@ TEST_F(SafeIntervalsTest, BarsAreMergedInAnyOrder) {
   const int first = intervals_.first_slot(1);
   EXPECT_EQ(intervals_.next_begin(first), 6);
   EXPECT_EQ(intervals_.next_begin(first + 2), kNever);
-  EXPECT_EQ(intervals_.slot_at(1, 6), first + 1);
-  EXPECT_EQ(intervals_.slot_at(1, 3), -1);
+  EXPECT_EQ(intervals_.start_slot(1), first);
+  EXPECT_EQ(intervals_.rest_begin(1), 10);
 }
 
 TEST_F(SafeIntervalsTest, BarsForEverLeaveNoLastInterval) {
   intervals_.assign(std::vector<Constraint>{{0, kNoCell, 4, kNever}, {1, kNoCell, 0, kNever}});
   EXPECT_EQ(of(0), (Intervals{{0, 3}}));
   EXPECT_EQ(of(1), Intervals{});
-  EXPECT_EQ(intervals_.last_slot(0), -1);
-  EXPECT_EQ(intervals_.last_slot(2), 2);
+  EXPECT_EQ(intervals_.last_time(0), 3);
+  EXPECT_EQ(intervals_.last_time(1), -1);
+  EXPECT_EQ(intervals_.last_time(2), kNever);
+  EXPECT_EQ(intervals_.rest_begin(0), kNever);
+  EXPECT_EQ(intervals_.rest_begin(2), 0);
+  EXPECT_EQ(intervals_.start_slot(1), -1);
 }
 
 TEST_F(SafeIntervalsTest, EmptyAndPastRangesBarNothing) {
@@ -69,6 +80,61 @@ TEST_F(SafeIntervalsTest, BarredMovesDelayOnlyThatMove) {
   EXPECT_EQ(intervals_.first_move(0, 1, 3), 9);
   EXPECT_EQ(intervals_.first_move(2, 1, 9), 10);
   EXPECT_GT(intervals_.first_move(0, 1, 20), kNever);
+}
+
+TEST_F(SafeIntervalsTest, NoRestByTheLatestTimeSplitsTheLastIntervalByArrival) {
+  intervals_.assign(
+      std::vector<Constraint>{{1, kNoCell, 2, 3}, no_rest(1, 7), no_rest(1, 5), no_rest(0, -1)});
+  EXPECT_EQ(of(1), (Intervals{{0, 1}, {4, kNever}, {8, kNever}}));
+  EXPECT_EQ(intervals_.rest_begin(1), 8);
+  EXPECT_EQ(intervals_.next_begin(intervals_.first_slot(1) + 1), 8);
+  EXPECT_TRUE(intervals_.unconstrained(0));
+  intervals_.assign(std::vector<Constraint>{{1, kNoCell, 2, 3}, no_rest(1, 3), no_rest(2, kNever)});
+  EXPECT_EQ(of(1), (Intervals{{0, 1}, {4, kNever}}));
+  EXPECT_EQ(intervals_.rest_begin(1), 4);
+  EXPECT_EQ(of(2), (Intervals{{0, kNever}}));
+  EXPECT_EQ(intervals_.rest_begin(2), kNever);
+}
+
+TEST_F(SafeIntervalsTest, RestByLeavesOnePlaceToRest) {
+  intervals_.assign(std::vector<Constraint>{rest(1, 7), rest(1, 5)});
+  EXPECT_EQ(intervals_.latest_rest(), 5);
+  EXPECT_EQ(intervals_.only_rest(), 1);
+  EXPECT_EQ(intervals_.rest_begin(1), 0);
+  EXPECT_EQ(intervals_.rest_begin(0), kNever);
+  intervals_.assign(std::vector<Constraint>{rest(1, 7), rest(2, 5), rest(1, 7)});
+  EXPECT_EQ(intervals_.rest_begin(1), kNever);
+  EXPECT_EQ(intervals_.rest_begin(2), kNever);
+  intervals_.assign({});
+  EXPECT_EQ(intervals_.latest_rest(), kNever);
+  EXPECT_EQ(intervals_.rest_begin(0), 0);
+}
+
+// 0 - 1 - 2, with 1 the inner cell.
+TEST_F(SafeIntervalsTest, ATraversalIsBarredToThoseWhoCameFromTheOtherEnd) {
+  intervals_.assign(
+      std::vector<Constraint>{{1, kNoCell, 3, 3}, {2, 1, 5, 6, ConstraintKind::kNoTraversal}});
+  EXPECT_EQ(of(1), (Intervals{{0, 2}, {4, kNever}, {0, 2}, {4, kNever}}));
+  const auto enter = [&](Cell from) {
+    int entered = -1;
+    intervals_.for_each_move(grid_, from, 3, [&](int slot, Cell, Time) { entered = slot; });
+    return entered;
+  };
+  EXPECT_EQ(intervals_.first_move(enter(0), 2, 5), 7);
+  EXPECT_EQ(intervals_.first_move(enter(2), 2, 5), 5);
+  EXPECT_EQ(intervals_.first_move(enter(0), 0, 5), 5);
+  EXPECT_EQ(intervals_.first_move(intervals_.start_slot(1), 2, 5), 5);
+  EXPECT_FALSE(intervals_.is_free_of_traversals(enter(0)));
+  EXPECT_TRUE(intervals_.is_free_of_traversals(enter(2)));
+  EXPECT_EQ(intervals_.next_begin(enter(0)), kNever);
+  EXPECT_EQ(intervals_.next_begin(intervals_.start_slot(1)), 4);
+}
+
+TEST_F(SafeIntervalsTest, RejectsTraversalsOfWhatIsNoChain) {
+  for (const auto& [cell, from] : {std::pair{0, 2}, {1, 0}, {0, kNoCell}})
+    EXPECT_THROW(intervals_.assign(
+                     std::vector<Constraint>{{cell, from, 0, 1, ConstraintKind::kNoTraversal}}),
+                 std::invalid_argument);
 }
 
 TEST_F(SafeIntervalsTest, AssigningAgainForgetsTheOldConstraints) {

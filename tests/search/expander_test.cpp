@@ -17,7 +17,8 @@ struct Search {
       : instance(testing::instance_of(rows, agents)),
         problem(instance, limits),
         forest(problem, pool, RtspBackend::kAuto, limits),
-        expander(problem, 0),
+        stops(instance, problem.distances),
+        expander(problem, stops, Techniques(), 0),
         root(forest.next_root()) {}
 
   Limits limits;
@@ -25,13 +26,14 @@ struct Search {
   Problem problem;
   NodePool pool;
   SequenceForest forest;
+  AgentStopsStore stops;
   Expander expander;
   NodePtr root;
 };
 
 TEST(Expander, TurnsAConflictFreeNodeIntoItsPlan) {
   Search s({"....", "...."}, {{{0, 0}, Position{3, 0}, {{2, 0}}}, {{0, 1}, Position{3, 1}}});
-  const Expansion expansion = s.expander.expand(s.root, s.limits);
+  const Expansion expansion = s.expander.expand(s.root, kInfiniteCost, s.limits);
   ASSERT_TRUE(expansion.plan);
   EXPECT_TRUE(expansion.children.empty());
   EXPECT_EQ(expansion.plan->cost, s.root->cost());
@@ -42,7 +44,7 @@ TEST(Expander, TurnsAConflictFreeNodeIntoItsPlan) {
 TEST(Expander, MakesOneChildPerAgentUnderTheChildsConstraints) {
   // Head on in a corridor with a bay: both agents have to give way somewhere.
   Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
-  const Expansion expansion = s.expander.expand(s.root, s.limits);
+  const Expansion expansion = s.expander.expand(s.root, kInfiniteCost, s.limits);
   ASSERT_EQ(expansion.children.size(), 2u);
   EXPECT_FALSE(expansion.plan);
   for (const NodePtr& child : expansion.children) {
@@ -65,7 +67,7 @@ TEST(Expander, LeavesOutChildrenWithoutAPath) {
   // The second agent rests on cell 2 for ever; barring it there at the time of the conflict sends
   // it away and back, but the first has no other way: its child waits.
   Search s({"...."}, {{{0, 0}, Position{1, 0}}, {{3, 0}, Position{2, 0}, {{1, 0}}}});
-  const Expansion expansion = s.expander.expand(s.root, s.limits);
+  const Expansion expansion = s.expander.expand(s.root, kInfiniteCost, s.limits);
   ASSERT_FALSE(expansion.children.empty());
   for (const NodePtr& child : expansion.children) EXPECT_GE(child->bound(), s.root->bound());
 }
@@ -73,7 +75,7 @@ TEST(Expander, LeavesOutChildrenWithoutAPath) {
 TEST(Expander, StopsWithoutATraceWhenALimitStrikes) {
   Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
   s.limits.set_deadline(Limits::Clock::now());
-  const Expansion expansion = s.expander.expand(s.root, s.limits);
+  const Expansion expansion = s.expander.expand(s.root, kInfiniteCost, s.limits);
   EXPECT_TRUE(expansion.stopped);
   EXPECT_TRUE(expansion.children.empty());
   EXPECT_FALSE(expansion.plan);
@@ -81,9 +83,9 @@ TEST(Expander, StopsWithoutATraceWhenALimitStrikes) {
 
 TEST(Expander, IsAPureFunctionOfTheNode) {
   Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
-  const Expansion first = s.expander.expand(s.root, s.limits);
-  for (const NodePtr& child : first.children) s.expander.expand(child, s.limits);
-  const Expansion again = s.expander.expand(s.root, s.limits);
+  const Expansion first = s.expander.expand(s.root, kInfiniteCost, s.limits);
+  for (const NodePtr& child : first.children) s.expander.expand(child, kInfiniteCost, s.limits);
+  const Expansion again = s.expander.expand(s.root, kInfiniteCost, s.limits);
   ASSERT_EQ(again.children.size(), first.children.size());
   for (std::size_t k = 0; k < first.children.size(); ++k) {
     std::vector<Path> a;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "tests/support/instances.h"
@@ -53,7 +54,12 @@ class NodeTest : public ::testing::Test {
 
   NodePtr child(const NodePtr& parent, AgentIndex agent, Time barred, const Path& path, Cost cost) {
     const AgentConstraint added{agent, {1, kNoCell, barred, barred}};
-    return Node::child(parent, instance_.grid(), added, path, cost);
+    const NewPath changed{agent, &path};
+    Change change;
+    change.added = added;
+    change.paths = {&changed, 1};
+    change.cost = cost;
+    return Node::child(parent, instance_.grid(), change);
   }
 
   Instance instance_;
@@ -94,6 +100,54 @@ TEST_F(NodeTest, ReleasesVeryDeepChains) {
   const std::size_t full = pool_.bytes();
   node = nullptr;
   EXPECT_LT(pool_.bytes(), full / 1000);
+}
+
+TEST_F(NodeTest, AChangeMayBeOfManyPathsOrNone) {
+  const Path first{0, 0, 1, 2};
+  const Path second{4, 4, 4, 5, 6, 5};
+  const std::array<NewPath, 2> both{{{1, &second}, {0, &first}}};
+  Change change;
+  change.paths = both;
+  change.cost = 8;
+  change.conflicts = 3;
+  const NodePtr node = Node::child(root_, instance_.grid(), change);
+  Change raise;
+  raise.cost = 8;
+  raise.bound = 11;
+  raise.bounded = true;
+  const NodePtr raised = Node::child(node, instance_.grid(), raise);
+  EXPECT_EQ(node->conflicts(), 3u);
+  EXPECT_FALSE(node->is_bounded());
+  EXPECT_TRUE(raised->is_bounded());
+  EXPECT_EQ(raised->bound(), 11);
+  std::vector<Path> paths;
+  raised->paths(problem_, paths);
+  EXPECT_EQ(paths[0], first);
+  EXPECT_EQ(paths[1], second);
+  raised->paths(problem_, std::array<AgentIndex, 1>{1}, paths);
+  EXPECT_TRUE(paths[0].empty());
+  EXPECT_EQ(paths[1], second);
+  std::vector<std::vector<Constraint>> constraints;
+  raised->constraints(constraints);
+  ASSERT_EQ(constraints.size(), 2u);
+  EXPECT_TRUE(constraints[0].empty());
+  EXPECT_TRUE(constraints[1].empty());
+}
+
+TEST_F(NodeTest, WhereOneRestsTheOthersAreBarred) {
+  Change change;
+  change.added = {0, {2, kNoCell, 0, 4, ConstraintKind::kRestBy}};
+  change.cost = 5;
+  const NodePtr node = Node::child(root_, instance_.grid(), change);
+  std::vector<std::vector<Constraint>> constraints;
+  node->constraints(constraints);
+  EXPECT_EQ(constraints[0], std::vector{change.added.constraint});
+  EXPECT_EQ(constraints[1], (std::vector{Constraint{2, kNoCell, 4, kNever}}));
+  for (AgentIndex agent : {0, 1}) {
+    std::vector<Constraint> one;
+    node->constraints(agent, one);
+    EXPECT_EQ(one, constraints[agent]);
+  }
 }
 
 }  // namespace

@@ -21,11 +21,12 @@ class SingleTreeTest : public ::testing::Test {
   Limits limits_;
   Instance instance_;
   Problem problem_;
+  AgentStopsStore stops_{instance_, problem_.distances};
   NodePool pool_;
 };
 
 TEST_F(SingleTreeTest, HasOneRootThatCostsWhatTheBestSequencesDo) {
-  SingleTree forest(problem_, pool_, limits_);
+  SingleTree forest(problem_, stops_, pool_, limits_);
   EXPECT_FALSE(forest.last_cost());
   const Cost bound = forest.next_bound();
   const NodePtr root = forest.next_root();
@@ -40,7 +41,7 @@ TEST_F(SingleTreeTest, HasOneRootThatCostsWhatTheBestSequencesDo) {
 }
 
 TEST_F(SingleTreeTest, ALimitLeavesTheTreeWithItsBound) {
-  SingleTree forest(problem_, pool_, limits_);
+  SingleTree forest(problem_, stops_, pool_, limits_);
   limits_.set_deadline(Limits::Clock::now());
   EXPECT_FALSE(forest.next_root());
   EXPECT_LT(forest.next_bound(), kInfiniteCost);
@@ -48,9 +49,9 @@ TEST_F(SingleTreeTest, ALimitLeavesTheTreeWithItsBound) {
 }
 
 TEST_F(SingleTreeTest, ItsPlansNameTheSequencesThatWereChosen) {
-  SingleTree forest(problem_, pool_, limits_);
-  Expander expander(problem_, 0);
-  const Expansion expansion = expander.expand(forest.next_root(), limits_);
+  SingleTree forest(problem_, stops_, pool_, limits_);
+  Expander expander(problem_, stops_, Techniques(), 0);
+  const Expansion expansion = expander.expand(forest.next_root(), kInfiniteCost, limits_);
   ASSERT_TRUE(expansion.plan);
   EXPECT_EQ(expansion.plan->agents[0].sequence.size(), 3u);
   const AgentPlan& free_end = expansion.plan->agents[1];

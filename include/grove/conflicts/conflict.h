@@ -32,19 +32,32 @@ struct AgentConstraint {
   Constraint constraint;
 };
 
-// The two branches of standard CBS splitting: every pair of paths without this conflict obeys at
-// least one of them, so no conflict-free plan is lost.
-std::array<AgentConstraint, 2> split(const Conflict& conflict);
+// What `added`, a constraint of a constraint-tree node, demands of `agent`; none if nothing. A
+// kRestBy of one agent bars every other from the cell from its end on: that is where the one rests.
+std::optional<Constraint> demand_on(AgentIndex agent, const AgentConstraint& added);
+
+// Two demands of which every conflict-free plan meets at least one.
+using Split = std::array<AgentConstraint, 2>;
+
+// Standard CBS splitting: every pair of paths without this conflict obeys at least one of the two.
+Split split(const Conflict& conflict);
+
+// Where an agent with this path (not empty) is at `time`: it rests on the last cell for ever.
+inline Cell position_at(const Path& path, Time time) {
+  return time < static_cast<Time>(path.size()) ? path[time] : path.back();
+}
 
 // Finds conflicts among paths. Workspace of one thread: reuse it, do not share it.
 class ConflictFinder {
  public:
-  // `seed` decides between conflicts of equal time. `grid` must outlive this.
-  ConflictFinder(const Grid& grid, std::uint64_t seed);
+  // `grid` must outlive this.
+  explicit ConflictFinder(const Grid& grid);
 
-  // A conflict of least time, none if the paths are conflict-free. Agents rest on their last cells
-  // for ever; paths are by AgentIndex. O(agents * time of the conflict).
-  std::optional<Conflict> first(std::span<const Path> paths);
+  // Every conflict among the paths of `agents` (`paths` is by AgentIndex), in order of time;
+  // `first` < `second` in each. Of two agents that stand on one cell together only the first time.
+  // Replaces `conflicts`. O(agents * time + conflicts).
+  void all(std::span<const Path> paths, std::span<const AgentIndex> agents,
+           std::vector<Conflict>& conflicts);
 
  private:
   struct Visit {
@@ -52,14 +65,15 @@ class ConflictFinder {
     AgentIndex agent = -1;
   };
 
-  void consider(const Conflict& conflict, std::optional<Conflict>& best) const;
-  std::uint64_t priority(const Conflict& conflict) const;
-  void visit_all(std::span<const Path> paths, Time time, std::optional<Conflict>& best);
-  void find_swaps(std::span<const Path> paths, Time time, std::optional<Conflict>& best) const;
+  void meet_all(std::span<const Path> paths, AgentIndex agent, Time time,
+                std::vector<Conflict>& conflicts);
+  void swap_all(std::span<const Path> paths, AgentIndex agent, Time time,
+                std::vector<Conflict>& conflicts) const;
 
-  std::uint64_t seed_;
   std::int64_t base_ = 0;
   std::array<std::vector<Visit>, 2> visits_;  // by parity of the time, then by cell
+  // Who else is there: by parity of the time, then by agent; -1 ends the list.
+  std::array<std::vector<AgentIndex>, 2> also_there_;
 };
 
 }  // namespace grove

@@ -40,6 +40,8 @@ class ConflictAvoidanceTable {
   // How many times a path passes `cell` after `time`, or rests there (which counts once): what
   // resting there from `time` on would run into.
   int conflicts_of_resting(Cell cell, Time time) const;
+  // The conflicts of a whole path (not empty), step by step, and of the rest after it.
+  int conflicts_of(const Path& path) const;
 
  private:
   // The paths on a cell at a time, and those of them that just came from a neighbor, by direction.

@@ -101,6 +101,22 @@ class FreeGoals {
     return known == kUnknown ? make_after(id, stop) : known;
   }
 
+  // Calls reach(state) for each state that an agent in state `id` may be in once it has come to
+  // `cell`. False: there is another one, which the completions do not know.
+  template <class Reach>
+  bool on_arrival(StateId id, Cell cell, Reach reach) {
+    const int stop = stops_.stop_at(cell);
+    if (stop == AgentStops::kNoStop || (states_[id].next >> stop & 1) == 0) {
+      reach(id);
+      return true;
+    }
+    if (states_[id].may_skip) reach(id);
+    const StateId then = after(id, stop);
+    if (then == kOutside) return false;
+    reach(then);
+    return true;
+  }
+
   // The least cost from a cell through all that is left, over the ways known; kNever or more when
   // there is none.
   Time distance(StateId id, Cell cell) const {

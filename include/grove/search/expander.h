@@ -6,49 +6,59 @@
 #include <optional>
 #include <vector>
 
-#include "grove/conflicts/conflict.h"
 #include "grove/model/limits.h"
-#include "grove/planning/conflict_avoidance_table.h"
+#include "grove/search/brancher.h"
+#include "grove/search/dependencies.h"
 #include "grove/search/node.h"
 #include "grove/search/path_planner.h"
+#include "grove/search/situations.h"
+#include "grove/search/techniques.h"
 
 namespace grove {
 
 // What an expansion led to. If `stopped`, a limit struck: nothing else is set and the node is as it
-// was. Otherwise the node's plans are exactly those of its children, or `plan` is the best of them.
+// was. Otherwise the node's plans cheaper than the cutoff are exactly those of its children, or
+// `plan` is the best of them.
 struct Expansion {
   bool stopped = false;
-  std::optional<Plan> plan;       // the node's paths were conflict-free
-  std::vector<NodePtr> children;  // at most two; a child without a path is none
-  std::int64_t low_level_calls = 0;
+  std::optional<Plan> plan;       // the node's paths, or others as cheap, are conflict-free
+  std::vector<NodePtr> children;  // at most two; a child without a path is none. One: perhaps the
+                                  // same node with a higher bound
 };
 
-// A pure function of (problem, node) with the workspace of one thread. Engines give each worker its
-// own; all of them compute the same.
+// What expanders have done so far.
+struct ExpansionCounts {
+  std::int64_t low_level_calls = 0;
+  std::int64_t low_level_expanded = 0;  // labels
+  std::int64_t pair_expansions = 0;
+};
+
+// A function of (problem, node, cutoff) with the workspace of one thread, and a memory that changes
+// no bound. Engines give each worker its own; all of them compute the same.
 class Expander {
  public:
-  // `problem` must outlive the expander. `seed` breaks ties among conflicts.
-  Expander(const Problem& problem, std::uint64_t seed);
+  // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same
+  // thread. `seed` breaks ties among conflicts.
+  Expander(const Problem& problem, AgentStopsStore& stops, Techniques techniques,
+           std::uint64_t seed);
 
-  Expansion expand(const NodePtr& node, const Limits& limits);
+  // `cutoff`: plans that cost so much or more are of no interest (the incumbent's cost;
+  // kInfiniteCost: all are).
+  Expansion expand(const NodePtr& node, Cost cutoff, const Limits& limits);
 
-  // Labels expanded by the low level so far.
-  std::int64_t low_level_expanded() const { return planner_.expanded(); }
+  ExpansionCounts counts() const;
 
  private:
   Plan plan(const Node& node);
-  void show_others();
-  bool branch(const NodePtr& node, const AgentConstraint& added, const Limits& limits,
-              Expansion& expansion);
+  void bound_memory();
 
   const Problem& problem_;
-  ConflictFinder conflicts_;
-  ConflictAvoidanceTable others_;
+  const Techniques techniques_;
   PathPlanner planner_;
-  std::vector<Path> paths_;
-  std::vector<Path> shown_;  // what others_ holds, by AgentIndex
-  std::vector<Constraint> constraints_;
-  Path path_;
+  Situations situations_;
+  Brancher brancher_;
+  Dependencies dependencies_;
+  std::vector<AgentIndex> all_;
 };
 
 }  // namespace grove

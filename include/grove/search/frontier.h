@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -12,7 +13,8 @@
 
 namespace grove {
 
-// Best first: least bound, among equals the newest (which goes deep on plateaus). A node taken out
+// Best first: least bound, among equals the one of fewest conflicts, among those the newest (which
+// goes deep on plateaus). A node taken out
 // counts as live until it is settled, so bound() is valid while any number of workers expand. All
 // methods may be called from any thread; each holds one mutex for O(log of the distinct bounds).
 class Frontier {
@@ -37,13 +39,20 @@ class Frontier {
   bool empty() const { return bound() == kInfiniteCost; }
 
  private:
+  struct Open {
+    std::uint64_t serial;
+    NodePtr node;
+  };
+  static bool later(const Open& a, const Open& b);
+
   void push_locked(NodePtr node);
   void release_locked(Cost bound);
 
   mutable std::mutex mutex_;
-  std::map<Cost, std::vector<NodePtr>> open_;
-  std::map<Cost, std::size_t> taken_;  // how many nodes of each bound are in workers' hands
+  std::map<Cost, std::vector<Open>> open_;  // heaps
+  std::map<Cost, std::size_t> taken_;       // how many nodes of each bound are in workers' hands
   std::size_t open_count_ = 0;
+  std::uint64_t serial_ = 0;
 };
 
 }  // namespace grove

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -62,17 +64,32 @@ class NodePtr {
   const Node* node_ = nullptr;
 };
 
-// A node of a constraint tree (CBS; Sharon et al. 2015): its parent's constraints and one more, and
-// the path that this one changed, packed behind the object. Immutable once made, so threads may
-// share it. Lives in its tree's pool, about 140 bytes at 150 steps a path.
+// An agent and the path it takes.
+struct NewPath {
+  AgentIndex agent = -1;
+  const Path* path = nullptr;
+};
+
+// What a child adds to its parent.
+struct Change {
+  AgentConstraint added;           // agent -1: no constraint
+  std::span<const NewPath> paths;  // of the agents that do not go on as they did
+  Cost cost = 0;                   // the sum of all agents' costs then
+  Cost bound = 0;                  // proven for all plans that obey the child's constraints
+  std::uint32_t conflicts = 0;     // among its paths: a measure of how far from a plan it is
+  bool bounded = false;            // the bound has been raised as far as its kind of node is worth
+};
+
+// A node of a constraint tree (CBS; Sharon et al. 2015): its parent's constraints and at most one
+// more, and the paths that changed, packed behind the object. A constraint kRestBy of one agent
+// bars all others from the cell from its `end` on. Immutable once made, so threads may share it.
+// Lives in its tree's pool, about 150 bytes at 150 steps a path.
 class Node {
  public:
   // The root of `tree`, no constraints.
   static NodePtr root(const Tree& tree);
-  // The child in which `added.agent` obeys one constraint more and takes `path`, `cost` being then
-  // the sum of all agents' costs. Its bound is at least its parent's.
-  static NodePtr child(const NodePtr& parent, const Grid& grid, const AgentConstraint& added,
-                       const Path& path, Cost cost);
+  // Its bound is the greatest of its parent's, its cost and the one given.
+  static NodePtr child(const NodePtr& parent, const Grid& grid, const Change& change);
 
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -81,39 +98,64 @@ class Node {
   Cost bound() const { return bound_; }
   // Sum of the costs of the paths at this node.
   Cost cost() const { return cost_; }
+  // See Change.
+  std::uint32_t conflicts() const { return conflicts_; }
+  bool is_bounded() const { return bounded_; }
   const Tree& tree() const { return *tree_; }
   bool is_root() const { return !parent_; }
 
-  // All paths at this node; `paths` is resized to the number of agents. O(depth + total length).
+  // The paths at this node of all agents, or of some (the others' are left empty); `paths` is
+  // resized to the number of agents. O(depth + total length).
   void paths(const Problem& problem, std::vector<Path>& paths) const;
+  void paths(const Problem& problem, std::span<const AgentIndex> agents,
+             std::vector<Path>& paths) const;
   // The constraints on `agent` at this node, appended. O(depth).
   void constraints(AgentIndex agent, std::vector<Constraint>& constraints) const;
+  // The same for all agents at once: `constraints` is resized to their number.
+  void constraints(std::vector<std::vector<Constraint>>& constraints) const;
 
  private:
   friend class NodePtr;
-  Node(NodePtr parent, const Tree& tree, Cost bound, Cost cost, const AgentConstraint& added,
-       std::uint32_t steps)
-      : steps_(steps),
+  // Before each packed path.
+  struct PathHead {
+    AgentIndex agent;
+    std::uint32_t steps;
+  };
+  static_assert(sizeof(PathHead) == sizeof(std::uint64_t));
+
+  Node(NodePtr parent, const Tree& tree, const Change& change)
+      : path_count_(static_cast<std::uint32_t>(change.paths.size())),
         parent_(std::move(parent)),
         tree_(&tree),
-        bound_(bound),
-        cost_(cost),
-        added_(added) {}
+        bound_(change.bound),
+        cost_(change.cost),
+        added_(change.added),
+        conflicts_(change.conflicts),
+        bounded_(change.bounded) {}
 
-  static std::size_t bytes(std::uint32_t steps) {
-    return sizeof(Node) + packed_words(steps) * sizeof(std::uint64_t);
+  static std::size_t bytes(std::span<const NewPath> paths);
+  std::size_t bytes() const;
+  // Calls visit(agent, packed steps) for each path that changed.
+  template <class Visit>
+  void for_each_path(Visit visit) const {
+    const auto* word = reinterpret_cast<const std::uint64_t*>(this + 1);
+    for (std::uint32_t i = 0; i < path_count_; ++i) {
+      const auto head = std::bit_cast<PathHead>(*word++);
+      visit(head.agent, PackedSteps{head.steps, word});
+      word += packed_words(head.steps);
+    }
   }
-  const std::uint64_t* words() const { return reinterpret_cast<const std::uint64_t*>(this + 1); }
-  PackedSteps path() const { return {steps_, words()}; }
   static void release(const Node* node);
 
   mutable std::atomic<std::uint32_t> references_{0};
-  std::uint32_t steps_;
+  std::uint32_t path_count_;
   mutable NodePtr parent_;  // null at a root
   const Tree* tree_;
   Cost bound_;
   Cost cost_;
-  AgentConstraint added_;  // at a root: agent -1
+  AgentConstraint added_;  // agent -1: none
+  std::uint32_t conflicts_;
+  bool bounded_;
 };
 
 inline NodePtr::NodePtr(const Node* node) : node_(node) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "grove/planning/agent_stops_store.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/search/node.h"
@@ -17,28 +18,31 @@ namespace grove {
 // the order. Workspace of one thread: reuse it, do not share it.
 class PathPlanner {
  public:
-  // `problem` must outlive this.
-  explicit PathPlanner(const Problem& problem);
+  // Both must outlive this; `stops` may be shared with others of the same thread.
+  PathPlanner(const Problem& problem, AgentStopsStore& stops);
 
-  // As LowLevelSearch::find.
-  LowLevelSearch::Outcome find(AgentIndex agent, const AgentOrder& order,
-                               std::span<const Constraint> constraints,
-                               const ConflictAvoidanceTable* others, const Limits& limits,
-                               Path& path);
+  // As FreeLowLevelSearch::find.
+  using Outcome = FreeLowLevelSearch::Outcome;
+  Outcome find(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints,
+               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
 
   // A sequence of the order's class that `path`, which must realize one, visits its stops in.
   Sequence sequence(AgentIndex agent, const AgentOrder& order, const Path& path);
 
-  // Labels expanded so far.
+  // Calls of find(), and labels expanded by them, so far.
+  std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return fixed_.expanded() + free_.expanded(); }
 
  private:
   FreeGoals& free_goals(AgentIndex agent, const SequenceClass& work);
+  Outcome find_fixed(const GoalSequence& goals, std::span<const Constraint> constraints,
+                     const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits,
+                     Path& path);
 
-  const Problem& problem_;
+  std::int64_t calls_ = 0;
   LowLevelSearch fixed_;
   FreeLowLevelSearch free_;
-  std::vector<std::unique_ptr<AgentStops>> stops_;  // by AgentIndex; made when first needed
+  AgentStopsStore& stops_;
   std::vector<std::unique_ptr<FreeGoals>>
       free_goals_;  // by AgentIndex: of the class asked for last
 };

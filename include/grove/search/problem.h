@@ -4,17 +4,19 @@
 
 #include "grove/model/distance_field.h"
 #include "grove/model/instance.h"
+#include "grove/planning/chains.h"
 
 namespace grove {
 
-// An instance with its distance fields. Immutable, shared by all threads; outlives the search.
-// Use it only if distances.complete().
+// An instance with its distance fields and its corridors. Immutable, shared by all threads;
+// outlives the search. Use it only if distances.complete().
 struct Problem {
   Problem(const Instance& the_instance, const Limits& limits)
-      : instance(the_instance), distances(the_instance, limits) {}
+      : instance(the_instance), distances(the_instance, limits), chains(the_instance.grid()) {}
 
   const Instance& instance;  // owned by the caller
   const DistanceFields distances;
+  const Chains chains;
 };
 
 }  // namespace grove

@@ -16,8 +16,8 @@ namespace grove {
 // sequence, and the low level chooses the order. No plan lies outside it.
 class SingleTree : public Forest {
  public:
-  // `problem`, `pool` and `limits` must outlive this.
-  SingleTree(const Problem& problem, NodePool& pool, const Limits& limits);
+  // All must outlive this; `stops` may be shared with others of the same thread.
+  SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool, const Limits& limits);
 
   Cost next_bound() const override { return tree_.empty() ? relaxed_bound_ : kInfiniteCost; }
   NodePtr next_root() override;
@@ -27,6 +27,7 @@ class SingleTree : public Forest {
 
  private:
   const Problem& problem_;
+  AgentStopsStore& stops_;
   NodePool& pool_;
   const Limits& limits_;
   Cost relaxed_bound_ = 0;  // the agents' relaxation bounds, summed up

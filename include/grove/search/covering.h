@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What many statements about groups of agents say about all agents together.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "grove/model/instance.h"
+#include "grove/model/plan.h"
+
+namespace grove {
+
+// "These agents together cost at least `excess` more than they do now."
+struct GroupExcess {
+  std::vector<AgentIndex> agents;
+  Cost excess = 0;  // positive
+};
+
+// A lower bound on how much more all agents together cost: the least sum of nonnegative integers,
+// one per agent, that fulfils every statement; a weighted vertex cover where all are about pairs
+// (Li et al., IJCAI 2019). Exact unless that takes more than `steps` steps in a group of statements
+// that hang together; then still a valid bound. Depends on the statements alone.
+Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps = 20'000);
+
+}  // namespace grove

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// Depth first over pairs of nodes of one layer. Both agents are where their nodes say, and what one
+// may do next depends on its own node alone: two ways to one pair have the same future, so each
+// pair is looked at once. After its last layer an agent stays on the node it ended on.
+//
+// A layer t is a *contact* if the agents could collide there: if both sets have paths on one cell
+// at t, or the sets allow a swap from t - 1 to t. (So said of the cells of whole layers it is said
+// too often, which does no harm.) Before the first contact f nothing can collide: any node of layer
+// f - 1 of the one goes with any of the other, and all these pairs, no more, are where the search
+// begins. From the last contact on nothing can collide any more: a pair that has come that far
+// proves that the agents are compatible, since every node leads to the end. And without such a pair
+// all are dead: dependent.
+#include "grove/planning/pair_dependency.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+namespace grove {
+namespace {
+
+constexpr std::size_t kPairsPerPoll = 1024;
+
+using NodeId = OptimalPaths::NodeId;
+using Range = OptimalPaths::Range;
+
+// The nodes at a time that may be after the end.
+Range nodes_at(const OptimalPaths& paths, Time time) {
+  return paths.layer(std::min(time, paths.cost()));
+}
+
+// A set of pairs of nodes; forgetting all is O(1).
+class PairSet {
+ public:
+  void clear() {
+    if (++generation_ == 0) {
+      std::ranges::fill(entries_, Entry{});
+      generation_ = 1;
+    }
+    size_ = 0;
+  }
+  std::size_t size() const { return size_; }
+
+  // False if it was there already.
+  bool insert(NodeId a, NodeId b) {
+    if (2 * size_ >= entries_.size()) grow();
+    const std::uint64_t key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+    Entry& entry = entries_[place_of(key)];
+    if (entry.generation == generation_) return false;
+    entry = {key, generation_};
+    ++size_;
+    return true;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t key = 0;
+    std::uint32_t generation = 0;
+  };
+
+  std::size_t place_of(std::uint64_t key) const {
+    std::uint64_t hash = key * 0x9e3779b97f4a7c15;  // Fibonacci hashing (Knuth)
+    std::size_t place = (hash ^ hash >> 32) & (entries_.size() - 1);
+    while (entries_[place].generation == generation_ && entries_[place].key != key)
+      place = (place + 1) & (entries_.size() - 1);
+    return place;
+  }
+  void grow() {
+    std::vector<Entry> old(std::max<std::size_t>(1024, 2 * entries_.size()));
+    old.swap(entries_);
+    for (const Entry& entry : old)
+      if (entry.generation == generation_) entries_[place_of(entry.key)] = entry;
+  }
+
+  std::vector<Entry> entries_;  // a power of two
+  std::uint32_t generation_ = 1;
+  std::size_t size_ = 0;
+};
+
+}  // namespace
+
+class PairDependency::Workspace {
+ public:
+  explicit Workspace(const Grid& grid) {
+    for (auto& seen : seen_) seen.assign(grid.cell_count(), 0);
+  }
+
+  Dependence find(const OptimalPaths& a, const OptimalPaths& b, std::size_t most_pairs,
+                  const Limits& limits);
+
+ private:
+  struct Pair {
+    NodeId a;
+    NodeId b;
+    Time time;
+  };
+
+  void find_contacts();
+  bool is_contact(Time time) const;
+  bool seen_at(Cell cell, Time time) const { return seen_[time % 2][cell] == stamp_ + time; }
+  Dependence search(Pair first, const Limits& limits);
+  void expand(const Pair& pair);
+
+  const OptimalPaths* a_ = nullptr;
+  const OptimalPaths* b_ = nullptr;
+  std::size_t most_pairs_ = 0;
+  Time first_contact_ = kNever;
+  Time last_contact_ = -1;
+  PairSet known_;
+  std::vector<Pair> open_;
+  std::size_t expanded_ = 0;
+  // By parity of the time, then cell: stamp_ + the time at which a_ was last seen there.
+  std::array<std::vector<std::int64_t>, 2> seen_;
+  std::int64_t stamp_ = 1;
+};
+
+PairDependency::PairDependency(const Grid& grid) : workspace_(std::make_unique<Workspace>(grid)) {}
+PairDependency::~PairDependency() = default;
+
+Dependence PairDependency::find(const OptimalPaths& a, const OptimalPaths& b,
+                                std::size_t most_pairs, const Limits& limits) {
+  return workspace_->find(a, b, most_pairs, limits);
+}
+
+Dependence PairDependency::Workspace::find(const OptimalPaths& a, const OptimalPaths& b,
+                                           std::size_t most_pairs, const Limits& limits) {
+  a_ = &a;
+  b_ = &b;
+  most_pairs_ = most_pairs;
+  find_contacts();
+  if (first_contact_ == kNever) return Dependence::kCompatible;
+  if (first_contact_ == 0) return Dependence::kDependent;  // they start on one cell
+  known_.clear();
+  const Time before = first_contact_ - 1;
+  const Range of_a = nodes_at(a, before);
+  const Range of_b = nodes_at(b, before);
+  for (NodeId i = of_a.first; i < of_a.end; ++i)
+    for (NodeId j = of_b.first; j < of_b.end; ++j) {
+      const Dependence result = search({i, j, before}, limits);
+      if (result != Dependence::kDependent) return result;
+    }
+  return Dependence::kDependent;
+}
+
+void PairDependency::Workspace::find_contacts() {
+  first_contact_ = kNever;
+  last_contact_ = -1;
+  const Time end = std::max(a_->cost(), b_->cost());
+  for (Time time = 0; time <= end; ++time) {
+    const Range nodes = nodes_at(*a_, time);
+    for (NodeId node = nodes.first; node < nodes.end; ++node)
+      seen_[time % 2][a_->cell(node)] = stamp_ + time;
+    if (!is_contact(time)) continue;
+    first_contact_ = std::min(first_contact_, time);
+    last_contact_ = time;
+  }
+  stamp_ += end + 1;
+}
+
+bool PairDependency::Workspace::is_contact(Time time) const {
+  bool entered = false;
+  const Range now = nodes_at(*b_, time);
+  for (NodeId node = now.first; node < now.end; ++node) {
+    if (seen_at(b_->cell(node), time)) return true;
+    entered = entered || (time > 0 && seen_at(b_->cell(node), time - 1));
+  }
+  if (!entered) return false;
+  const Range before = nodes_at(*b_, time - 1);
+  for (NodeId node = before.first; node < before.end; ++node)
+    if (seen_at(b_->cell(node), time)) return true;
+  return false;
+}
+
+// Dependent: no pair that can be reached from `first` and was not known gets through.
+Dependence PairDependency::Workspace::search(Pair first, const Limits& limits) {
+  open_.clear();
+  if (!known_.insert(first.a, first.b)) return Dependence::kDependent;
+  open_.push_back(first);
+  while (!open_.empty()) {
+    const Pair pair = open_.back();
+    open_.pop_back();
+    if (pair.time >= last_contact_) return Dependence::kCompatible;
+    if (known_.size() > most_pairs_) return Dependence::kUnknown;
+    if (++expanded_ % kPairsPerPoll == 0 && limits.stop_requested()) return Dependence::kUnknown;
+    expand(pair);
+  }
+  return Dependence::kDependent;
+}
+
+void PairDependency::Workspace::expand(const Pair& pair) {
+  const auto next = [&](const OptimalPaths& paths, const NodeId& node) {
+    return pair.time < paths.cost() ? paths.successors(node) : std::span(&node, 1);
+  };
+  const Cell from_a = a_->cell(pair.a);
+  const Cell from_b = b_->cell(pair.b);
+  for (const NodeId i : next(*a_, pair.a))
+    for (const NodeId j : next(*b_, pair.b)) {
+      const Cell to_a = a_->cell(i);
+      const Cell to_b = b_->cell(j);
+      if (to_a == to_b || (to_a == from_b && to_b == from_a)) continue;
+      if (known_.insert(i, j)) open_.push_back({i, j, pair.time + 1});
+    }
+}
+
+}  // namespace grove

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Each component of the hypergraph of statements is solved by itself. Is there a solution of sum B?
+// is asked for B = the greedy bound, then one more, and so on, by depth-first search: some
+// statement is not fulfilled; one of its agents must get one more. Once a branch has tried agent i,
+// its later siblings may not raise i again, so each solution is tried once. A branch whose greedy
+// bound exceeds what is left of B is given up. The first B with a solution is the optimum; when the
+// steps run out, the B under way is a bound, since all smaller ones were refuted.
+//
+// The greedy bound takes statements in turn that share no agent with those taken: their sum is due,
+// whatever the solution.
+#include "grove/search/covering.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace grove {
+namespace {
+
+// A statement over the agents 0 .. count - 1 of its component.
+struct Statement {
+  std::vector<int> agents;
+  Cost due;  // of its excess, what is not given yet
+};
+
+class Component {
+ public:
+  Component(std::vector<Statement> statements, int agents, std::int64_t steps)
+      : statements_(std::move(statements)), frozen_(agents, 0), used_(agents), steps_(steps) {
+    std::ranges::sort(statements_, std::greater(), &Statement::due);
+  }
+
+  Cost solve() {
+    Cost sum = greedy();
+    while (!fulfil(sum) && steps_ > 0) ++sum;
+    return sum;
+  }
+
+ private:
+  Cost greedy() {
+    std::fill(used_.begin(), used_.end(), false);
+    Cost sum = 0;
+    for (const Statement& s : statements_) {
+      if (s.due <= 0 || std::ranges::any_of(s.agents, [&](int a) { return used_[a]; })) continue;
+      sum += s.due;
+      for (int a : s.agents) used_[a] = true;
+    }
+    return sum;
+  }
+
+  // Can everything that is due be fulfilled with a sum of at most `left`? "Yes" when the steps run
+  // out.
+  bool fulfil(Cost left) {
+    if (--steps_ <= 0) return true;
+    if (greedy() > left) return false;
+    const auto most = std::ranges::max_element(statements_, {}, &Statement::due);
+    if (most->due <= 0) return true;
+    const std::vector<int> agents = most->agents;
+    std::vector<int> tried;
+    bool found = false;
+    for (int agent : agents) {
+      if (found || frozen_[agent] > 0) continue;
+      give(agent, 1);
+      found = fulfil(left - 1);
+      give(agent, -1);
+      ++frozen_[agent];
+      tried.push_back(agent);
+    }
+    for (int agent : tried) --frozen_[agent];
+    return found;
+  }
+
+  void give(int agent, Cost amount) {
+    for (Statement& s : statements_)
+      if (std::ranges::count(s.agents, agent) > 0) s.due -= amount;
+  }
+
+  std::vector<Statement> statements_;
+  std::vector<int> frozen_;
+  std::vector<bool> used_;
+  std::int64_t steps_;
+};
+
+// The smallest agent of each agent's component, by agent.
+class Components {
+ public:
+  explicit Components(AgentIndex agents) : parent_(static_cast<std::size_t>(agents)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  AgentIndex find(AgentIndex agent) {
+    while (parent_[agent] != agent) agent = parent_[agent] = parent_[parent_[agent]];
+    return agent;
+  }
+  void join(AgentIndex a, AgentIndex b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<AgentIndex> parent_;
+};
+
+Cost solve_component(std::span<const GroupExcess* const> statements, std::int64_t steps) {
+  std::vector<AgentIndex> agents;
+  for (const GroupExcess* s : statements)
+    agents.insert(agents.end(), s->agents.begin(), s->agents.end());
+  std::ranges::sort(agents);
+  agents.erase(std::ranges::unique(agents).begin(), agents.end());
+  std::vector<Statement> local;
+  for (const GroupExcess* s : statements) {
+    Statement& statement = local.emplace_back();
+    statement.due = s->excess;
+    for (AgentIndex a : s->agents)
+      statement.agents.push_back(
+          static_cast<int>(std::ranges::lower_bound(agents, a) - agents.begin()));
+  }
+  return Component(std::move(local), static_cast<int>(agents.size()), steps).solve();
+}
+
+}  // namespace
+
+Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps) {
+  AgentIndex agents = 0;
+  for (const GroupExcess& s : statements) agents = std::max(agents, std::ranges::max(s.agents) + 1);
+  Components components(agents);
+  for (const GroupExcess& s : statements)
+    for (AgentIndex a : s.agents) components.join(s.agents.front(), a);
+
+  std::vector<const GroupExcess*> sorted;
+  for (const GroupExcess& s : statements) sorted.push_back(&s);
+  const auto root = [&](const GroupExcess* s) { return components.find(s->agents.front()); };
+  std::ranges::stable_sort(sorted, {}, root);
+  Cost sum = 0;
+  for (auto begin = sorted.begin(); begin != sorted.end();) {
+    const auto end = std::find_if(begin, sorted.end(),
+                                  [&](const GroupExcess* s) { return root(s) != root(*begin); });
+    sum += solve_component({begin, end}, steps);
+    begin = end;
+  }
+  return sum;
+}
+
+}  // namespace grove

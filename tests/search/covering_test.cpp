@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/covering.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace grove {
+namespace {
+
+// The least sum by trying every assignment of at most `most` each.
+Cost brute_force(const std::vector<GroupExcess>& statements, int agents, int most) {
+  std::vector<int> given(static_cast<std::size_t>(agents));
+  Cost best = kInfiniteCost;
+  for (;;) {
+    Cost sum = 0;
+    for (int g : given) sum += g;
+    const bool fulfilled = std::ranges::all_of(statements, [&](const GroupExcess& s) {
+      Cost have = 0;
+      for (AgentIndex a : s.agents) have += given[a];
+      return have >= s.excess;
+    });
+    if (fulfilled) best = std::min(best, sum);
+    int i = 0;
+    while (i < agents && given[i] == most) given[i++] = 0;
+    if (i == agents) return best;
+    ++given[i];
+  }
+}
+
+std::vector<GroupExcess> random_statements(std::mt19937& random, int agents) {
+  std::vector<GroupExcess> statements(random() % 8);
+  for (GroupExcess& s : statements) {
+    const int size = 2 + static_cast<int>(random() % 2);
+    while (static_cast<int>(s.agents.size()) < size) {
+      const auto agent = static_cast<AgentIndex>(random() % agents);
+      if (std::ranges::count(s.agents, agent) == 0) s.agents.push_back(agent);
+    }
+    s.excess = 1 + static_cast<Cost>(random() % 3);
+  }
+  return statements;
+}
+
+TEST(CoveringBound, IsTheLeastSum) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 1500; ++round) {
+    const int agents = 3 + static_cast<int>(random() % 4);
+    const auto statements = random_statements(random, agents);
+    EXPECT_EQ(covering_bound(statements), brute_force(statements, agents, 3));
+  }
+}
+
+TEST(CoveringBound, StaysABoundWhenItsStepsRunOut) {
+  std::mt19937 random(6);
+  int below = 0;
+  for (int round = 0; round < 1500; ++round) {
+    const auto statements = random_statements(random, 5);
+    const Cost bound = covering_bound(statements, 1 + static_cast<std::int64_t>(random() % 6));
+    const Cost least = brute_force(statements, 5, 3);
+    EXPECT_LE(bound, least);
+    below += static_cast<int>(bound < least);
+  }
+  EXPECT_GT(below, 0);
+}
+
+TEST(CoveringBound, SaysNothingWithoutStatements) {
+  EXPECT_EQ(covering_bound({}), 0);
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/obeys.h"
+
+#include <algorithm>
+
+namespace grove::testing {
+namespace {
+
+Cell at(const Path& path, Time time) {
+  return time < static_cast<Time>(path.size()) ? path[time] : path.back();
+}
+
+bool is_inner(const Grid& grid, Cell cell) {
+  return grid.neighbors(cell).size() == 2;
+}
+
+bool keeps_off(const Path& path, const Constraint& bar) {
+  // After its end the path changes no more: one step of rest stands for all.
+  const Time last = std::max(static_cast<Time>(path.size()), bar.begin);
+  for (Time t = std::max(bar.begin, 0); t <= std::min(bar.end, last); ++t) {
+    if (at(path, t) != bar.cell) continue;
+    if (!bar.is_move() || (t > 0 && at(path, t - 1) == bar.from)) return false;
+  }
+  return true;
+}
+
+// When the agent moved for the last time, onto the cell where it rests.
+Time last_arrival(const Path& path) {
+  auto t = static_cast<Time>(path.size()) - 1;
+  while (t > 0 && path[t - 1] == path[t]) --t;
+  return t;
+}
+
+// Where the agent came in that is inside a chain at time t; none if inside since time 0.
+Mouth entered_by(const Grid& grid, const Path& path, Time t) {
+  while (t >= 0 && is_inner(grid, path[t])) --t;
+  return t < 0 ? Mouth{} : Mouth{path[t], path[t + 1]};
+}
+
+bool traverses(const Grid& grid, const Path& path, const Constraint& c) {
+  const Time last = std::min(c.end, static_cast<Time>(path.size()) - 1);
+  for (Time t = std::max(c.begin, 1); t <= last; ++t) {
+    if (path[t] != c.cell || path[t - 1] != c.from) continue;
+    const Mouth mouth = entered_by(grid, path, t - 1);
+    if (mouth != Mouth{} && mouth != Mouth{c.cell, c.from}) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_mouth(const Grid& grid, Cell end, Cell inner) {
+  return is_inner(grid, inner) && !is_inner(grid, end) &&
+         std::ranges::count(grid.neighbors(end), inner) > 0;
+}
+
+bool obeys(const Grid& grid, const Path& path, const Constraint& c) {
+  const Time rest = last_arrival(path);
+  switch (c.kind) {
+    case ConstraintKind::kBar:
+      return keeps_off(path, c);
+    case ConstraintKind::kNoRestBy:
+      return path.back() != c.cell || rest > c.end;
+    case ConstraintKind::kRestBy:
+      return path.back() == c.cell && rest <= c.end;
+    case ConstraintKind::kNoTraversal:
+      return !traverses(grid, path, c);
+  }
+  return false;
+}
+
+}  // namespace grove::testing

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What the constraints mean, said of a path alone.
+#pragma once
+
+#include <string>
+
+#include "grove/model/plan.h"
+#include "grove/planning/constraint.h"
+
+namespace grove::testing {
+
+// Does `path`, its rest for ever included, obey `constraint`?
+bool obeys(const Grid& grid, const Path& path, const Constraint& constraint);
+
+// A way into a chain: from an end to the inner cell next to it.
+struct Mouth {
+  Cell end = kNoCell;
+  Cell inner = kNoCell;
+  friend bool operator==(const Mouth&, const Mouth&) = default;
+};
+
+// Is this a move from an end of a chain into it?
+bool is_mouth(const Grid& grid, Cell end, Cell inner);
+
+}  // namespace grove::testing
