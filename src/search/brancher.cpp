@@ -68,7 +68,7 @@ void Brancher::find_conflicts() {
 }
 
 Situations::Id Brancher::situation(AgentIndex agent) {
-  return situations_.id(agent, order_of(agent), constraints_[agent]);
+  return situations_.id(agent, order(agent), constraints_[agent]);
 }
 
 Brancher::Outcome Brancher::branch(Cost cutoff, const Limits& limits,
@@ -171,10 +171,10 @@ Brancher::Step Brancher::estimate(const AgentConstraint& demand, Cost slack, con
 Brancher::Step Brancher::least_cost(AgentIndex agent, const Constraint& more, Time cutoff,
                                     const Limits& limits, Time& cost) {
   const auto constraints = constraints_with(agent, more);
-  const Situations::Id id = situations_.id(agent, order_of(agent), constraints);
+  const Situations::Id id = situations_.id(agent, order(agent), constraints);
   Situations::Known& known = situations_.known(id);
   if (!known.exact && known.at_least <= cutoff) {
-    switch (planner_.find(agent, order_of(agent), constraints, nullptr, cutoff, limits, path_)) {
+    switch (planner_.find(agent, order(agent), constraints, nullptr, cutoff, limits, path_)) {
       case PathPlanner::Outcome::kFound:
         known = {static_cast<Time>(path_.size()) - 1, true};
         break;
@@ -241,7 +241,7 @@ Brancher::Step Brancher::replan(const AgentConstraint& demand, Cost slack, const
     const Time cutoff =
         static_cast<Time>(std::min<Cost>(cost_of(agent) + slack - side.increase, kNever - 1));
     const auto outcome =
-        planner_.find(agent, order_of(agent), constraints, &others_, cutoff, limits, path_);
+        planner_.find(agent, order(agent), constraints, &others_, cutoff, limits, path_);
     if (outcome == PathPlanner::Outcome::kStopped) return Step::kStopped;
     if (outcome != PathPlanner::Outcome::kFound) {
       side.open = false;

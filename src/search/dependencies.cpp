@@ -10,6 +10,10 @@
 // whose first node is conflict-free the exact value. A child that is closed because it costs
 // `slack` more or above leaves "slack + 1" behind.
 //
+// *Joint paths.* Before that, the two sets of optimal paths are compared (pair_dependency.cpp): if
+// some pair does not collide, the excess is zero; if all do, it is at least one, though perhaps no
+// single conflict says so.
+//
 // What one pair costs more and what another does may be the same steps of a shared agent; the least
 // total that fulfils all statements is what covering_bound() finds.
 //
@@ -20,29 +24,45 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace grove {
 namespace {
 
 constexpr std::int32_t kExpansionsPerPair = 16;
+constexpr std::int32_t kExpansionsPerGroup = 32;
+constexpr std::size_t kMostInGroup = 6;
+constexpr std::size_t kMostNodes = 20'000;         // of the optimal paths of one agent
+constexpr std::size_t kMostPairs = 50'000;         // of nodes, in a comparison
+constexpr std::size_t kMostNodesKept = 4'000'000;  // of all agents
+constexpr std::size_t kBytesPerNode = 24;          // about
 
 }  // namespace
 
 Dependencies::Dependencies(const Problem& problem, Techniques techniques, std::uint64_t seed,
                            PathPlanner& planner, Situations& situations)
     : agents_(problem.instance.agent_count()),
+      techniques_(techniques),
+      planner_(planner),
       pair_view_(problem, techniques, seed, planner, situations),
+      pair_dependency_(problem.instance.grid()),
       situation_(static_cast<std::size_t>(agents_)) {}
 
 std::optional<Cost> Dependencies::bound(const NodePtr& node, Brancher& view, Cost cutoff,
                                         const Limits& limits) {
   const Cost slack = cutoff - node->cost() - 1;
   if (slack < 0) return cutoff;
-  for (AgentIndex agent = 0; agent < agents_; ++agent) situation_[agent] = view.situation(agent);
+  look_at(view);
   if (!solve_conflicting(node, view, slack, limits)) return std::nullopt;
+  if (techniques_.has(Technique::kClusters) && !solve_groups(node, view, slack, limits))
+    return std::nullopt;
   std::vector<GroupExcess> statements;
   collect(statements);
   return std::min(cutoff, node->cost() + covering_bound(statements));
+}
+
+void Dependencies::look_at(Brancher& view) {
+  for (AgentIndex agent = 0; agent < agents_; ++agent) situation_[agent] = view.situation(agent);
 }
 
 std::uint64_t Dependencies::key(AgentIndex a, AgentIndex b) const {
@@ -60,24 +80,99 @@ bool Dependencies::solve_conflicting(const NodePtr& node, Brancher& view, Cost s
   for (const auto& [a, b] : pairs) {
     Known& known = known_[key(a, b)];
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
-    if (!solve(node, a, b, slack, limits, known)) return false;
+    if (techniques_.has(Technique::kJointPaths) && known.excess == 0) {
+      const auto dependence = compare(view, a, b, limits);
+      if (!dependence) return false;
+      known.exact = *dependence == Dependence::kCompatible;
+      known.excess = *dependence == Dependence::kDependent ? 1 : 0;
+      if (known.exact) continue;
+    }
+    if (!solve(node, std::array{a, b}, slack, kExpansionsPerPair, limits, known)) return false;
   }
   return true;
 }
 
-bool Dependencies::solve(const NodePtr& node, AgentIndex a, AgentIndex b, Cost slack,
-                         const Limits& limits, Known& known) {
-  const std::array<AgentIndex, 2> scope{a, b};
+// Can both keep their costs? None: a limit struck.
+std::optional<Dependence> Dependencies::compare(Brancher& view, AgentIndex a, AgentIndex b,
+                                                const Limits& limits) {
+  if (optimal_nodes_ > kMostNodesKept) {
+    optimal_paths_.clear();
+    optimal_nodes_ = 0;
+  }
+  const OptimalPaths* of_a = optimal_paths(view, a, limits);
+  const OptimalPaths* of_b = optimal_paths(view, b, limits);
+  if (!of_a || !of_b) return std::nullopt;
+  if (of_a->empty() || of_b->empty()) return Dependence::kUnknown;
+  const Dependence dependence = pair_dependency_.find(*of_a, *of_b, kMostPairs, limits);
+  if (limits.stop_requested()) return std::nullopt;
+  return dependence;
+}
+
+// Empty if there are too many; null if a limit struck.
+const OptimalPaths* Dependencies::optimal_paths(Brancher& view, AgentIndex agent,
+                                                const Limits& limits) {
+  const auto [known, is_new] = optimal_paths_.try_emplace(situation_[agent]);
+  OptimalPaths& paths = known->second;
+  if (!is_new) return &paths;
+  const Time cost = static_cast<Time>(view.path(agent).size()) - 1;
+  const auto outcome = planner_.optimal_paths(agent, view.order(agent), view.constraints(agent),
+                                              cost, kMostNodes, limits, paths);
+  if (outcome == OptimalPathsBuilder::Outcome::kStopped) {
+    optimal_paths_.erase(known);
+    return nullptr;
+  }
+  optimal_nodes_ += static_cast<std::size_t>(paths.node_count());
+  return &paths;
+}
+
+// Looks into every group that conflicts among itself though no pair of it has to cost more.
+bool Dependencies::solve_groups(const NodePtr& node, Brancher& view, Cost slack,
+                                const Limits& limits) {
+  for (const auto& group : groups_in_conflict(view)) {
+    if (group.size() < 3 || group.size() > kMostInGroup) continue;
+    Known& known = known_groups_[key(group)];
+    if (known.exact || known.expansions > 0) continue;
+    groups_.insert(group);
+    if (!solve(node, group, slack, kExpansionsPerGroup, limits, known)) return false;
+  }
+  return true;
+}
+
+// The components of the graph of such conflicts, each in ascending order.
+std::vector<std::vector<AgentIndex>> Dependencies::groups_in_conflict(const Brancher& view) const {
+  std::vector<AgentIndex> leader(static_cast<std::size_t>(agents_));
+  std::iota(leader.begin(), leader.end(), 0);
+  for (const Conflict& c : view.conflicts()) {
+    const auto known = known_.find(key(c.first, c.second));
+    if (known != known_.end() && known->second.excess > 0) continue;
+    const AgentIndex from = std::max(leader[c.first], leader[c.second]);
+    const AgentIndex to = std::min(leader[c.first], leader[c.second]);
+    std::ranges::replace(leader, from, to);
+  }
+  std::vector<std::vector<AgentIndex>> groups(leader.size());
+  for (AgentIndex agent = 0; agent < agents_; ++agent) groups[leader[agent]].push_back(agent);
+  std::erase_if(groups, [](const auto& group) { return group.size() < 2; });
+  return groups;
+}
+
+std::vector<Situations::Id> Dependencies::key(std::span<const AgentIndex> group) const {
+  std::vector<Situations::Id> ids;
+  for (AgentIndex agent : group) ids.push_back(situation_[agent]);
+  return ids;
+}
+
+bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
+                         std::int32_t most_expansions, const Limits& limits, Known& known) {
   const Cost base = node->cost();
   open_.clear();
   open_.push_back({base, node});
-  for (std::int32_t i = 0; i < kExpansionsPerPair && !open_.empty(); ++i) {
+  for (std::int32_t i = 0; i < most_expansions && !open_.empty(); ++i) {
     // Of equal cost the newest: the first conflict-free node ends the search.
     const auto best = std::ranges::min_element(open_.rbegin(), open_.rend(), {}, &Open::cost);
     const Open next = *best;
     open_.erase(std::next(best).base());
     known.excess = std::max(known.excess, next.cost - base);
-    pair_view_.enter(next.node, scope);
+    pair_view_.enter(next.node, group);
     children_.clear();
     const auto outcome = pair_view_.branch(base + slack + 1, limits, children_);
     if (outcome == Brancher::Outcome::kStopped) return false;
@@ -103,11 +198,24 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) const {
       if (known != known_.end() && known->second.excess > 0)
         statements.push_back({{a, b}, known->second.excess});
     }
+  for (const auto& group : groups_) {
+    const auto known = known_groups_.find(key(group));
+    if (known != known_groups_.end() && known->second.excess > 0)
+      statements.push_back({group, known->second.excess});
+  }
+}
+
+void Dependencies::clear() {
+  known_.clear();
+  known_groups_.clear();
+  groups_.clear();
+  optimal_paths_.clear();
+  optimal_nodes_ = 0;
 }
 
 std::size_t Dependencies::bytes() const {
   return known_.size() * (sizeof(std::uint64_t) + sizeof(Known) + 2 * sizeof(void*)) +
-         known_.bucket_count() * sizeof(void*);
+         known_.bucket_count() * sizeof(void*) + optimal_nodes_ * kBytesPerNode;
 }
 
 }  // namespace grove

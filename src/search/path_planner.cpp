@@ -6,6 +6,7 @@ namespace grove {
 PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops)
     : fixed_(problem.instance.grid()),
       free_(problem.instance.grid()),
+      optimal_(problem.instance.grid()),
       stops_(stops),
       free_goals_(problem.instance.agent_count()) {}
 
@@ -31,6 +32,14 @@ PathPlanner::Outcome PathPlanner::find_fixed(const GoalSequence& goals,
       break;
   }
   return Outcome::kStopped;
+}
+
+OptimalPathsBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentOrder& order,
+                                                        std::span<const Constraint> constraints,
+                                                        Time cost, std::size_t most_nodes,
+                                                        const Limits& limits, OptimalPaths& paths) {
+  return optimal_.build(free_goals(agent, order.sequences), constraints, cost, most_nodes, limits,
+                        paths);
 }
 
 Sequence PathPlanner::sequence(AgentIndex agent, const AgentOrder& order, const Path& path) {

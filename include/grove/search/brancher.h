@@ -44,6 +44,9 @@ class Brancher {
   const Path& path(AgentIndex agent) const { return paths_[agent]; }
   // Of an agent in scope at the node entered.
   Situations::Id situation(AgentIndex agent);
+  const AgentOrder& order(AgentIndex agent) const { return *node_->tree().orders[agent]; }
+  // In canonical order.
+  std::span<const Constraint> constraints(AgentIndex agent) const { return constraints_[agent]; }
 
   // Makes the children, appended to `children`: every plan that obeys the node's constraints and
   // costs less than `cutoff` obeys those of one of them. At most two; a child that surely holds no
@@ -78,7 +81,6 @@ class Brancher {
   NodePtr child(const NodePtr& parent, const AgentConstraint& demand, const Side& side) const;
 
   Time cost_of(AgentIndex agent) const { return static_cast<Time>(paths_[agent].size()) - 1; }
-  const AgentOrder& order_of(AgentIndex agent) const { return *node_->tree().orders[agent]; }
 
   const Problem& problem_;
   const Techniques techniques_;

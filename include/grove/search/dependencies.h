@@ -3,10 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "grove/planning/optimal_paths.h"
+#include "grove/planning/pair_dependency.h"
 #include "grove/search/brancher.h"
 #include "grove/search/covering.h"
 
@@ -29,7 +34,7 @@ class Dependencies {
 
   // Memory held, in bytes (about). clear() must be called when the situations are cleared.
   std::size_t bytes() const;
-  void clear() { known_.clear(); }
+  void clear();
 
  private:
   // What is known of two agents in two situations.
@@ -43,17 +48,31 @@ class Dependencies {
     NodePtr node;
   };
 
+  void look_at(Brancher& view);
   std::uint64_t key(AgentIndex a, AgentIndex b) const;
   bool solve_conflicting(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
-  bool solve(const NodePtr& node, AgentIndex a, AgentIndex b, Cost slack, const Limits& limits,
-             Known& known);
+  std::optional<Dependence> compare(Brancher& view, AgentIndex a, AgentIndex b,
+                                    const Limits& limits);
+  const OptimalPaths* optimal_paths(Brancher& view, AgentIndex agent, const Limits& limits);
+  bool solve_groups(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
+  std::vector<std::vector<AgentIndex>> groups_in_conflict(const Brancher& view) const;
+  std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;
+  bool solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
+             std::int32_t most_expansions, const Limits& limits, Known& known);
   void collect(std::vector<GroupExcess>& statements) const;
 
   const int agents_;
+  const Techniques techniques_;
+  PathPlanner& planner_;
   Brancher pair_view_;
+  PairDependency pair_dependency_;
   std::unordered_map<std::uint64_t, Known> known_;
-  std::vector<Situations::Id> situation_;  // by AgentIndex, at the node
-  std::vector<Open> open_;                 // a heap: least cost first
+  std::map<std::vector<Situations::Id>, Known> known_groups_;
+  std::set<std::vector<AgentIndex>> groups_;                        // those that occur in it
+  std::unordered_map<Situations::Id, OptimalPaths> optimal_paths_;  // empty: too many to keep
+  std::size_t optimal_nodes_ = 0;                                   // of all of them
+  std::vector<Situations::Id> situation_;                           // by AgentIndex, at the node
+  std::vector<Open> open_;                                          // a heap: least cost first
   std::vector<NodePtr> children_;
   std::int64_t expansions_ = 0;
 };

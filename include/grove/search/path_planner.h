@@ -10,6 +10,7 @@
 #include "grove/planning/agent_stops_store.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
+#include "grove/planning/optimal_paths.h"
 #include "grove/search/node.h"
 
 namespace grove {
@@ -25,6 +26,12 @@ class PathPlanner {
   using Outcome = FreeLowLevelSearch::Outcome;
   Outcome find(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints,
                const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
+
+  // As OptimalPathsBuilder::build.
+  OptimalPathsBuilder::Outcome optimal_paths(AgentIndex agent, const AgentOrder& order,
+                                             std::span<const Constraint> constraints, Time cost,
+                                             std::size_t most_nodes, const Limits& limits,
+                                             OptimalPaths& paths);
 
   // A sequence of the order's class that `path`, which must realize one, visits its stops in.
   Sequence sequence(AgentIndex agent, const AgentOrder& order, const Path& path);
@@ -42,6 +49,7 @@ class PathPlanner {
   std::int64_t calls_ = 0;
   LowLevelSearch fixed_;
   FreeLowLevelSearch free_;
+  OptimalPathsBuilder optimal_;
   AgentStopsStore& stops_;
   std::vector<std::unique_ptr<FreeGoals>>
       free_goals_;  // by AgentIndex: of the class asked for last
