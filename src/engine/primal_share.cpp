@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Many small instances are closed by the first nodes of the tree, so the tree begins; of a large
-// one it makes the root (worth its cost, in work) and no more. Then a plan is wanted first of all:
+// one it makes the root and no more. Then a plan is wanted first of all:
 // without one nothing is pruned, and a run that ends has nothing to show; the primal search gets
 // most of the work, until it has failed so often that the instance may have no plan at all. With a
 // plan, its share follows its success: let x be the part of its work that was done when it last

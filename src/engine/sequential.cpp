@@ -149,11 +149,13 @@ void SequentialEngine::work_on_tree() {
   update_bound();
 }
 
-// The first root is a turn of its own: to expand it can take long.
+// The first root is a turn of its own: to expand it can take long where there are many pairs of
+// agents, which is what it counts for.
 void SequentialEngine::begin_tree() {
   begun_ = true;
   grow();
-  share_.tree_worked(forest_->last_cost().value_or(0));
+  const std::int64_t agents = problem_.instance.agent_count();
+  share_.tree_worked(agents * agents);
 }
 
 // The node to expand next, after instantiating the next tree where Algorithm 4 finds that
