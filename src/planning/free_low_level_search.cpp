@@ -149,7 +149,12 @@ class FreeLowLevelSearch::Workspace {
   Outcome run(const Limits& limits, Path& path);
 
   bool is_hopeless();
-  Time distance(StateId state, Cell cell) const;
+  // At most what a path from here on costs.
+  Time distance(StateId state, Cell cell) const {
+    const Time distance = goals_->distance(state, cell);
+    if (only_rest_ == AgentStops::kNoStop) return distance;
+    return std::max(distance, goals_->stops().distances_from(cell)[only_rest_]);
+  }
   bool misses_deadline(StateId state, Cell cell, Time time) const;
   bool is_finish(const Entry& entry) const;
   bool is_stale(const Entry& entry);
@@ -158,6 +163,7 @@ class FreeLowLevelSearch::Workspace {
   void close_gate(const Entry& entry);
   void expand(const Entry& entry);
   void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
+  void touch(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
   void reach(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time,
              StateId state);
   std::uint16_t conflicts_on_arrival(const Entry& from, Cell from_cell, Cell cell, Time time) const;
@@ -299,13 +305,6 @@ void FreeLowLevelSearch::Workspace::find_only_rest() {
   if (stops.destination()) return;
   for (int stop = 0; stop < stops.count(); ++stop)
     if (stops.cell(stop) == intervals_.only_rest()) only_rest_ = stop;
-}
-
-// At most what a path from here on costs.
-Time FreeLowLevelSearch::Workspace::distance(StateId state, Cell cell) const {
-  const Time distance = goals_->distance(state, cell);
-  if (only_rest_ == AgentStops::kNoStop) return distance;
-  return std::max(distance, goals_->stops().distances_from(cell)[only_rest_]);
 }
 
 void FreeLowLevelSearch::Workspace::find_deadlines() {
@@ -463,6 +462,14 @@ void FreeLowLevelSearch::Workspace::expand(const Entry& entry) {
 
 void FreeLowLevelSearch::Workspace::arrive(const Entry& from, Cell from_cell, std::int32_t slot,
                                            Cell cell, Time time) {
+  if (goals_->may_count(from.progress, cell))
+    touch(from, from_cell, slot, cell, time);
+  else
+    reach(from, from_cell, slot, cell, time, from.progress);
+}
+
+void FreeLowLevelSearch::Workspace::touch(const Entry& from, Cell from_cell, std::int32_t slot,
+                                          Cell cell, Time time) {
   const bool known = goals_->on_arrival(
       from.progress, cell, [&](StateId state) { reach(from, from_cell, slot, cell, time, state); });
   if (!known) outside_ = true;

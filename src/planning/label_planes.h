@@ -2,6 +2,7 @@
 // The labels of a search over few of very many states.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -31,7 +32,10 @@ class LabelPlanes {
   void begin_search(int slots) {
     if (static_cast<std::size_t>(slots) > capacity_) {
       pool_.clear();
-      capacity_ = static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 2 + kSpare;
+      // Tight at first, since memory may be short; but reservations grow path by path.
+      const std::size_t tight =
+          static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
+      capacity_ = std::max(tight, capacity_ + capacity_ / 2);
     }
     if (++stamp_ == 0) {
       pool_.clear();

@@ -38,7 +38,6 @@ void SafeIntervals::look_up(Cell cell) {
   if (stays.empty()) return;
   Group g{.cell = cell};
   g.first_slot = slot_count();
-  g.first_bar = g.first_move = static_cast<std::int32_t>(bars_.size());
   Time safe_from = 0;
   Cell left_for = kNoCell;
   for (const Reservations::Stay& stay : stays) {
@@ -51,7 +50,6 @@ void SafeIntervals::look_up(Cell cell) {
   if (safe_from < kNever)
     intervals_.push_back({cell, safe_from, kNever, kNever, kFree, true, left_for});
   g.end_slot = slot_count();
-  g.end_move = g.first_move;
   group_of_[cell] = static_cast<std::int32_t>(groups_.size());
   groups_.push_back(g);
 }
@@ -176,7 +174,8 @@ void SafeIntervals::add_intervals(const Group& group, std::uint8_t copy) {
     const Bar& bar = bars_[i];
     if (bar.kind != Bar::Kind::kCell) break;
     if (safe_from < bar.begin)
-      intervals_.push_back({group.cell, safe_from, bar.begin - 1, bar.begin - 1, copy, false});
+      intervals_.push_back(
+          {group.cell, safe_from, bar.begin - 1, bar.begin - 1, copy, false, kNoCell});
     safe_from = std::max(safe_from, std::min(bar.end, kNever) + 1);
   }
   if (safe_from < kNever) add_unending_interval(group, safe_from, copy);
@@ -188,9 +187,9 @@ void SafeIntervals::add_unending_interval(const Group& group, Time begin, std::u
     if (bars_[i].kind == Bar::Kind::kRest) no_rest_by = std::max(no_rest_by, bars_[i].end);
   no_rest_by = std::min(no_rest_by, kNever);
   if (begin <= no_rest_by)
-    intervals_.push_back({group.cell, begin, kNever, no_rest_by, copy, false});
+    intervals_.push_back({group.cell, begin, kNever, no_rest_by, copy, false, kNoCell});
   if (const Time rest_from = std::max(begin, no_rest_by + 1); rest_from < kNever)
-    intervals_.push_back({group.cell, rest_from, kNever, kNever, copy, true});
+    intervals_.push_back({group.cell, rest_from, kNever, kNever, copy, true, kNoCell});
 }
 
 SafeIntervals::Range SafeIntervals::slots_of_copy(const Group& group, std::uint8_t copy) const {
@@ -230,8 +229,7 @@ Time SafeIntervals::first_move(int from_slot, Cell to, Time earliest) const {
   // One pass will do: the bars are in order of their begin.
   for (int i = group.first_move; i < group.end_move; ++i) {
     const Bar& bar = bars_[i];
-    if (bar.begin > earliest) break;
-    if (bar.from == from && earliest <= bar.end &&
+    if (bar.from == from && bar.begin <= earliest && earliest <= bar.end &&
         (bar.copy == kFree || bar.copy == copy_of(from_slot)))
       earliest = std::min(bar.end, kNever) + 1;
   }

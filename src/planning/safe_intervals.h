@@ -102,8 +102,8 @@ class SafeIntervals {
   Cell only_rest() const { return only_rest_; }
 
   // The first time from `earliest` on at which an agent in `from_slot` is not barred from moving to
-  // `to`; later than kNever when there is none. Whether `to` is safe then is another matter. Not
-  // with reservations.
+  // `to`; later than kNever when there is none. Whether `to` is safe then is another matter.
+  // Not with reservations.
   Time first_move(int from_slot, Cell to, Time earliest) const;
 
   // Calls arrive(slot, cell, time) for each slot next to `slot` that an agent in it at `from_time`

@@ -101,17 +101,21 @@ class FreeGoals {
     return known == kUnknown ? make_after(id, stop) : known;
   }
 
+  // Is there a stop on `cell` that may be counted next?
+  bool may_count(StateId id, Cell cell) const {
+    const int stop = stops_.stop_at(cell);
+    return stop != AgentStops::kNoStop && (states_[id].next >> stop & 1) != 0;
+  }
   // Calls reach(state) for each state that an agent in state `id` may be in once it has come to
   // `cell`. False: there is another one, which the completions do not know.
   template <class Reach>
   bool on_arrival(StateId id, Cell cell, Reach reach) {
-    const int stop = stops_.stop_at(cell);
-    if (stop == AgentStops::kNoStop || (states_[id].next >> stop & 1) == 0) {
+    if (!may_count(id, cell)) {
       reach(id);
       return true;
     }
     if (states_[id].may_skip) reach(id);
-    const StateId then = after(id, stop);
+    const StateId then = after(id, stops_.stop_at(cell));
     if (then == kOutside) return false;
     reach(then);
     return true;

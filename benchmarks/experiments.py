@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The experiments on Moving AI maps, one command each.
+
+    benchmarks/experiments.py paper                      the paper's cells: what is proven
+    benchmarks/experiments.py large -j 2                 hundreds of agents: plans and gaps
+    benchmarks/experiments.py crowded                    as many agents as fit: first plans
+    benchmarks/experiments.py classical -- --omega 0     no tasks: against other solvers
+    benchmarks/experiments.py ablation --tasks 30        each technique switched off in turn
+
+Instances come from `grove generate instance` and the scenarios <map>-random-<k>.scen; every plan is
+re-checked with `grove check`. Options after `--` go to `grove solve` as they are. A case whose map
+is not there is left out, which is said. The tables are Markdown; --csv keeps a row per run.
+Exit codes: 0 all ran, 1 some failed or nothing ran, 2 wrong usage.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from harness import tables  # noqa: E402
+from harness.instances import Case, Maps  # noqa: E402
+from harness.runs import Grove, Job, OtherSolver, run_all  # noqa: E402
+
+PAPER_MAPS = ["empty-32-32", "random-32-32-20", "room-32-32-4"]
+LARGE = [("random-64-64-10", 100, 300), ("random-64-64-10", 200, 600),
+         ("random-64-64-10", 100, 900), ("den312d", 100, 300), ("room-64-64-8", 100, 300),
+         ("warehouse-10-20-10-2-1", 100, 300)]
+CROWDED = [("room-32-32-4", 120, 120), ("random-32-32-20", 250, 250)]
+CLASSICAL = [("room-32-32-4", 20), ("room-32-32-4", 30), ("room-32-32-4", 40),
+             ("random-32-32-20", 50), ("random-32-32-20", 70),
+             ("empty-32-32", 100), ("empty-32-32", 150)]
+
+
+def paper_cases(arguments):
+    return [Case(name, agents, tasks, scenario, arguments.mg)
+            for name in arguments.map for agents in arguments.agents for tasks in arguments.tasks
+            for scenario in arguments.scenarios]
+
+
+def listed_cases(sizes, arguments):
+    return [Case(name, agents, tasks, scenario) for name, agents, tasks in sizes
+            if not arguments.map or name in arguments.map for scenario in arguments.scenarios]
+
+
+def grove_of(arguments):
+    return Grove(arguments.grove, tuple(arguments.options))
+
+
+def jobs_of(solvers, cases, arguments):
+    return [Job(solver, case, arguments.time_limit) for case in cases for solver in solvers]
+
+
+def paper(arguments):
+    jobs = jobs_of([grove_of(arguments)], paper_cases(arguments), arguments)
+    return jobs, lambda rows: [tables.cells(rows), tables.proofs(rows)]
+
+
+def large(arguments):
+    jobs = jobs_of([grove_of(arguments)], listed_cases(LARGE, arguments), arguments)
+    return jobs, lambda rows: [tables.plans(rows)]
+
+
+def crowded(arguments):
+    jobs = jobs_of([grove_of(arguments)], listed_cases(CROWDED, arguments), arguments)
+    return jobs, lambda rows: [tables.plans(rows)]
+
+
+def classical(arguments):
+    sizes = [(name, agents, None) for name, agents in CLASSICAL]
+    solvers = [grove_of(arguments)] + [OtherSolver(*other) for other in arguments.other]
+    jobs = jobs_of(solvers, listed_cases(sizes, arguments), arguments)
+    return jobs, lambda rows: [tables.comparison(rows)]
+
+
+def technique_names(grove):
+    """The techniques that `grove solve --without` knows, from what it says to one it does not."""
+    said = subprocess.run([grove, "solve", "--without", "?", "x"], capture_output=True, text=True,
+                          check=False).stderr
+    names = re.search(r"--without: .*expected one of ([a-z, -]+)", said)
+    if not names:
+        sys.exit(f"{grove} does not tell its techniques; it says: {said}")
+    return names.group(1).strip().split(", ")
+
+
+def ablation(arguments):
+    names = arguments.technique or technique_names(arguments.grove)
+    whole = grove_of(arguments)
+    solvers = [whole] + [Grove(whole.program, (*whole.options, "--without", name),
+                               f"without {name}") for name in names]
+    jobs = jobs_of(solvers, paper_cases(arguments), arguments)
+    return jobs, lambda rows: [tables.ablation(rows, whole.name)]
+
+
+def add_common(parser, time_limit, scenarios):
+    parser.add_argument("--grove", default="build/release/bin/grove", help="the program")
+    parser.add_argument("--maps", type=pathlib.Path,
+                        default=os.environ.get("GROVE_MOVINGAI", "../shared/movingai"),
+                        help="where the .map and .scen files are; by default what the environment "
+                             "variable GROVE_MOVINGAI says, or %(default)s")
+    parser.add_argument("--scenarios", nargs="+", type=int, default=scenarios, metavar="K")
+    parser.add_argument("--time-limit", type=float, default=time_limit, metavar="S",
+                        help="seconds per instance (%(default)s)")
+    parser.add_argument("-j", "--jobs", type=int, default=1, metavar="N",
+                        help="run so many at a time (%(default)s); times then disturb each other")
+    parser.add_argument("--csv", type=pathlib.Path, help="write a row per run to this file")
+
+
+def add_cells(parser):
+    parser.add_argument("--map", nargs="+", default=PAPER_MAPS)
+    parser.add_argument("--agents", nargs="+", type=int, default=[5, 10, 20], metavar="N")
+    parser.add_argument("--tasks", nargs="+", type=int, default=[10, 20, 30, 40, 50], metavar="M")
+    parser.add_argument("--mg", action="store_true", help="the MG-MAPF data set")
+
+
+def add_filter(parser):
+    parser.add_argument("--map", nargs="+", help="only these maps")
+
+
+def make_parser():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True, metavar="EXPERIMENT")
+
+    def add(function, summary, time_limit, scenarios):
+        command = commands.add_parser(function.__name__, help=summary, description=summary)
+        command.set_defaults(experiment=function)
+        add_common(command, time_limit, scenarios)
+        return command
+    add_cells(add(paper, "the paper's cells: what is proven", 10, [1, 2, 3]))
+    add_filter(add(large, "hundreds of agents and tasks: plans and gaps", 60, [1, 2, 3, 4, 5]))
+    add_filter(add(crowded, "as many agents as fit: first plans", 5, [1, 2, 3, 4, 5]))
+    command = add(classical, "no tasks: classical MAPF", 10, [1, 2, 3, 4, 5])
+    add_filter(command)
+    command.add_argument("--other", nargs=3, action="append", default=[],
+                         metavar=("NAME", "COMMAND", "REGEX"),
+                         help="another solver: its command with {map}, {scen}, {agents}, "
+                              "{time_limit} and {output} (a file it may write) filled in, and what "
+                              "it prints or writes when it has a plan, group 1 being the cost; may "
+                              "be given several times")
+    command = add(ablation, "the paper's cells with each technique switched off in turn", 5,
+                  [1, 2, 3])
+    add_cells(command)
+    command.add_argument("--technique", nargs="+", help="only these; by default all of the program")
+    return parser
+
+
+def parse(words):
+    split = words.index("--") if "--" in words else len(words)
+    arguments = make_parser().parse_args(words[:split])
+    arguments.options = words[split + 1:]
+    return arguments
+
+
+def main():
+    arguments = parse(sys.argv[1:])
+    jobs, report = arguments.experiment(arguments)
+    rows = run_all(jobs, Maps(arguments.maps), arguments.jobs, arguments.csv)
+    failed = [row for row in rows if row["status"] == "failed"]
+    for row in failed:
+        print(f"failed: {row['solver']}: {row['message']}", file=sys.stderr)
+    if rows:
+        print("\n\n".join(report(rows)))
+    return 0 if rows and not failed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""What is solved: cases of the Moving AI folder and the files that stand for them."""
+
+import dataclasses
+import pathlib
+
+RESERVED_ROWS = 20  # of a scenario: its tasks begin after them, or after the agents
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """The first `agents` rows of scenario number `scenario` of a map, with `tasks` tasks.
+
+    Without tasks (None) it is classical MAPF: the scenario as it stands.
+    """
+
+    map: str
+    agents: int
+    tasks: int | None
+    scenario: int
+    mg: bool = False
+
+    def __str__(self):
+        size = f"{self.agents}" if self.tasks is None else f"{self.agents}/{self.tasks}"
+        return f"{self.map} {size} scenario {self.scenario}"
+
+
+class Maps:
+    """A folder with <map>.map and <map>-random-<k>.scen files."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+
+    def map(self, case):
+        return self.folder / f"{case.map}.map"
+
+    def scenario(self, case, number=None):
+        return self.folder / f"{case.map}-random-{number or case.scenario}.scen"
+
+    def missing(self, case):
+        """The file that the case needs and that is not there; none: it can be run."""
+        return next((file for file in (self.map(case), self.scenario(case)) if not file.exists()),
+                    None)
+
+
+def scenario_with_enough_rows(maps, case, folder):
+    """The scenario of a case; if it has too few rows, a copy with those of the next one after it.
+
+    Crowds need it: random-32-32-20 has 409 rows, and 250 agents with 250 tasks take 500.
+    """
+    lines = maps.scenario(case).read_text().splitlines()
+    if len(lines) - 1 >= max(RESERVED_ROWS, case.agents) + (case.tasks or 0):
+        return maps.scenario(case)
+    following = maps.scenario(case, case.scenario + 1)
+    if not following.exists():
+        return maps.scenario(case)
+    longer = pathlib.Path(folder) / "longer.scen"
+    longer.write_text("\n".join(lines + following.read_text().splitlines()[1:]) + "\n")
+    return longer
+
+
+def instance_arguments(grove, maps, case, folder):
+    """(command that makes the instance or None, how `grove solve` is told of it)."""
+    if case.tasks is None:
+        return None, [maps.scenario(case), "--map", maps.map(case), "--agents", case.agents]
+    instance = pathlib.Path(folder) / "instance.cts.json"
+    command = [grove, "generate", "instance", "--map", maps.map(case),
+               "--scen", scenario_with_enough_rows(maps, case, folder),
+               "--agents", case.agents, "--tasks", case.tasks, "--seed", case.scenario,
+               "-o", instance]
+    return command + (["--mg"] if case.mg else []), [instance]

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""Tables in Markdown from rows of results."""
+
+import math
+import statistics
+
+PROVEN = ("optimal", "bounded")
+
+
+def grouped(rows, *columns):
+    """{values of the columns: rows}, in the order of first appearance."""
+    groups = {}
+    for row in rows:
+        groups.setdefault(tuple(row[column] for column in columns), []).append(row)
+    return groups
+
+
+def values(rows, column):
+    return [row[column] for row in rows if row[column] is not None]
+
+
+def median(numbers, digits=2):
+    return f"{statistics.median(numbers):.{digits}f}" if numbers else "-"
+
+
+def largest(numbers, digits=2):
+    return f"{max(numbers):.{digits}f}" if numbers else "-"
+
+
+def listed(rows, column, digits=None):
+    def text(value):
+        return "-" if value is None else str(value) if digits is None else f"{value:.{digits}f}"
+    return ", ".join(text(row[column]) for row in rows)
+
+
+def count(rows, *statuses):
+    return sum(row["status"] in statuses for row in rows)
+
+
+def within_one_percent(row):
+    return row["cost"] is not None and row["lower_bound"] is not None and \
+        100 * (row["cost"] - row["lower_bound"]) <= row["lower_bound"]
+
+
+def table(head, lines):
+    rule = "|" + "---|" * len(head)
+    rows = ["| " + " | ".join(str(entry) for entry in line) + " |" for line in [head, *lines]]
+    return "\n".join([rows[0], rule, *rows[1:]])
+
+
+def cells(rows):
+    """A line per cell (map, N, M); its entries are the scenarios'."""
+    return table(
+        ["map", "N", "M", "proven", "status", "cost", "bound", "gap %", "roots", "rTSP calls",
+         "nodes", "s"],
+        [[*key, f"{count(group, *PROVEN)}/{len(group)}", listed(group, "status"),
+          listed(group, "cost"), listed(group, "lower_bound"), listed(group, "gap_percent", 2),
+          listed(group, "roots"), listed(group, "rtsp_calls"), listed(group, "nodes"),
+          listed(group, "seconds", 2)]
+         for key, group in grouped(rows, "map", "agents", "tasks").items()])
+
+
+def proofs(rows):
+    """What is proven, by map and N, and in all."""
+    def line(name, agents, group):
+        return [name, agents, len(group), count(group, "optimal"),
+                sum(map(within_one_percent, group)), sum(row["cost"] is None for row in group),
+                median(values(group, "seconds"))]
+    groups = grouped(rows, "map", "agents").items()
+    return table(["map", "N", "instances", "proven optimal", "within 1 % proven", "no plan",
+                  "median s"],
+                 [*(line(*key, group) for key, group in groups), line("all", "", rows)])
+
+
+def plans(rows):
+    """How soon there is a plan and how good it gets."""
+    return table(
+        ["map", "N/M", "plans", "first plan s, median", "worst", "gap %, median", "worst",
+         "proven", "memory MB"],
+        [[name, f"{agents}/{tasks}", f"{len(values(group, 'cost'))}/{len(group)}",
+          median(values(group, "first_plan_s")), largest(values(group, "first_plan_s")),
+          median(values(group, "gap_percent")), largest(values(group, "gap_percent")),
+          f"{count(group, *PROVEN)}/{len(group)}", largest(values(group, "memory_mb"), 0)]
+         for (name, agents, tasks), group in grouped(rows, "map", "agents", "tasks").items()])
+
+
+def comparison(rows):
+    """Solvers side by side: solved, and the median time of what they solved."""
+    solvers = list(dict.fromkeys(row["solver"] for row in rows))
+
+    def entries(group, solver):
+        own = [row for row in group if row["solver"] == solver]
+        solved = [row for row in own if row["status"] in (*PROVEN, "solved")]
+        return [f"{len(solved)}/{len(own)}", median(values(solved, "seconds"))]
+    head = ["map", "agents"]
+    for solver in solvers:
+        head += [f"{solver}: solved", "median s"]
+    groups = grouped(rows, "map", "agents").items()
+    return table(head, [[*key, *(entry for solver in solvers for entry in entries(group, solver))]
+                        for key, group in groups])
+
+
+def ratio(pairs):
+    """Geometric mean of a/b; None where there is nothing to compare."""
+    logs = [math.log(a / b) for a, b in pairs]
+    return f"{math.exp(statistics.fmean(logs)):.2f}" if logs else "-"
+
+
+def ablation(rows, reference):
+    """Each solver against the one named `reference`; ratios over what both proved."""
+    def key(row):
+        return row["map"], row["agents"], row["tasks"], row["scenario"]
+    full = {key(row): row for row in rows if row["solver"] == reference}
+    lines = []
+    for (solver,), group in grouped(rows, "solver").items():
+        both = [(row, full[key(row)]) for row in group
+                if row["status"] in PROVEN and full[key(row)]["status"] in PROVEN]
+        lines.append([
+            solver, f"{count(group, *PROVEN)}/{len(group)}", count(group, "optimal"),
+            sum(map(within_one_percent, group)), len(both),
+            ratio([(row["nodes"] + 1, other["nodes"] + 1) for row, other in both]),
+            ratio([(row["seconds"] + 0.001, other["seconds"] + 0.001) for row, other in both])])
+    return table(["", "solved", "optimal", "within 1 %", "both solved", "nodes ratio",
+                  "time ratio"], lines)

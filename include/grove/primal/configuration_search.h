@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// First plans on crowded maps: all agents move at once, one joint step after the other (LaCAM).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "grove/model/limits.h"
+#include "grove/model/plan.h"
+#include "grove/search/problem.h"
+#include "grove/sequencing/cost_matrix.h"
+
+namespace grove {
+
+// Searches for any valid plan, in slices as short as one likes; cheap plans are not its business.
+// Begins anew when it takes long. The same arguments make the same plan, however the work is
+// sliced. One thread at a time.
+class ConfigurationSearch {
+ public:
+  enum class Outcome : std::uint8_t {
+    kFound,      // there is a plan()
+    kExhausted,  // every joint state that can be reached was expanded, and none is an end.
+                 // Heuristic code: nobody should take that for a proof
+    kWorking,    // the slice is used up
+    kStopped,    // a limit struck, or so little memory is left that going on would make one strike
+  };
+
+  // `orders`: in what order each agent heads for its stops, a complete sequence by AgentIndex;
+  // stops met on the way count too. An agent without a destination heads for the last one to rest
+  // there. Any orders will do; good ones make good plans (visit_orders.h). `problem` must outlive
+  // this. Throws std::invalid_argument for an order that is not complete.
+  ConfigurationSearch(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed);
+  ~ConfigurationSearch();
+  ConfigurationSearch(ConfigurationSearch&&) noexcept;
+  ConfigurationSearch& operator=(ConfigurationSearch&&) noexcept;
+
+  // Makes at most `slice` joint steps, each some 0.15 us for every agent. May be called again after
+  // kWorking and kStopped.
+  Outcome run(const Limits& limits, std::int64_t slice);
+
+  const std::optional<Plan>& plan() const;
+  // Joint states kept now.
+  std::int64_t configurations() const;
+
+ private:
+  class Search;
+  std::unique_ptr<Search> search_;
+};
+
+}  // namespace grove

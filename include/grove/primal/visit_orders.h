@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// In which order each agent is to visit its stops, when others are ignored.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "grove/search/problem.h"
+#include "grove/sequencing/cost_matrix.h"
+
+namespace grove {
+
+// A complete sequence per agent, by AgentIndex: its cheapest one. Agents without a destination end
+// on different stops, and none on another's destination, where that is possible at all; those that
+// have to end elsewhere than on their cheapest sequence do so after the stops before it. An agent
+// that cannot reach all its stops keeps them in the order of the instance. None when a limit
+// struck.
+std::optional<std::vector<Sequence>> cheapest_orders(const Problem& problem, const Limits& limits);
+
+}  // namespace grove

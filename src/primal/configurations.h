@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Joint states, stored compactly and found again.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "visit_states.h"
+
+namespace grove {
+
+// Where one agent is and what it has still to visit.
+struct Place {
+  Cell cell;
+  VisitStates::State state;
+  friend bool operator==(const Place&, const Place&) = default;
+};
+
+// Numbered rows of equal length, in blocks that never move.
+template <class T>
+class Rows {
+ public:
+  explicit Rows(std::size_t width)
+      : width_(width), per_block_(std::max<std::size_t>(1, kBlockBytes / (width * sizeof(T)))) {}
+
+  std::span<T> operator[](std::int32_t row) {
+    const auto i = static_cast<std::size_t>(row);
+    return {blocks_[i / per_block_].get() + i % per_block_ * width_, width_};
+  }
+  std::int32_t count() const { return count_; }
+  // Bytes that the next add() allocates.
+  std::size_t growth() const { return is_full() ? per_block_ * width_ * sizeof(T) : 0; }
+  std::span<T> add() {
+    if (is_full()) blocks_.push_back(std::make_unique<T[]>(per_block_ * width_));
+    return (*this)[count_++];
+  }
+
+ private:
+  static constexpr std::size_t kBlockBytes = 1 << 18;
+
+  bool is_full() const { return static_cast<std::size_t>(count_) == blocks_.size() * per_block_; }
+
+  std::size_t width_;
+  std::size_t per_block_;
+  std::int32_t count_ = 0;
+  std::vector<std::unique_ptr<T[]>> blocks_;
+};
+
+// A set of configurations, numbered in the order in which they came: one Place per agent each.
+class Configurations {
+ public:
+  using Id = std::int32_t;
+
+  explicit Configurations(int agents);
+
+  std::span<const Place> operator[](Id id) { return places_[id]; }
+  Id count() const { return places_.count(); }
+
+  // The number of `places`. If it is new, it is the last one: count() - 1.
+  Id insert(std::span<const Place> places);
+  // Bytes that the next insert() may allocate.
+  std::size_t growth() const;
+
+ private:
+  static constexpr Id kNone = -1;
+
+  std::size_t slot_of(std::span<const Place> places, std::uint64_t hash);
+  void rehash();
+
+  Rows<Place> places_;
+  std::vector<std::uint64_t> hashes_;  // by Id
+  std::vector<Id> slots_;              // open addressing, at most half full
+};
+
+}  // namespace grove

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "src/primal/configuration_generator.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <set>
+
+#include "crowd.h"
+#include "grove/primal/visit_orders.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+using testing::instance_of;
+
+struct Crowded {
+  explicit Crowded(const Instance& the_instance)
+      : instance(the_instance), problem(instance, Limits()) {
+    const auto orders = *cheapest_orders(problem, Limits());
+    for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+      states.emplace_back(problem, i, orders[i]);
+      places.push_back({instance.agent(i).start, states.back().first()});
+      priority.push_back(i);
+    }
+  }
+
+  const Instance& instance;
+  Problem problem;
+  std::vector<VisitStates> states;
+  std::vector<Place> places;
+  std::vector<AgentIndex> priority;
+};
+
+void expect_step(const Grid& grid, std::span<const Place> from, std::span<const Cell> to) {
+  ASSERT_EQ(from.size(), to.size());
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const auto near = grid.neighbors(from[i].cell);
+    EXPECT_TRUE(to[i] == from[i].cell || std::ranges::count(near, to[i]) == 1);
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NE(to[i], to[j]);
+      EXPECT_FALSE(to[i] == from[j].cell && to[j] == from[i].cell);
+    }
+  }
+}
+
+TEST(ConfigurationGenerator, StepsNeverCollideAndOrdersAreObeyed) {
+  int obeyed = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Instance instance = testing::random_crowd({.agents = 60, .tasks = 40}, seed);
+    Crowded crowd(instance);
+    ConfigurationGenerator generator(instance.grid(), crowd.states);
+    fuzz::Random random(seed);
+    Dice dice(seed);
+    for (int step = 0; step < 50; ++step) {
+      random.shuffle(crowd.priority);
+      std::vector<Order> orders;
+      for (int i = random.below(4); i-- > 0;) {
+        const Cell here = crowd.places[crowd.priority[i]].cell;
+        const auto near = instance.grid().neighbors(here);
+        const int choice = random.below(static_cast<int>(near.size()) + 1);
+        orders.push_back({crowd.priority[i], choice == 0 ? here : near[choice - 1]});
+      }
+      const auto to = generator.step(crowd.places, crowd.priority, orders, dice);
+      ASSERT_TRUE(!to.empty() || !orders.empty());
+      if (to.empty()) continue;
+      expect_step(instance.grid(), crowd.places, to);
+      for (const Order& order : orders) EXPECT_EQ(to[order.agent], order.cell);
+      obeyed += orders.size() > 1;
+      for (std::size_t i = 0; i < to.size(); ++i)
+        crowd.places[i] = {to[i], crowd.states[i].after(crowd.places[i].state, to[i])};
+    }
+  }
+  EXPECT_GT(obeyed, 50);
+}
+
+TEST(ConfigurationGenerator, ImpossibleOrdersGiveNothing) {
+  const Instance instance =
+      instance_of({"..."}, {{{0, 0}, Position{0, 0}}, {{1, 0}, Position{1, 0}}});
+  Crowded crowd(instance);
+  ConfigurationGenerator generator(instance.grid(), crowd.states);
+  Dice dice(0);
+  const auto fails = [&](std::vector<Order> orders) {
+    return generator.step(crowd.places, crowd.priority, orders, dice).empty();
+  };
+  EXPECT_TRUE(fails({{0, 1}, {1, 1}}));   // one cell for two
+  EXPECT_TRUE(fails({{0, 1}, {1, 0}}));   // a swap
+  EXPECT_TRUE(fails({{1, 0}}));           // the other cannot get away
+  EXPECT_FALSE(fails({{0, 1}, {1, 2}}));  // one after the other
+}
+
+TEST(ConfigurationGenerator, WhoComesFirstPushesTheOtherAway) {
+  const Instance instance =
+      instance_of({"...", "@.@"}, {{{0, 0}, Position{2, 0}}, {{1, 0}, Position{1, 0}}});
+  Crowded crowd(instance);
+  ConfigurationGenerator generator(instance.grid(), crowd.states);
+  Dice dice(0);
+  const auto to = generator.step(crowd.places, crowd.priority, {}, dice);
+  ASSERT_FALSE(to.empty());
+  EXPECT_EQ(to[0], 1);
+  EXPECT_NE(to[1], 1);
+}
+
+TEST(ConfigurationGenerator, BacksOffToTheJunctionWhereTwoMustPass) {
+  // a0 and a1 face each other in the corridor; the only bay is behind a0.
+  const Instance instance =
+      instance_of({".......", "@.@@@@@"}, {{{2, 0}, Position{6, 0}}, {{3, 0}, Position{0, 0}}});
+  Crowded crowd(instance);
+  ConfigurationGenerator generator(instance.grid(), crowd.states);
+  Dice dice(0);
+  const auto to = generator.step(crowd.places, crowd.priority, {}, dice);
+  ASSERT_FALSE(to.empty());
+  EXPECT_EQ(to[0], 1);
+  EXPECT_EQ(to[1], 2);
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// GROVE_FUZZ_FACTOR multiplies the number of random instances.
+#include "grove/primal/configuration_search.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+
+#include "crowd.h"
+#include "grove/model/check.h"
+#include "grove/primal/visit_orders.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/oracle/joint_oracle.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+using testing::AgentSpec;
+using testing::Crowd;
+using testing::instance_of;
+using testing::random_crowd;
+using Outcome = ConfigurationSearch::Outcome;
+
+constexpr std::int64_t kWithoutEnd = std::numeric_limits<std::int64_t>::max();
+
+std::uint64_t times_factor(std::uint64_t cases) {
+  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
+  return factor ? cases * std::strtoull(factor, nullptr, 10) : cases;
+}
+
+// A search and what it needs.
+struct Trial {
+  explicit Trial(const Instance& the_instance, std::uint64_t seed = 0)
+      : instance(the_instance),
+        problem(instance, limits),
+        search(problem, *cheapest_orders(problem, limits), seed) {}
+
+  Outcome run(std::int64_t slice) { return search.run(limits, slice); }
+  Outcome run() { return run(kWithoutEnd); }
+
+  const Instance& instance;
+  Limits limits;
+  Problem problem;
+  ConfigurationSearch search;
+};
+
+void expect_valid(const Instance& instance, const std::optional<Plan>& plan) {
+  ASSERT_TRUE(plan);
+  Solution solution;
+  solution.status = status_of(plan->cost, 0, solution.omega);
+  solution.plan = plan;
+  const auto violations = check(instance, solution);
+  EXPECT_TRUE(violations.empty()) << violations[0].place << ": " << violations[0].message;
+}
+
+// Runs to the end and returns the cost of the valid plan that there must be.
+Cost solved_cost(const Instance& instance) {
+  Trial run(instance);
+  EXPECT_EQ(run.run(), Outcome::kFound);
+  expect_valid(instance, run.search.plan());
+  return run.search.plan() ? run.search.plan()->cost : -1;
+}
+
+bool same_plan(const Plan& a, const Plan& b) {
+  return a.cost == b.cost &&
+         std::ranges::equal(a.agents, b.agents, {}, &AgentPlan::path, &AgentPlan::path);
+}
+
+TEST(ConfigurationSearch, AnAgentAloneWalksItsCheapestOrder) {
+  EXPECT_EQ(solved_cost(instance_of({"......"}, {{{2, 0}, Position{3, 0}, {{5, 0}, {0, 0}}}})), 9);
+  EXPECT_EQ(solved_cost(instance_of({"......"}, {{{2, 0}, {}, {{5, 0}, {0, 0}}}})), 7);
+}
+
+TEST(ConfigurationSearch, WhereEverybodyIsAtHomeNobodyMoves) {
+  EXPECT_EQ(solved_cost(
+                instance_of({".."}, {{{0, 0}, Position{0, 0}, {{0, 0}}}, {{1, 0}, {}, {{1, 0}}}})),
+            0);
+}
+
+TEST(ConfigurationSearch, AgentsTurnInARing) {
+  EXPECT_EQ(solved_cost(instance_of({"..", ".."}, {{{0, 0}, Position{1, 0}},
+                                                   {{1, 0}, Position{1, 1}},
+                                                   {{1, 1}, Position{0, 1}},
+                                                   {{0, 1}, Position{0, 0}}})),
+            4);
+}
+
+TEST(ConfigurationSearch, AgentsChangePlacesAtABay) {
+  solved_cost(
+      instance_of({".......", "@@@@@.@"}, {{{0, 0}, Position{6, 0}}, {{2, 0}, Position{0, 0}}}));
+}
+
+TEST(ConfigurationSearch, ATaskAtADeadEndWhereAnotherRests) {
+  // a1 rests at the end of the dead end before a0 has been there: it must come out again.
+  solved_cost(instance_of({"@.@@@@@@@@", "..........", "@.@@@@@@@@", "@.@@@@@@@@"},
+                          {{{9, 1}, Position{0, 1}, {{1, 3}}}, {{1, 0}, Position{1, 3}}}));
+}
+
+TEST(ConfigurationSearch, AgentsWithoutADestinationEndOnDifferentStops) {
+  solved_cost(
+      instance_of({".....", "....."}, {{{0, 0}, {}, {{3, 0}, {4, 0}}}, {{1, 0}, {}, {{4, 0}}}}));
+}
+
+TEST(ConfigurationSearch, AnUnreachableStopExhaustsIt) {
+  const Instance instance = instance_of({".@."}, {{{0, 0}, Position{0, 0}, {{2, 0}}}});
+  EXPECT_EQ(Trial(instance).run(), Outcome::kExhausted);
+}
+
+TEST(ConfigurationSearch, RefusesOrdersThatAreNotComplete) {
+  const Instance instance = instance_of({"..."}, {{{0, 0}, Position{0, 0}, {{1, 0}, {2, 0}}}});
+  const Problem problem(instance, Limits());
+  for (const std::vector<Sequence>& orders :
+       {std::vector<Sequence>{}, {{0}}, {{0, 0}}, {{0, 2}}, {{0, 1}, {0, 1}}})
+    EXPECT_THROW(ConfigurationSearch(problem, orders, 0), std::invalid_argument);
+}
+
+// The oracle decides; the search must find a plan for all that have one, and none else.
+TEST(ConfigurationSearch, SolvesWhatTinyInstancesCanBeSolved) {
+  int solved = 0;
+  int impossible = 0;
+  for (std::uint64_t seed = 0; seed < times_factor(600); ++seed) {
+    const Instance instance = fuzz::random_instance(seed).build();
+    const oracle::Answer truth = oracle::solve_jointly(instance, 20'000);
+    if (truth.verdict == oracle::Verdict::kTooLarge) continue;
+    Trial run(instance, seed);
+    const Outcome outcome = run.run();
+    ASSERT_EQ(outcome, truth.plan ? Outcome::kFound : Outcome::kExhausted) << "seed " << seed;
+    if (truth.plan) {
+      expect_valid(instance, run.search.plan());
+      EXPECT_GE(run.search.plan()->cost, truth.plan->cost) << "seed " << seed;
+    }
+    ++(truth.plan ? solved : impossible);
+  }
+  EXPECT_GT(solved, 100);
+  EXPECT_GT(impossible, 10);
+}
+
+class Crowds : public ::testing::TestWithParam<Crowd> {};
+
+// A few random crowds have no plan, or none that is found soon.
+TEST_P(Crowds, GetAValidPlan) {
+  const std::uint64_t cases = times_factor(10);
+  std::uint64_t unsolved = 0;
+  for (std::uint64_t seed = 0; seed < cases; ++seed) {
+    const Instance instance = random_crowd(GetParam(), seed);
+    Trial run(instance, seed);
+    if (run.run(20'000) == Outcome::kFound)
+      expect_valid(instance, run.search.plan());
+    else
+      ++unsolved;
+  }
+  EXPECT_LE(unsolved, 1 + cases / 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, Crowds,
+    ::testing::Values(Crowd{.tasks = 0}, Crowd{.agents = 50, .tasks = 50},
+                      Crowd{.agents = 30, .tasks = 60, .no_destination = 100},
+                      Crowd{.agents = 30, .tasks = 40, .no_destination = 40},
+                      Crowd{.size = 20, .obstacles = 25, .agents = 60, .tasks = 60},
+                      Crowd{.agents = 6, .tasks = 70}));
+
+TEST(ConfigurationSearch, TheSeedDecidesAlone) {
+  const Instance instance = random_crowd({.agents = 40}, 1);
+  Trial whole(instance, 7);
+  ASSERT_EQ(whole.run(), Outcome::kFound);
+  Trial sliced(instance, 7);
+  int slices = 1;
+  for (; sliced.run(slices) == Outcome::kWorking; ++slices) EXPECT_FALSE(sliced.search.plan());
+  EXPECT_GT(slices, 2);
+  EXPECT_TRUE(same_plan(*whole.search.plan(), *sliced.search.plan()));
+  EXPECT_EQ(whole.search.configurations(), sliced.search.configurations());
+
+  Trial other(instance, 8);
+  ASSERT_EQ(other.run(), Outcome::kFound);
+  EXPECT_FALSE(same_plan(*whole.search.plan(), *other.search.plan()));
+}
+
+// Agents that would have to pass each other in a tree without room: no plan, and more joint states
+// than anyone looks at.
+Instance hopeless() {
+  return instance_of({".........", "@.@.@.@.@", "@.@.@.@.@"}, {{{0, 0}, Position{8, 0}},
+                                                               {{8, 0}, Position{0, 0}},
+                                                               {{1, 2}, Position{1, 1}},
+                                                               {{1, 1}, Position{1, 2}},
+                                                               {{3, 2}, Position{3, 1}},
+                                                               {{3, 1}, Position{3, 2}},
+                                                               {{5, 2}, Position{5, 1}},
+                                                               {{5, 1}, Position{5, 2}},
+                                                               {{7, 2}, Position{7, 1}},
+                                                               {{7, 1}, Position{7, 2}},
+                                                               {{4, 0}, Position{4, 0}}});
+}
+
+TEST(ConfigurationSearch, BeginsAnewWhenItTakesLong) {
+  const Instance instance = hopeless();
+  Trial run(instance);
+  std::int64_t kept = 0;
+  int begun_anew = 0;
+  for (int slice = 0; slice < 40; ++slice) {
+    ASSERT_EQ(run.run(1000), Outcome::kWorking);
+    begun_anew += run.search.configurations() < kept;
+    kept = run.search.configurations();
+  }
+  EXPECT_GE(begun_anew, 2);
+  EXPECT_LE(begun_anew, 4);
+}
+
+TEST(ConfigurationSearch, StopsAtLimitsAndGoesOnAfterwards) {
+  const Instance instance = random_crowd({.agents = 40}, 2);
+  Trial whole(instance);
+  ASSERT_EQ(whole.run(), Outcome::kFound);
+  fuzz::Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    Trial run(instance);
+    const Outcome before = run.run(random.below(100));
+    const std::int64_t configurations = run.search.configurations();
+    const std::atomic<bool> interrupted{true};
+    Limits interrupt;
+    interrupt.watch_interrupt(&interrupted);
+    EXPECT_EQ(run.search.run(interrupt, kWithoutEnd),
+              before == Outcome::kFound ? Outcome::kFound : Outcome::kStopped);
+    EXPECT_EQ(run.search.configurations(), configurations);
+    ASSERT_EQ(run.run(), Outcome::kFound);
+    EXPECT_TRUE(same_plan(*whole.search.plan(), *run.search.plan()));
+  }
+}
+
+TEST(ConfigurationSearch, LeavesTheLastMemoryToOthers) {
+  const Instance instance = hopeless();
+  Trial run(instance);
+  Limits limits;
+  limits.set_memory_limit(resident_bytes() + (std::size_t{16} << 20));
+  EXPECT_EQ(run.search.run(limits, kWithoutEnd), Outcome::kStopped);
+  EXPECT_EQ(limits.reason(), StopReason::kNone);
+}
+
+TEST(ConfigurationSearch, StopsAtADeadline) {
+  const Instance instance = hopeless();
+  Trial run(instance);
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(5));
+  EXPECT_EQ(run.search.run(limits, kWithoutEnd), Outcome::kStopped);
+  EXPECT_EQ(limits.reason(), StopReason::kTime);
+}
+
+}  // namespace
+}  // namespace grove

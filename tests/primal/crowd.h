@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Crowds on middle-sized random maps.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grove/model/distance_field.h"
+#include "grove/model/instance.h"
+#include "tests/fuzz/random.h"
+
+namespace grove::testing {
+
+struct Crowd {
+  int size = 12;       // of the square map
+  int obstacles = 15;  // percent
+  int agents = 20;
+  int tasks = 20;
+  int no_destination = 0;  // percent of the agents
+};
+
+// The cells of the largest connected part.
+inline std::vector<Cell> largest_part(const Grid& grid) {
+  std::vector<Cell> largest;
+  for (Cell cell = 0; cell < grid.cell_count(); ++cell) {
+    if (!grid.passable(cell)) continue;
+    const DistanceField field = distance_field(grid, cell);
+    std::vector<Cell> part;
+    for (Cell other = 0; other < grid.cell_count(); ++other)
+      if (field[other] < kNever) part.push_back(other);
+    if (part.size() > largest.size()) largest = part;
+  }
+  return largest;
+}
+
+// Agents start and end on distinct random cells of one connected part; one without a destination
+// has a task where it might end. The other tasks are anywhere else, each for one or two agents.
+inline Instance random_crowd(const Crowd& crowd, std::uint64_t seed) {
+  fuzz::Random random(seed);
+  std::vector<bool> passable;
+  for (int i = 0; i < crowd.size * crowd.size; ++i)
+    passable.push_back(!random.percent(crowd.obstacles));
+  const Grid grid(crowd.size, crowd.size, passable);
+  std::vector<Cell> starts = largest_part(grid);
+  std::vector<Cell> ends = starts;
+  random.shuffle(starts);
+  random.shuffle(ends);
+
+  InstanceBuilder builder(grid);
+  const auto id = [](const char* kind, int i) { return kind + std::to_string(i); };
+  std::vector<Cell> elsewhere(ends.begin() + crowd.agents, ends.end());
+  std::vector<int> without;
+  for (int i = 0; i < crowd.agents; ++i) {
+    std::optional<Position> destination;
+    if (random.percent(crowd.no_destination)) {
+      without.push_back(i);
+    } else {
+      destination = grid.position(ends[i]);
+      elsewhere.push_back(ends[i]);
+    }
+    builder.add_agent(id("a", i), grid.position(starts[i]), destination);
+  }
+  for (int i : without)
+    builder.add_task(id("end", i), grid.position(ends[i]), std::vector{id("a", i)});
+  random.shuffle(elsewhere);
+  for (int t = 0; t < crowd.tasks; ++t) {
+    const int first = random.below(crowd.agents);
+    const int second = random.below(crowd.agents);
+    std::vector<std::string> visitors{id("a", first)};
+    if (second != first) visitors.push_back(id("a", second));
+    builder.add_task(id("t", t), grid.position(elsewhere[t]), visitors);
+  }
+  return std::move(builder).build();
+}
+
+}  // namespace grove::testing
