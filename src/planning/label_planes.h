@@ -65,7 +65,9 @@ class LabelPlanes {
 
  private:
   static constexpr std::size_t kSpare = 64;
-  static constexpr std::size_t kPlanesPerQuestion = 16;
+  // Memory is asked for by the piece, of one or more planes.
+  static constexpr std::size_t kPiece_bytes = std::size_t{16} << 20;
+  static constexpr std::size_t kMostPlanesPerPiece = 16;
 
   struct Free {
     void operator()(Label* labels) const { std::free(labels); }
@@ -90,9 +92,10 @@ class LabelPlanes {
   }
 
   bool add_plane(const Limits& limits) {
-    if (pool_.size() % kPlanesPerQuestion == 0 &&
-        !limits.memory_allows(kPlanesPerQuestion * capacity_ * sizeof(Label)))
-      return false;
+    const std::size_t bytes = capacity_ * sizeof(Label);
+    const std::size_t planes =
+        std::clamp<std::size_t>(kPiece_bytes / bytes, 1, kMostPlanesPerPiece);
+    if (pool_.size() % planes == 0 && !limits.memory_allows(planes * bytes)) return false;
     Plane plane(static_cast<Label*>(std::calloc(capacity_, sizeof(Label))));
     if (!plane) return false;
     pool_.push_back(std::move(plane));
