@@ -81,7 +81,11 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
 }
 
 FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work)
+    : FreeGoals(stops, std::move(work), stops.completions()) {}
+
+FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work, Completions& completions)
     : stops_(stops),
+      completions_(&completions),
       class_(std::move(work)),
       free_(stops.all() & ~checked_set(class_.prefix, stops.all())),
       first_free_(free_ & ~class_.forbidden_next),
@@ -96,8 +100,8 @@ bool FreeGoals::plausible() const {
 }
 
 FreeGoals::StateId FreeGoals::first_state() {
-  if (built_beyond_ == stops_.completions().beyond()) return first_state_;
-  built_beyond_ = stops_.completions().beyond();
+  if (built_beyond_ == completions_->beyond()) return first_state_;
+  built_beyond_ = completions_->beyond();
   states_.clear();
   after_.clear();
   onward_.clear();
@@ -130,7 +134,7 @@ StopSet FreeGoals::rests_after(const State& state, int stop) const {
 // From `stop`, the next one, through the other stops of `left` to the end.
 Time FreeGoals::onward_cost(StopSet left, int stop) const {
   left &= ~bit(stop);
-  const Completions& completions = stops_.completions();
+  const Completions& completions = *completions_;
   if (left != free_ && (left & ~free_) == 0) return completions.completion(left, stop);
   if (left == 0) return completions.completion(0, stop);
   Time best = kNever;

@@ -44,6 +44,16 @@
 // search begun again, unless the cutoff is below beyond(): kAbove. And if no label was dropped for
 // its f or for its state, the search has seen all there is: kInfeasible, whatever the graph.
 //
+// Early ends. No path costs less than the first rest, so one that costs just that is optimal
+// whatever its sequence: where the first rest is later than beyond(), labels are kept up to there.
+//
+// Late costs. Under cells barred for ever the completions know nothing of the way around, and a
+// search that they mislead tries all orders. So once per hard call, and before the completions are
+// widened, legs are priced anew (late_costs.cpp). If the best sequence costs more by these, then
+// the search begins again with completions of its own over them. All of the above holds with these
+// costs in place of the plain ones: a path through the stops of s costs at least what s costs, and
+// what is left of it costs at least the completion from any of its states on.
+//
 // Cutoff. Labels of f > cutoff are dropped. "Above" then says no more than that no path costs the
 // cutoff or less.
 //
@@ -89,10 +99,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <vector>
 
 #include "bucket_queue.h"
 #include "label_planes.h"
+#include "late_costs.h"
 #include "safe_intervals.h"
 #include "visit_check.h"
 
@@ -103,6 +115,8 @@ constexpr std::int64_t kExpansionsPerPoll = 256;
 // After so many in one call, or before the completions are widened a second time, it is worth
 // asking whether each stop can be visited at all, or in time.
 constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 12;
+// After so many in one call legs are priced anew: the work of some milliseconds, as pricing is.
+constexpr std::int64_t kExpansionsBeforePricing = 1 << 13;
 
 }  // namespace
 
@@ -149,6 +163,8 @@ class FreeLowLevelSearch::Workspace {
   Outcome run(const Limits& limits, Path& path);
 
   bool is_hopeless();
+  bool price_anew();
+  Time least_cost();
   // At most what a path from here on costs.
   Time distance(StateId state, Cell cell) const {
     const Time distance = goals_->distance(state, cell);
@@ -196,6 +212,10 @@ class FreeLowLevelSearch::Workspace {
   Outcome hopeless_ = Outcome::kAbove;  // what is_hopeless() found
   std::int64_t doubt_at_ = 0;  // the count of labels at which to ask, once, if there is hope
   bool outside_ = false;       // a label was dropped whose state the completions do not know
+  std::int64_t price_at_ = 0;  // the count of labels at which to price legs anew, once
+  bool priced_ = false;        // they were, while a search was under way: it must begin again
+  std::optional<Completions> late_completions_;
+  std::optional<FreeGoals> late_goals_;  // over these
 };
 
 FreeLowLevelSearch::FreeLowLevelSearch(const Grid& grid)
@@ -256,18 +276,26 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
   if (first_rest_ > latest_) return above_;
 
   doubt_at_ = doubts ? expanded_ + kExpansionsBeforeDoubt : kNoDoubt;
-  Completions& completions = goals.stops().completions();
-  if (effort.known_sequences && completions.beyond() <= cutoff) {
+  price_at_ = expanded_ + kExpansionsBeforePricing;
+  if (effort.known_sequences && goals_->completions().beyond() <= cutoff) {
+    price_at_ = kNoDoubt;
     const Outcome outcome = find_within(cutoff, limits, path);
-    const bool all_known = completions.beyond() == kNever;
+    const bool all_known = goals_->completions().beyond() == kNever;
     return outcome == Outcome::kFound || all_known ? outcome : Outcome::kStopped;
   }
   for (;;) {
-    const Outcome outcome = find_within(std::min(latest_, completions.beyond()), limits, path);
+    priced_ = false;
+    const Time optimal = std::max(goals_->completions().beyond(), first_rest_);
+    const Outcome outcome = find_within(std::min(latest_, optimal), limits, path);
+    if (priced_) continue;
+    Completions& completions = goals_->completions();
     if (outcome == Outcome::kAbove && latest_ < completions.beyond()) return above_;
     if (outcome != Outcome::kAbove) return outcome;
     if (completions.beyond() == kNever) return outcome;
-    if (goals.first_state() != FreeGoals::kOutside && is_hopeless()) return hopeless_;
+    if (goals_->first_state() != FreeGoals::kOutside) {
+      if (is_hopeless()) return hopeless_;
+      if (price_anew()) continue;
+    }
     if (!completions.widen(completions.beyond(), limits)) return Outcome::kStopped;
   }
 }
@@ -352,13 +380,45 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::run(const Limits& lim
     if (++expanded_ % kExpansionsPerPoll == 0) {
       if (expanded_ >= give_up_at_ || limits.stop_requested()) return Outcome::kStopped;
       if (expanded_ >= doubt_at_ && is_hopeless()) return hopeless_;
+      if (expanded_ >= price_at_ && price_anew()) {
+        priced_ = true;
+        return Outcome::kStopped;
+      }
     }
     close_gate(entry);
     expand(entry);
   }
   if (planes_.exhausted()) return Outcome::kStopped;
-  const bool bounded = goals_->stops().completions().beyond() < kNever;
+  const bool bounded = goals_->completions().beyond() < kNever;
   return over_ || (bounded && outside_) ? Outcome::kAbove : Outcome::kInfeasible;
+}
+
+// True if the search should begin again, with completions that know better. Once a call.
+bool FreeLowLevelSearch::Workspace::price_anew() {
+  if (price_at_ == kNoDoubt) return false;
+  price_at_ = kNoDoubt;
+  const Time plain = least_cost();
+  auto matrix = late_cost_matrix(grid_, intervals_, goals_->stops(), plain);
+  if (!matrix) return false;
+  FreeGoals* const plain_goals = goals_;
+  late_goals_.reset();
+  if (!late_completions_ || late_completions_->matrix().cost != matrix->cost)
+    late_completions_.emplace(std::move(*matrix));  // else those of a call before serve on
+  late_goals_.emplace(plain_goals->stops(), plain_goals->sequence_class(), *late_completions_);
+  goals_ = &*late_goals_;
+  while (late_completions_->beyond() <= plain && least_cost() >= late_completions_->beyond())
+    if (!late_completions_->widen(late_completions_->beyond(), *limits_)) break;
+  if (least_cost() > plain) return true;
+  goals_ = plain_goals;
+  return false;
+}
+
+// At most what any sequence of the class costs, by the completions.
+Time FreeLowLevelSearch::Workspace::least_cost() {
+  const Time beyond = goals_->completions().beyond();
+  const StateId state = goals_->first_state();
+  if (state == FreeGoals::kOutside) return beyond;
+  return std::min(beyond, goals_->distance(state, goals_->stops().start()));
 }
 
 // Is there surely no path, or none in time, or no time to find out? Asks once a call.

@@ -18,6 +18,10 @@
 // all stops: raise p where the tree branches, lower it where it ends. Potentials that serve the
 // whole set serve its subsets well enough, and the bound holds for any.
 //
+// A way that begins at u in S, and goes through the rest of S to the end, is a path that spans S
+// too, from u, and a last leg from another stop. It touches u once less: so the minimum spanning
+// tree with potentials, the last leg with its own and p(u), less twice the sum, bounds it.
+//
 // Everything is in fixed point: costs are integers times kScale, potentials are integers, so the
 // bound is computed exactly and rounding up to a multiple of kScale is sound, costs being integers.
 // Edges of the tree take the cheaper direction, so that a matrix need not be symmetric.
@@ -148,6 +152,11 @@ PathRelaxation::EndLegs PathRelaxation::end_legs(const Tail& tail, StopSet next,
 
 Time PathRelaxation::bound(const Tail& tail, StopSet next, int from) const {
   return to_cost(tail.tree + end_legs(tail, next, from).cost);
+}
+
+Time PathRelaxation::bound_from(const Tail& tail, int first) const {
+  return to_cost(tail.tree + potential_[first] +
+                 (first == tail.nearest_to_end ? tail.second_leg : tail.last_leg));
 }
 
 // The bound from the start over all stops, and how many legs of the relaxed way touch each.

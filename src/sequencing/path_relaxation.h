@@ -33,6 +33,9 @@ class PathRelaxation {
   // tail to the end when one of `next`, a subset of them, comes first; kNever when there is proven
   // to be no way. O(|next|).
   Time bound(const Tail& tail, StopSet next, int from) const;
+  // A proven lower bound on the cost from `first`, a stop of the tail, through its other stops to
+  // the end. Weaker than bound() over the others' own tail, which need not be known. O(1).
+  Time bound_from(const Tail& tail, int first) const;
 
  private:
   struct Tree;

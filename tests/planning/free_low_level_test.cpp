@@ -278,15 +278,23 @@ class ManyStops {
       if (!cost) return;
       EXPECT_EQ(agent.fixed_cost(realized_sequence(agent.goals, agent.path)), cost);
       expect_best(agent, *cost);
-      const int t = 1 + static_cast<int>(random_() % (agent.path.size() - 1));
-      const Time length = random_() % 4 == 0 ? 12 : 0;
-      agent.problem.constraints.push_back({agent.path[t], kNoCell, t, t + length});
+      agent.problem.constraints.push_back(bar(agent));
     }
   }
 
  private:
   static constexpr int kSide = 9;
   static constexpr std::size_t kMostSequences = 100;
+
+  // A cell of its path; sometimes for ever if it need not be visited.
+  Constraint bar(const Agent& agent) {
+    const int t = 1 + static_cast<int>(random_() % (agent.path.size() - 1));
+    const Cell cell = agent.path[t];
+    const bool needed =
+        agent.stops.stop_at(cell) != AgentStops::kNoStop || cell == problem_.destination;
+    if (random_() % 2 == 0 && !needed) return {cell, kNoCell, t, kNever};
+    return {cell, kNoCell, t, random_() % 4 == 0 ? t + 12 : t};
+  }
 
   // A cell of the largest connected part.
   Cell some_passable() {
@@ -438,6 +446,40 @@ TEST(FreeLowLevel, ADoorThatShutsForLongIsProvenAboveWithoutTryingAllOrders) {
   Agent in_time(problem);
   EXPECT_EQ(in_time.cost(), std::nullopt);
   EXPECT_LT(in_time.free.expanded(), 20'000);
+}
+
+// The short way to the destination is shut before all stops can have been visited: what is known of
+// the way around must keep the search from trying all orders.
+TEST(FreeLowLevel, ADoorThatShutsMakesTheLastLegDearer) {
+  const Grid grid = grid_of({"...........@.", ".@.@.@.@.@.@.", "...........@.", "@@@@@@@@@@.@.",
+                             "...........@.", ".@@@@@@@@@@@.", "............."});
+  for (const std::optional<Cell> destination : {std::optional<Cell>(52), std::optional<Cell>()})
+    for (const int n : {7, 12, 20}) {
+      FreeProblem problem = corridor(grid, {}, destination);
+      for (Cell cell = 1; static_cast<int>(problem.stops.size()) < n; cell += n < 12 ? 4 : 1)
+        if (grid.passable(cell) && cell % 13 < 11 && cell < 39) problem.stops.push_back(cell);
+      problem.constraints = {{57, kNoCell, 25, kNever}};
+      Agent agent(problem);
+      const std::optional<Time> cost = agent.cost();
+      if (n < 12) {
+        EXPECT_EQ(cost, free_reference_cost(problem));
+      }
+      EXPECT_LT(agent.free.expanded(), 30'000);
+    }
+}
+
+// The destination is free late: any sequence will do.
+TEST(FreeLowLevel, ALateRestIsFoundWithoutTryingAllOrders) {
+  const Grid grid = grid_of({"..........", "..........", "..........", ".........."});
+  for (const int n : {12, 24}) {
+    FreeProblem problem = corridor(grid, {}, 39);
+    for (Cell cell = 1; static_cast<int>(problem.stops.size()) < n; ++cell)
+      problem.stops.push_back(cell);
+    problem.constraints = {{39, kNoCell, 100, 100}};
+    Agent agent(problem);
+    EXPECT_EQ(agent.cost(), 101);
+    EXPECT_LT(agent.free.expanded(), 100'000);
+  }
 }
 
 TEST(FreeLowLevel, SaysAboveOnlyForTheCutoff) {

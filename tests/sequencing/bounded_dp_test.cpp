@@ -93,6 +93,27 @@ TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
       }
 }
 
+// Of every set: from each of its stops through the others, against every order.
+TEST(PathRelaxation, TheTreeOfASetBoundsTheWaysThatBeginInIt) {
+  Random random(34);
+  int above_zero = 0;
+  for (int round = 0; round < fuzz_rounds(10); ++round)
+    for (Variant variant : kVariants) {
+      const CostMatrix matrix =
+          round % 2 == 0 ? grid_matrix(6, variant, random) : metric_matrix(6, variant, random);
+      const PathRelaxation relaxation(matrix);
+      for (StopSet left = 1; left <= matrix.all(); ++left) {
+        const PathRelaxation::Tail tail = relaxation.tail(left);
+        for_each_stop(left, [&](int first) {
+          const Time bound = relaxation.bound_from(tail, first);
+          ASSERT_LE(bound, cheapest_rest(matrix, left & ~bit(first), first));
+          above_zero += bound > 0;
+        });
+      }
+    }
+  EXPECT_GT(above_zero, 1000);
+}
+
 TEST(SequenceDag, KnowsItsCostsToGoExactly) {
   Random random(33);
   const Limits limits;

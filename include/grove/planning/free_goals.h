@@ -79,10 +79,15 @@ class FreeGoals {
   // `stops` must outlive this. Throws std::invalid_argument for a prefix that repeats a stop or
   // names one that the agent does not have.
   FreeGoals(AgentStops& stops, SequenceClass work);
+  // The same with other completions than those of `stops`, over as many stops. They must outlive
+  // this.
+  FreeGoals(AgentStops& stops, SequenceClass work, Completions& completions);
 
   AgentStops& stops() { return stops_; }
   const AgentStops& stops() const { return stops_; }
   const SequenceClass& sequence_class() const { return class_; }
+  const Completions& completions() const { return *completions_; }
+  Completions& completions() { return *completions_; }
 
   // False if the class is empty or something in it cannot be reached at all.
   bool plausible() const;
@@ -157,6 +162,7 @@ class FreeGoals {
   void add_onward(State& state);
 
   AgentStops& stops_;
+  Completions* completions_;
   SequenceClass class_;
   StopSet free_;            // the stops that are not in the prefix
   StopSet first_free_;      // those of them that may be the first

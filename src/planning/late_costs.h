@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What legs cost once cells are barred for ever.
+#pragma once
+
+#include <optional>
+
+#include "grove/planning/free_goals.h"
+#include "safe_intervals.h"
+
+namespace grove {
+
+// Legs that every path under these intervals takes at least, if it is on the stops in the order of
+// a sequence that costs `least_cost` or more by the plain matrix. None: that is the plain matrix.
+// O(stops * cells).
+std::optional<CostMatrix> late_cost_matrix(const Grid& grid, SafeIntervals& intervals,
+                                           const AgentStops& stops, Time least_cost);
+
+}  // namespace grove

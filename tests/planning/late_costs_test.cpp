@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Legs priced under cells that are barred for ever: against what paths cost, order by order.
+#include "src/planning/late_costs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+
+#include "grove/planning/low_level_search.h"
+#include "tests/planning/free_reference.h"
+#include "tests/planning/single_agent.h"
+
+namespace grove {
+namespace {
+
+using testing::grid_of;
+using testing::members_of;
+using testing::SingleAgent;
+
+int rounds(int count) {
+  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
+  return factor ? count * std::max(1, std::atoi(factor)) : count;
+}
+
+class LateCosts {
+ public:
+  LateCosts(const Grid& grid, Cell start, const std::vector<Cell>& tasks,
+            std::optional<Cell> destination)
+      : grid_(grid),
+        agent_(grid, start, tasks, destination),
+        stops_(agent_.instance, agent_.distances, 0),
+        intervals_(grid) {}
+
+  int count() const { return stops_.count(); }
+  const CostMatrix& plain() const { return stops_.completions().matrix(); }
+  // The costs with these constraints; the plain ones where none is higher.
+  CostMatrix late(const std::vector<Constraint>& constraints, Time least_cost) {
+    intervals_.assign(constraints);
+    const auto matrix = late_cost_matrix(grid_, intervals_, stops_, least_cost);
+    return matrix ? *matrix : plain();
+  }
+  // kNever: no path.
+  Time path_cost(const Sequence& sequence, const std::vector<Constraint>& constraints) {
+    const std::vector<TaskIndex> tasks(sequence.begin(), sequence.end());
+    LowLevelSearch search(grid_);
+    Path path;
+    const auto outcome = search.find(GoalSequence(agent_.instance, agent_.distances, 0, tasks),
+                                     constraints, nullptr, Limits(), path);
+    return outcome == LowLevelSearch::Outcome::kFound ? static_cast<Time>(path.size()) - 1 : kNever;
+  }
+
+ private:
+  const Grid& grid_;
+  SingleAgent agent_;
+  AgentStops stops_;
+  SafeIntervals intervals_;
+};
+
+// A room with a door each in the west and in the east, the destination inside.
+const std::vector<std::string> kRoom = {
+    "............",  //
+    ".@@@@@@@@@@.",  // 12 ..
+    ".@........@.",  // 24 ..
+    "............",  // 36 ..: doors at 37 and 46
+    ".@@@@@@@@@@.",  // 48 ..
+};
+
+TEST(LateCosts, TheLastLegGoesAround) {
+  const Grid grid = grid_of(kRoom);
+  // From the corner to (0, 10) and (0, 0), and then to (3, 2).
+  LateCosts costs(grid, 48, {10, 0}, 38);
+  const Time least = 24;  // 48 -> 0 -> 10 -> 38 is 4 + 10 + 11; 48 -> 10 -> 0 -> 38: 14 + 10 + 5
+  const std::vector<Constraint> shut = {{37, kNoCell, 20, kNever}};
+  const CostMatrix late = costs.late(shut, least);
+  // Stop 1, (0, 0): last at 24 - 5 = 19, so at the door at 19 + 4 = 23 or later: by the east.
+  EXPECT_EQ(costs.plain().to_end(1), 5);
+  EXPECT_EQ(late.to_end(1), 11 + 3 + 9);
+  // Other legs may begin early.
+  EXPECT_EQ(late.from_start(0), costs.plain().from_start(0));
+  EXPECT_EQ(late.between(0, 1), costs.plain().between(0, 1));
+  // A door that stays open long enough, or opens again, changes nothing.
+  EXPECT_EQ(costs.late({{37, kNoCell, 24, kNever}}, least).cost, costs.plain().cost);
+  EXPECT_EQ(costs.late({{37, kNoCell, 2, 999}}, least).cost, costs.plain().cost);
+}
+
+TEST(LateCosts, AStopBehindAShutDoorIsNotReached) {
+  const Grid grid = grid_of({"......"});
+  LateCosts costs(grid, 0, {1, 4}, 0);
+  const CostMatrix late = costs.late({{3, kNoCell, 2, kNever}}, 8);
+  EXPECT_EQ(late.from_start(1), kNever);
+  EXPECT_EQ(late.between(0, 1), kNever);
+  EXPECT_EQ(late.from_start(0), 1);
+  EXPECT_EQ(late.to_end(0), 1);
+}
+
+class LateCostsFuzz {
+ public:
+  explicit LateCostsFuzz(unsigned seed) : random_(seed) {}
+
+  // Returns how many sequences cost more than before.
+  int check(bool with_destination) {
+    const Grid grid = random_grid();
+    std::vector<Cell> cells;
+    for (Cell cell = 0; cell < grid.cell_count(); ++cell)
+      if (grid.passable(cell)) cells.push_back(cell);
+    std::ranges::shuffle(cells, random_);
+    if (cells.size() < 8) return 0;
+    const std::vector<Cell> tasks(cells.begin() + 2, cells.begin() + 2 + 1 + random_() % 4);
+    LateCosts costs(grid, cells[0], tasks,
+                    with_destination ? std::optional(cells[1]) : std::nullopt);
+    const std::vector<Sequence> all = members_of({}, costs.count());
+    Time least = kNever;
+    for (const Sequence& s : all) least = std::min(least, sequence_cost(costs.plain(), s));
+    if (least >= kNever) return 0;
+    int raised = 0;
+    std::vector<Constraint> constraints;
+    for (int k = 0; k < 4; ++k) {
+      const auto begin = static_cast<Time>(random_() % static_cast<unsigned>(least + 4));
+      const Time end = random_() % 4 == 0 ? begin + 3 : kNever;
+      constraints.push_back({cells[random_() % cells.size()], kNoCell, begin, end});
+      const CostMatrix late = costs.late(constraints, least - static_cast<Time>(random_() % 2));
+      EXPECT_TRUE((late.cost.array() >= costs.plain().cost.array()).all());
+      for (const Sequence& s : all) {
+        const Time bound = sequence_cost(late, s);
+        EXPECT_LE(bound, costs.path_cost(s, constraints)) << k;
+        raised += bound > sequence_cost(costs.plain(), s);
+      }
+    }
+    return raised;
+  }
+
+ private:
+  Grid random_grid() {
+    const int width = 3 + static_cast<int>(random_() % 5);
+    const int height = 3 + static_cast<int>(random_() % 5);
+    std::vector<bool> passable(width * height);
+    for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = random_() % 4 > 0;
+    return {width, height, passable};
+  }
+
+  std::mt19937 random_;
+};
+
+TEST(LateCosts, NoPathCostsLess) {
+  int raised = 0;
+  for (int seed = 0; seed < rounds(400); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    raised += LateCostsFuzz(static_cast<unsigned>(seed)).check(seed % 2 == 0);
+    if (::testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(raised, 1000);
+}
+
+}  // namespace
+}  // namespace grove
