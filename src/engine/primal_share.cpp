@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Many instances are closed by the first nodes of the tree, so the tree begins. Then a plan is
-// wanted first of all: without one nothing is pruned, and a run that ends has nothing to show; the
-// primal search gets most of the work, until it has failed so often that the instance may have no
-// plan at all. With a plan, its share follows its success: let x be the part of its work that was
-// done when it last improved the plan. x = 1 just then, 1/2 when it has worked as much again for
-// nothing, and so on. For each unit of the tree's work it may do 8 x^3: much more than the tree
-// while it improves, as much at x = 1/2, an eighth at 1/4; and never less than 1/32. None of this
-// knows how large the instance is or how fast the machine.
+// Many small instances are closed by the first nodes of the tree, so the tree begins; of a large
+// one it makes the root and no more. Then a plan is wanted first of all:
+// without one nothing is pruned, and a run that ends has nothing to show; the primal search gets
+// most of the work, until it has failed so often that the instance may have no plan at all. With a
+// plan, its share follows its success: let x be the part of its work that was done when it last
+// improved the plan. x = 1 just then, 1/2 when it has worked as much again for nothing, and so on.
+// For each unit of the tree's work it may do 8 x^3: much more than the tree while it improves, as
+// much at x = 1/2, an eighth at 1/4; and never less than 1/32. None of this knows how large the
+// instance is or how fast the machine.
 #include "primal_share.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace grove {
 namespace {
 
-constexpr std::int64_t kTreeBegins_work = 20'000;  // some milliseconds
+constexpr std::int64_t kTreeBegins_work = 2000;
 constexpr double kMostRatio = 8;
 constexpr double kRatioInDoubt = 1;
 constexpr double kLeastRatio = 1.0 / 32;

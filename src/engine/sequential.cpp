@@ -63,6 +63,7 @@ class SequentialEngine {
   bool primal_is_due();
   void step_primal();
   void work_on_tree();
+  void begin_tree();
   NodePtr select();
   void grow();
   void expand(const NodePtr& node);
@@ -86,6 +87,7 @@ class SequentialEngine {
   Expander expander_;
   std::unique_ptr<PrimalSearch> primal_;  // made when it is first due
   PrimalShare share_;
+  bool begun_ = false;         // the first root was asked for
   bool out_of_nodes_ = false;  // though not finished
   std::int64_t nodes_expanded_ = 0;
   std::int64_t nodes_generated_ = 0;
@@ -132,6 +134,7 @@ void SequentialEngine::step_primal() {
 }
 
 void SequentialEngine::work_on_tree() {
+  if (!begun_) return begin_tree();
   const NodePtr node = select();
   if (!node) {
     out_of_nodes_ = true;
@@ -144,6 +147,15 @@ void SequentialEngine::work_on_tree() {
                      kWorkPerCall * (after.low_level_calls - before.low_level_calls) +
                      node->cost() / kStepsPerWork + 1);
   update_bound();
+}
+
+// The first root is a turn of its own: to expand it can take long where there are many pairs of
+// agents, which is what it counts for.
+void SequentialEngine::begin_tree() {
+  begun_ = true;
+  grow();
+  const std::int64_t agents = problem_.instance.agent_count();
+  share_.tree_worked(agents * agents);
 }
 
 // The node to expand next, after instantiating the next tree where Algorithm 4 finds that

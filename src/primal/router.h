@@ -48,7 +48,6 @@ class Router {
   FreeLowLevelSearch low_level_;
   std::vector<std::unique_ptr<FreeGoals>> goals_;  // by AgentIndex
   std::vector<Path> own_paths_;                    // by AgentIndex
-  const Reservations nobody_;
   std::int64_t calls_ = 0;
 };
 
