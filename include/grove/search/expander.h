@@ -11,6 +11,7 @@
 #include "grove/search/dependencies.h"
 #include "grove/search/node.h"
 #include "grove/search/path_planner.h"
+#include "grove/search/path_sets.h"
 #include "grove/search/situations.h"
 #include "grove/search/techniques.h"
 
@@ -56,9 +57,11 @@ class Expander {
   const Techniques techniques_;
   PathPlanner planner_;
   Situations situations_;
+  PathSets path_sets_;
   Brancher brancher_;
   Dependencies dependencies_;
   std::vector<AgentIndex> all_;
+  std::vector<Split> splits_;
 };
 
 }  // namespace grove

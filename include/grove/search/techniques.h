@@ -18,10 +18,12 @@ enum class Technique : std::uint8_t {
   kConfigurations,   // LaCAM for first plans on crowded maps
   kStrongBranching,  // of several conflicts, split the one that raises the bounds most
   kBypass,           // take an equally cheap path with fewer conflicts instead of splitting
+  kFewestConflicts,  // of equally cheap paths take one with the fewest conflicts
   kTarget,           // split on when an agent comes to rest
   kTraversal,        // split on which of two agents passes a corridor
   kDependencies,     // bound from pairs of agents that cannot both have their best paths
   kJointPaths,       // see such pairs in their optimal paths, without a search
+  kCostSplits,       // split on which of two such agents costs more
   kClusters,         // bound from groups of agents at the root
 };
 
