@@ -7,14 +7,19 @@
 // steps run out, the B under way is a bound, since all smaller ones were refuted.
 //
 // The greedy bound takes statements in turn that share no agent with those taken: their sum is due,
-// whatever the solution.
+// whatever the solution. Where it is large - a statement may say "infinitely much" - it is near
+// enough: the search is as deep as B is large.
 #include "grove/search/covering.h"
 
 #include <algorithm>
 #include <numeric>
 
+#include "grove/model/omega.h"
+
 namespace grove {
 namespace {
+
+constexpr Cost kMostSearched = 256;
 
 // A statement over the agents 0 .. count - 1 of its component.
 struct Statement {
@@ -31,7 +36,7 @@ class Component {
 
   Cost solve() {
     Cost sum = greedy();
-    while (!fulfil(sum) && steps_ > 0) ++sum;
+    while (sum <= kMostSearched && !fulfil(sum) && steps_ > 0) ++sum;
     return sum;
   }
 
@@ -41,7 +46,7 @@ class Component {
     Cost sum = 0;
     for (const Statement& s : statements_) {
       if (s.due <= 0 || std::ranges::any_of(s.agents, [&](int a) { return used_[a]; })) continue;
-      sum += s.due;
+      sum = std::min(sum + s.due, kInfiniteCost);
       for (int a : s.agents) used_[a] = true;
     }
     return sum;
@@ -134,7 +139,7 @@ Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps)
   for (auto begin = sorted.begin(); begin != sorted.end();) {
     const auto end = std::find_if(begin, sorted.end(),
                                   [&](const GroupExcess* s) { return root(s) != root(*begin); });
-    sum += solve_component({begin, end}, steps);
+    sum = std::min(sum + solve_component({begin, end}, steps), kInfiniteCost);
     begin = end;
   }
   return sum;

@@ -64,6 +64,9 @@ std::optional<Cost> Dependencies::bound(const NodePtr& node, Brancher& view, Cos
     return std::nullopt;
   std::vector<GroupExcess> statements;
   collect(statements);
+  // One that is above the cutoff by itself settles it.
+  if (std::ranges::any_of(statements, [&](const GroupExcess& s) { return s.excess > slack; }))
+    return cutoff;
   return std::min(cutoff, node->cost() + covering_bound(statements));
 }
 
@@ -191,8 +194,10 @@ bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group,
     }
     for (NodePtr& child : children_) open_.push_back({child->cost(), std::move(child)});
   }
+  // All closed for want of any path: that holds whatever the cutoff.
+  const Cost closed = base + slack + 1 >= kInfiniteCost ? kInfiniteCost : slack + 1;
   const auto least = std::ranges::min_element(open_, {}, &Open::cost);
-  known.excess = std::max(known.excess, least == open_.end() ? slack + 1 : least->cost - base);
+  known.excess = std::max(known.excess, least == open_.end() ? closed : least->cost - base);
   open_.clear();
   return true;
 }
