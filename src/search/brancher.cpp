@@ -34,6 +34,10 @@
 namespace grove {
 namespace {
 
+// Each bypass saves conflicts, but by a count in which two rests on one cell are not symmetric, so
+// that alone does not prove that bypasses end.
+constexpr int kMostBypasses = 64;
+
 // A hash of the pair (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(conflict.first) << 32) +
@@ -79,13 +83,13 @@ Brancher::Outcome Brancher::branch(Cost cutoff, std::span<const Split> last_reso
                                    const Limits& limits, std::vector<NodePtr>& children) {
   const Cost slack = cutoff - node_->cost() - 1;  // a child's cost may rise by so much
   if (slack < 0) return Outcome::kBranched;
-  while (!conflict_free()) {
+  for (int round = 0; !conflict_free(); ++round) {
     show_others();
     Split split;
     if (choose(slack, last_resorts, limits, split) == Step::kStopped) return Outcome::kStopped;
     for (int i = 0; i < 2; ++i)
       if (make_side(split[i], slack, limits, sides_[i]) == Step::kStopped) return Outcome::kStopped;
-    if (bypass(sides_[0]) || bypass(sides_[1])) continue;
+    if (round < kMostBypasses && (bypass(sides_[0]) || bypass(sides_[1]))) continue;
     const NodePtr parent = with_bypasses();
     for (int i = 0; i < 2; ++i)
       if (sides_[i].open) children.push_back(child(parent, split[i], sides_[i]));

@@ -29,7 +29,7 @@ struct Statement {
 
 class Component {
  public:
-  Component(std::vector<Statement> statements, int agents, std::int64_t steps)
+  Component(std::vector<Statement> statements, int agents, std::int64_t& steps)
       : statements_(std::move(statements)), frozen_(agents, 0), used_(agents), steps_(steps) {
     std::ranges::sort(statements_, std::greater(), &Statement::due);
   }
@@ -55,7 +55,8 @@ class Component {
   // Can everything that is due be fulfilled with a sum of at most `left`? "Yes" when the steps run
   // out.
   bool fulfil(Cost left) {
-    if (--steps_ <= 0) return true;
+    steps_ -= static_cast<std::int64_t>(statements_.size());
+    if (steps_ <= 0) return true;
     if (greedy() > left) return false;
     const auto most = std::ranges::max_element(statements_, {}, &Statement::due);
     if (most->due <= 0) return true;
@@ -82,7 +83,7 @@ class Component {
   std::vector<Statement> statements_;
   std::vector<int> frozen_;
   std::vector<bool> used_;
-  std::int64_t steps_;
+  std::int64_t& steps_;
 };
 
 // The smallest agent of each agent's component, by agent.
@@ -105,7 +106,7 @@ class Components {
   std::vector<AgentIndex> parent_;
 };
 
-Cost solve_component(std::span<const GroupExcess* const> statements, std::int64_t steps) {
+Cost solve_component(std::span<const GroupExcess* const> statements, std::int64_t& steps) {
   std::vector<AgentIndex> agents;
   for (const GroupExcess* s : statements)
     agents.insert(agents.end(), s->agents.begin(), s->agents.end());

@@ -25,9 +25,15 @@
 // What one pair costs more and what another does may be the same steps of a shared agent; the least
 // total that fulfils all statements is what covering_bound() finds.
 //
-// Memory. The excess of a pair depends on the situations of the two agents alone. From a node to
-// its child one situation changes, so nearly all pairs are known; and pairs that do not conflict
-// now, but did in the same situations at some node, count as well.
+// Memory. How much more a pair must cost depends on the situations of the two agents alone, so what
+// was proven about it at one node holds wherever both are in the same situations (how much was
+// proven depends on the cutoff of that moment). From a node to its child one situation changes, so
+// nearly all pairs are known; and pairs that do not conflict now, but did in the same situations at
+// some node, count as well.
+//
+// *Groups.* Where no pair must cost more, three and more agents may still be in each other's way
+// whatever they do; or they are not, and splits move one conflict from pair to pair for ever. The
+// same search over a connected group of such agents tells, and is remembered in the same way.
 #include "grove/search/dependencies.h"
 
 #include <algorithm>
@@ -40,7 +46,8 @@ namespace {
 constexpr std::int32_t kExpansionsPerPair = 16;
 constexpr std::int32_t kExpansionsPerGroup = 32;
 constexpr std::size_t kMostInGroup = 6;
-constexpr std::size_t kMostPairs = 50'000;  // of nodes, in a comparison
+constexpr std::size_t kBytesPerGroup = 160;  // about
+constexpr std::size_t kMostPairs = 50'000;   // of nodes, in a comparison
 
 }  // namespace
 
@@ -243,7 +250,8 @@ void Dependencies::clear() {
 
 std::size_t Dependencies::bytes() const {
   return known_.size() * (sizeof(std::uint64_t) + sizeof(Known) + 2 * sizeof(void*)) +
-         known_.bucket_count() * sizeof(void*);
+         known_.bucket_count() * sizeof(void*) +
+         (known_groups_.size() + groups_.size()) * kBytesPerGroup;
 }
 
 }  // namespace grove

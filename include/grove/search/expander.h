@@ -34,8 +34,10 @@ struct ExpansionCounts {
   std::int64_t pair_expansions = 0;
 };
 
-// A function of (problem, node, cutoff) with the workspace of one thread, and a memory that changes
-// no bound. Engines give each worker its own; all of them compute the same.
+// Expands nodes with the workspace of one thread and a memory of what was found out about agents,
+// pairs and groups before. What it says is proven whatever the memory holds; how much it says may
+// depend on it, since a pair is looked into once, with the cutoff of that moment. Engines give each
+// worker its own.
 class Expander {
  public:
   // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same

@@ -11,8 +11,8 @@
 
 namespace grove {
 
-// One technique. None changes what is proven, only how fast; the policy `fixed` uses none but the
-// primal ones. Each is explained at the head of its own file.
+// One technique. None changes what is proven, only how fast; the policy `fixed` uses none. Each is
+// explained at the head of its own file.
 enum class Technique : std::uint8_t {
   kPrimal,           // prioritised planning and large neighbourhood search for incumbents
   kConfigurations,   // LaCAM for first plans on crowded maps
@@ -24,7 +24,7 @@ enum class Technique : std::uint8_t {
   kDependencies,     // bound from pairs of agents that cannot both have their best paths
   kJointPaths,       // see such pairs in their optimal paths, without a search
   kCostSplits,       // split on which of two such agents costs more
-  kClusters,         // bound from groups of agents at the root
+  kClusters,         // the same for groups that conflict though no pair of them must cost more
 };
 
 // A set of techniques; a value.
