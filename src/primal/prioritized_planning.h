@@ -17,7 +17,8 @@ class PrioritizedPlanning {
  public:
   enum class State : std::uint8_t {
     kWorking,
-    kDone,     // all agents have a path
+    kDone,  // all agents have a path
+    kPutOff,
     kStopped,  // a limit struck; step() may be called again
   };
 
@@ -27,8 +28,9 @@ class PrioritizedPlanning {
 
   // Takes all paths away and begins; agents must have been met.
   void begin(std::vector<AgentIndex> order);
-  // Plans one agent. Not to be called after kDone.
-  State step(const Limits& limits);
+  // Plans one agent. A call of the low level that takes more than `patience` labels is put off to
+  // the next step, where it begins again. Not to be called after kDone.
+  State step(const Limits& limits, std::int64_t patience);
 
   // Orders begun so far.
   std::int64_t attempts() const { return attempts_; }

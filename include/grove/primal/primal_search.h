@@ -11,6 +11,7 @@
 #include "grove/planning/agent_stops_store.h"
 #include "grove/primal/plan_source.h"
 #include "grove/search/problem.h"
+#include "grove/search/techniques.h"
 
 namespace grove {
 
@@ -23,13 +24,15 @@ class PrimalSearch {
   struct Counts {
     std::int64_t steps = 0;
     std::int64_t attempts = 0;       // of prioritised planning, failed ones included
+    std::int64_t joint_steps = 0;    // of the configuration search
     std::int64_t neighborhoods = 0;  // destroyed and replanned
     std::int64_t low_level_calls = 0;
     std::int64_t low_level_expanded = 0;
   };
 
   // All must outlive this; `stops` may be shared with other searches of the same thread.
-  PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed);
+  PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed,
+               Techniques techniques = Techniques::all());
   ~PrimalSearch();
 
   // Goes on for about a millisecond (or one call of the low level, where that is longer). Returns a
@@ -44,6 +47,9 @@ class PrimalSearch {
 
   // The cheapest plan returned or adopted.
   std::optional<Cost> best_cost() const;
+  // There is no plan yet, but most likely one soon: the configuration search has neither given up
+  // nor begun anew. Never without that technique.
+  bool expects_plan() const;
   // Every agent is on a path as short as if it were alone: there is nothing left to do.
   bool optimal() const;
 
