@@ -260,9 +260,11 @@ TEST(PrimalSearch, ShortMemoryEndsTheConfigurationsAlone) {
   Search search(instance, 1);
   Limits limits;
   limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 20));
-  for (int step = 0; step < 100 && search.primal.counts().attempts < 3; ++step)
-    if (limits.reason() == StopReason::kNone) search.primal.step(limits);
-  EXPECT_LE(search.primal.counts().joint_steps, 1);
+  for (int step = 0; step < 1000 && search.primal.counts().attempts < 3; ++step)
+    search.primal.step(limits);
+  EXPECT_GE(search.primal.counts().attempts, 3);
+  EXPECT_EQ(search.primal.counts().joint_steps, 0);
+  EXPECT_FALSE(search.primal.expects_plan());
 }
 
 TEST(PrimalSearch, APlanThatComesDuringTheRaceEndsIt) {
