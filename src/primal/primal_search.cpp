@@ -48,6 +48,7 @@ constexpr std::int64_t kLeastStallPerAgent_neighborhoods = 10;
 constexpr std::int64_t kHeadStart = 4;  // of the work to meet all agents
 constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kJointStepsToPlan = 4096;
+constexpr std::int64_t kLongPlanning = 48;  // of the work to meet all agents
 constexpr double kSpread = 0.5;  // of the costs by which later rounds sort, as a part of them
 
 }  // namespace
@@ -74,7 +75,9 @@ class PrimalSearch::Impl {
     return best_ < kInfiniteCost ? std::optional(best_) : std::nullopt;
   }
   bool expects_plan() const {
-    return best_ == kInfiniteCost && may_configure_ && joint_steps_ < kJointStepsToPlan;
+    if (!may_configure_) return false;
+    if (best_ == kInfiniteCost) return joint_steps_ < kJointStepsToPlan;
+    return planning_now_ && first_round_ && planning_work_ < kLongPlanning * meeting_work_;
   }
   bool optimal() const { return met_ == agents_ && best_ <= own_costs_; }
   std::int64_t work() const {

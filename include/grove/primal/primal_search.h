@@ -47,8 +47,9 @@ class PrimalSearch {
 
   // The cheapest plan returned or adopted.
   std::optional<Cost> best_cost() const;
-  // There is no plan yet, but most likely one soon: the configuration search has neither given up
-  // nor begun anew. Never without that technique.
+  // A plan is likely soon: the first, while the configuration search has neither given up nor begun
+  // anew; or after its plan a much cheaper one, while prioritised planning has not taken long.
+  // Never without the configuration search.
   bool expects_plan() const;
   // Every agent is on a path as short as if it were alone: there is nothing left to do.
   bool optimal() const;
