@@ -213,6 +213,7 @@ TEST(PrimalSearch, TheFirstAttemptOfPrioritisedPlanningIsNotDisturbed) {
   Search search(instance);
   ASSERT_FALSE(search.plans(10).empty());
   EXPECT_EQ(search.primal.counts().attempts, 1);
+  EXPECT_FALSE(search.primal.expects_plan());
   EXPECT_EQ(search.primal.counts().joint_steps, 0);
 }
 

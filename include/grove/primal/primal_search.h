@@ -15,10 +15,10 @@
 
 namespace grove {
 
-// Prioritised planning until there is a plan, then large neighbourhood search on it, from other
-// seeds when that stalls (primal_search.cpp tells how). In small steps, so that one thread can do
-// other things in between. The same seed, steps and adoptions make the same plans, limits aside.
-// For one thread.
+// Prioritised planning, raced by configuration search where it takes long (LaCAM; only with
+// Technique::kConfigurations), then large neighbourhood search on the plan, from other seeds when
+// that stalls (primal_search.cpp tells how). In small steps, so that one thread can do other things
+// in between. The same seed, steps and adoptions make the same plans, limits aside. For one thread.
 class PrimalSearch {
  public:
   struct Counts {
