@@ -34,6 +34,8 @@ char letter_of(PlanSource source) {
       return 'S';
     case PlanSource::kPriorities:
       return 'H';
+    case PlanSource::kConfigurations:
+      return 'C';
     case PlanSource::kNeighborhood:
       return 'L';
     case PlanSource::kTree:
@@ -58,7 +60,7 @@ char letter_of(RunEvent event) {
 }
 
 int telling(char letter) {
-  return static_cast<int>(std::string_view(" TBLHS*").find(letter));
+  return static_cast<int>(std::string_view(" TBLCHS*").find(letter));
 }
 
 }  // namespace

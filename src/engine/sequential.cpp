@@ -35,6 +35,7 @@ Techniques techniques_of(const SolveOptions& options) {
   return options.policy == Policy::kFixed ? Techniques() : options.techniques;
 }
 
+constexpr std::int64_t kRootWorkPerPair = 8;  // of agents
 constexpr std::int64_t kWorkPerCall = 16;  // in labels: what a call of the low level costs beside
 constexpr std::int64_t kStepsPerWork = 4;  // of the paths of a node that is looked through
 
@@ -120,7 +121,7 @@ bool SequentialEngine::primal_is_due() {
       options_.policy != Policy::kFixed && options_.techniques.has(Technique::kPrimal);
   if (!wanted || !share_.may_begin()) return false;
   if (!primal_) {
-    primal_ = std::make_unique<PrimalSearch>(problem_, stops_, options_.seed);
+    primal_ = std::make_unique<PrimalSearch>(problem_, stops_, options_.seed, options_.techniques);
     if (const auto plan = gate_.incumbent()) primal_->adopt(*plan);
   }
   return share_.due(*primal_);
@@ -155,7 +156,7 @@ void SequentialEngine::begin_tree() {
   begun_ = true;
   grow();
   const std::int64_t agents = problem_.instance.agent_count();
-  share_.tree_worked(agents * agents);
+  share_.tree_worked(kRootWorkPerPair * agents * agents);
 }
 
 // The node to expand next, after instantiating the next tree where Algorithm 4 finds that
@@ -254,6 +255,7 @@ Solution SequentialEngine::conclude() const {
   const auto primal = primal_ ? primal_->counts() : PrimalSearch::Counts();
   solution.stats.counts["primal_steps"] = primal.steps;
   solution.stats.counts["primal_attempts"] = primal.attempts;
+  solution.stats.counts["primal_joint_steps"] = primal.joint_steps;
   solution.stats.counts["primal_neighborhoods"] = primal.neighborhoods;
   solution.stats.counts["primal_low_level_calls"] = primal.low_level_calls;
   solution.stats.counts["primal_low_level_expanded"] = primal.low_level_expanded;
