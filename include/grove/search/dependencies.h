@@ -17,10 +17,9 @@
 
 namespace grove {
 
-// Also of larger groups that conflict though no pair of them must cost more.
-// The pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), for larger groups that
-// conflict though no pair of them must cost more as well, with a memory that serves
-// all nodes. The essay is at the head of dependencies.cpp. Of one thread.
+// The pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), with a memory that serves
+// all nodes; also for larger groups that conflict though no pair of them must cost more. The essay
+// is at the head of dependencies.cpp. Of one thread.
 class Dependencies {
  public:
   // All must outlive this.
