@@ -9,7 +9,7 @@
 namespace grove {
 namespace {
 
-constexpr std::size_t kMostMemory = std::size_t{1} << 29;  // of what is remembered, in bytes
+constexpr std::size_t kMostMemory = std::size_t{1} << 29;  // at first
 
 }  // namespace
 
@@ -20,7 +20,8 @@ Expander::Expander(const Problem& problem, AgentStopsStore& stops, Techniques te
       planner_(problem, stops),
       brancher_(problem, techniques, seed, planner_, situations_),
       dependencies_(problem, techniques, seed, planner_, situations_),
-      all_(static_cast<std::size_t>(problem.instance.agent_count())) {
+      all_(static_cast<std::size_t>(problem.instance.agent_count())),
+      most_memory_(kMostMemory) {
   std::iota(all_.begin(), all_.end(), 0);
 }
 
@@ -78,9 +79,14 @@ Plan Expander::plan(const Node& node) {
 
 // Forgets everything when it has become too much.
 void Expander::bound_memory() {
-  if (situations_.bytes() + dependencies_.bytes() < kMostMemory) return;
+  if (memory() < most_memory_) return;
   situations_.clear();
   dependencies_.clear();
+}
+
+void Expander::limit_memory(std::size_t most) {
+  most_memory_ = most;
+  bound_memory();
 }
 
 ExpansionCounts Expander::counts() const {

@@ -22,6 +22,7 @@ constexpr std::array kNames = {
     Named{Technique::kDependencies, "dependencies"},
     Named{Technique::kJointPaths, "joint-paths"},
     Named{Technique::kClusters, "clusters"},
+    Named{Technique::kEstimates, "estimates"},
 };
 
 constexpr auto kAll = [] {

@@ -48,6 +48,10 @@ class Expander {
 
   ExpansionCounts counts() const;
 
+  // What is remembered, in bytes (about), and the most that may be: beyond, all is forgotten.
+  std::size_t memory() const { return situations_.bytes() + dependencies_.bytes(); }
+  void limit_memory(std::size_t most);
+
  private:
   Plan plan(const Node& node);
   void bound_memory();
@@ -59,6 +63,7 @@ class Expander {
   Brancher brancher_;
   Dependencies dependencies_;
   std::vector<AgentIndex> all_;
+  std::size_t most_memory_;
 };
 
 }  // namespace grove

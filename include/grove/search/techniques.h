@@ -23,6 +23,7 @@ enum class Technique : std::uint8_t {
   kDependencies,     // bound from pairs of agents that cannot both have their best paths
   kJointPaths,       // see such pairs in their optimal paths, without a search
   kClusters,         // bound from groups of agents at the root
+  kEstimates,        // with w > 0, while there is no plan: every other node by what it promises
 };
 
 // A set of techniques; a value.
