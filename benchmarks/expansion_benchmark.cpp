@@ -60,6 +60,7 @@ class Search {
 
   std::int64_t generated() const { return generated_; }
   ExpansionCounts counts() const { return expander_.counts(); }
+  double node_bytes() const { return pool_.mean_bytes(); }
 
  private:
   Limits limits_;
@@ -86,6 +87,7 @@ void BM_Expansions(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
   state.counters["bytes_per_node"] =
       (static_cast<double>(resident_bytes()) - memory_before) / nodes;
+  state.counters["node_bytes"] = search.node_bytes();  // of them in nodes and their paths
   const ExpansionCounts counts = search.counts();
   state.counters["labels_per_call"] =
       static_cast<double>(counts.low_level_expanded) / static_cast<double>(counts.low_level_calls);

@@ -59,6 +59,15 @@ char letter_of(RunEvent event) {
   return ' ';
 }
 
+// What the search gave up for want of memory.
+std::string evicted_text(const Solution& solution) {
+  const auto evicted = solution.stats.counts.find("nodes_evicted");
+  if (evicted == solution.stats.counts.end() || evicted->second == 0) return "";
+  const std::int64_t restarts = solution.stats.counts.at("restarts");
+  return fmt::format(", {} nodes given up{}", evicted->second,
+                     restarts == 0 ? "" : fmt::format(", {} times begun anew", restarts));
+}
+
 int telling(char letter) {
   return static_cast<int>(std::string_view(" TBLCHS*").find(letter));
 }
@@ -181,6 +190,11 @@ void RunLog::finish(const Solution& solution, const std::filesystem::path& plan_
                                ? "any plan"
                                : fmt::format("at most {:g} %", 100 * solution.omega.value())));
   sink_.line(fmt::format("Time          {:.2f} s", solution.stats.measures.at("wall_s")));
+  const auto node_bytes = solution.stats.measures.find("node_bytes");
+  if (node_bytes != solution.stats.measures.end())
+    sink_.line(fmt::format("Memory        {:.0f} MB at most, {:.0f} bytes per node{}",
+                           solution.stats.measures.at("peak_memory_mb"), node_bytes->second,
+                           evicted_text(solution)));
   sink_.line(fmt::format("Plan file     {}", plan_path.string()));
 }
 

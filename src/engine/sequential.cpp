@@ -3,11 +3,23 @@
 // CTS-CBS (paper, Algorithms 1 and 4); the proof that it may stop is at the head of
 // search/gate.cpp. The primal search (primal_share.cpp tells when it is its turn) posts plans like
 // any node: an incumbent prunes, and that is all it does.
+//
+// Which node. With w = 0 always the best. With w > 0 a plan may be found that no proof has to wait
+// for, in nodes whose bound is within w of the lower bound; among these the best is the worst
+// place to look, for it has been kept from becoming dearer, not from having conflicts. So, as in
+// explicit estimation search (Li, Ruml and Koenig, AAAI 2021), every other node is chosen by what a
+// plan below it can be expected to cost, and the nodes between, best first, let the bound rise.
+// Once there is an incumbent C only the bound is of use: every node below C / (1 + w) must be
+// expanded in whatever order, and what the tree finds no sooner than neighbourhood search does is
+// not worth a node above. Then it is best first as with w = 0.
+#include <malloc.h>
+
 #include <algorithm>
 #include <memory>
 #include <new>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "grove/engine/run_observer.h"
 #include "grove/engine/solve.h"
@@ -18,6 +30,7 @@
 #include "grove/search/gate.h"
 #include "grove/search/sequence_forest.h"
 #include "grove/search/single_tree.h"
+#include "memory_shares.h"
 #include "primal_share.h"
 
 namespace grove {
@@ -37,7 +50,8 @@ Techniques techniques_of(const SolveOptions& options) {
 
 constexpr std::int64_t kRootWorkPerPair = 8;  // of agents
 constexpr std::int64_t kWorkPerCall = 16;  // in labels: what a call of the low level costs beside
-constexpr std::int64_t kStepsPerWork = 4;  // of the paths of a node that is looked through
+constexpr double kExpectedPerConflict = 0.5;  // by measurement; 1 is a little worse, 0.15 much
+constexpr std::int64_t kStepsPerWork = 4;     // of the paths of a node that is looked through
 
 class SequentialEngine {
  public:
@@ -52,7 +66,9 @@ class SequentialEngine {
         stops_(problem.instance, problem.distances),
         forest_(make_forest(problem, stops_, pool_, options, limits)),
         expander_(problem, stops_, techniques_of(options), options.seed),
-        share_(problem.instance.agent_count()) {}
+        share_(problem.instance.agent_count()),
+        memory_(limits, options.node_memory),
+        uses_estimates_(techniques_of(options).has(Technique::kEstimates)) {}
   ~SequentialEngine() { frontier_.abandon(); }
   SequentialEngine(const SequentialEngine&) = delete;
   SequentialEngine& operator=(const SequentialEngine&) = delete;
@@ -67,6 +83,10 @@ class SequentialEngine {
   void begin_tree();
   NodePtr select();
   void grow();
+  bool plan_is_wanted();
+  bool begin_anew();
+  void keep_within_memory();
+  void evict_to(std::size_t bytes);
   void expand(const NodePtr& node);
   void branch(const Expansion& expansion);
   void post(Plan plan, PlanSource source);
@@ -88,10 +108,17 @@ class SequentialEngine {
   Expander expander_;
   std::unique_ptr<PrimalSearch> primal_;  // made when it is first due
   PrimalShare share_;
-  bool begun_ = false;         // the first root was asked for
-  bool out_of_nodes_ = false;  // though not finished
+  bool begun_ = false;  // the first root was asked for
+  MemoryShares memory_;
+  std::vector<NodePtr> roots_;  // of all trees so far
+  Cost begun_anew_at_ = -1;     // the bound that the last run through the trees proved
+  bool out_of_nodes_ = false;   // though not finished
   std::int64_t nodes_expanded_ = 0;
   std::int64_t nodes_generated_ = 0;
+  std::int64_t nodes_evicted_ = 0;
+  std::int64_t restarts_ = 0;
+  const bool uses_estimates_;
+  bool estimates_turn_ = false;
 };
 
 Solution SequentialEngine::run() {
@@ -112,6 +139,7 @@ void SequentialEngine::search() {
       step_primal();
     else
       work_on_tree();
+    keep_within_memory();
     tell(RunEvent::kProgress);
   }
 }
@@ -163,13 +191,46 @@ void SequentialEngine::begin_tree() {
 // necessary.
 NodePtr SequentialEngine::select() {
   if (gate_.needs_new_tree(frontier_.bound(), forest_->last_cost())) grow();
-  return frontier_.take();
+  NodePtr node;
+  if (plan_is_wanted())
+    node = frontier_.take_promising(omega_, gate_.lower_bound(), kExpectedPerConflict);
+  if (!node) node = frontier_.take();
+  if (!node && begin_anew()) node = frontier_.take();
+  return node;
+}
+
+// Is it the turn of a node that may lead to a plan soon?
+bool SequentialEngine::plan_is_wanted() {
+  if (omega_ == Omega() || gate_.incumbent_cost() || !uses_estimates_) return false;
+  estimates_turn_ = !estimates_turn_;
+  return estimates_turn_;
+}
+
+// When no node is left but some were given up: starts again from all roots, or first adds a tree
+// that is due by then. False if that would lead nowhere: the last run was no better.
+bool SequentialEngine::begin_anew() {
+  const Cost proven = frontier_.evicted_bound();
+  if (proven == kInfiniteCost || omega_.is_infinite()) return false;
+  if (forest_->next_bound() < proven) {
+    grow();
+    return true;
+  }
+  if (proven <= begun_anew_at_) return false;
+  begun_anew_at_ = proven;
+  ++restarts_;
+  frontier_.restart();
+  for (const NodePtr& root : roots_) {
+    observer_.on_root(root);
+    if (!gate_.prunes(root->bound())) frontier_.push(root);
+  }
+  return true;
 }
 
 void SequentialEngine::grow() {
   const NodePtr root = forest_->next_root();
   if (root) {
     observer_.on_root(root);
+    roots_.push_back(root);
     ++nodes_generated_;
     if (!gate_.prunes(root->bound())) frontier_.push(root);
   }
@@ -195,6 +256,30 @@ void SequentialEngine::branch(const Expansion& expansion) {
   for (const NodePtr& child : expansion.children) {
     ++nodes_generated_;
     if (!gate_.prunes(child->bound())) frontier_.push(child);
+  }
+}
+
+// Nodes that need not be expanded any more, for the incumbent is within w of their bound, are the
+// first to go: they are the worst.
+void SequentialEngine::keep_within_memory() {
+  if (memory_.is_short()) {
+    memory_.cut(pool_.bytes(), expander_.memory());
+    expander_.limit_memory(memory_.for_expander());
+    evict_to(memory_.for_nodes());
+    ::malloc_trim(0);
+    memory_.settled();
+  } else if (pool_.bytes() > memory_.for_nodes()) {
+    evict_to(memory_.for_nodes() / 8 * 7);
+  }
+}
+
+// The best open node stays. Evicting a leaf frees those ancestors that no other node shares.
+void SequentialEngine::evict_to(std::size_t bytes) {
+  while (pool_.bytes() > bytes && frontier_.open() > 1) {
+    const std::size_t open = frontier_.open();
+    const auto evicted = frontier_.evict(std::min(open - 1, open / 16 + 1));
+    for (const NodePtr& node : evicted) observer_.on_evicted(node);
+    nodes_evicted_ += std::ssize(evicted);
   }
 }
 
@@ -247,11 +332,14 @@ Solution SequentialEngine::conclude() const {
   const ExpansionCounts counts = expander_.counts();
   solution.stats.counts = {{"nodes_expanded", nodes_expanded_},
                            {"nodes_generated", nodes_generated_},
+                           {"nodes_evicted", nodes_evicted_},
+                           {"restarts", restarts_},
                            {"roots_generated", forest_->trees()},
                            {"rtsp_calls", forest_->rtsp_calls()},
                            {"low_level_calls", counts.low_level_calls},
                            {"low_level_expanded", counts.low_level_expanded},
                            {"pair_expansions", counts.pair_expansions}};
+  solution.stats.measures["node_bytes"] = pool_.mean_bytes();
   const auto primal = primal_ ? primal_->counts() : PrimalSearch::Counts();
   solution.stats.counts["primal_steps"] = primal.steps;
   solution.stats.counts["primal_attempts"] = primal.attempts;
@@ -262,7 +350,10 @@ Solution SequentialEngine::conclude() const {
   // A limit that struck after the search had ended changed nothing.
   if (!gate_.finished()) {
     const std::string stop = stop_text(limits_.reason());
-    solution.stats.texts["stopped_by"] = stop.empty() ? "first tree exhausted" : stop;
+    const bool evicted = frontier_.evicted_bound() < kInfiniteCost;
+    solution.stats.texts["stopped_by"] = !stop.empty() ? stop
+                                         : evicted     ? stop_text(StopReason::kMemory)
+                                                       : "first tree exhausted";
   }
   return solution;
 }

@@ -40,7 +40,8 @@ bool Limits::stop_requested() const {
   if (deadline_ && now >= *deadline_) stop(StopReason::kTime);
   if (memory_limit_ && now.time_since_epoch().count() >= next_memory_look_.load()) {
     next_memory_look_ = (now + kMemoryLookInterval).time_since_epoch().count();
-    if (resident_bytes() > *memory_limit_) stop(StopReason::kMemory);
+    last_resident_ = resident_bytes();
+    if (last_resident_ > *memory_limit_) stop(StopReason::kMemory);
   }
   return reason() != StopReason::kNone;
 }

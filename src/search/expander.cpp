@@ -9,7 +9,7 @@
 namespace grove {
 namespace {
 
-constexpr std::size_t kMostMemory = std::size_t{1} << 29;  // of what is remembered, in bytes
+constexpr std::size_t kMostMemory = std::size_t{1} << 29;  // at first
 
 }  // namespace
 
@@ -21,7 +21,8 @@ Expander::Expander(const Problem& problem, AgentStopsStore& stops, Techniques te
       path_sets_(planner_),
       brancher_(problem, techniques, seed, planner_, situations_, path_sets_),
       dependencies_(problem, techniques, seed, planner_, situations_, path_sets_),
-      all_(static_cast<std::size_t>(problem.instance.agent_count())) {
+      all_(static_cast<std::size_t>(problem.instance.agent_count())),
+      most_memory_(kMostMemory) {
   std::iota(all_.begin(), all_.end(), 0);
 }
 
@@ -82,10 +83,15 @@ Plan Expander::plan(const Node& node) {
 // Forgets everything when it has become too much.
 void Expander::bound_memory() {
   path_sets_.trim();
-  if (situations_.bytes() + dependencies_.bytes() < kMostMemory) return;
+  if (memory() < most_memory_) return;
   situations_.clear();
   path_sets_.clear();
   dependencies_.clear();
+}
+
+void Expander::limit_memory(std::size_t most) {
+  most_memory_ = most;
+  bound_memory();
 }
 
 ExpansionCounts Expander::counts() const {

@@ -1,7 +1,22 @@
 // SPDX-License-Identifier: MIT
+// When memory is short the worst open nodes are given up. Their plans, each of which costs at least
+// its node's bound, are then in no live node; but they all cost at least the least of these bounds,
+// E, so min(live nodes, E) is still a lower bound on everything that was ever pushed. It cannot
+// rise above E, and a frontier that has run empty proves E and no more - unless the incumbent costs
+// no more than E, for then what was given up might as well have been pruned.
+//
+// When nothing is live but something was given up, the caller begins anew from the roots. By then
+// every plan of these trees is known to cost at least E, or as much as the incumbent, so each node
+// of the second run ranks as if its bound were E at least. What lies below is known ground that
+// must only be crossed: it is taken newest first, depth first, with as many open nodes as the tree
+// is deep, and all the memory is left to the nodes above E, of which again the best are kept. If
+// the nodes of one bound alone are too many for the memory, each run raises the bound by one:
+// iterative deepening (Korf 1985), whose last run costs more than all before together where each
+// bound has twice as many nodes as the one before.
 #include "grove/search/frontier.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace grove {
@@ -11,45 +26,64 @@ void Frontier::push(NodePtr node) {
   push_locked(std::move(node));
 }
 
-// The order within a bound, for heaps with the best at the front.
-bool Frontier::later(const Open& a, const Open& b) {
-  if (a.node->conflicts() != b.node->conflicts()) return a.node->conflicts() > b.node->conflicts();
-  return a.serial < b.serial;
+// The order among nodes of one rank, for heaps with the best at the front: is `a` worse than `b`?
+auto Frontier::order_in(Cost rank) const {
+  return [newest_first = rank == proven_](const Open& a, const Open& b) {
+    const auto conflicts = [](const Open& open) { return open.node->conflicts(); };
+    if (!newest_first && conflicts(a) != conflicts(b)) return conflicts(a) > conflicts(b);
+    return a.serial < b.serial;
+  };
 }
 
 void Frontier::push_locked(NodePtr node) {
-  auto& heap = open_[node->bound()];
+  const Cost at = rank(node);
+  auto& heap = open_[at];
   heap.push_back({serial_++, std::move(node)});
-  std::ranges::push_heap(heap, later);
+  std::ranges::push_heap(heap, order_in(at));
   ++open_count_;
 }
 
 NodePtr Frontier::take() {
   const std::lock_guard lock(mutex_);
-  if (open_.empty()) return nullptr;
-  const auto best = open_.begin();
-  std::ranges::pop_heap(best->second, later);
+  return open_.empty() ? nullptr : take_locked(open_.begin());
+}
+
+// Within a bound the node of fewest conflicts is first, so only the first ones compete.
+NodePtr Frontier::take_promising(Omega omega, Cost lower_bound, double per_conflict) {
+  const std::lock_guard lock(mutex_);
+  const auto expected = [&](const auto& rank) {
+    return static_cast<double>(rank.first) +
+           per_conflict * static_cast<double>(rank.second.front().node->conflicts());
+  };
+  auto best = open_.end();
+  for (auto it = open_.begin(); it != open_.end() && omega.accepts(it->first, lower_bound); ++it)
+    if (best == open_.end() || expected(*it) < expected(*best)) best = it;
+  return best == open_.end() ? nullptr : take_locked(best);
+}
+
+NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) {
+  std::ranges::pop_heap(best->second, order_in(best->first));
   NodePtr node = std::move(best->second.back().node);
   best->second.pop_back();
   if (best->second.empty()) open_.erase(best);
   --open_count_;
-  ++taken_[node->bound()];
+  ++taken_[rank(node)];
   return node;
 }
 
 void Frontier::settle(const NodePtr& node) {
   const std::lock_guard lock(mutex_);
-  release_locked(node->bound());
+  release_locked(node);
 }
 
 void Frontier::give_back(NodePtr node) {
   const std::lock_guard lock(mutex_);
-  release_locked(node->bound());
+  release_locked(node);
   push_locked(std::move(node));
 }
 
-void Frontier::release_locked(Cost bound) {
-  const auto it = taken_.find(bound);
+void Frontier::release_locked(const NodePtr& node) {
+  const auto it = taken_.find(rank(node));
   if (--it->second == 0) taken_.erase(it);
 }
 
@@ -59,7 +93,40 @@ std::size_t Frontier::prune(Cost bound) {
   for (auto it = open_.lower_bound(bound); it != open_.end(); it = open_.erase(it))
     pruned += it->second.size();
   open_count_ -= pruned;
+  if (evicted_ >= bound) evicted_ = kInfiniteCost;
   return pruned;
+}
+
+std::vector<NodePtr> Frontier::evict(std::size_t count) {
+  const std::lock_guard lock(mutex_);
+  std::vector<NodePtr> evicted;
+  while (evicted.size() < count && !open_.empty()) {
+    const auto worst = std::prev(open_.end());
+    auto& [rank, heap] = *worst;
+    evicted_ = std::min(evicted_, rank);
+    const std::size_t keep = heap.size() - std::min(heap.size(), count - evicted.size());
+    const auto first = heap.begin() + static_cast<std::ptrdiff_t>(keep);
+    const auto worse = order_in(rank);
+    if (keep > 0)
+      std::ranges::nth_element(heap, first,
+                               [&](const Open& a, const Open& b) { return worse(b, a); });
+    for (auto it = first; it != heap.end(); ++it) evicted.push_back(std::move(it->node));
+    heap.erase(first, heap.end());
+    std::ranges::make_heap(heap, worse);
+    if (heap.empty()) open_.erase(worst);
+  }
+  open_count_ -= evicted.size();
+  return evicted;
+}
+
+Cost Frontier::evicted_bound() const {
+  const std::lock_guard lock(mutex_);
+  return evicted_;
+}
+
+void Frontier::restart() {
+  const std::lock_guard lock(mutex_);
+  proven_ = std::exchange(evicted_, kInfiniteCost);
 }
 
 void Frontier::abandon() {
@@ -74,7 +141,7 @@ Cost Frontier::bound() const {
   const std::lock_guard lock(mutex_);
   const Cost open = open_.empty() ? kInfiniteCost : open_.begin()->first;
   const Cost taken = taken_.empty() ? kInfiniteCost : taken_.begin()->first;
-  return std::min(open, taken);
+  return std::min({open, taken, evicted_});
 }
 
 std::size_t Frontier::open() const {

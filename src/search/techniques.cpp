@@ -24,6 +24,7 @@ constexpr std::array kNames = {
     Named{Technique::kJointPaths, "joint-paths"},
     Named{Technique::kCostSplits, "cost-splits"},
     Named{Technique::kClusters, "clusters"},
+    Named{Technique::kEstimates, "estimates"},
 };
 
 constexpr auto kAll = [] {

@@ -43,12 +43,12 @@ T value_of(const Names<T, N>& names, std::string_view name) {
   return found->first;
 }
 
-std::uint64_t parse_seed(const std::string& text) {
-  std::uint64_t seed = 0;
+std::uint64_t parse_number(const std::string& text) {
+  std::uint64_t number = 0;
   const char* end = text.data() + text.size();
-  if (std::from_chars(text.data(), end, seed).ptr != end)
-    throw std::invalid_argument(fmt::format("expected a seed, not '{}'", text));
-  return seed;
+  if (std::from_chars(text.data(), end, number).ptr != end)
+    throw std::invalid_argument(fmt::format("expected a number, not '{}'", text));
+  return number;
 }
 
 Technique value_of_technique(const std::string& name) {
@@ -70,7 +70,9 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
   else if (key == "rtsp")
     fuzz_case.options.rtsp = value_of(kBackends, value);
   else if (key == "seed")
-    fuzz_case.options.seed = parse_seed(value);
+    fuzz_case.options.seed = parse_number(value);
+  else if (key == "node-memory")
+    fuzz_case.options.node_memory = parse_number(value);
   else if (key == "without")
     fuzz_case.options.techniques = fuzz_case.options.techniques.without(value_of_technique(value));
   else if (key == "strike")
@@ -107,6 +109,12 @@ Omega random_omega(Random& random) {
   return Omega::parse(kChoices[random.below(std::size(kChoices))]);
 }
 
+// Mostly as much as it takes; else so little that nodes must be given up.
+std::size_t random_node_memory(Random& random) {
+  constexpr std::size_t kUnlimited = SolveOptions::kUnlimited;
+  return random.pick<std::size_t>({kUnlimited, kUnlimited, kUnlimited, 1'000, 3'000, 10'000});
+}
+
 Strike random_strike(Random& random) {
   const int dice = random.below(100);
   return dice < 84   ? Strike::kNothing
@@ -125,6 +133,8 @@ std::string FuzzCase::to_text() const {
                   name_of(kBackends, options.rtsp), options.seed, name_of(kStrikes, strike));
   for (Technique t : all_techniques())
     if (!options.techniques.has(t)) text += fmt::format("without {}\n", grove::name_of(t));
+  if (options.node_memory != SolveOptions::kUnlimited)
+    text += fmt::format("node-memory {}\n", options.node_memory);
   return text;
 }
 
@@ -152,6 +162,7 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.options.seed = static_cast<std::uint64_t>(random.below(1000));
   fuzz_case.options.techniques = random_techniques(random);
   fuzz_case.strike = random_strike(random);
+  fuzz_case.options.node_memory = random_node_memory(random);
   return fuzz_case;
 }
 

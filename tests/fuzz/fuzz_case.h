@@ -28,6 +28,7 @@ enum class Strike : std::uint8_t {
 //     rtsp held-karp       (auto, held-karp, bounded-dp, cbc)
 //     seed 7
 //     without bypass       (a technique; may come again)
+//     node-memory 4000     (bytes)
 //     strike nothing       (nothing, expired, soon, memory, interrupt)
 //
 // in which every line may be missing.

@@ -67,7 +67,9 @@ void PlantedOptimum::follow(const NodePtr& node) {
 }
 
 void PlantedOptimum::on_root(const NodePtr& root) {
-  if (held_by(*root)) follow(root);
+  if (!held_by(*root)) return;
+  evicted_bound_ = kInfiniteCost;
+  follow(root);
 }
 
 void PlantedOptimum::on_expanded(const NodePtr& node, const Expansion& expansion) {
@@ -90,9 +92,20 @@ void PlantedOptimum::on_pruned(Cost bound) {
         fmt::format("nodes were pruned from {} on, but the optimum is {}", bound, optimum_.cost));
 }
 
+// What the search had proven by then it need not take back.
+void PlantedOptimum::on_evicted(const NodePtr& node) {
+  if (holding_.erase(node.get()) > 0)
+    evicted_bound_ = std::min(evicted_bound_, std::max(node->bound(), claimed_));
+}
+
 void PlantedOptimum::on_event(RunEvent, const Progress& progress) {
+  claimed_ = progress.lower_bound;
   found_ = progress.incumbent && *progress.incumbent <= optimum_.cost;
   if (found_) holding_.clear();
+  if (!found_ && progress.lower_bound > evicted_bound_)
+    complaints_.push_back(
+        fmt::format("lower bound {}, but a node of bound {} that held a plan was given up",
+                    progress.lower_bound, evicted_bound_));
   if (progress.lower_bound > optimum_.cost)
     complaints_.push_back(fmt::format("lower bound {}, but a plan of cost {} exists{}",
                                       progress.lower_bound, optimum_.cost,

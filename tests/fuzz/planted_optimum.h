@@ -14,7 +14,8 @@ namespace grove::fuzz {
 // Follows the nodes that hold a given optimal plan: those whose tree allows its orders of visits
 // and whose constraints it obeys. From the first root that holds it on, some live node must,
 // whatever is branched, pruned or forbidden, until a plan as cheap is found; and none of them, nor
-// the search as a whole, may claim a bound above its cost.
+// the search as a whole, may claim a bound above its cost. If the last of them is given up for want
+// of memory, the search may claim no more than its bound until it begins anew.
 class PlantedOptimum : public RunObserver {
  public:
   // `instance` must outlive this. `optimum` must be valid and cost-optimal.
@@ -26,6 +27,7 @@ class PlantedOptimum : public RunObserver {
   void on_root(const NodePtr& root) override;
   void on_expanded(const NodePtr& node, const Expansion& expansion) override;
   void on_pruned(Cost bound) override;
+  void on_evicted(const NodePtr& node) override;
 
   // What went wrong, in the order in which it did; empty: nothing.
   const std::vector<std::string>& complaints() const { return complaints_; }
@@ -44,6 +46,8 @@ class PlantedOptimum : public RunObserver {
   // followed any more once a plan as cheap is found: from then on the gate may drop them.
   std::unordered_set<const Node*> holding_;
   bool found_ = false;
+  Cost claimed_ = 0;                    // the search's lower bound
+  Cost evicted_bound_ = kInfiniteCost;  // of the nodes given up that held the plan
   std::size_t nodes_followed_ = 0;
   std::vector<std::string> complaints_;
 };

@@ -7,6 +7,7 @@
 
 #include "grove/engine/solve.h"
 #include "grove/search/sequence_forest.h"
+#include "tests/fuzz/claims.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/oracle/joint_oracle.h"
 
@@ -95,6 +96,24 @@ TEST_F(PlantedInABay, SeesFalseClaimsOfTheWholeSearch) {
   EXPECT_EQ(planted_.complaints().size(), 3u);
 }
 
+TEST_F(PlantedInABay, AcceptsEvictionsAsTheFloorOfTheLedger) {
+  planted_.on_root(root_);
+  planted_.on_evicted(root_);
+  planted_.on_event(RunEvent::kBound, {.lower_bound = root_->bound(), .incumbent = std::nullopt});
+  EXPECT_THAT(planted_.complaints(), IsEmpty());
+  ASSERT_LT(root_->bound(), optimum_.cost);
+  planted_.on_event(RunEvent::kBound, {.lower_bound = root_->bound() + 1, .incumbent = {}});
+  EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("given up")));
+}
+
+TEST_F(PlantedInABay, AllowsTheBoundToRiseWhenTheSearchBeginsAnew) {
+  planted_.on_root(root_);
+  planted_.on_evicted(root_);
+  planted_.on_root(root_);
+  planted_.on_event(RunEvent::kBound, {.lower_bound = root_->bound() + 1, .incumbent = {}});
+  EXPECT_THAT(planted_.complaints(), IsEmpty());
+}
+
 TEST(Realizes, ReadsOrdersOffAPath) {
   const Instance instance =
       TinyInstance::parse("map\n....\nagents\n0,0 -> -\ntasks\n1,0: 0\n3,0: 0\n").build();
@@ -122,6 +141,40 @@ TEST(PlantedOptimum, SurvivesWholeSearches) {
     followed += planted.nodes_followed();
   }
   EXPECT_GT(followed, 300u);
+}
+
+// With memory for a handful of nodes, plain CBS, so that there is something to give up.
+TEST(PlantedOptimum, SurvivesSearchesThatGiveNodesUp) {
+  std::int64_t evicted = 0;
+  std::int64_t restarts = 0;
+  int asked = 0;
+  int optimal = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const FuzzCase fuzz_case = random_case(seed);
+    const Instance instance = fuzz_case.instance.build();
+    const auto truth = oracle::solve_jointly(instance);
+    if (!truth.plan) continue;
+    PlantedOptimum planted(instance, *truth.plan);
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(100));
+    SolveOptions options;
+    options.policy = fuzz_case.options.policy;
+    options.techniques = Techniques();
+    options.node_memory = 3000;
+    const Solution solution = solve(instance, options, limits, &planted);
+    EXPECT_THAT(planted.complaints(), IsEmpty()) << fuzz_case.to_text();
+    EXPECT_THAT(false_claims(instance, truth, options.omega, solution, true), IsEmpty());
+    const std::int64_t given_up = solution.stats.counts.at("nodes_evicted");
+    evicted += given_up;
+    restarts += solution.stats.counts.at("restarts");
+    asked += given_up > 0;
+    optimal += given_up > 0 && solution.status == Status::kOptimal;
+  }
+  EXPECT_GT(evicted, 1000);
+  EXPECT_GT(restarts, 20);
+  EXPECT_GT(asked, 20);
+  EXPECT_GT(optimal, asked / 2) << "of " << asked;
+  RecordProperty("optimal", optimal);
 }
 
 }  // namespace

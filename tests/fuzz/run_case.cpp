@@ -56,7 +56,12 @@ Run run(const Instance& instance, const FuzzCase& fuzz_case, milliseconds patien
   const Clock::time_point end = Clock::now();
   const auto worked = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
       static_cast<double>(std::clock() - worked_before) / CLOCKS_PER_SEC));
-  run.stopped = limits.reason() != StopReason::kNone || excuses(fuzz_case.strike);
+  const auto& texts = run.solution.stats.texts;
+  const auto stop = texts.find("stopped_by");
+  const bool gave_up = (fuzz_case.options.node_memory != SolveOptions::kUnlimited ||
+                        fuzz_case.strike == Strike::kMemory) &&
+                       stop != texts.end() && stop->second == "memory limit";
+  run.stopped = limits.reason() != StopReason::kNone || excuses(fuzz_case.strike) || gave_up;
   run.duration = end - begin;
   // A process that was kept waiting is not late: only what it worked beyond the deadline counts.
   const Clock::time_point due = std::max(begin, deadline);

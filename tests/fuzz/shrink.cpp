@@ -116,6 +116,8 @@ class Steps {
 
   void plainer_options() {
     plainer<Strike>([](FuzzCase& c) -> Strike& { return c.strike; }, Strike::kNothing);
+    plainer<std::size_t>([](FuzzCase& c) -> std::size_t& { return c.options.node_memory; },
+                         SolveOptions::kUnlimited);
     plainer<Policy>([](FuzzCase& c) -> Policy& { return c.options.policy; }, Policy::kAuto);
     plainer<RtspBackend>([](FuzzCase& c) -> RtspBackend& { return c.options.rtsp; },
                          RtspBackend::kAuto);

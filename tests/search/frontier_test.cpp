@@ -75,5 +75,90 @@ TEST_F(FrontierTest, PrunesOnlyFromTheGivenBoundOn) {
   EXPECT_TRUE(frontier_.empty());
 }
 
+TEST_F(FrontierTest, TakesThePromisingWithinOmegaOnly) {
+  const auto with_conflicts = [&](Time bound, std::uint32_t conflicts) {
+    Change change;
+    change.cost = bound;
+    change.conflicts = conflicts;
+    return Node::child(node(bound), instance_.grid(), change);
+  };
+  const NodePtr crowded = with_conflicts(4, 6);
+  const NodePtr promising = with_conflicts(5, 1);
+  const NodePtr too_dear = with_conflicts(7, 0);
+  for (const NodePtr& pushed : {crowded, promising, too_dear}) frontier_.push(pushed);
+  const Omega half = Omega::parse("0.5");
+  const NodePtr taken = frontier_.take_promising(half, 4, 1);
+  EXPECT_EQ(taken, promising);
+  EXPECT_EQ(frontier_.bound(), 4);
+  frontier_.settle(taken);
+  EXPECT_EQ(frontier_.take_promising(half, 4, 1), crowded);
+  EXPECT_EQ(frontier_.take_promising(half, 4, 1), nullptr);
+  EXPECT_EQ(frontier_.take_promising(Omega::infinite(), 4, 1), too_dear);
+}
+
+TEST_F(FrontierTest, EvictsTheWorstAndKeepsTheirLeastBound) {
+  for (Time bound : {4, 2, 5, 3}) frontier_.push(node(bound));
+  EXPECT_EQ(frontier_.evicted_bound(), kInfiniteCost);
+  const auto evicted = frontier_.evict(2);
+  ASSERT_EQ(evicted.size(), 2u);
+  EXPECT_EQ(evicted[0]->bound() + evicted[1]->bound(), 9);
+  EXPECT_EQ(frontier_.evicted_bound(), 4);
+  EXPECT_EQ(frontier_.open(), 2u);
+  EXPECT_EQ(frontier_.bound(), 2);
+  frontier_.settle(frontier_.take());
+  frontier_.settle(frontier_.take());
+  EXPECT_EQ(frontier_.take(), nullptr);
+  // Nothing is live, but nothing is proven beyond what was given up.
+  EXPECT_EQ(frontier_.bound(), 4);
+  EXPECT_FALSE(frontier_.empty());
+}
+
+TEST_F(FrontierTest, EvictsWithinABoundTheOldest) {
+  const NodePtr newest = node(2);
+  for (int i = 0; i < 4; ++i) frontier_.push(node(2));
+  frontier_.push(newest);
+  EXPECT_EQ(frontier_.evict(4).size(), 4u);
+  EXPECT_EQ(frontier_.take(), newest);
+  EXPECT_EQ(frontier_.bound(), 2);
+}
+
+TEST_F(FrontierTest, EvictsNoMoreThanThereIs) {
+  EXPECT_TRUE(frontier_.evict(3).empty());
+  EXPECT_TRUE(frontier_.empty());
+  frontier_.push(node(2));
+  EXPECT_EQ(frontier_.evict(3).size(), 1u);
+  EXPECT_EQ(frontier_.open(), 0u);
+}
+
+TEST_F(FrontierTest, WhatWasGivenUpIsPrunedOnlyByAnIncumbentAsCheap) {
+  frontier_.push(node(4));
+  frontier_.evict(1);
+  frontier_.prune(5);
+  EXPECT_EQ(frontier_.bound(), 4);
+  frontier_.prune(4);
+  EXPECT_TRUE(frontier_.empty());
+}
+
+TEST_F(FrontierTest, BeginsAnewWithTheProvenBoundNewestFirst) {
+  frontier_.push(node(4));
+  frontier_.evict(1);
+  frontier_.restart();
+  EXPECT_EQ(frontier_.evicted_bound(), kInfiniteCost);
+  EXPECT_TRUE(frontier_.empty());
+  const NodePtr newest = node(3);
+  frontier_.push(node(1));
+  frontier_.push(node(5));
+  frontier_.push(newest);
+  EXPECT_EQ(frontier_.bound(), 4);
+  const NodePtr first = frontier_.take();
+  EXPECT_EQ(first, newest);
+  EXPECT_EQ(frontier_.bound(), 4);
+  frontier_.settle(first);
+  const NodePtr second = frontier_.take();
+  EXPECT_EQ(second->bound(), 1);
+  frontier_.settle(second);
+  EXPECT_EQ(frontier_.bound(), 5);
+}
+
 }  // namespace
 }  // namespace grove

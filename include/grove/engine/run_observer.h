@@ -50,6 +50,9 @@ class RunObserver {
   virtual void on_root(const NodePtr& /*root*/) {}
   virtual void on_expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/) {}
   virtual void on_pruned(Cost /*bound*/) {}
+  // An open node was given up for want of memory; the ledger keeps its bound until the search, out
+  // of nodes, begins anew (each root then comes again).
+  virtual void on_evicted(const NodePtr& /*node*/) {}
 };
 
 }  // namespace grove

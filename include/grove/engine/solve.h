@@ -2,7 +2,9 @@
 // The engine: runs the search on an instance until it is done or told to stop.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "grove/model/limits.h"
@@ -22,6 +24,8 @@ enum class Policy : std::uint8_t {
 };
 
 struct SolveOptions {
+  static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
   Omega omega;
   Policy policy = Policy::kAuto;
   RtspBackend rtsp = RtspBackend::kAuto;  // of kFixed
@@ -31,6 +35,9 @@ struct SolveOptions {
   // Technique::kPrimal is not used with kFixed.
   Techniques techniques = Techniques::all();
   std::optional<Plan> start = std::nullopt;  // the first incumbent, a valid plan
+  // The most that open nodes and their ancestors may hold, in bytes; beyond, the worst are given
+  // up. Without a word from here the memory limit of the run decides.
+  std::size_t node_memory = kUnlimited;
 };
 
 // Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower

@@ -41,6 +41,10 @@ class Limits {
   double seconds_left() const;
   // May `bytes` more be allocated? Ask before large tables. Does not stop the run.
   bool memory_allows(std::size_t bytes) const;
+  // None: memory is not limited.
+  std::optional<std::size_t> memory_limit() const { return memory_limit_; }
+  // The resident set when stop_requested() last looked at it; 0 before that, or without a limit.
+  std::size_t last_resident() const { return last_resident_.load(std::memory_order_relaxed); }
   // For allocations refused elsewhere: stops the run for lack of memory.
   void memory_exhausted() const { stop(StopReason::kMemory); }
 
@@ -52,6 +56,7 @@ class Limits {
   const std::atomic<bool>* interrupt_ = nullptr;
   mutable std::atomic<StopReason> reason_{StopReason::kNone};
   mutable std::atomic<Clock::rep> next_memory_look_{0};
+  mutable std::atomic<std::size_t> last_resident_{0};
 };
 
 }  // namespace grove

@@ -51,6 +51,12 @@ class Expander {
 
   ExpansionCounts counts() const;
 
+  // What is remembered, in bytes (about), and the most that may be: beyond, all is forgotten.
+  std::size_t memory() const {
+    return situations_.bytes() + path_sets_.bytes() + dependencies_.bytes();
+  }
+  void limit_memory(std::size_t most);
+
  private:
   Plan plan(const Node& node);
   void bound_memory();
@@ -64,6 +70,7 @@ class Expander {
   Dependencies dependencies_;
   std::vector<AgentIndex> all_;
   std::vector<Split> splits_;
+  std::size_t most_memory_;
 };
 
 }  // namespace grove

@@ -2,6 +2,7 @@
 // The live nodes of the forest: open, or in the hands of a worker.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -14,26 +15,44 @@
 namespace grove {
 
 // Best first: least bound, among equals the one of fewest conflicts, among those the newest (which
-// goes deep on plateaus). A node taken out
-// counts as live until it is settled, so bound() is valid while any number of workers expand. All
-// methods may be called from any thread; each holds one mutex for O(log of the distinct bounds).
+// goes deep on plateaus). A node taken out counts as live until it is settled, so bound() is valid
+// while any number of workers expand. Nodes may be given up for want of memory: bound() remembers
+// the least bound among them, and restart() begins anew. Why that is sound: frontier.cpp. All
+// methods may be called from any thread; each holds one mutex for O(log of the distinct bounds),
+// prune() and evict() for as long as it takes to find their nodes.
 class Frontier {
  public:
   void push(NodePtr node);
   // The best open node; null when none is open. The caller must settle() it, or give it back.
   NodePtr take();
+  // Like take(), among the open nodes whose bound is within omega of `lower_bound`: the one below
+  // which the cheapest plan is expected, if each conflict costs `per_conflict`. Null when there is
+  // none. O(distinct bounds within omega).
+  NodePtr take_promising(Omega omega, Cost lower_bound, double per_conflict);
   // A taken node has been replaced by what it led to (push that first), or pruned.
   void settle(const NodePtr& node);
   // A taken node goes back unexpanded.
   void give_back(NodePtr node);
-  // Drops every open node whose bound is at least `bound`; returns how many.
+  // Drops every open node whose bound is at least `bound`, which an incumbent costs; returns how
+  // many.
   std::size_t prune(Cost bound);
+
+  // Gives up the worst `count` open nodes, or all if there are no more, and returns them. Their
+  // plans are no longer in any live node; the least of their bounds is kept in bound().
+  std::vector<NodePtr> evict(std::size_t count);
+  // The least bound of what was given up and not pruned since; kInfiniteCost: nothing.
+  Cost evicted_bound() const;
+  // Forgets what was given up, for the caller is about to push the roots of all the trees that it
+  // came from. Only when no node is live, and after every tree not yet instantiated costs at least
+  // evicted_bound(). Nodes below that bound are then taken newest first.
+  void restart();
 
   // Empties the frontier without giving its nodes up, for when their pool is about to go: releasing
   // millions of nodes one by one takes seconds.
   void abandon();
 
-  // The least bound of any live node, open or taken; kInfiniteCost when there is none.
+  // The least bound of any live node, open or taken, and of any that was given up; kInfiniteCost
+  // when there is none.
   Cost bound() const;
   std::size_t open() const;
   bool empty() const { return bound() == kInfiniteCost; }
@@ -43,14 +62,18 @@ class Frontier {
     std::uint64_t serial;
     NodePtr node;
   };
-  static bool later(const Open& a, const Open& b);
 
+  Cost rank(const NodePtr& node) const { return std::max(node->bound(), proven_); }
+  auto order_in(Cost rank) const;
+  NodePtr take_locked(std::map<Cost, std::vector<Open>>::iterator best);
   void push_locked(NodePtr node);
-  void release_locked(Cost bound);
+  void release_locked(const NodePtr& node);
 
   mutable std::mutex mutex_;
-  std::map<Cost, std::vector<Open>> open_;  // heaps
-  std::map<Cost, std::size_t> taken_;       // how many nodes of each bound are in workers' hands
+  std::map<Cost, std::vector<Open>> open_;  // heaps, by rank
+  std::map<Cost, std::size_t> taken_;       // how many nodes of each rank are in workers' hands
+  Cost evicted_ = kInfiniteCost;
+  Cost proven_ = -1;  // before the restart: no plan costs less; -1: there was none
   std::size_t open_count_ = 0;
   std::uint64_t serial_ = 0;
 };

@@ -25,6 +25,7 @@ enum class Technique : std::uint8_t {
   kJointPaths,       // see such pairs in their optimal paths, without a search
   kCostSplits,       // split on which of two such agents costs more
   kClusters,         // the same for groups that conflict though no pair of them must cost more
+  kEstimates,        // with w > 0, while there is no plan: every other node by what it promises
 };
 
 // A set of techniques; a value.
