@@ -34,6 +34,8 @@ char letter_of(PlanSource source) {
       return 'S';
     case PlanSource::kPriorities:
       return 'H';
+    case PlanSource::kConfigurations:
+      return 'C';
     case PlanSource::kNeighborhood:
       return 'L';
     case PlanSource::kTree:
@@ -67,7 +69,7 @@ std::string evicted_text(const Solution& solution) {
 }
 
 int telling(char letter) {
-  return static_cast<int>(std::string_view(" TBLHS*").find(letter));
+  return static_cast<int>(std::string_view(" TBLCHS*").find(letter));
 }
 
 }  // namespace

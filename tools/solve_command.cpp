@@ -232,9 +232,10 @@ void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& a,
   sink.line(fmt::format("Options       {}", options.empty() ? "all defaults" : options));
   sink.line();
   sink.line(
-      "First column, since the row before: a better plan (* from the tree, H by priorities, L by "
-      "large");
-  sink.line("neighbourhood search, S given), B higher bound, T new tree.");
+      "First column, since the row before: a better plan (* from the tree, H by priorities, C by");
+  sink.line(
+      "configuration search, L by large neighbourhood search, S given), B higher bound, T new "
+      "tree.");
   sink.line(
       "The lower bound holds for every plan: it is the least bound of an open node or of the next "
       "tree.");

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Many instances are closed by the first nodes of the tree, so the tree begins. Then a plan is
-// wanted first of all: without one nothing is pruned, and a run that ends has nothing to show; the
-// primal search gets most of the work, until it has failed so often that the instance may have no
-// plan at all. With a plan, its share follows its success: let x be the part of its work that was
-// done when it last improved the plan. x = 1 just then, 1/2 when it has worked as much again for
-// nothing, and so on. For each unit of the tree's work it may do 8 x^3: much more than the tree
-// while it improves, as much at x = 1/2, an eighth at 1/4; and never less than 1/32. None of this
-// knows how large the instance is or how fast the machine.
+// Many small instances are closed by the first nodes of the tree, so the tree begins; of a large
+// one it makes the root and no more. Then a plan is wanted first of all: without one nothing is
+// pruned, and a run that ends has nothing to show; the primal search gets all work while it expects
+// one soon, since to expand the root of a large instance can take seconds; then most, until it has
+// failed so often that the instance may have no plan at all. With a plan, its share follows its
+// success: let x be the part of its work that was done when it last improved the plan. x = 1 just
+// then, 1/2 when it has worked as much again for nothing, and so on. For each unit of the tree's
+// work it may do 8 x^3: much more than the tree while it improves, as much at x = 1/2, an eighth at
+// 1/4; and never less than 1/32. None of this knows how large the instance is or how fast the
+// machine.
 #include "primal_share.h"
 
 #include <algorithm>
@@ -14,7 +16,7 @@
 namespace grove {
 namespace {
 
-constexpr std::int64_t kTreeBegins_work = 20'000;  // some milliseconds
+constexpr std::int64_t kTreeBegins_work = 2000;
 constexpr double kMostRatio = 8;
 constexpr double kRatioInDoubt = 1;
 constexpr double kLeastRatio = 1.0 / 32;
@@ -28,6 +30,8 @@ double ratio_with_plan(const PrimalSearch& primal) {
 
 }  // namespace
 
+PrimalShare::PrimalShare(int agents) : agents_(agents), ratio_(kMostRatio) {}
+
 void PrimalShare::tree_worked(std::int64_t work) {
   tree_ += work;
   credit_ += ratio_ * static_cast<double>(work);
@@ -38,7 +42,7 @@ bool PrimalShare::may_begin() const {
 }
 
 bool PrimalShare::due(const PrimalSearch& primal) const {
-  return !primal.optimal() && credit_ >= 0;
+  return primal.expects_plan() || (!primal.optimal() && credit_ >= 0);
 }
 
 void PrimalShare::primal_worked(const PrimalSearch& primal, std::int64_t work) {
@@ -46,6 +50,7 @@ void PrimalShare::primal_worked(const PrimalSearch& primal, std::int64_t work) {
     ratio_ = ratio_with_plan(primal);
   else
     ratio_ = primal.counts().attempts <= kAttemptsPerAgent * agents_ ? kMostRatio : kRatioInDoubt;
+  if (primal.expects_plan()) return;
   credit_ = std::max(0.0, credit_);
   credit_ -= static_cast<double>(work);
 }

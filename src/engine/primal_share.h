@@ -11,7 +11,7 @@ namespace grove {
 // Counts work, not seconds, so that a run can be repeated. The rule is at the head of the .cpp.
 class PrimalShare {
  public:
-  explicit PrimalShare(int agents) : agents_(agents) {}
+  explicit PrimalShare(int agents);
 
   // The tree has done so much more work, in the units of PrimalSearch::work().
   void tree_worked(std::int64_t work);
@@ -25,7 +25,7 @@ class PrimalShare {
   const std::int64_t agents_;
   std::int64_t tree_ = 0;
   double credit_ = 0;  // work that the primal search may do at once
-  double ratio_ = 0;   // and for each unit that the tree does
+  double ratio_;       // and for each unit that the tree does
 };
 
 }  // namespace grove

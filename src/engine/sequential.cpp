@@ -48,6 +48,7 @@ Techniques techniques_of(const SolveOptions& options) {
   return options.policy == Policy::kFixed ? Techniques() : options.techniques;
 }
 
+constexpr std::int64_t kRootWorkPerPair = 8;  // of agents
 constexpr std::int64_t kWorkPerCall = 16;  // in labels: what a call of the low level costs beside
 constexpr double kExpectedPerConflict = 0.5;  // by measurement; 1 is a little worse, 0.15 much
 constexpr std::int64_t kStepsPerWork = 4;     // of the paths of a node that is looked through
@@ -79,6 +80,7 @@ class SequentialEngine {
   bool primal_is_due();
   void step_primal();
   void work_on_tree();
+  void begin_tree();
   NodePtr select();
   void grow();
   bool plan_is_wanted();
@@ -109,6 +111,7 @@ class SequentialEngine {
   MemoryShares memory_;
   std::vector<NodePtr> roots_;  // of all trees so far
   Cost begun_anew_at_ = -1;     // the bound that the last run through the trees proved
+  bool begun_ = false;          // the first root was asked for
   bool out_of_nodes_ = false;   // though not finished
   std::int64_t nodes_expanded_ = 0;
   std::int64_t nodes_generated_ = 0;
@@ -146,7 +149,7 @@ bool SequentialEngine::primal_is_due() {
       options_.policy != Policy::kFixed && options_.techniques.has(Technique::kPrimal);
   if (!wanted || !share_.may_begin()) return false;
   if (!primal_) {
-    primal_ = std::make_unique<PrimalSearch>(problem_, stops_, options_.seed);
+    primal_ = std::make_unique<PrimalSearch>(problem_, stops_, options_.seed, options_.techniques);
     if (const auto plan = gate_.incumbent()) primal_->adopt(*plan);
   }
   return share_.due(*primal_);
@@ -160,6 +163,7 @@ void SequentialEngine::step_primal() {
 }
 
 void SequentialEngine::work_on_tree() {
+  if (!begun_) return begin_tree();
   const NodePtr node = select();
   if (!node) {
     out_of_nodes_ = true;
@@ -172,6 +176,15 @@ void SequentialEngine::work_on_tree() {
                      kWorkPerCall * (after.low_level_calls - before.low_level_calls) +
                      node->cost() / kStepsPerWork + 1);
   update_bound();
+}
+
+// The first root is a turn of its own: to expand it can take long where there are many pairs of
+// agents, which is what it counts for.
+void SequentialEngine::begin_tree() {
+  begun_ = true;
+  grow();
+  const std::int64_t agents = problem_.instance.agent_count();
+  share_.tree_worked(kRootWorkPerPair * agents * agents);
 }
 
 // The node to expand next, after instantiating the next tree where Algorithm 4 finds that
@@ -330,6 +343,7 @@ Solution SequentialEngine::conclude() const {
   const auto primal = primal_ ? primal_->counts() : PrimalSearch::Counts();
   solution.stats.counts["primal_steps"] = primal.steps;
   solution.stats.counts["primal_attempts"] = primal.attempts;
+  solution.stats.counts["primal_joint_steps"] = primal.joint_steps;
   solution.stats.counts["primal_neighborhoods"] = primal.neighborhoods;
   solution.stats.counts["primal_low_level_calls"] = primal.low_level_calls;
   solution.stats.counts["primal_low_level_expanded"] = primal.low_level_expanded;

@@ -2,6 +2,7 @@
 // The labels of a search over few of very many states.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -31,7 +32,10 @@ class LabelPlanes {
   void begin_search(int slots) {
     if (static_cast<std::size_t>(slots) > capacity_) {
       pool_.clear();
-      capacity_ = static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 2 + kSpare;
+      // Tight at first, since memory may be short; but reservations grow path by path.
+      const std::size_t tight =
+          static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
+      capacity_ = std::max(tight, capacity_ + capacity_ / 2);
     }
     if (++stamp_ == 0) {
       pool_.clear();
@@ -61,7 +65,9 @@ class LabelPlanes {
 
  private:
   static constexpr std::size_t kSpare = 64;
-  static constexpr std::size_t kPlanesPerQuestion = 16;
+  // Memory is asked for by the piece, of one or more planes.
+  static constexpr std::size_t kPiece_bytes = std::size_t{16} << 20;
+  static constexpr std::size_t kMostPlanesPerPiece = 16;
 
   struct Free {
     void operator()(Label* labels) const { std::free(labels); }
@@ -86,9 +92,10 @@ class LabelPlanes {
   }
 
   bool add_plane(const Limits& limits) {
-    if (pool_.size() % kPlanesPerQuestion == 0 &&
-        !limits.memory_allows(kPlanesPerQuestion * capacity_ * sizeof(Label)))
-      return false;
+    const std::size_t bytes = capacity_ * sizeof(Label);
+    const std::size_t planes =
+        std::clamp<std::size_t>(kPiece_bytes / bytes, 1, kMostPlanesPerPiece);
+    if (pool_.size() % planes == 0 && !limits.memory_allows(planes * bytes)) return false;
     Plane plane(static_cast<Label*>(std::calloc(capacity_, sizeof(Label))));
     if (!plane) return false;
     pool_.push_back(std::move(plane));

@@ -27,17 +27,20 @@ class ConfigurationSearch::Search {
 
   Outcome run(const Limits& limits, std::int64_t slice) {
     for (;;) {
-      std::int64_t steps = std::min(slice, left_);
-      slice -= steps;
-      left_ -= steps;
-      const Outcome outcome = lacam_->run(limits, steps);
-      left_ += steps;
+      const std::int64_t allowed = std::min(slice, left_);
+      std::int64_t unused = allowed;
+      const Outcome outcome = lacam_->run(limits, unused);
+      const std::int64_t made = allowed - unused;
+      slice -= made;
+      left_ -= made;
+      steps_made_ += made;
       if (outcome != Outcome::kWorking) return outcome;
       if (left_ == 0) begin();
       if (slice <= 0) return outcome;
     }
   }
   const std::optional<Plan>& plan() const { return lacam_->plan(); }
+  std::int64_t steps() const { return steps_made_; }
   std::int64_t configurations() const { return lacam_->configurations(); }
 
  private:
@@ -52,6 +55,7 @@ class ConfigurationSearch::Search {
   std::vector<Sequence> orders_;
   Dice dice_;  // the seeds
   std::unique_ptr<Lacam> lacam_;
+  std::int64_t steps_made_ = 0;
   std::int64_t left_ = 0;             // steps of this search
   std::int64_t steps_ = kFirstSteps;  // of the next
 };
@@ -69,6 +73,10 @@ ConfigurationSearch::Outcome ConfigurationSearch::run(const Limits& limits, std:
 
 const std::optional<Plan>& ConfigurationSearch::plan() const {
   return search_->plan();
+}
+
+std::int64_t ConfigurationSearch::steps() const {
+  return search_->steps();
 }
 
 std::int64_t ConfigurationSearch::configurations() const {

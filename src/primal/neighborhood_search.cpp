@@ -5,7 +5,8 @@
 // what work that took; mostly the one with the better rate is used.
 //
 // A call that takes many times the labels of those that find a path is given up: mostly there is
-// none to be found, and the time is better spent elsewhere.
+// none to be found, and the time is better spent elsewhere. So is one that takes long before any
+// has found a path; the next may take twice as many.
 //
 // The cutoff of a call is what is left of the old cost, less what the agents still to come need at
 // least: beyond it the neighbourhood is lost anyway.
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double kLabelsOfOthers = 16;  // a call may take so many times what others did
 constexpr double kLeastLabels = 2000;
+constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
 constexpr double kMemory = 0.98;            // of a way's gain and work, per neighbourhood
 constexpr int kNeighborhoodsPerTrial = 10;  // one of so many goes to a way at random
 constexpr std::int64_t kWorkPerCall = 16;   // in labels
@@ -73,13 +75,16 @@ bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost o
 }
 
 bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Limits& limits) {
-  if (way.found > 0)
-    way.effort.most_labels =
-        static_cast<std::int64_t>(kLeastLabels + kLabelsOfOthers * way.labels / way.found);
+  way.effort.most_labels =
+      way.found > 0
+          ? static_cast<std::int64_t>(kLeastLabels + kLabelsOfOthers * way.labels / way.found)
+          : way.first_labels;
   const std::int64_t before = router_.expanded();
   if (router_.find(agent, paths_.reservations(), way.effort, static_cast<Time>(cutoff), limits,
-                   path_) != Router::Outcome::kFound)
+                   path_) != Router::Outcome::kFound) {
+    if (way.found <= 0 && way.first_labels < kMostFirstLabels) way.first_labels *= 2;
     return false;
+  }
   way.labels = kMemory * way.labels + static_cast<double>(router_.expanded() - before);
   way.found = kMemory * way.found + 1;
   return true;

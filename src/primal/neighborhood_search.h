@@ -33,10 +33,11 @@ class NeighborhoodSearch {
   // How the low level searches: exactly or greedily; which does better is found out on the way.
   struct Way {
     FreeLowLevelSearch::Effort effort;
-    double gain = 0;    // of late
-    double work = 1;    // of late, in labels
-    double labels = 0;  // of late, of calls that found a path
-    double found = 0;   // of late, such calls
+    double gain = 0;                     // of late
+    double work = 1;                     // of late, in labels
+    double labels = 0;                   // of late, of calls that found a path
+    double found = 0;                    // of late, such calls
+    std::int64_t first_labels = 20'000;  // a call may take so many before any has found a path
   };
 
   Way& choose_way();

@@ -41,13 +41,14 @@ std::int64_t PrioritizedPlanning::most_labels() const {
   return (kLeastLabels + kLabelsOfFound * labels_of_found_) << std::min<std::int64_t>(draws, 30);
 }
 
-PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits) {
+PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits, std::int64_t patience) {
   if (next_ == order_.size()) return State::kDone;
   const AgentIndex agent = order_[next_];
   const std::int64_t before = router_.expanded();
   const Router::Outcome outcome =
       router_.find(agent, paths_.reservations(),
-                   {.most_labels = most_labels(), .known_sequences = true}, kNever, limits, path_);
+                   {.most_labels = std::min(patience, most_labels()), .known_sequences = true},
+                   kNever, limits, path_);
   if (outcome == Router::Outcome::kFound) {
     labels_of_found_ = std::max(labels_of_found_, router_.expanded() - before);
     paths_.put(agent, std::move(path_));
@@ -55,6 +56,7 @@ PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits) {
     return ++next_ == order_.size() ? State::kDone : State::kWorking;
   }
   if (limits.stop_requested()) return State::kStopped;
+  if (patience < most_labels() && router_.expanded() - before >= patience) return State::kPutOff;
   if (++failures_ % static_cast<std::int64_t>(order_.size()) == 0)
     random_.shuffle(order_);
   else

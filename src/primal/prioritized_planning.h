@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "path_set.h"
@@ -18,6 +19,7 @@ class PrioritizedPlanning {
   enum class State : std::uint8_t {
     kWorking,
     kDone,     // all agents have a path
+    kPutOff,   // the call took too long
     kStopped,  // a limit struck; step() may be called again
   };
 
@@ -27,8 +29,10 @@ class PrioritizedPlanning {
 
   // Takes all paths away and begins; agents must have been met.
   void begin(std::vector<AgentIndex> order);
-  // Plans one agent. Not to be called after kDone.
-  State step(const Limits& limits);
+  // Plans one agent. A call of the low level that takes more than `patience` labels is put off to
+  // the next step, where it begins again. Not to be called after kDone.
+  State step(const Limits& limits,
+             std::int64_t patience = std::numeric_limits<std::int64_t>::max());
 
   // Orders begun so far.
   std::int64_t attempts() const { return attempts_; }

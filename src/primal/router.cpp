@@ -12,8 +12,7 @@ Router::Router(const Problem& problem, AgentStopsStore& stops)
       stops_(stops),
       low_level_(problem.instance.grid()),
       goals_(problem.instance.agent_count()),
-      own_paths_(problem.instance.agent_count()),
-      nobody_(problem.instance.grid()) {}
+      own_paths_(problem.instance.agent_count()) {}
 
 FreeGoals& Router::goals(AgentIndex agent) {
   auto& goals = goals_[agent];
@@ -23,7 +22,8 @@ FreeGoals& Router::goals(AgentIndex agent) {
 
 bool Router::meet(AgentIndex agent, const Limits& limits) {
   if (!own_paths_[agent].empty()) return true;
-  switch (find(agent, nobody_, {}, kNever, limits, own_paths_[agent])) {
+  ++calls_;
+  switch (low_level_.find(goals(agent), {}, nullptr, kNever, limits, own_paths_[agent])) {
     case Outcome::kFound:
       return true;
     case Outcome::kStopped:

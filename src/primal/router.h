@@ -33,6 +33,10 @@ class Router {
   // The agent's best path when nobody else is there, and its cost.
   const Path& own_path(AgentIndex agent) const { return own_paths_[agent]; }
   Time own_cost(AgentIndex agent) const { return static_cast<Time>(own_paths_[agent].size()) - 1; }
+  // The order in which that path visits the agent's stops.
+  Sequence own_order(AgentIndex agent) const {
+    return realized_sequence(*goals_[agent], own_paths_[agent]);
+  }
 
   // The plan that `paths`, by AgentIndex, make.
   Plan plan(const std::vector<Path>& paths);
@@ -48,7 +52,6 @@ class Router {
   FreeLowLevelSearch low_level_;
   std::vector<std::unique_ptr<FreeGoals>> goals_;  // by AgentIndex
   std::vector<Path> own_paths_;                    // by AgentIndex
-  const Reservations nobody_;
   std::int64_t calls_ = 0;
 };
 

@@ -88,10 +88,14 @@ std::optional<std::vector<Sequence>> cheapest_orders(const Problem& problem, con
     if (!order) return std::nullopt;
     orders.push_back(std::move(*order));
   }
+  separate_ends(instance, orders);
+  return orders;
+}
+
+void separate_ends(const Instance& instance, std::vector<Sequence>& orders) {
   LastStops last_stops(instance, orders);
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
     if (!instance.agent(agent).goal) last_stops.place(agent);
-  return orders;
 }
 
 }  // namespace grove

@@ -11,6 +11,9 @@
 // that cannot lead to a plan cheaper than the cutoff counts as infinitely dear, and a split with
 // two such sides ends the node.
 //
+// *Fewest conflicts.* Of the paths of the side taken, all as cheap, one with the fewest conflicts
+// is found (fewest_conflicts.cpp): the low level alone sees few of the ways to spend a delay.
+//
 // Bypassing (Boyarski et al. 2015). If a side costs nothing and its paths have fewer conflicts,
 // they obey all that the node demands, at the node's cost: they replace the node's paths, and
 // nothing is split.
@@ -31,6 +34,10 @@
 namespace grove {
 namespace {
 
+// Each bypass saves conflicts, but by a count in which two rests on one cell are not symmetric, so
+// that alone does not prove that bypasses end.
+constexpr int kMostBypasses = 64;
+
 // A hash of the pair (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(conflict.first) << 32) +
@@ -43,12 +50,13 @@ std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
 }  // namespace
 
 Brancher::Brancher(const Problem& problem, Techniques techniques, std::uint64_t seed,
-                   PathPlanner& planner, Situations& situations)
+                   PathPlanner& planner, Situations& situations, PathSets& path_sets)
     : problem_(problem),
       techniques_(techniques),
       seed_(seed),
       planner_(planner),
       situations_(situations),
+      path_sets_(path_sets),
       finder_(problem.instance.grid()),
       others_(problem.instance.grid()),
       shown_(problem.instance.agent_count()) {}
@@ -71,17 +79,17 @@ Situations::Id Brancher::situation(AgentIndex agent) {
   return situations_.id(agent, order(agent), constraints_[agent]);
 }
 
-Brancher::Outcome Brancher::branch(Cost cutoff, const Limits& limits,
-                                   std::vector<NodePtr>& children) {
+Brancher::Outcome Brancher::branch(Cost cutoff, std::span<const Split> last_resorts,
+                                   const Limits& limits, std::vector<NodePtr>& children) {
   const Cost slack = cutoff - node_->cost() - 1;  // a child's cost may rise by so much
   if (slack < 0) return Outcome::kBranched;
-  while (!conflict_free()) {
+  for (int round = 0; !conflict_free(); ++round) {
     show_others();
     Split split;
-    if (choose(slack, limits, split) == Step::kStopped) return Outcome::kStopped;
+    if (choose(slack, last_resorts, limits, split) == Step::kStopped) return Outcome::kStopped;
     for (int i = 0; i < 2; ++i)
       if (make_side(split[i], slack, limits, sides_[i]) == Step::kStopped) return Outcome::kStopped;
-    if (bypass(sides_[0]) || bypass(sides_[1])) continue;
+    if (round < kMostBypasses && (bypass(sides_[0]) || bypass(sides_[1]))) continue;
     const NodePtr parent = with_bypasses();
     for (int i = 0; i < 2; ++i)
       if (sides_[i].open) children.push_back(child(parent, split[i], sides_[i]));
@@ -113,23 +121,39 @@ void Brancher::collect_splits() {
   }
 }
 
+bool Brancher::in_conflict(AgentIndex a, AgentIndex b) const {
+  return std::ranges::any_of(conflicts_, [&](const Conflict& c) {
+    return c.first == std::min(a, b) && c.second == std::max(a, b);
+  });
+}
+
 // The split to make: the one that raises the bounds most, or that of a conflict of least time.
-Brancher::Step Brancher::choose(Cost slack, const Limits& limits, Split& chosen) {
+Brancher::Step Brancher::choose(Cost slack, std::span<const Split> last_resorts,
+                                const Limits& limits, Split& chosen) {
   if (!techniques_.has(Technique::kStrongBranching)) {
     chosen = earliest();
     return Step::kDone;
   }
   collect_splits();
-  std::pair<Cost, Cost> best{-1, -1};  // what the cheaper and the dearer side rise by
-  for (const Split& split : splits_) {
-    std::array<Cost, 2> increases{};
-    for (int i = 0; i < 2; ++i)
-      if (estimate(split[i], slack, limits, increases[i]) == Step::kStopped) return Step::kStopped;
-    const std::pair<Cost, Cost> gain = std::minmax(increases[0], increases[1]);
-    if (gain <= best) continue;
-    best = gain;
-    chosen = split;
+  Choice best;
+  for (const Split& split : splits_)
+    if (improve(best, split, slack, limits) == Step::kStopped) return Step::kStopped;
+  for (const Split& split : last_resorts) {
+    if (best.gain.first > 0) break;
+    if (!in_conflict(split[0].agent, split[1].agent)) continue;
+    if (improve(best, split, slack, limits) == Step::kStopped) return Step::kStopped;
   }
+  chosen = best.split;
+  return Step::kDone;
+}
+
+Brancher::Step Brancher::improve(Choice& choice, const Split& split, Cost slack,
+                                 const Limits& limits) {
+  std::array<Cost, 2> increases{};
+  for (int i = 0; i < 2; ++i)
+    if (estimate(split[i], slack, limits, increases[i]) == Step::kStopped) return Step::kStopped;
+  const std::pair<Cost, Cost> gain = std::minmax(increases[0], increases[1]);
+  if (gain > choice.gain) choice = {gain, split};
   return Step::kDone;
 }
 
@@ -237,22 +261,40 @@ Brancher::Step Brancher::make_side(const AgentConstraint& demand, Cost slack, co
 Brancher::Step Brancher::replan(const AgentConstraint& demand, Cost slack, const Limits& limits,
                                 Side& side) {
   for (AgentIndex agent : side.agents) {
-    const auto constraints = constraints_with(agent, *demand_on(agent, demand));
     const Time cutoff =
         static_cast<Time>(std::min<Cost>(cost_of(agent) + slack - side.increase, kNever - 1));
-    const auto outcome =
-        planner_.find(agent, order(agent), constraints, &others_, cutoff, limits, path_);
-    if (outcome == PathPlanner::Outcome::kStopped) return Step::kStopped;
-    if (outcome != PathPlanner::Outcome::kFound) {
-      side.open = false;
-      return Step::kDone;
-    }
+    const Step step = replan_one(agent, *demand_on(agent, demand), cutoff, limits, side.open);
+    if (step == Step::kStopped || !side.open) return step;
     side.increase += static_cast<Cost>(path_.size()) - static_cast<Cost>(paths_[agent].size());
     side.conflicts += others_.conflicts_of(path_);
     others_.add(path_);
     side.paths.push_back(path_);
   }
   return Step::kDone;
+}
+
+// Writes a cheapest path under one constraint more to path_, if it costs at most `cutoff`.
+Brancher::Step Brancher::replan_one(AgentIndex agent, const Constraint& more, Time cutoff,
+                                    const Limits& limits, bool& found) {
+  if (techniques_.has(Technique::kFewestConflicts)) {
+    Time cost = 0;
+    if (least_cost(agent, more, cutoff, limits, cost) == Step::kStopped) return Step::kStopped;
+    found = cost <= cutoff;
+    if (!found) return Step::kDone;
+    const auto constraints = constraints_with(agent, more);
+    const Situations::Id id = situations_.id(agent, order(agent), constraints);
+    const OptimalPaths* paths = path_sets_.find(id, agent, order(agent), constraints, cost, limits);
+    if (!paths) return Step::kStopped;
+    if (!paths->empty()) {
+      fewest_conflicts_.find(*paths, others_, path_);
+      return Step::kDone;
+    }
+  }
+  const auto constraints = constraints_with(agent, more);
+  const auto outcome =
+      planner_.find(agent, order(agent), constraints, &others_, cutoff, limits, path_);
+  found = outcome == PathPlanner::Outcome::kFound;
+  return outcome == PathPlanner::Outcome::kStopped ? Step::kStopped : Step::kDone;
 }
 
 // Takes the paths of a side for the node's own, if that costs nothing and saves conflicts.

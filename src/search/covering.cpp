@@ -7,14 +7,19 @@
 // steps run out, the B under way is a bound, since all smaller ones were refuted.
 //
 // The greedy bound takes statements in turn that share no agent with those taken: their sum is due,
-// whatever the solution.
+// whatever the solution. Where it is large - a statement may say "infinitely much" - it is near
+// enough: the search is as deep as B is large.
 #include "grove/search/covering.h"
 
 #include <algorithm>
 #include <numeric>
 
+#include "grove/model/omega.h"
+
 namespace grove {
 namespace {
+
+constexpr Cost kMostSearched = 256;
 
 // A statement over the agents 0 .. count - 1 of its component.
 struct Statement {
@@ -24,14 +29,14 @@ struct Statement {
 
 class Component {
  public:
-  Component(std::vector<Statement> statements, int agents, std::int64_t steps)
+  Component(std::vector<Statement> statements, int agents, std::int64_t& steps)
       : statements_(std::move(statements)), frozen_(agents, 0), used_(agents), steps_(steps) {
     std::ranges::sort(statements_, std::greater(), &Statement::due);
   }
 
   Cost solve() {
     Cost sum = greedy();
-    while (!fulfil(sum) && steps_ > 0) ++sum;
+    while (sum <= kMostSearched && !fulfil(sum) && steps_ > 0) ++sum;
     return sum;
   }
 
@@ -41,7 +46,7 @@ class Component {
     Cost sum = 0;
     for (const Statement& s : statements_) {
       if (s.due <= 0 || std::ranges::any_of(s.agents, [&](int a) { return used_[a]; })) continue;
-      sum += s.due;
+      sum = std::min(sum + s.due, kInfiniteCost);
       for (int a : s.agents) used_[a] = true;
     }
     return sum;
@@ -50,7 +55,8 @@ class Component {
   // Can everything that is due be fulfilled with a sum of at most `left`? "Yes" when the steps run
   // out.
   bool fulfil(Cost left) {
-    if (--steps_ <= 0) return true;
+    steps_ -= static_cast<std::int64_t>(statements_.size());
+    if (steps_ <= 0) return true;
     if (greedy() > left) return false;
     const auto most = std::ranges::max_element(statements_, {}, &Statement::due);
     if (most->due <= 0) return true;
@@ -77,7 +83,7 @@ class Component {
   std::vector<Statement> statements_;
   std::vector<int> frozen_;
   std::vector<bool> used_;
-  std::int64_t steps_;
+  std::int64_t& steps_;
 };
 
 // The smallest agent of each agent's component, by agent.
@@ -100,7 +106,7 @@ class Components {
   std::vector<AgentIndex> parent_;
 };
 
-Cost solve_component(std::span<const GroupExcess* const> statements, std::int64_t steps) {
+Cost solve_component(std::span<const GroupExcess* const> statements, std::int64_t& steps) {
   std::vector<AgentIndex> agents;
   for (const GroupExcess* s : statements)
     agents.insert(agents.end(), s->agents.begin(), s->agents.end());
@@ -134,7 +140,7 @@ Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps)
   for (auto begin = sorted.begin(); begin != sorted.end();) {
     const auto end = std::find_if(begin, sorted.end(),
                                   [&](const GroupExcess* s) { return root(s) != root(*begin); });
-    sum += solve_component({begin, end}, steps);
+    sum = std::min(sum + solve_component({begin, end}, steps), kInfiniteCost);
     begin = end;
   }
   return sum;

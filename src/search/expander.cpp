@@ -18,8 +18,9 @@ Expander::Expander(const Problem& problem, AgentStopsStore& stops, Techniques te
     : problem_(problem),
       techniques_(techniques),
       planner_(problem, stops),
-      brancher_(problem, techniques, seed, planner_, situations_),
-      dependencies_(problem, techniques, seed, planner_, situations_),
+      path_sets_(planner_),
+      brancher_(problem, techniques, seed, planner_, situations_, path_sets_),
+      dependencies_(problem, techniques, seed, planner_, situations_, path_sets_),
       all_(static_cast<std::size_t>(problem.instance.agent_count())),
       most_memory_(kMostMemory) {
   std::iota(all_.begin(), all_.end(), 0);
@@ -52,7 +53,9 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
       return expansion;
     }
   }
-  switch (brancher_.branch(cutoff, limits, expansion.children)) {
+  splits_.clear();
+  if (techniques_.has(Technique::kCostSplits)) dependencies_.splits(brancher_, splits_);
+  switch (brancher_.branch(cutoff, splits_, limits, expansion.children)) {
     case Brancher::Outcome::kStopped:
       return stopped();
     case Brancher::Outcome::kConflictFree:
@@ -79,8 +82,10 @@ Plan Expander::plan(const Node& node) {
 
 // Forgets everything when it has become too much.
 void Expander::bound_memory() {
+  path_sets_.trim();
   if (memory() < most_memory_) return;
   situations_.clear();
+  path_sets_.clear();
   dependencies_.clear();
 }
 

@@ -17,10 +17,12 @@ constexpr std::array kNames = {
     Named{Technique::kConfigurations, "configurations"},
     Named{Technique::kStrongBranching, "strong-branching"},
     Named{Technique::kBypass, "bypass"},
+    Named{Technique::kFewestConflicts, "fewest-conflicts"},
     Named{Technique::kTarget, "target"},
     Named{Technique::kTraversal, "traversal"},
     Named{Technique::kDependencies, "dependencies"},
     Named{Technique::kJointPaths, "joint-paths"},
+    Named{Technique::kCostSplits, "cost-splits"},
     Named{Technique::kClusters, "clusters"},
     Named{Technique::kEstimates, "estimates"},
 };

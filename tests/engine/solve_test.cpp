@@ -10,6 +10,7 @@
 
 #include "grove/engine/run_observer.h"
 #include "grove/model/check.h"
+#include "tests/primal/crowd.h"
 #include "tests/support/instances.h"
 
 namespace grove {
@@ -267,6 +268,23 @@ TEST(Solve, ThePrimalSearchCanBeSwitchedOffAndIsNotOfThePaper) {
     limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(300));
     const Solution solution = solve(instance, options, limits);
     EXPECT_EQ(solution.stats.counts.at("primal_steps"), 0);
+  }
+}
+
+TEST(Solve, ConfigurationsCanBeSwitchedOffAlone) {
+  const Instance instance = testing::random_crowd({.agents = 50, .tasks = 50}, 1);
+  for (const bool with : {true, false}) {
+    SolveOptions options;
+    if (!with) options.techniques = options.techniques.without(Technique::kConfigurations);
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(500));
+    const Solution solution = solve(instance, options, limits);
+    EXPECT_GT(solution.stats.counts.at("primal_attempts"), 1);
+    EXPECT_EQ(solution.stats.counts.at("primal_joint_steps") > 0, with);
+    EXPECT_TRUE(!with || solution.plan);
+    if (solution.plan) {
+      EXPECT_TRUE(check(instance, solution).empty());
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "crowd.h"
 #include "grove/model/check.h"
 #include "grove/search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
@@ -28,11 +29,12 @@ std::string first_violation(const Instance& instance, const Plan& plan) {
 
 // A search with what it needs.
 struct Search {
-  explicit Search(const Instance& the_instance, std::uint64_t seed = 0)
+  explicit Search(const Instance& the_instance, std::uint64_t seed = 0,
+                  Techniques techniques = Techniques::all())
       : instance(the_instance),
         problem(instance, limits),
         stops(instance, problem.distances),
-        primal(problem, stops, seed) {}
+        primal(problem, stops, seed, techniques) {}
 
   // The plans of so many steps, each checked.
   std::vector<Plan> plans(int steps) {
@@ -171,6 +173,116 @@ TEST(PrimalSearch, BeginsAnewWhenItStalls) {
   Search search(instance);
   search.plans(1500);
   EXPECT_GT(search.primal.counts().attempts, 2);
+}
+
+// Half of the passable cells are taken: the first attempt of prioritised planning fails.
+Instance crowd(std::uint64_t seed) {
+  return testing::random_crowd({.agents = 50, .tasks = 50, .no_destination = 20}, seed);
+}
+
+TEST(PrimalSearch, ACrowdGetsItsFirstPlanFromConfigurations) {
+  int by_configurations = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = crowd(seed);
+    Search search(instance, seed);
+    std::vector<Plan> first;
+    for (int step = 0; step < 500 && first.empty(); ++step) first = search.plans(1);
+    if (first.empty() || search.primal.source() != PlanSource::kConfigurations) continue;
+    ++by_configurations;
+    EXPECT_GT(search.primal.counts().joint_steps, 0);
+    const std::vector<Plan> later = search.plans(60);
+    ASSERT_FALSE(later.empty());
+    EXPECT_LT(later.back().cost, first[0].cost);
+  }
+  EXPECT_GE(by_configurations, 7);
+}
+
+TEST(PrimalSearch, WithoutConfigurationsThereAreNoJointSteps) {
+  const Instance instance = crowd(1);
+  Search search(instance, 1, Techniques::all().without(Technique::kConfigurations));
+  search.plans(100);
+  EXPECT_EQ(search.primal.counts().joint_steps, 0);
+  EXPECT_GT(search.primal.counts().attempts, 1);
+}
+
+TEST(PrimalSearch, TheFirstAttemptOfPrioritisedPlanningIsNotDisturbed) {
+  const Instance instance = instance_of(
+      {"....", "....", "...."},
+      {{{0, 0}, Position{3, 2}, {{1, 0}}}, {{3, 0}, Position{0, 2}}, {{0, 1}, Position{3, 1}}});
+  Search search(instance);
+  ASSERT_FALSE(search.plans(10).empty());
+  EXPECT_EQ(search.primal.counts().attempts, 1);
+  EXPECT_FALSE(search.primal.expects_plan());
+  EXPECT_EQ(search.primal.counts().joint_steps, 0);
+}
+
+TEST(PrimalSearch, ACrowdTooIsPlannedAlikeTwice) {
+  const Instance instance = crowd(2);
+  std::vector<std::int64_t> work[2];
+  for (auto& counts : work) {
+    Search search(instance, 3);
+    for (int step = 0; step < 150; ++step) {
+      const auto plan = search.primal.step(search.limits);
+      counts.push_back(plan ? plan->cost : -1);
+      counts.push_back(search.primal.work());
+      counts.push_back(search.primal.counts().joint_steps);
+    }
+  }
+  EXPECT_GT(work[0].back(), 0);
+  EXPECT_EQ(work[0], work[1]);
+}
+
+TEST(PrimalSearch, LimitsLeaveTheRaceWhole) {
+  std::mt19937 random(4);
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = crowd(seed);
+    Search search(instance, seed);
+    std::optional<Cost> best;
+    for (int round = 0; round < 60; ++round) {
+      Limits limits;
+      limits.set_deadline(Limits::Clock::now() + std::chrono::microseconds(random() % 1000));
+      while (limits.reason() == StopReason::kNone)
+        if (const auto plan = search.primal.step(limits)) {
+          EXPECT_EQ(first_violation(instance, *plan), "");
+          EXPECT_TRUE(!best || plan->cost < *best);
+          best = plan->cost;
+        }
+    }
+    search.plans(5);
+    if (HasFailure()) return;
+  }
+}
+
+// The configuration search keeps off the last memory; the others go on.
+TEST(PrimalSearch, ShortMemoryEndsTheConfigurationsAlone) {
+  const Instance instance = crowd(1);
+  Search search(instance, 1);
+  Limits limits;
+  limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 20));
+  for (int step = 0; step < 1000 && search.primal.counts().attempts < 3; ++step)
+    search.primal.step(limits);
+  EXPECT_GE(search.primal.counts().attempts, 3);
+  EXPECT_EQ(search.primal.counts().joint_steps, 0);
+  EXPECT_FALSE(search.primal.expects_plan());
+}
+
+TEST(PrimalSearch, APlanThatComesDuringTheRaceEndsIt) {
+  const Instance instance = crowd(3);
+  Search donor(instance, 8);
+  std::vector<Plan> plans;
+  for (int step = 0; step < 500 && plans.empty(); ++step) plans = donor.plans(1);
+  ASSERT_FALSE(plans.empty());
+  for (int steps = 1; steps < 12; ++steps) {
+    Search search(instance, 3);
+    search.plans(steps);
+    const auto before = search.primal.best_cost();
+    search.primal.adopt(plans[0]);
+    EXPECT_LE(*search.primal.best_cost(),
+              before ? std::min(*before, plans[0].cost) : plans[0].cost);
+    for (const Plan& plan : search.plans(40)) EXPECT_LT(plan.cost, plans[0].cost);
+  }
 }
 
 TEST(PrimalSearch, TakesOverABetterPlan) {

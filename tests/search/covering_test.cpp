@@ -68,5 +68,22 @@ TEST(CoveringBound, SaysNothingWithoutStatements) {
   EXPECT_EQ(covering_bound({}), 0);
 }
 
+// A pair that has no paths at all, found out before there is any plan to compare with: the search
+// must not be as deep as that is much, nor may two of them add up to less than one.
+TEST(CoveringBound, TakesStatementsOfInfiniteCost) {
+  std::vector<GroupExcess> statements;
+  for (AgentIndex a = 0; a < 20; a += 2) {
+    statements.push_back({{a, a + 1}, kInfiniteCost - 100});
+    EXPECT_GE(covering_bound(statements), kInfiniteCost - 100);
+    EXPECT_LE(covering_bound(statements), kInfiniteCost);
+  }
+}
+
+TEST(CoveringBound, StaysABoundWhereTheSumIsLarge) {
+  const std::vector<GroupExcess> triangle{{{0, 1}, 30'000}, {{1, 2}, 30'000}, {{0, 2}, 30'000}};
+  EXPECT_GE(covering_bound(triangle), 30'000);
+  EXPECT_LE(covering_bound(triangle), 45'000);
+}
+
 }  // namespace
 }  // namespace grove

@@ -41,6 +41,8 @@ class ConfigurationSearch {
   Outcome run(const Limits& limits, std::int64_t slice);
 
   const std::optional<Plan>& plan() const;
+  // Joint steps made so far.
+  std::int64_t steps() const;
   // Joint states kept now.
   std::int64_t configurations() const;
 

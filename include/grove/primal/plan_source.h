@@ -7,10 +7,11 @@
 namespace grove {
 
 enum class PlanSource : std::uint8_t {
-  kTree,          // a conflict-free constraint-tree node
-  kStart,         // given with the instance
-  kPriorities,    // prioritised planning
-  kNeighborhood,  // large neighbourhood search
+  kTree,            // a conflict-free constraint-tree node
+  kStart,           // given with the instance
+  kPriorities,      // prioritised planning
+  kConfigurations,  // configuration search
+  kNeighborhood,    // large neighbourhood search
 };
 
 }  // namespace grove

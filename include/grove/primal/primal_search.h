@@ -11,25 +11,28 @@
 #include "grove/planning/agent_stops_store.h"
 #include "grove/primal/plan_source.h"
 #include "grove/search/problem.h"
+#include "grove/search/techniques.h"
 
 namespace grove {
 
-// Prioritised planning until there is a plan, then large neighbourhood search on it, from other
-// seeds when that stalls (primal_search.cpp tells how). In small steps, so that one thread can do
-// other things in between. The same seed, steps and adoptions make the same plans, limits aside.
-// For one thread.
+// Prioritised planning, raced by configuration search where it takes long (LaCAM; only with
+// Technique::kConfigurations), then large neighbourhood search on the plan, from other seeds when
+// that stalls (primal_search.cpp tells how). In small steps, so that one thread can do other things
+// in between. The same seed, steps and adoptions make the same plans, limits aside. For one thread.
 class PrimalSearch {
  public:
   struct Counts {
     std::int64_t steps = 0;
     std::int64_t attempts = 0;       // of prioritised planning, failed ones included
+    std::int64_t joint_steps = 0;    // of the configuration search
     std::int64_t neighborhoods = 0;  // destroyed and replanned
     std::int64_t low_level_calls = 0;
     std::int64_t low_level_expanded = 0;
   };
 
   // All must outlive this; `stops` may be shared with other searches of the same thread.
-  PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed);
+  PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed,
+               Techniques techniques = Techniques::all());
   ~PrimalSearch();
 
   // Goes on for about a millisecond (or one call of the low level, where that is longer). Returns a
@@ -44,6 +47,10 @@ class PrimalSearch {
 
   // The cheapest plan returned or adopted.
   std::optional<Cost> best_cost() const;
+  // A plan is likely soon: the first, while the configuration search has neither given up nor begun
+  // anew; or after its plan a much cheaper one, while prioritised planning has not taken long.
+  // Never without the configuration search.
+  bool expects_plan() const;
   // Every agent is on a path as short as if it were alone: there is nothing left to do.
   bool optimal() const;
 

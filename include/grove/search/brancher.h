@@ -5,13 +5,16 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "grove/conflicts/conflict.h"
 #include "grove/model/limits.h"
 #include "grove/planning/conflict_avoidance_table.h"
+#include "grove/planning/fewest_conflicts.h"
 #include "grove/search/node.h"
 #include "grove/search/path_planner.h"
+#include "grove/search/path_sets.h"
 #include "grove/search/situations.h"
 #include "grove/search/techniques.h"
 
@@ -33,7 +36,7 @@ class Brancher {
   // All must outlive this; `planner` and `situations` may be shared with others of the same thread.
   // `seed` decides between conflicts of equal time.
   Brancher(const Problem& problem, Techniques techniques, std::uint64_t seed, PathPlanner& planner,
-           Situations& situations);
+           Situations& situations, PathSets& path_sets);
 
   // Turns to a node and to the agents in scope, which are in ascending order.
   void enter(const NodePtr& node, std::span<const AgentIndex> scope);
@@ -50,8 +53,10 @@ class Brancher {
 
   // Makes the children, appended to `children`: every plan that obeys the node's constraints and
   // costs less than `cutoff` obeys those of one of them. At most two; a child that surely holds no
-  // such plan is none.
-  Outcome branch(Cost cutoff, const Limits& limits, std::vector<NodePtr>& children);
+  // such plan is none. `last_resorts` are further splits, valid at the node: one is made where no
+  // conflict offers any that raises the cost of both sides, and its two agents are in conflict.
+  Outcome branch(Cost cutoff, std::span<const Split> last_resorts, const Limits& limits,
+                 std::vector<NodePtr>& children);
 
  private:
   // What one side of a split leads to.
@@ -66,8 +71,16 @@ class Brancher {
 
   void find_conflicts();
   void show_others();
+  // The best split so far, by what its cheaper and its dearer side rise by.
+  struct Choice {
+    std::pair<Cost, Cost> gain{-1, -1};
+    Split split;
+  };
+
+  bool in_conflict(AgentIndex a, AgentIndex b) const;
   void collect_splits();
-  Step choose(Cost slack, const Limits& limits, Split& chosen);
+  Step choose(Cost slack, std::span<const Split> last_resorts, const Limits& limits, Split& chosen);
+  Step improve(Choice& choice, const Split& split, Cost slack, const Limits& limits);
   Split earliest() const;
   Step estimate(const AgentConstraint& demand, Cost slack, const Limits& limits, Cost& increase);
   Step least_cost(AgentIndex agent, const Constraint& more, Time cutoff, const Limits& limits,
@@ -75,6 +88,8 @@ class Brancher {
   void affected(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const;
   std::span<const Constraint> constraints_with(AgentIndex agent, const Constraint& more);
   Step make_side(const AgentConstraint& demand, Cost slack, const Limits& limits, Side& side);
+  Step replan_one(AgentIndex agent, const Constraint& more, Time cutoff, const Limits& limits,
+                  bool& found);
   Step replan(const AgentConstraint& demand, Cost slack, const Limits& limits, Side& side);
   bool bypass(const Side& side);
   NodePtr with_bypasses() const;
@@ -87,6 +102,8 @@ class Brancher {
   const std::uint64_t seed_;
   PathPlanner& planner_;
   Situations& situations_;
+  PathSets& path_sets_;
+  FewestConflicts fewest_conflicts_;
   ConflictFinder finder_;
   ConflictAvoidanceTable others_;  // the paths in scope
   std::vector<Path> shown_;        // what others_ holds, by AgentIndex

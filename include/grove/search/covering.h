@@ -14,13 +14,14 @@ namespace grove {
 // "These agents together cost at least `excess` more than they do now."
 struct GroupExcess {
   std::vector<AgentIndex> agents;
-  Cost excess = 0;  // positive
+  Cost excess = 0;  // positive; kInfiniteCost: they cannot all be served
 };
 
 // A lower bound on how much more all agents together cost: the least sum of nonnegative integers,
 // one per agent, that fulfils every statement; a weighted vertex cover where all are about pairs
-// (Li et al., IJCAI 2019). Exact unless that takes more than `steps` steps in a group of statements
-// that hang together; then still a valid bound. Depends on the statements alone.
-Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps = 20'000);
+// (Li et al., IJCAI 2019). Exact unless more than `steps` statements must be looked at for that, or
+// the sum is in the hundreds; then still a valid bound. At most
+// kInfiniteCost. Depends on the statements alone.
+Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps = 100'000);
 
 }  // namespace grove

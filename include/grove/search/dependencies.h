@@ -10,24 +10,30 @@
 #include <unordered_map>
 #include <vector>
 
-#include "grove/planning/optimal_paths.h"
 #include "grove/planning/pair_dependency.h"
 #include "grove/search/brancher.h"
 #include "grove/search/covering.h"
+#include "grove/search/path_sets.h"
 
 namespace grove {
 
 // The pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), with a memory that serves
-// all nodes. The essay is at the head of dependencies.cpp. Of one thread.
+// all nodes; also for larger groups that conflict though no pair of them must cost more. The essay
+// is at the head of dependencies.cpp. Of one thread.
 class Dependencies {
  public:
   // All must outlive this.
   Dependencies(const Problem& problem, Techniques techniques, std::uint64_t seed,
-               PathPlanner& planner, Situations& situations);
+               PathPlanner& planner, Situations& situations, PathSets& path_sets);
 
   // A proven lower bound on every plan that obeys the constraints of `node`, which `view` has
   // entered with all agents; or `cutoff`, if none of them is cheaper. None: a limit struck.
   std::optional<Cost> bound(const NodePtr& node, Brancher& view, Cost cutoff, const Limits& limits);
+
+  // Splits on the costs of two agents that conflict at the node that `view` has entered and are
+  // known not to be able to keep both their costs: "the one comes to rest later | the other does".
+  // Appended.
+  void splits(Brancher& view, std::vector<Split>& splits);
 
   // Expansions in pairs so far.
   std::int64_t expansions() const { return expansions_; }
@@ -54,6 +60,7 @@ class Dependencies {
   std::optional<Dependence> compare(Brancher& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
   const OptimalPaths* optimal_paths(Brancher& view, AgentIndex agent, const Limits& limits);
+  void note(AgentIndex a, AgentIndex b, Cost excess);
   bool solve_groups(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const Brancher& view) const;
   std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;
@@ -61,18 +68,24 @@ class Dependencies {
              std::int32_t most_expansions, const Limits& limits, Known& known);
   void collect(std::vector<GroupExcess>& statements) const;
 
+  const Instance& instance_;
   const int agents_;
   const Techniques techniques_;
-  PathPlanner& planner_;
+  PathSets& path_sets_;
   Brancher pair_view_;
   PairDependency pair_dependency_;
   std::unordered_map<std::uint64_t, Known> known_;
+  // By situation of the first agent: the pairs that are known to cost more.
+  struct Partner {
+    AgentIndex agent;
+    Situations::Id situation;
+    Cost excess;
+  };
+  std::vector<std::vector<Partner>> partners_;
   std::map<std::vector<Situations::Id>, Known> known_groups_;
-  std::set<std::vector<AgentIndex>> groups_;                        // those that occur in it
-  std::unordered_map<Situations::Id, OptimalPaths> optimal_paths_;  // empty: too many to keep
-  std::size_t optimal_nodes_ = 0;                                   // of all of them
-  std::vector<Situations::Id> situation_;                           // by AgentIndex, at the node
-  std::vector<Open> open_;                                          // a heap: least cost first
+  std::set<std::vector<AgentIndex>> groups_;  // those that occur in it
+  std::vector<Situations::Id> situation_;     // by AgentIndex, at the node
+  std::vector<Open> open_;                    // a heap: least cost first
   std::vector<NodePtr> children_;
   std::int64_t expansions_ = 0;
 };

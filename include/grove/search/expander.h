@@ -11,6 +11,7 @@
 #include "grove/search/dependencies.h"
 #include "grove/search/node.h"
 #include "grove/search/path_planner.h"
+#include "grove/search/path_sets.h"
 #include "grove/search/situations.h"
 #include "grove/search/techniques.h"
 
@@ -33,8 +34,10 @@ struct ExpansionCounts {
   std::int64_t pair_expansions = 0;
 };
 
-// A function of (problem, node, cutoff) with the workspace of one thread, and a memory that changes
-// no bound. Engines give each worker its own; all of them compute the same.
+// Expands nodes with the workspace of one thread and a memory of what was found out about agents,
+// pairs and groups before. What it says is proven whatever the memory holds; how much it says may
+// depend on it, since a pair is looked into once, with the cutoff of that moment. Engines give each
+// worker its own.
 class Expander {
  public:
   // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same
@@ -49,7 +52,9 @@ class Expander {
   ExpansionCounts counts() const;
 
   // What is remembered, in bytes (about), and the most that may be: beyond, all is forgotten.
-  std::size_t memory() const { return situations_.bytes() + dependencies_.bytes(); }
+  std::size_t memory() const {
+    return situations_.bytes() + path_sets_.bytes() + dependencies_.bytes();
+  }
   void limit_memory(std::size_t most);
 
  private:
@@ -60,9 +65,11 @@ class Expander {
   const Techniques techniques_;
   PathPlanner planner_;
   Situations situations_;
+  PathSets path_sets_;
   Brancher brancher_;
   Dependencies dependencies_;
   std::vector<AgentIndex> all_;
+  std::vector<Split> splits_;
   std::size_t most_memory_;
 };
 

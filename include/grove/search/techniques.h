@@ -11,18 +11,20 @@
 
 namespace grove {
 
-// One technique. None changes what is proven, only how fast; the policy `fixed` uses none but the
-// primal ones. Each is explained at the head of its own file.
+// One technique. None changes what is proven, only how fast; the policy `fixed` uses none. Each is
+// explained at the head of its own file.
 enum class Technique : std::uint8_t {
   kPrimal,           // prioritised planning and large neighbourhood search for incumbents
   kConfigurations,   // LaCAM for first plans on crowded maps
   kStrongBranching,  // of several conflicts, split the one that raises the bounds most
   kBypass,           // take an equally cheap path with fewer conflicts instead of splitting
+  kFewestConflicts,  // of equally cheap paths take one with the fewest conflicts
   kTarget,           // split on when an agent comes to rest
   kTraversal,        // split on which of two agents passes a corridor
   kDependencies,     // bound from pairs of agents that cannot both have their best paths
   kJointPaths,       // see such pairs in their optimal paths, without a search
-  kClusters,         // bound from groups of agents at the root
+  kCostSplits,       // split on which of two such agents costs more
+  kClusters,         // the same for groups that conflict though no pair of them must cost more
   kEstimates,        // with w > 0, while there is no plan: every other node by what it promises
 };
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Of all paths of one cost, one that is least in the others' way.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grove/model/plan.h"
+#include "grove/planning/conflict_avoidance_table.h"
+#include "grove/planning/optimal_paths.h"
+
+namespace grove {
+
+// Breaks ties among equally cheap paths. Holds the workspace of one thread.
+class FewestConflicts {
+ public:
+  // Writes the path of `paths` (not empty) that has the fewest conflicts with `others`, as
+  // ConflictAvoidanceTable::conflicts_of counts them. O(edges of `paths`).
+  void find(const OptimalPaths& paths, const ConflictAvoidanceTable& others, Path& path);
+
+ private:
+  struct Best {
+    std::int32_t conflicts;
+    OptimalPaths::NodeId next;
+  };
+  std::vector<Best> best_;  // from each node to the end
+};
+
+}  // namespace grove
