@@ -108,10 +108,10 @@ class SequentialEngine {
   Expander expander_;
   std::unique_ptr<PrimalSearch> primal_;  // made when it is first due
   PrimalShare share_;
-  bool begun_ = false;  // the first root was asked for
   MemoryShares memory_;
   std::vector<NodePtr> roots_;  // of all trees so far
   Cost begun_anew_at_ = -1;     // the bound that the last run through the trees proved
+  bool begun_ = false;          // the first root was asked for
   bool out_of_nodes_ = false;   // though not finished
   std::int64_t nodes_expanded_ = 0;
   std::int64_t nodes_generated_ = 0;

@@ -125,8 +125,8 @@ TEST_F(SolveCommand, EndsAtTheTimeLimitWithABound) {
 
 // The puzzle's tree would outgrow this in a second.
 TEST_F(SolveCommand, GoesOnAtTheMemoryLimit) {
-  const ProcessResult solved =
-      solve({"puzzle.json", "--memory-limit", "0.03", "--time-limit", "5", "--output", "p.json"});
+  const ProcessResult solved = solve({"puzzle.json", "--policy", "fixed", "--memory-limit", "0.03",
+                                      "--time-limit", "5", "--output", "p.json"});
   EXPECT_EQ(solved.exit_code, 0) << solved.err;
   const json stats = plan("p.json")["stats"];
   EXPECT_EQ(stats["stopped_by"], "time limit");
