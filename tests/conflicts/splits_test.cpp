@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A split must lose no pair of paths that do not collide, and each of its sides must send somebody
+// another way.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "grove/conflicts/target.h"
+#include "grove/conflicts/traversal.h"
+#include "tests/support/instances.h"
+#include "tests/support/obeys.h"
+
+namespace grove {
+namespace {
+
+using testing::obeys;
+
+// Walks that like to go on as they went, so that they pass corridors.
+Path random_walk(const Grid& grid, std::mt19937& random) {
+  Path path;
+  do path = {static_cast<Cell>(random() % grid.cell_count())};
+  while (!grid.passable(path[0]));
+  Cell before = kNoCell;
+  for (auto steps = random() % 14; steps > 0; --steps) {
+    const auto neighbors = grid.neighbors(path.back());
+    Cell next = path.back();
+    if (!neighbors.empty() && random() % 6 > 0) next = neighbors[random() % neighbors.size()];
+    if (next == before && random() % 4 > 0) next = neighbors[random() % neighbors.size()];
+    before = path.back();
+    path.push_back(next);
+  }
+  while (path.size() > 1 && path.back() == path[path.size() - 2]) path.pop_back();
+  return path;
+}
+
+// Do both paths obey everything that one side of the split demands of them?
+bool meets(const Grid& grid, const AgentConstraint& side, const std::array<Path, 2>& paths) {
+  for (AgentIndex agent : {0, 1})
+    if (const auto demand = demand_on(agent, side))
+      if (!obeys(grid, paths[agent], *demand)) return false;
+  return true;
+}
+
+class SplitsTest : public ::testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(SplitsTest, LoseNoCollisionFreePairAndChangeBothSides) {
+  const Instance instance = testing::instance_of(GetParam(), {{{0, 0}, Position{0, 0}}});
+  const Grid& grid = instance.grid();
+  const Chains chains(grid);
+  ConflictFinder finder(grid);
+  std::mt19937 random(17);
+  std::vector<std::array<Path, 2>> pairs(3000);
+  for (auto& pair : pairs)
+    for (Path& path : pair) path = random_walk(grid, random);
+
+  constexpr std::array<AgentIndex, 2> kBoth{0, 1};
+  std::vector<std::array<Path, 2>> apart;
+  std::vector<Split> splits;
+  std::vector<Conflict> conflicts;
+  int by_target = 0;
+  int by_traversal = 0;
+  for (const auto& pair : pairs) {
+    finder.all(pair, kBoth, conflicts);
+    if (conflicts.empty()) apart.push_back(pair);
+    for (const Conflict& conflict : conflicts)
+      for (const auto& split :
+           {target_split(conflict, pair), traversal_split(conflict, pair, chains)})
+        if (split) {
+          const bool target = (*split)[0].constraint.kind == ConstraintKind::kNoRestBy;
+          ++(target ? by_target : by_traversal);
+          for (const AgentConstraint& side : *split) EXPECT_FALSE(meets(grid, side, pair));
+          splits.push_back(*split);
+        }
+  }
+  for (std::size_t i = 0; i < splits.size(); i += 1 + splits.size() / 400)
+    for (const auto& pair : apart)
+      EXPECT_TRUE(meets(grid, splits[i][0], pair) || meets(grid, splits[i][1], pair));
+  EXPECT_GT(apart.size(), 500u);
+  EXPECT_GT(by_target, 100);
+  EXPECT_GT(by_traversal, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Maps, SplitsTest,
+                         ::testing::Values(std::vector<std::string>{"..@..", ".....", "..@.."},
+                                           std::vector<std::string>{"..@@@..", ".......",
+                                                                    "..@@@.."},
+                                           std::vector<std::string>{"...@@", ".@...", "...@@"},
+                                           std::vector<std::string>{".....", "@@.@@", "....."}));
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "grove/planning/fewest_conflicts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+Path random_walk(const Grid& grid, std::mt19937& random, Cell start) {
+  Path path{start};
+  for (auto steps = 1 + random() % 9; steps > 0; --steps) {
+    const auto neighbors = grid.neighbors(path.back());
+    const auto pick = random() % (neighbors.size() + 1);
+    path.push_back(pick < neighbors.size() ? neighbors[pick] : path.back());
+  }
+  return path;
+}
+
+// The fewest conflicts of any way, by trying all.
+int fewest(const OptimalPaths& paths, const ConflictAvoidanceTable& others,
+           OptimalPaths::NodeId node, Path& path) {
+  path.push_back(paths.cell(node));
+  int best = std::numeric_limits<int>::max();
+  if (static_cast<Time>(path.size()) - 1 == paths.cost()) best = others.conflicts_of(path);
+  for (const OptimalPaths::NodeId next : paths.successors(node))
+    best = std::min(best, fewest(paths, others, next, path));
+  path.pop_back();
+  return best;
+}
+
+TEST(FewestConflicts, FindsAPathWithTheFewest) {
+  const Instance instance = testing::instance_of(
+      {".....", "..@..", "....."}, {{{0, 0}, Position{4, 2}, {{1, 1}, {3, 0}, {0, 2}}}});
+  const DistanceFields distances(instance);
+  AgentStops stops(instance, distances, 0);
+  FreeGoals goals(stops, {});
+  OptimalPathsBuilder builder(instance.grid());
+  FewestConflicts search;
+  std::mt19937 random(11);
+  int avoidable = 0;
+  for (const Time cost : {10, 11, 12}) {
+    OptimalPaths paths;
+    const auto outcome = builder.build(goals, {}, cost, 1'000'000, Limits(), paths);
+    if (outcome != OptimalPathsBuilder::Outcome::kBuilt) continue;
+    for (int round = 0; round < 100; ++round) {
+      ConflictAvoidanceTable others(instance.grid());
+      for (int i = 0; i < 4; ++i) {
+        const Cell start = instance.grid().cell({static_cast<int>(random() % 5), 0});
+        others.add(random_walk(instance.grid(), random, start));
+      }
+      Path path;
+      search.find(paths, others, path);
+      ASSERT_EQ(static_cast<Time>(path.size()) - 1, cost);
+      Path so_far;
+      const int least = fewest(paths, others, paths.layer(0).first, so_far);
+      ASSERT_EQ(others.conflicts_of(path), least);
+      avoidable += static_cast<int>(least == 0);
+    }
+  }
+  EXPECT_GT(avoidable, 0);
+}
+
+}  // namespace
+}  // namespace grove
