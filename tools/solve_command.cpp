@@ -114,12 +114,16 @@ CLI::Validator one_of(const std::map<std::string, Value>& table) {
       "");
 }
 
-std::string check_technique(const std::string& text) {
-  if (parse_technique(text)) return {};
+std::string technique_names() {
   std::string names;
   for (Technique t : all_techniques())
     names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(t));
-  return fmt::format("found '{}'; expected one of {}", text, names);
+  return names;
+}
+
+std::string check_technique(const std::string& text) {
+  if (parse_technique(text)) return {};
+  return fmt::format("found '{}'; expected one of {}", text, technique_names());
 }
 
 Techniques techniques_without(const std::vector<std::string>& names) {
@@ -142,7 +146,9 @@ void add_options(CLI::App& app, SolveArguments& a) {
              "stop after so many seconds with what there is")
       ->type_name("S");
   add_number(app, "--memory-limit", a.memory_limit_gb, 0, 1e6,
-             "stop when the process holds so many gigabytes; by default 80 % of the machine's")
+             "stay below so many gigabytes: forget what can be found again, then give up the worst "
+             "nodes, whose bound still counts; stop if that does not help. By default 80 % of the "
+             "machine's")
       ->type_name("GB");
   add_integer(app, "--threads", a.threads, {1, 4096},
               "use at most so many threads; the search of this version runs on one")
@@ -166,8 +172,9 @@ void add_options(CLI::App& app, SolveArguments& a) {
       app, "--seed", a.seed, kSeeds,
       "breaks ties among conflicts and guides the search for plans: another seed, another run");
   app.add_option("--without", a.without,
-                 "do without a technique of the search; may be given several times. They speed up "
-                 "and prove the same: for ablation studies")
+                 "do without a technique of the search, for ablation studies; several with commas. "
+                 "Techniques change how fast the search is, never what it proves: " +
+                     technique_names())
       ->type_name("TECHNIQUE")
       ->delimiter(',')
       ->check(CLI::Validator(check_technique, ""));
