@@ -5,7 +5,7 @@
     options_test.py README GROVE
 
 Every option of `grove solve --help` must stand in the table below "## Options of grove solve", and
-every option of that table in the help. Exit codes: 0 the same, 1 not, 77 no program to ask.
+every option of that table in the help; so must every technique that `--without` knows. Exit codes: 0 the same, 1 not, 77 no program to ask.
 """
 import re
 import subprocess
@@ -27,6 +27,17 @@ def offered(help_text):
     return {option for name in names for option in OPTION.findall(name)} - {"--help"}
 
 
+def documented_techniques(readme):
+    section = readme.split("The techniques that `--without` knows", 1)[1].split("\n\n`grove ", 1)[0]
+    return set(re.findall(r"^\| `([a-z-]+)` \|", section, re.M))
+
+
+def offered_techniques(program):
+    refusal = subprocess.run([program, "solve", "--without", "?", "-"], capture_output=True,
+                             text=True, check=False).stderr
+    return set(refusal.split("expected one of ", 1)[1].split(" (", 1)[0].split(", "))
+
+
 def main():
     readme, program = (Path(argument) for argument in sys.argv[1:])
     if not program.exists():
@@ -40,7 +51,10 @@ def main():
         print(f"FAILED: {option} is not in the README's table")
     for option in sorted(in_readme - in_help):
         print(f"FAILED: {option} of the README's table is no option of grove solve")
-    return 0 if in_help == in_readme else 1
+    techniques = documented_techniques(readme.read_text(encoding="utf-8"))
+    for name in sorted(techniques ^ offered_techniques(program)):
+        print(f"FAILED: technique {name} is not in both the README and the program")
+    return 0 if in_help == in_readme and techniques == offered_techniques(program) else 1
 
 
 if __name__ == "__main__":
