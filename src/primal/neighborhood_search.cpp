@@ -39,12 +39,7 @@ void NeighborhoodSearch::step(const Limits& limits) {
     old_paths_.push_back(paths_.take(agent));
   }
   const Cost others = paths_.cost();
-  if (!plan_anew(agents, old_cost, way, limits)) {
-    for (std::size_t i = 0; i < agents.size(); ++i) {
-      if (!paths_.path(agents[i]).empty()) paths_.take(agents[i]);
-    }
-    for (std::size_t i = 0; i < agents.size(); ++i) paths_.put(agents[i], std::move(old_paths_[i]));
-  }
+  if (!plan_anew(agents, old_cost, way, limits)) restore(agents);
   const Cost gain = others + old_cost - paths_.cost();
   neighborhoods_.reward(gain);
   const std::int64_t work = router_.expanded() + kWorkPerCall * router_.calls() - work_before;

@@ -12,7 +12,7 @@
 namespace grove {
 
 // One technique. None changes what is proven, only how fast; the policy `fixed` uses none. Each is
-// explained at the head of its own file.
+// explained at the head of the file that does it.
 enum class Technique : std::uint8_t {
   kPrimal,           // prioritised planning and large neighbourhood search for incumbents
   kConfigurations,   // LaCAM for first plans on crowded maps
