@@ -78,6 +78,7 @@ struct SolveArguments {
   std::string policy = "auto";
   std::string rtsp = "auto";
   std::int64_t seed = 0;
+  std::vector<std::string> with;
   std::vector<std::string> without;
   bool deterministic = false;
   std::filesystem::path start;
@@ -126,9 +127,12 @@ std::string check_technique(const std::string& text) {
   return fmt::format("found '{}'; expected one of {}", text, technique_names());
 }
 
-Techniques techniques_without(const std::vector<std::string>& names) {
-  Techniques techniques = Techniques::all();
-  for (const std::string& name : names) techniques = techniques.without(*parse_technique(name));
+Techniques techniques_of(const SolveArguments& arguments) {
+  Techniques techniques = Techniques::usual();
+  for (const std::string& name : arguments.with)
+    techniques = techniques.with(*parse_technique(name));
+  for (const std::string& name : arguments.without)
+    techniques = techniques.without(*parse_technique(name));
   return techniques;
 }
 
@@ -175,6 +179,11 @@ void add_options(CLI::App& app, SolveArguments& a) {
                  "do without a technique of the search, for ablation studies; several with commas. "
                  "Techniques change how fast the search is, never what it proves: " +
                      technique_names())
+      ->type_name("TECHNIQUE")
+      ->delimiter(',')
+      ->check(CLI::Validator(check_technique, ""));
+  app.add_option("--with", a.with,
+                 "use a technique that is not used by default, in the same way: sequence-splits")
       ->type_name("TECHNIQUE")
       ->delimiter(',')
       ->check(CLI::Validator(check_technique, ""));
@@ -313,7 +322,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   options.policy = kPolicies.at(a.policy);
   options.rtsp = kBackends.at(a.rtsp);
   options.seed = static_cast<std::uint64_t>(a.seed);
-  options.techniques = techniques_without(a.without);
+  options.techniques = techniques_of(a);
   if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
   LogSink sink(!a.quiet, a.log);
   log_head(sink, app, a, loaded);

@@ -70,6 +70,8 @@ void SafeIntervals::check(const Constraint& c) {
   const bool has_from = c.is_move() || c.kind == ConstraintKind::kNoTraversal;
   if (!on_grid(c.cell) || (has_from && (!on_grid(c.from) || c.from == c.cell)))
     throw std::invalid_argument("a constraint must bar a cell of the grid or a move on it");
+  if (is_about_sequence(c))
+    throw std::invalid_argument("a constraint on the sequence is none on the path");
   if (c.kind != ConstraintKind::kNoTraversal) return;
   if (!chains_) chains_.emplace(grid_);
   if (!leaves_at_front(c) && !leaves_at_back(c))

@@ -143,7 +143,25 @@ Brancher::Step Brancher::choose(Cost slack, std::span<const Split> last_resorts,
     if (!in_conflict(split[0].agent, split[1].agent)) continue;
     if (improve(best, split, slack, limits) == Step::kStopped) return Step::kStopped;
   }
+  if (techniques_.has(Technique::kSequenceSplits) && best.gain.first == 0)
+    if (improve_by_sequences(best, slack, limits) == Step::kStopped) return Step::kStopped;
   chosen = best.split;
+  return Step::kDone;
+}
+
+// The same with splits on the next stops of the agents in conflict, where no conflict raises the
+// cost of both sides. Not usual: on 19 rooms and random maps of 10 and 20 agents it took up to
+// twice as many nodes; only where no conflict raises the cost of either side, as many as without.
+Brancher::Step Brancher::improve_by_sequences(Choice& choice, Cost slack, const Limits& limits) {
+  in_conflict_.clear();
+  for (const Conflict& c : conflicts_) in_conflict_.insert(in_conflict_.end(), {c.first, c.second});
+  std::ranges::sort(in_conflict_);
+  in_conflict_.erase(std::ranges::unique(in_conflict_).begin(), in_conflict_.end());
+  for (AgentIndex agent : in_conflict_) {
+    const auto split =
+        planner_.sequence_split(agent, order(agent), constraints_[agent], paths_[agent]);
+    if (split && improve(choice, *split, slack, limits) == Step::kStopped) return Step::kStopped;
+  }
   return Step::kDone;
 }
 
@@ -175,6 +193,7 @@ Split Brancher::earliest() const {
 Brancher::Step Brancher::estimate(const AgentConstraint& demand, Cost slack, const Limits& limits,
                                   Cost& increase) {
   increase = 0;
+  if (demand.constraint.kind == ConstraintKind::kStopIs) return Step::kDone;  // the path obeys it
   affected(demand, affected_);
   for (AgentIndex agent : affected_) {
     const Time cutoff =

@@ -20,6 +20,7 @@ constexpr std::array kNames = {
     Named{Technique::kFewestConflicts, "fewest-conflicts"},
     Named{Technique::kTarget, "target"},
     Named{Technique::kTraversal, "traversal"},
+    Named{Technique::kSequenceSplits, "sequence-splits"},
     Named{Technique::kDependencies, "dependencies"},
     Named{Technique::kJointPaths, "joint-paths"},
     Named{Technique::kCostSplits, "cost-splits"},
@@ -39,6 +40,10 @@ Techniques Techniques::all() {
   Techniques set;
   for (Technique t : kAll) set.bits_ |= bit(t);
   return set;
+}
+
+Techniques Techniques::usual() {
+  return all().without(Technique::kSequenceSplits);
 }
 
 std::span<const Technique> all_techniques() {

@@ -26,7 +26,6 @@
 #include "tests/fuzz/random_instance.h"
 #include "tests/fuzz/tiny_instance.h"
 #include "tests/oracle/joint_oracle.h"
-#include "tests/support/obeys.h"
 
 namespace grove::fuzz {
 namespace {
@@ -233,7 +232,7 @@ TinyInstance make(std::uint64_t seed, bool tiny) {
 }
 
 Techniques random_techniques(Random& random) {
-  if (random.percent(40)) return Techniques::all();
+  if (random.percent(40)) return Techniques::usual();
   Techniques any = Techniques::all();
   for (Technique t : all_techniques())
     if (random.percent(35)) any = any.without(t);
@@ -259,8 +258,9 @@ bool holds(const Instance& instance, const Node& node, const std::vector<Path>& 
   std::vector<std::vector<Constraint>> constraints;
   node.constraints(constraints);
   for (std::size_t a = 0; a < paths.size(); ++a)
-    for (const Constraint& c : constraints[a])
-      if (!testing::obeys(instance.grid(), paths[a], c)) return false;
+    if (!obeys_all(instance, static_cast<AgentIndex>(a), node.tree().orders[a]->sequences,
+                   constraints[a], paths[a]))
+      return false;
   return true;
 }
 

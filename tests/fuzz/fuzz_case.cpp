@@ -73,6 +73,8 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     fuzz_case.options.seed = parse_number(value);
   else if (key == "node-memory")
     fuzz_case.options.node_memory = parse_number(value);
+  else if (key == "with")
+    fuzz_case.options.techniques = fuzz_case.options.techniques.with(value_of_technique(value));
   else if (key == "without")
     fuzz_case.options.techniques = fuzz_case.options.techniques.without(value_of_technique(value));
   else if (key == "strike")
@@ -99,7 +101,7 @@ Techniques random_techniques(Random& random) {
       return any;
     }
     default:
-      return Techniques::all();
+      return Techniques::usual();
   }
 }
 
@@ -132,7 +134,9 @@ std::string FuzzCase::to_text() const {
                   instance.to_text(), options.omega.to_string(), name_of(kPolicies, options.policy),
                   name_of(kBackends, options.rtsp), options.seed, name_of(kStrikes, strike));
   for (Technique t : all_techniques())
-    if (!options.techniques.has(t)) text += fmt::format("without {}\n", grove::name_of(t));
+    if (options.techniques.has(t) != Techniques::usual().has(t))
+      text +=
+          fmt::format("{} {}\n", options.techniques.has(t) ? "with" : "without", grove::name_of(t));
   if (options.node_memory != SolveOptions::kUnlimited)
     text += fmt::format("node-memory {}\n", options.node_memory);
   return text;

@@ -7,53 +7,84 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "tests/support/obeys.h"
 
 namespace grove::fuzz {
 namespace {
 
-bool in_class(const SequenceClass& sequences, const Sequence& sequence) {
+bool may_be_next(const SequenceClass& sequences, const Sequence& so_far, Stop stop) {
   const std::size_t fixed = sequences.prefix.size();
-  if (!std::equal(sequences.prefix.begin(), sequences.prefix.end(), sequence.begin())) return false;
-  return fixed == sequence.size() || (sequences.forbidden_next >> sequence[fixed] & 1) == 0;
+  if (so_far.size() < fixed) return sequences.prefix[so_far.size()] == stop;
+  return so_far.size() > fixed || (sequences.forbidden_next >> stop & 1) == 0;
 }
+
+// Extends a sequence stop by stop, each at its first visit after the one before.
+class RealizedSequences {
+ public:
+  RealizedSequences(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
+                    std::span<const Constraint> constraints, const Path& path)
+      : instance_(instance),
+        tasks_(instance.agent(agent).tasks),
+        rests_on_task_(!instance.agent(agent).goal),
+        sequences_(sequences),
+        constraints_(constraints),
+        path_(path) {}
+
+  bool any(std::size_t time = 0) {
+    if (so_far_.size() == tasks_.size())
+      return !rests_on_task_ || cell(so_far_.back()) == path_.back();
+    for (Stop stop = 0; stop < static_cast<Stop>(tasks_.size()); ++stop) {
+      if (std::ranges::count(so_far_, stop) > 0 || !may_be_next(sequences_, so_far_, stop) ||
+          !obeys(stop))
+        continue;
+      const auto visit =
+          std::find(path_.begin() + static_cast<std::ptrdiff_t>(time), path_.end(), cell(stop));
+      if (visit == path_.end()) continue;
+      so_far_.push_back(stop);
+      if (any(static_cast<std::size_t>(visit - path_.begin()))) return true;
+      so_far_.pop_back();
+    }
+    return false;
+  }
+
+ private:
+  Cell cell(Stop stop) const { return instance_.task(tasks_[stop]).cell; }
+  bool obeys(Stop next) const {
+    return std::ranges::all_of(constraints_, [&](const Constraint& c) {
+      if (!is_about_sequence(c) || c.begin != static_cast<Time>(so_far_.size())) return true;
+      return (cell(next) == c.cell) == (c.kind == ConstraintKind::kStopIs);
+    });
+  }
+
+  const Instance& instance_;
+  const std::vector<TaskIndex>& tasks_;
+  const bool rests_on_task_;
+  const SequenceClass& sequences_;
+  const std::span<const Constraint> constraints_;
+  const Path& path_;
+  Sequence so_far_;
+};
 
 }  // namespace
 
-bool realizes(const Instance& instance, AgentIndex agent, const Path& path,
-              const Sequence& sequence) {
-  const auto cell = [&](Stop stop) {
-    return instance.task(instance.agent(agent).tasks[stop]).cell;
+bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
+               std::span<const Constraint> constraints, const Path& path) {
+  const auto obeys = [&](const Constraint& c) {
+    return is_about_sequence(c) || testing::obeys(instance.grid(), path, c);
   };
-  auto visit = path.begin();
-  for (const Stop stop : sequence) {
-    visit = std::find(visit, path.end(), cell(stop));
-    if (visit == path.end()) return false;
-  }
-  return instance.agent(agent).goal || path.back() == cell(sequence.back());
-}
-
-bool PlantedOptimum::order_allows(const AgentOrder& order, AgentIndex agent) const {
-  Sequence sequence(instance_.agent(agent).tasks.size());
-  std::iota(sequence.begin(), sequence.end(), Stop{0});
-  do {
-    if (in_class(order.sequences, sequence) &&
-        realizes(instance_, agent, optimum_.agents[agent].path, sequence))
-      return true;
-  } while (std::ranges::next_permutation(sequence).found);
-  return false;
+  return std::ranges::all_of(constraints, obeys) &&
+         RealizedSequences(instance, agent, sequences, constraints, path).any();
 }
 
 bool PlantedOptimum::held_by(const Node& node) const {
   std::vector<Constraint> constraints;
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
-    if (!order_allows(*node.tree().orders[agent], agent)) return false;
     constraints.clear();
     node.constraints(agent, constraints);
-    for (const Constraint& constraint : constraints)
-      if (!testing::obeys(instance_.grid(), optimum_.agents[agent].path, constraint)) return false;
+    if (!obeys_all(instance_, agent, node.tree().orders[agent]->sequences, constraints,
+                   optimum_.agents[agent].path))
+      return false;
   }
   return true;
 }

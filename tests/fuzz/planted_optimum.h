@@ -2,6 +2,7 @@
 // Watches a search through the eyes of an optimal plan (as HiGHS does with planted solutions).
 #pragma once
 
+#include <span>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -38,7 +39,6 @@ class PlantedOptimum : public RunObserver {
 
  private:
   void follow(const NodePtr& node);
-  bool order_allows(const AgentOrder& order, AgentIndex agent) const;
 
   const Instance& instance_;
   const Plan optimum_;
@@ -52,8 +52,8 @@ class PlantedOptimum : public RunObserver {
   std::vector<std::string> complaints_;
 };
 
-// May `path` be said to visit all tasks of `agent` in the order `sequence`?
-bool realizes(const Instance& instance, AgentIndex agent, const Path& path,
-              const Sequence& sequence);
+// Does `path` realize a sequence of the class, and do it and that sequence obey the constraints?
+bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
+               std::span<const Constraint> constraints, const Path& path);
 
 }  // namespace grove::fuzz

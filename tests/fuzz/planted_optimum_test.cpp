@@ -114,14 +114,24 @@ TEST_F(PlantedInABay, AllowsTheBoundToRiseWhenTheSearchBeginsAnew) {
   EXPECT_THAT(planted_.complaints(), IsEmpty());
 }
 
-TEST(Realizes, ReadsOrdersOffAPath) {
+TEST(ObeysAll, ReadsOrdersOffAPath) {
   const Instance instance =
       TinyInstance::parse("map\n....\nagents\n0,0 -> -\ntasks\n1,0: 0\n3,0: 0\n").build();
-  EXPECT_TRUE(realizes(instance, 0, {0, 1, 2, 3}, {0, 1}));
-  EXPECT_FALSE(realizes(instance, 0, {0, 1, 2, 3}, {1, 0}));
+  const auto obeys = [&](const Path& path, ConstraintKind kind, Cell first) {
+    const std::vector<Constraint> constraints{{first, kNoCell, 0, 0, kind}};
+    return obeys_all(instance, 0, SequenceClass(), constraints, path);
+  };
+  const Path there{0, 1, 2, 3};
+  EXPECT_TRUE(obeys(there, ConstraintKind::kStopIs, 1));
+  EXPECT_FALSE(obeys(there, ConstraintKind::kStopIsNot, 1));
+  EXPECT_FALSE(obeys(there, ConstraintKind::kStopIs, 3));
   // Coming back to rest on the first task makes it the last.
-  EXPECT_TRUE(realizes(instance, 0, {0, 1, 2, 3, 2, 1}, {1, 0}));
-  EXPECT_FALSE(realizes(instance, 0, {0, 1, 2, 3, 2, 1}, {0, 1}));
+  const Path back{0, 1, 2, 3, 2, 1};
+  EXPECT_TRUE(obeys(back, ConstraintKind::kStopIs, 3));
+  EXPECT_TRUE(obeys(back, ConstraintKind::kStopIsNot, 1));
+  EXPECT_FALSE(obeys(back, ConstraintKind::kStopIs, 1));
+  EXPECT_FALSE(obeys_all(instance, 0, SequenceClass({1}, 0), {}, there));
+  EXPECT_TRUE(obeys_all(instance, 0, SequenceClass({}, 1), {}, back));
 }
 
 TEST(PlantedOptimum, SurvivesWholeSearches) {
@@ -141,6 +151,24 @@ TEST(PlantedOptimum, SurvivesWholeSearches) {
     followed += planted.nodes_followed();
   }
   EXPECT_GT(followed, 300u);
+}
+
+// They are made where no conflict raises the cost of both sides, so rarely beside other techniques.
+TEST(PlantedOptimum, SurvivesSplitsOfSequenceClasses) {
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    const FuzzCase fuzz_case = random_case(seed);
+    const Instance instance = fuzz_case.instance.build();
+    const auto truth = oracle::solve_jointly(instance);
+    if (!truth.plan) continue;
+    PlantedOptimum planted(instance, *truth.plan);
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(50));
+    SolveOptions options;
+    options.techniques = {Technique::kStrongBranching, Technique::kSequenceSplits};
+    const Solution solution = solve(instance, options, limits, &planted);
+    EXPECT_THAT(planted.complaints(), IsEmpty()) << fuzz_case.to_text();
+    EXPECT_THAT(false_claims(instance, truth, options.omega, solution, true), IsEmpty());
+  }
 }
 
 // With memory for a handful of nodes, plain CBS, so that there is something to give up.

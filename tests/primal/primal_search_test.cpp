@@ -30,7 +30,7 @@ std::string first_violation(const Instance& instance, const Plan& plan) {
 // A search with what it needs.
 struct Search {
   explicit Search(const Instance& the_instance, std::uint64_t seed = 0,
-                  Techniques techniques = Techniques::all())
+                  Techniques techniques = Techniques::usual())
       : instance(the_instance),
         problem(instance, limits),
         stops(instance, problem.distances),

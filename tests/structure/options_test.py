@@ -28,7 +28,7 @@ def offered(help_text):
 
 
 def documented_techniques(readme):
-    section = readme.split("The techniques that `--without` knows", 1)[1].split("\n\n`grove ", 1)[0]
+    section = readme.split("The techniques that `--without` and `--with` know", 1)[1].split("\n\n`grove ", 1)[0]
     return set(re.findall(r"^\| `([a-z-]+)` \|", section, re.M))
 
 

@@ -2,6 +2,7 @@
 #include "tests/support/obeys.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace grove::testing {
 namespace {
@@ -65,8 +66,11 @@ bool obeys(const Grid& grid, const Path& path, const Constraint& c) {
       return path.back() == c.cell && rest <= c.end;
     case ConstraintKind::kNoTraversal:
       return !traverses(grid, path, c);
+    case ConstraintKind::kStopIs:
+    case ConstraintKind::kStopIsNot:
+      break;  // not said of a path alone
   }
-  return false;
+  throw std::invalid_argument("a constraint on the sequence is not about the path");
 }
 
 }  // namespace grove::testing

@@ -33,7 +33,7 @@ struct SolveOptions {
   // same run, limits aside.
   std::uint64_t seed = 0;
   // Technique::kPrimal is not used with kFixed.
-  Techniques techniques = Techniques::all();
+  Techniques techniques = Techniques::usual();
   std::optional<Plan> start = std::nullopt;  // the first incumbent, a valid plan
   // The most that open nodes and their ancestors may hold, in bytes; beyond, the worst are given
   // up. Without a word from here the memory limit of the run decides.

@@ -22,6 +22,10 @@ enum class ConstraintKind : std::uint8_t {
   // at a time in [begin, end], after having entered it from its other end and stayed inside since.
   // Turning round inside, and starting inside, are no traversals.
   kNoTraversal,
+  // Of the stops in the order in which they are counted, number `begin` (from 0) is the one on
+  // `cell`, or is not. Such constraints make a sequence class (sequence_constraints.h).
+  kStopIs,
+  kStopIsNot,
 };
 
 // Bars are those of CBS (Sharon et al. 2015), ranges as in Atzmon et al. 2020. Times are inclusive.
@@ -35,5 +39,9 @@ struct Constraint {
   bool is_move() const { return kind == ConstraintKind::kBar && from != kNoCell; }
   friend bool operator==(const Constraint&, const Constraint&) = default;
 };
+
+inline bool is_about_sequence(const Constraint& c) {
+  return c.kind == ConstraintKind::kStopIs || c.kind == ConstraintKind::kStopIsNot;
+}
 
 }  // namespace grove

@@ -32,7 +32,7 @@ class PrimalSearch {
 
   // All must outlive this; `stops` may be shared with other searches of the same thread.
   PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed,
-               Techniques techniques = Techniques::all());
+               Techniques techniques = Techniques::usual());
   ~PrimalSearch();
 
   // Goes on for about a millisecond (or one call of the low level, where that is longer). Returns a

@@ -81,6 +81,7 @@ class Brancher {
   void collect_splits();
   Step choose(Cost slack, std::span<const Split> last_resorts, const Limits& limits, Split& chosen);
   Step improve(Choice& choice, const Split& split, Cost slack, const Limits& limits);
+  Step improve_by_sequences(Choice& choice, Cost slack, const Limits& limits);
   Split earliest() const;
   Step estimate(const AgentConstraint& demand, Cost slack, const Limits& limits, Cost& increase);
   Step least_cost(AgentIndex agent, const Constraint& more, Time cutoff, const Limits& limits,
@@ -120,6 +121,7 @@ class Brancher {
   std::array<Side, 2> sides_;
   std::vector<Constraint> extended_;
   std::vector<AgentIndex> affected_;
+  std::vector<AgentIndex> in_conflict_;
   Path path_;
 };
 

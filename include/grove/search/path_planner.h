@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,15 +34,26 @@ class PathPlanner {
                                              std::size_t most_nodes, const Limits& limits,
                                              OptimalPaths& paths);
 
-  // A sequence of the order's class that `path`, which must realize one, visits its stops in.
-  Sequence sequence(AgentIndex agent, const AgentOrder& order, const Path& path);
+  // A sequence that `path`, which must realize one that the order and the constraints leave, visits
+  // its stops in.
+  Sequence sequence(AgentIndex agent, const AgentOrder& order,
+                    std::span<const Constraint> constraints, const Path& path);
+
+  // A split of the class that the order and the constraints leave, on the next stop of `path`,
+  // which must obey both; none if they leave no choice.
+  std::optional<Split> sequence_split(AgentIndex agent, const AgentOrder& order,
+                                      std::span<const Constraint> constraints, const Path& path);
 
   // Calls of find(), and labels expanded by them, so far.
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return fixed_.expanded() + free_.expanded(); }
 
  private:
+  using Constraints = std::span<const Constraint>;
+
+  FreeGoals& free_goals(AgentIndex agent, const AgentOrder& order, Constraints constraints);
   FreeGoals& free_goals(AgentIndex agent, const SequenceClass& work);
+  Constraints on_path(Constraints constraints);
   Outcome find_fixed(const GoalSequence& goals, std::span<const Constraint> constraints,
                      const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits,
                      Path& path);
@@ -51,8 +63,9 @@ class PathPlanner {
   FreeLowLevelSearch free_;
   OptimalPathsBuilder optimal_;
   AgentStopsStore& stops_;
-  std::vector<std::unique_ptr<FreeGoals>>
-      free_goals_;  // by AgentIndex: of the class asked for last
+  std::vector<std::vector<std::unique_ptr<FreeGoals>>>
+      free_goals_;  // by AgentIndex: of the classes asked for last, the last of all in front
+  std::vector<Constraint> on_path_;
 };
 
 }  // namespace grove

@@ -21,6 +21,7 @@ enum class Technique : std::uint8_t {
   kFewestConflicts,  // of equally cheap paths take one with the fewest conflicts
   kTarget,           // split on when an agent comes to rest
   kTraversal,        // split on which of two agents passes a corridor
+  kSequenceSplits,   // split on an agent's next stop, where no conflict raises a bound; not usual
   kDependencies,     // bound from pairs of agents that cannot both have their best paths
   kJointPaths,       // see such pairs in their optimal paths, without a search
   kCostSplits,       // split on which of two such agents costs more
@@ -36,8 +37,11 @@ class Techniques {
     for (Technique t : techniques) bits_ |= bit(t);
   }
   static Techniques all();
+  // What a run uses unless told otherwise: all that paid when it was measured.
+  static Techniques usual();
 
   bool has(Technique t) const { return (bits_ & bit(t)) != 0; }
+  Techniques with(Technique t) const { return Techniques(bits_ | bit(t)); }
   Techniques without(Technique t) const { return Techniques(bits_ & ~bit(t)); }
   Techniques without(Techniques others) const { return Techniques(bits_ & ~others.bits_); }
   friend bool operator==(Techniques, Techniques) = default;

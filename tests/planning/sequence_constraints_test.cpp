@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "grove/planning/sequence_constraints.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/planning/single_agent.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+using testing::grid_of;
+using testing::SingleAgent;
+
+// Stops 0, 1, 2, 3 on the cells 1, 3, 4, 6 of a corridor.
+class SequenceConstraints : public ::testing::Test {
+ protected:
+  Constraint is(Time number, int stop) const {
+    return {stops_.cell(stop), kNoCell, number, number, ConstraintKind::kStopIs};
+  }
+  Constraint is_not(Time number, int stop) const {
+    return {stops_.cell(stop), kNoCell, number, number, ConstraintKind::kStopIsNot};
+  }
+  SequenceClass narrowed(const std::vector<Constraint>& constraints,
+                         SequenceClass work = {}) const {
+    return grove::narrowed(std::move(work), stops_, constraints);
+  }
+
+  Grid grid_ = grid_of({"........"});
+  SingleAgent agent_{grid_, 0, {1, 3, 4, 6}, Cell{7}};
+  AgentStops stops_{agent_.instance, agent_.distances, 0};
+};
+
+TEST_F(SequenceConstraints, MakeAClassInWhateverOrderTheyCome) {
+  EXPECT_EQ(narrowed({}), SequenceClass());
+  EXPECT_EQ(narrowed({is_not(0, 1), is_not(0, 3)}), SequenceClass({}, 0b1010));
+  EXPECT_EQ(narrowed({is_not(1, 0), is(0, 2), is_not(0, 1)}), SequenceClass({2}, 0b0001));
+  EXPECT_EQ(narrowed({is(2, 3), is(1, 0), is(0, 2)}), SequenceClass({2, 0, 3, 1}, 0));
+}
+
+TEST_F(SequenceConstraints, GoOnWhereTheClassOfTheTreeEnds) {
+  EXPECT_EQ(narrowed({is_not(0, 0)}, {{}, 0b0010}), SequenceClass({}, 0b0011));
+  EXPECT_EQ(narrowed({is(1, 3)}, {{2}, 0b0010}), SequenceClass({2, 3}, 0));
+}
+
+TEST_F(SequenceConstraints, SettleAStopWhenAllOthersAreRuledOut) {
+  EXPECT_EQ(narrowed({is_not(0, 0), is_not(0, 1), is_not(0, 2), is_not(1, 0)}),
+            SequenceClass({3}, 0b0001));
+}
+
+TEST_F(SequenceConstraints, LeaveThoseOnThePathAlone) {
+  EXPECT_EQ(narrowed({{3, kNoCell, 0, 0}, {3, 4, 1, 1}}), SequenceClass());
+}
+
+TEST_F(SequenceConstraints, ThatMakeNoClassAreRefused) {
+  const Constraint nowhere{2, kNoCell, 0, 0, ConstraintKind::kStopIs};
+  EXPECT_THROW(narrowed({nowhere}), std::invalid_argument);
+  EXPECT_THROW(narrowed({is(1, 0)}), std::invalid_argument);
+  EXPECT_THROW(narrowed({is(0, 0), is(1, 0)}), std::invalid_argument);
+  EXPECT_THROW(narrowed({is(0, 0), is_not(0, 0)}), std::invalid_argument);
+  EXPECT_THROW(narrowed({is(0, 3)}, {{}, 0b1000}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace grove
