@@ -155,7 +155,7 @@ void add_options(CLI::App& app, SolveArguments& a) {
              "machine's")
       ->type_name("GB");
   add_integer(app, "--threads", a.threads, {1, 4096},
-              "use at most so many threads; the search of this version runs on one")
+              "search on so many threads. By default one for each core")
       ->type_name("T");
   app.add_option(
          "--policy", a.policy,
@@ -189,8 +189,8 @@ void add_options(CLI::App& app, SolveArguments& a) {
       ->check(CLI::Validator(check_technique, ""));
   app.add_flag(
       "--deterministic", a.deterministic,
-      "log by nodes expanded, not by the clock: two runs that no limit stops then log the same, "
-      "times and memory aside");
+      "let what happens depend on the work done alone: runs that no limit stops then find the same "
+      "plan and log the same, times and memory aside, whatever the number of threads");
   app.add_option("--start", a.start,
                  "a plan file of this instance: its plan is checked and is the first incumbent")
       ->type_name("PLAN");
@@ -322,6 +322,8 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   options.policy = kPolicies.at(a.policy);
   options.rtsp = kBackends.at(a.rtsp);
   options.seed = static_cast<std::uint64_t>(a.seed);
+  options.threads = static_cast<int>(a.threads);
+  options.deterministic = a.deterministic;
   options.techniques = techniques_of(a);
   if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
   LogSink sink(!a.quiet, a.log);

@@ -34,7 +34,7 @@ std::size_t peak_resident_bytes() {
 }
 
 bool Limits::stop_requested() const {
-  if (reason() != StopReason::kNone) return true;
+  if (reason() != StopReason::kNone || finished_.load(std::memory_order_relaxed)) return true;
   if (interrupt_ && interrupt_->load(std::memory_order_relaxed)) stop(StopReason::kInterrupt);
   const Clock::time_point now = Clock::now();
   if (deadline_ && now >= *deadline_) stop(StopReason::kTime);

@@ -68,6 +68,7 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
   if (best->second.empty()) open_.erase(best);
   --open_count_;
   ++taken_[rank(node)];
+  ++taken_count_;
   return node;
 }
 
@@ -85,6 +86,7 @@ void Frontier::give_back(NodePtr node) {
 void Frontier::release_locked(const NodePtr& node) {
   const auto it = taken_.find(rank(node));
   if (--it->second == 0) taken_.erase(it);
+  --taken_count_;
 }
 
 std::size_t Frontier::prune(Cost bound) {
@@ -124,9 +126,11 @@ Cost Frontier::evicted_bound() const {
   return evicted_;
 }
 
-void Frontier::restart() {
+// At one go: in between there would be neither nodes nor a bound.
+void Frontier::restart(std::span<const NodePtr> roots) {
   const std::lock_guard lock(mutex_);
   proven_ = std::exchange(evicted_, kInfiniteCost);
+  for (const NodePtr& root : roots) push_locked(root);
 }
 
 void Frontier::abandon() {
@@ -147,6 +151,11 @@ Cost Frontier::bound() const {
 std::size_t Frontier::open() const {
   const std::lock_guard lock(mutex_);
   return open_count_;
+}
+
+std::size_t Frontier::live() const {
+  const std::lock_guard lock(mutex_);
+  return open_count_ + taken_count_;
 }
 
 }  // namespace grove

@@ -73,6 +73,10 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     fuzz_case.options.seed = parse_number(value);
   else if (key == "node-memory")
     fuzz_case.options.node_memory = parse_number(value);
+  else if (key == "threads")
+    fuzz_case.options.threads = static_cast<int>(parse_number(value));
+  else if (key == "deterministic")
+    fuzz_case.options.deterministic = value == "yes";
   else if (key == "with")
     fuzz_case.options.techniques = fuzz_case.options.techniques.with(value_of_technique(value));
   else if (key == "without")
@@ -133,6 +137,8 @@ std::string FuzzCase::to_text() const {
       fmt::format("{}options\nomega {}\npolicy {}\nrtsp {}\nseed {}\nstrike {}\n",
                   instance.to_text(), options.omega.to_string(), name_of(kPolicies, options.policy),
                   name_of(kBackends, options.rtsp), options.seed, name_of(kStrikes, strike));
+  if (options.threads != 1) text += fmt::format("threads {}\n", options.threads);
+  if (options.deterministic) text += "deterministic yes\n";
   for (Technique t : all_techniques())
     if (options.techniques.has(t) != Techniques::usual().has(t))
       text +=
@@ -167,6 +173,8 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.options.techniques = random_techniques(random);
   fuzz_case.strike = random_strike(random);
   fuzz_case.options.node_memory = random_node_memory(random);
+  fuzz_case.options.threads = random.pick<int>({1, 1, 1, 1, 1, 2, 2, 3, 4});
+  fuzz_case.options.deterministic = random.below(8) == 0;
   return fuzz_case;
 }
 

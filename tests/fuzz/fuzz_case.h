@@ -27,6 +27,8 @@ enum class Strike : std::uint8_t {
 //     policy free          (auto, fixed, free)
 //     rtsp held-karp       (auto, held-karp, bounded-dp, cbc)
 //     seed 7
+//     threads 2
+//     deterministic yes
 //     without bypass       (a technique; may come again)
 //     node-memory 4000     (bytes)
 //     strike nothing       (nothing, expired, soon, memory, interrupt)

@@ -79,6 +79,7 @@ bool same_answer(const Solution& a, const Solution& b) {
 void judge(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answer& truth,
            const Solver& solver, milliseconds patience, CaseResult& result) {
   if (!truth.plan) patience /= kWithoutPlan;
+  FuzzCase again = fuzz_case;
   const Run first = run(instance, fuzz_case, patience, solver);
   result.status = first.solution.status;
   result.stopped = first.stopped;
@@ -87,8 +88,11 @@ void judge(const Instance& instance, const FuzzCase& fuzz_case, const oracle::An
   if (first.overrun > kAllowedOverrun)
     result.complaints.push_back(fmt::format("returned {} s after the deadline",
                                             std::chrono::duration<double>(first.overrun).count()));
-  if (first.stopped || first.duration > kWorthRepeating) return;
-  const Run second = run(instance, fuzz_case, patience, solver);
+  SolveOptions& options = again.options;
+  const bool repeatable = options.threads == 1 || options.deterministic;
+  if (first.stopped || first.duration > kWorthRepeating || !repeatable) return;
+  if (options.deterministic) options.threads = options.threads % 4 + 1;
+  const Run second = run(instance, again, patience, solver);
   if (!second.stopped && !same_answer(first.solution, second.solution))
     result.complaints.push_back("the same run ends differently the second time");
 }

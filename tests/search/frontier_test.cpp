@@ -142,13 +142,10 @@ TEST_F(FrontierTest, WhatWasGivenUpIsPrunedOnlyByAnIncumbentAsCheap) {
 TEST_F(FrontierTest, BeginsAnewWithTheProvenBoundNewestFirst) {
   frontier_.push(node(4));
   frontier_.evict(1);
-  frontier_.restart();
-  EXPECT_EQ(frontier_.evicted_bound(), kInfiniteCost);
-  EXPECT_TRUE(frontier_.empty());
   const NodePtr newest = node(3);
-  frontier_.push(node(1));
-  frontier_.push(node(5));
-  frontier_.push(newest);
+  frontier_.restart(std::vector{node(1), node(5), newest});
+  EXPECT_EQ(frontier_.evicted_bound(), kInfiniteCost);
+  EXPECT_EQ(frontier_.live(), 3u);
   EXPECT_EQ(frontier_.bound(), 4);
   const NodePtr first = frontier_.take();
   EXPECT_EQ(first, newest);

@@ -30,8 +30,8 @@ enum class RunEvent : std::uint8_t {
   kEnd,        // the search is over; comes once, last
 };
 
-// Does nothing; override what is of interest. Called from the thread that runs the search, between
-// two expansions: return quickly. References are valid during the call;
+// Does nothing; override what is of interest. Called from the threads that run the search, one
+// at a time: return quickly. References are valid during the call;
 // the nodes die with the run: keep none.
 class RunObserver {
  public:

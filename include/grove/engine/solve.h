@@ -29,6 +29,10 @@ struct SolveOptions {
   Omega omega;
   Policy policy = Policy::kAuto;
   RtspBackend rtsp = RtspBackend::kAuto;  // of kFixed
+  int threads = 1;  // at least 1
+  // What happens depends on the work done alone, not on the threads or the clock: the same plan and
+  // the same events for any number of threads, limits aside.
+  bool deterministic = false;
   // Breaks ties among conflicts of equal time and guides the primal search; the same seed makes the
   // same run, limits aside.
   std::uint64_t seed = 0;
@@ -41,7 +45,7 @@ struct SolveOptions {
 };
 
 // Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower
-// bound. Single-threaded. `observer` (may be null) is told what happens, from the calling thread.
+// bound. `observer` (may be null) is told what happens, from any of the threads, one at a time.
 // Throws what the observer throws, and std::logic_error or std::runtime_error when a part of the
 // search turns out to be broken (a plan that the checker refuses, `options.start` included; CBC
 // failing).

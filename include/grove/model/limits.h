@@ -45,6 +45,9 @@ class Limits {
   std::optional<std::size_t> memory_limit() const { return memory_limit_; }
   // The resident set when stop_requested() last looked at it; 0 before that, or without a limit.
   std::size_t last_resident() const { return last_resident_.load(std::memory_order_relaxed); }
+  // Ends all work of the run, which has reached its end: stop_requested() is true from now on, and
+  // reason() what it was.
+  void finish() const { finished_.store(true, std::memory_order_relaxed); }
   // For allocations refused elsewhere: stops the run for lack of memory.
   void memory_exhausted() const { stop(StopReason::kMemory); }
 
@@ -54,6 +57,7 @@ class Limits {
   std::optional<Clock::time_point> deadline_;
   std::optional<std::size_t> memory_limit_;
   const std::atomic<bool>* interrupt_ = nullptr;
+  mutable std::atomic<bool> finished_{false};
   mutable std::atomic<StopReason> reason_{StopReason::kNone};
   mutable std::atomic<Clock::rep> next_memory_look_{0};
   mutable std::atomic<std::size_t> last_resident_{0};

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "grove/search/node.h"
@@ -42,10 +43,10 @@ class Frontier {
   std::vector<NodePtr> evict(std::size_t count);
   // The least bound of what was given up and not pruned since; kInfiniteCost: nothing.
   Cost evicted_bound() const;
-  // Forgets what was given up, for the caller is about to push the roots of all the trees that it
-  // came from. Only when no node is live, and after every tree not yet instantiated costs at least
-  // evicted_bound(). Nodes below that bound are then taken newest first.
-  void restart();
+  // Forgets what was given up and pushes the roots of all the trees that it came from. Only when no
+  // node is live, and after every tree not yet instantiated costs at least evicted_bound(). Nodes
+  // below that bound are then taken newest first.
+  void restart(std::span<const NodePtr> roots);
 
   // Empties the frontier without giving its nodes up, for when their pool is about to go: releasing
   // millions of nodes one by one takes seconds.
@@ -55,6 +56,8 @@ class Frontier {
   // when there is none.
   Cost bound() const;
   std::size_t open() const;
+  // Open or taken.
+  std::size_t live() const;
   bool empty() const { return bound() == kInfiniteCost; }
 
  private:
@@ -75,6 +78,7 @@ class Frontier {
   Cost evicted_ = kInfiniteCost;
   Cost proven_ = -1;  // before the restart: no plan costs less; -1: there was none
   std::size_t open_count_ = 0;
+  std::size_t taken_count_ = 0;
   std::uint64_t serial_ = 0;
 };
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// A worker is a TBB task that takes turns until there is nothing to do. Then it ends, for a task
+// that waits holds up a thread; whoever brings work back starts it again.
+//
+// No work is overlooked: a worker parks under the lock under which it saw that no node was open, and
+// a node is pushed before that lock is taken to look for who is parked. So either the parking worker
+// sees the node or the pushing one sees the worker.
+#include "multicore.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <mutex>
+#include <new>
+#include <vector>
+
+namespace grove {
+namespace {
+
+class Crew {
+ public:
+  Crew(SharedSearch& shared, const Limits& limits) : shared_(shared), limits_(limits) {}
+
+  void run(std::span<const std::unique_ptr<Worker>> workers) {
+    for (const auto& worker : workers) start(*worker);
+    tasks_.wait();
+  }
+
+ private:
+  void start(Worker& worker) {
+    tasks_.run([this, &worker] { work(worker); });
+  }
+
+  void work(Worker& worker) {
+    try {
+      while (!shared_.over())
+        if (worker.turn())
+          call_another();
+        else if (park(worker))
+          return;
+    } catch (const std::bad_alloc&) {
+      limits_.memory_exhausted();
+    } catch (...) {
+      limits_.finish();
+      throw;
+    }
+    limits_.finish();
+  }
+
+  bool park(Worker& worker) {
+    const std::lock_guard lock(mutex_);
+    if (shared_.over() || shared_.has_open()) return false;
+    parked_.push_back(&worker);
+    return true;
+  }
+
+  // Starts a parked worker if there is work for it.
+  void call_another() {
+    const std::lock_guard lock(mutex_);
+    if (parked_.empty() || !shared_.has_open()) return;
+    start(*parked_.back());
+    parked_.pop_back();
+  }
+
+  SharedSearch& shared_;
+  const Limits& limits_;
+  tbb::task_group tasks_;
+  std::mutex mutex_;
+  std::vector<Worker*> parked_;
+};
+
+}  // namespace
+
+void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
+                    const Limits& limits) {
+  const auto threads = static_cast<int>(workers.size());
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute([&] { Crew(shared, limits).run(workers); });
+}
+
+void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
+                     int threads) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  std::vector<Worker*> busy;
+  arena.execute([&] {
+    tbb::task_group tasks;
+    while (!shared.over()) {
+      busy.clear();
+      for (const auto& worker : workers)
+        if (worker->choose()) busy.push_back(worker.get());
+      for (Worker* worker : busy) tasks.run([worker] { worker->perform(); });
+      tasks.wait();
+      for (Worker* worker : busy) worker->commit();
+    }
+  });
+}
+
+}  // namespace grove

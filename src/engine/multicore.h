@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Several threads on one search.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "worker.h"
+
+namespace grove {
+
+// Lets every worker run on a thread of its own until the search is over; then ends what is still
+// under way. Throws what a worker throws, after all have stopped.
+void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
+                    const Limits& limits);
+
+// The workers of a deterministic run, whatever the number of threads.
+inline constexpr int kDeterministicLanes = 4;
+
+// In rounds: the workers choose one after the other, perform side by side on so many threads, and
+// commit one after the other. So what happens does not depend on how many threads there are.
+void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
+                     int threads);
+
+}  // namespace grove

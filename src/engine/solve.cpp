@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// From an instance to an answer: what is evident is said without a search; else workers share one.
+#include "grove/engine/solve.h"
+
+#include <new>
+#include <string>
+
+#include "grove/engine/run_observer.h"
+#include "grove/search/feasibility.h"
+#include "grove/search/gate.h"
+#include "multicore.h"
+#include "shared_search.h"
+#include "stop_text.h"
+#include "worker.h"
+
+namespace grove {
+namespace {
+
+void solve_alone(Worker& worker, const SharedSearch& shared) {
+  while (!shared.over()) worker.turn();
+}
+
+Solution search(const Problem& problem, const SolveOptions& options, const Limits& limits,
+                RunObserver& observer) {
+  const int lanes = options.deterministic ? kDeterministicLanes : options.threads;
+  SharedSearch shared(problem, options, limits, observer, lanes);
+  std::vector<std::unique_ptr<Worker>> workers;
+  for (int number = 0; number < lanes; ++number)
+    workers.push_back(std::make_unique<Worker>(problem, options, limits, shared, number));
+  try {
+    shared.begin();
+    if (options.deterministic)
+      solve_in_rounds(workers, shared, options.threads);
+    else if (lanes > 1)
+      solve_together(workers, shared, limits);
+    else
+      solve_alone(*workers.front(), shared);
+  } catch (const std::bad_alloc&) {
+    limits.memory_exhausted();
+  }
+  shared.tell(RunEvent::kEnd);
+  Solution solution = shared.conclude();
+  for (const auto& worker : workers) worker->add_counts(solution.stats);
+  return solution;
+}
+
+Solution without_search(const SolveOptions& options, Status status, const std::string& key,
+                        const std::string& text) {
+  Solution solution;
+  solution.status = status;
+  solution.omega = options.omega;
+  solution.stats.texts[key] = text;
+  return solution;
+}
+
+// A limit struck before there was a bound: all there may be is the plan that was given.
+Solution stopped_before_search(const Instance& instance, const SolveOptions& options,
+                               const Limits& limits, RunObserver& observer) {
+  Solution solution =
+      without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
+  if (!options.start) return solution;
+  Gate gate(instance, options.omega);
+  gate.post(*options.start);
+  solution.plan = gate.incumbent();
+  solution.status = status_of(solution.plan->cost, solution.lower_bound, options.omega);
+  observer.on_incumbent(*solution.plan, PlanSource::kStart,
+                        Progress{0, 0, 0, 0, solution.plan->cost});
+  return solution;
+}
+
+}  // namespace
+
+Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
+               RunObserver* observer) {
+  RunObserver silent;
+  RunObserver& watcher = observer ? *observer : silent;
+  try {
+    const Problem problem(instance, limits);
+    if (!problem.distances.complete())
+      return stopped_before_search(instance, options, limits, watcher);
+    if (const auto reason = evident_infeasibility(problem)) {
+      watcher.on_infeasible(*reason);
+      return without_search(options, Status::kInfeasible, "reason", *reason);
+    }
+    return search(problem, options, limits, watcher);
+  } catch (const std::bad_alloc&) {  // before the search: nothing is known yet
+    limits.memory_exhausted();
+    return stopped_before_search(instance, options, limits, watcher);
+  }
+}
+
+}  // namespace grove

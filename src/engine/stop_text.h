@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What plan files say of the limit that struck.
+#pragma once
+
+#include <string>
+
+#include "grove/model/limits.h"
+
+namespace grove {
+
+inline std::string stop_text(StopReason reason) {
+  switch (reason) {
+    case StopReason::kTime:
+      return "time limit";
+    case StopReason::kMemory:
+      return "memory limit";
+    case StopReason::kInterrupt:
+      return "interrupt";
+    case StopReason::kNone:
+      break;
+  }
+  return "";
+}
+
+}  // namespace grove

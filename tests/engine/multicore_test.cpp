@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Several threads on one search: the same optima as one, and with `deterministic` the same run.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "grove/engine/run_observer.h"
+#include "grove/engine/solve.h"
+#include "grove/model/check.h"
+#include "tests/primal/crowd.h"
+
+namespace grove {
+namespace {
+
+using testing::Crowd;
+using testing::random_crowd;
+
+// Too hard for the root, easy enough for a test: some hundred nodes for plain CBS.
+std::vector<Instance> instances() {
+  std::vector<Instance> all;
+  for (std::uint64_t seed = 0; seed < 12; ++seed)
+    all.push_back(random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, seed));
+  return all;
+}
+
+SolveOptions plain(int threads) {
+  SolveOptions options;
+  options.omega = Omega();
+  options.threads = threads;
+  options.techniques = {Technique::kPrimal, Technique::kStrongBranching};
+  return options;
+}
+
+struct Within : Limits {
+  explicit Within(std::chrono::milliseconds time) { set_deadline(Clock::now() + time); }
+};
+
+// Everything a log would tell, times aside.
+class Recorder : public RunObserver {
+ public:
+  using Row = std::tuple<RunEvent, std::int64_t, std::int64_t, Cost, Cost>;
+
+  void on_event(RunEvent event, const Progress& p) override {
+    rows.emplace_back(event, p.nodes_expanded, p.nodes_open, p.lower_bound,
+                      p.incumbent.value_or(-1));
+  }
+
+  std::vector<Row> rows;
+};
+
+TEST(Multicore, FindsTheOptimumOfOneThread) {
+  std::int64_t nodes = 0;
+  for (const Instance& instance : instances()) {
+    const Solution alone = solve(instance, plain(1), Within(std::chrono::seconds(5)));
+    for (const int threads : {2, 3, 8}) {
+      const Solution together = solve(instance, plain(threads), Within(std::chrono::seconds(5)));
+      if (alone.status == Status::kUnknown || together.status == Status::kUnknown) continue;
+      ASSERT_EQ(together.status, alone.status);
+      EXPECT_EQ(together.lower_bound, alone.lower_bound);
+      if (together.plan) {
+        EXPECT_TRUE(check(instance, together).empty());
+      }
+      nodes += together.stats.counts.at("nodes_expanded");
+    }
+  }
+  EXPECT_GT(nodes, 500) << "too easy to be a test";
+}
+
+TEST(Multicore, ADeterministicRunIsTheSameForAnyNumberOfThreads) {
+  for (const Instance& instance : instances()) {
+    std::vector<Recorder::Row> rows;
+    std::vector<Path> paths;
+    for (const int threads : {1, 2, 4, 7}) {
+      SolveOptions options = plain(threads);
+      options.deterministic = true;
+      Recorder recorder;
+      const Solution solution =
+          solve(instance, options, Within(std::chrono::seconds(10)), &recorder);
+      if (solution.stats.texts.contains("stopped_by")) break;
+      std::vector<Path> found;
+      if (solution.plan)
+        for (const AgentPlan& agent : solution.plan->agents) found.push_back(agent.path);
+      if (threads == 1) {
+        rows = recorder.rows;
+        paths = found;
+      }
+      ASSERT_EQ(recorder.rows, rows) << threads << " threads";
+      EXPECT_EQ(found, paths);
+    }
+  }
+}
+
+TEST(Multicore, EventsComeOneAtATimeAndTheBoundNeverFalls) {
+  class Watcher : public RunObserver {
+   public:
+    void on_event(RunEvent event, const Progress& progress) override {
+      EXPECT_FALSE(inside_.exchange(true));
+      EXPECT_FALSE(ended_);
+      ended_ = event == RunEvent::kEnd;
+      if (event == RunEvent::kBound) {
+        EXPECT_GT(progress.lower_bound, bound_);
+        bound_ = progress.lower_bound;
+      }
+      if (event == RunEvent::kIncumbent) {
+        EXPECT_LT(*progress.incumbent, incumbent_);
+        incumbent_ = *progress.incumbent;
+      }
+      inside_ = false;
+    }
+    bool ended() const { return ended_; }
+
+   private:
+    std::atomic<bool> inside_{false};
+    bool ended_ = false;
+    Cost bound_ = -1;
+    Cost incumbent_ = kInfiniteCost;
+  };
+  for (const Instance& instance : instances()) {
+    Watcher watcher;
+    solve(instance, plain(4), Within(std::chrono::seconds(2)), &watcher);
+    EXPECT_TRUE(watcher.ended());
+  }
+}
+
+TEST(Multicore, LimitsEndEveryThread) {
+  const Instance hard = random_crowd({.size = 16, .obstacles = 25, .agents = 40, .tasks = 60}, 1);
+  for (const bool deterministic : {false, true}) {
+    SolveOptions options = plain(4);
+    options.deterministic = deterministic;
+    const auto begin = Limits::Clock::now();
+    const Solution solution = solve(hard, options, Within(std::chrono::milliseconds(300)));
+    EXPECT_LT(Limits::Clock::now() - begin, std::chrono::seconds(5));
+    if (solution.plan) {
+      EXPECT_LE(solution.lower_bound, solution.plan->cost);
+    }
+  }
+}
+
+TEST(Multicore, WhatAnObserverThrowsArrives) {
+  class Thrower : public RunObserver {
+    void on_expanded(const NodePtr&, const Expansion&) override {
+      throw std::runtime_error("disk full");
+    }
+  };
+  for (const bool deterministic : {false, true}) {
+    SolveOptions options = plain(3);
+    options.deterministic = deterministic;
+    Thrower thrower;
+    EXPECT_THROW(solve(instances()[0], options, Within(std::chrono::seconds(5)), &thrower),
+                 std::runtime_error);
+  }
+}
+
+}  // namespace
+}  // namespace grove
