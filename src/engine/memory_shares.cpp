@@ -4,7 +4,7 @@
 // resident set fell would evict everything. What is measured is two things. The resident set tells
 // *when* memory is short: when 7/8 of the room at the start are used. What the search can give up,
 // by its own account, is then as much as fits; from then on nodes may hold half of it and the
-// expander's memory three eighths, whose lists double as they grow. The resident set should now
+// expanders' memory three eighths, whose lists double as they grow. The resident set should now
 // stay where it is. Should it rise all the same - other parts grow, small blocks are scattered -
 // the next alarm is half way to the limit, and the budgets are cut again. Each cut takes an eighth
 // and halves the room, so there are few; a run that cannot be helped this way is stopped by the
@@ -28,15 +28,15 @@ std::size_t room(std::size_t limit) {
 }  // namespace
 
 MemoryShares::MemoryShares(const Limits& limits, std::size_t most_for_nodes)
-    : limits_(limits), alarm_(kNever), for_nodes_(most_for_nodes), for_expander_(kNever) {
+    : limits_(limits), alarm_(kNever), for_nodes_(most_for_nodes), for_expanders_(kNever) {
   if (const auto limit = limits.memory_limit()) alarm_ = *limit - room(*limit) / 8;
 }
 
-void MemoryShares::cut(std::size_t nodes_hold, std::size_t expander_holds) {
+void MemoryShares::cut(std::size_t nodes_hold, std::size_t expanders_hold) {
   const std::size_t held =
-      std::min(nodes_hold, for_nodes_) + std::min(expander_holds, for_expander_);
+      std::min(nodes_hold, for_nodes_) + std::min(expanders_hold, for_expanders_);
   for_nodes_ = std::min(for_nodes_, std::max(kLeast, held / 2));
-  for_expander_ = std::min(for_expander_, std::max(kLeast, held / 8 * 3));
+  for_expanders_ = std::min(for_expanders_, std::max(kLeast, held / 8 * 3));
 }
 
 void MemoryShares::settled() {

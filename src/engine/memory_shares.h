@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a run keeps within its memory: how much nodes may hold, and how much the expander's memory.
+// How a run keeps within its memory: how much nodes may hold, and how much what the expanders know.
 #pragma once
 
 #include <cstddef>
@@ -20,18 +20,18 @@ class MemoryShares {
   }
   // Cuts the budgets, given what is held now. The caller makes both obey, gives back to the system
   // what can be given back, and calls settled().
-  void cut(std::size_t nodes_hold, std::size_t expander_holds);
+  void cut(std::size_t nodes_hold, std::size_t expanders_hold);
   void settled();
 
   // In bytes.
   std::size_t for_nodes() const { return for_nodes_; }
-  std::size_t for_expander() const { return for_expander_; }
+  std::size_t for_expanders() const { return for_expanders_; }
 
  private:
   const Limits& limits_;
   std::size_t alarm_;
   std::size_t for_nodes_;
-  std::size_t for_expander_;
+  std::size_t for_expanders_;
 };
 
 }  // namespace grove

@@ -3,11 +3,11 @@
 // search/gate.cpp and holds for any order of expansion. What it asks of those who share a search:
 //
 // *The ledger's two numbers*, the least bound of the live nodes and the bound of the trees not yet
-// instantiated, are read while others work. A tree's root is pushed first and the bound of the trees
-// after it published then; and the trees' bound is read before the nodes'. So a plan in a tree that
-// was not yet instantiated when the nodes' bound was read was not either when the trees' was read,
-// and any other plan is in a live node, or was pruned: the minimum of the two bounds it. A node is
-// live until all that it led to has been pushed.
+// instantiated, are read while others work. A tree's root is pushed first and the bound of the
+// trees after it published then; and the trees' bound is read before the nodes'. So a plan in a
+// tree that was not yet instantiated when the nodes' bound was read was not either when the trees'
+// was read, and any other plan is in a live node, or was pruned: the minimum of the two bounds it.
+// A node is live until all that it led to has been pushed.
 //
 // *Nothing left* is said only when no node is live, while nobody else may instantiate a tree: nodes
 // come from live nodes and from new trees alone.
@@ -27,7 +27,6 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -40,6 +39,7 @@ namespace grove {
 namespace {
 
 constexpr Cost kNoTree = -1;
+constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // bytes of what was found out
 constexpr double kExpectedPerConflict = 0.5;  // by measurement; 1 is a little worse, 0.15 much
 
 std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
@@ -52,7 +52,7 @@ std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsStore& sto
 }  // namespace
 
 SharedSearch::SharedSearch(const Problem& problem, const SolveOptions& options,
-                           const Limits& limits, RunObserver& observer, int workers)
+                           const Limits& limits, RunObserver& observer)
     : options_(options),
       limits_(limits),
       observer_(observer),
@@ -63,8 +63,8 @@ SharedSearch::SharedSearch(const Problem& problem, const SolveOptions& options,
       forest_(make_forest(problem, stops_, pool_, options, limits)),
       next_tree_bound_(forest_->next_bound()),
       last_tree_cost_(kNoTree),
-      memory_(limits, options.node_memory),
-      held_(static_cast<std::size_t>(workers)) {}
+      shares_(limits, options.node_memory),
+      known_(std::make_shared<CommonMemory>()) {}
 
 SharedSearch::~SharedSearch() {
   frontier_.abandon();
@@ -118,7 +118,8 @@ void SharedSearch::grow() {
 }
 
 // When no node is left but some were given up: starts again from all roots, or first adds a tree
-// that is due by then. False if that would lead nowhere: the last run was no better. Under growing_.
+// that is due by then. False if that would lead nowhere: the last run was no better. Under
+// growing_.
 bool SharedSearch::begin_anew() {
   const Cost proven = frontier_.evicted_bound();
   if (proven == kInfiniteCost || omega_.is_infinite()) return false;
@@ -195,19 +196,21 @@ void SharedSearch::update_bound() {
 }
 
 // Nodes that need not be expanded any more, for the incumbent is within w of their bound, are the
-// first to go: they are the worst.
-std::size_t SharedSearch::keep_within_memory(int worker, std::size_t held) {
-  const std::lock_guard lock(remembering_);
-  held_[static_cast<std::size_t>(worker)] = held;
-  if (memory_.is_short()) {
-    memory_.cut(pool_.bytes(), std::accumulate(held_.begin(), held_.end(), std::size_t{0}));
-    evict_to(memory_.for_nodes());
+// first to go: they are the worst. What was found out goes when its last user has turned away.
+void SharedSearch::keep_within_memory() {
+  const std::unique_lock lock(keeping_, std::try_to_lock);
+  if (!lock) return;
+  const std::size_t known = known_.load()->bytes();
+  if (shares_.is_short()) {
+    shares_.cut(pool_.bytes(), known);
+    evict_to(shares_.for_nodes());
     ::malloc_trim(0);
-    memory_.settled();
-  } else if (pool_.bytes() > memory_.for_nodes()) {
-    evict_to(memory_.for_nodes() / 8 * 7);
+    shares_.settled();
+  } else if (pool_.bytes() > shares_.for_nodes()) {
+    evict_to(shares_.for_nodes() / 8 * 7);
   }
-  return memory_.for_expander() / held_.size();
+  if (known > std::min(kMostKnown, shares_.for_expanders()))
+    known_.store(std::make_shared<CommonMemory>());
 }
 
 // The best open node stays. Evicting a leaf frees those ancestors that no other node shares.
@@ -227,8 +230,8 @@ void SharedSearch::tell(RunEvent event) {
 }
 
 Progress SharedSearch::progress() const {
-  return {nodes_expanded_, static_cast<std::int64_t>(frontier_.open()), trees_,
-          gate_.lower_bound(), gate_.incumbent_cost()};
+  return {nodes_expanded_, static_cast<std::int64_t>(frontier_.open()), trees_, gate_.lower_bound(),
+          gate_.incumbent_cost()};
 }
 
 Solution SharedSearch::conclude() const {
@@ -241,12 +244,10 @@ Solution SharedSearch::conclude() const {
     solution.status = Status::kInfeasible;
     solution.lower_bound = 0;
   }
-  solution.stats.counts = {{"nodes_expanded", nodes_expanded_},
-                           {"nodes_generated", nodes_generated_},
-                           {"nodes_evicted", nodes_evicted_},
-                           {"restarts", restarts_},
-                           {"roots_generated", forest_->trees()},
-                           {"rtsp_calls", forest_->rtsp_calls()}};
+  solution.stats.counts = {
+      {"nodes_expanded", nodes_expanded_},   {"nodes_generated", nodes_generated_},
+      {"nodes_evicted", nodes_evicted_},     {"restarts", restarts_},
+      {"roots_generated", forest_->trees()}, {"rtsp_calls", forest_->rtsp_calls()}};
   solution.stats.measures["node_bytes"] = pool_.mean_bytes();
   // A limit that struck after the search had ended changed nothing.
   if (!gate_.finished()) {

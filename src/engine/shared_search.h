@@ -26,9 +26,9 @@ namespace grove {
 // none waits longer than it takes another to do the like.
 class SharedSearch {
  public:
-  // All must outlive this. `workers`: how many share the memory.
+  // All must outlive this.
   SharedSearch(const Problem& problem, const SolveOptions& options, const Limits& limits,
-               RunObserver& observer, int workers);
+               RunObserver& observer);
   ~SharedSearch();
   SharedSearch(const SharedSearch&) = delete;
   SharedSearch& operator=(const SharedSearch&) = delete;
@@ -53,9 +53,11 @@ class SharedSearch {
   // The incumbent if it is cheaper than `cost`.
   std::optional<Plan> plan_below(Cost cost) const;
 
-  // Gives up nodes as memory demands, where `held` is what this worker's expander holds; returns
-  // how much it may hold. In bytes.
-  std::size_t keep_within_memory(int worker, std::size_t held);
+  // Gives up nodes, and what was found out, as memory demands.
+  void keep_within_memory();
+  // What was found out, for expanders to go on with.
+  std::shared_ptr<CommonMemory> memory() const { return known_.load(); }
+
   // Tells the observer. kEnd once, when no worker is at work any more.
   void tell(RunEvent event);
 
@@ -103,9 +105,9 @@ class SharedSearch {
   std::atomic<std::int64_t> nodes_evicted_{0};
   std::atomic<std::uint32_t> estimates_turn_{0};
 
-  std::mutex remembering_;  // guards what follows
-  MemoryShares memory_;
-  std::vector<std::size_t> held_;  // by the expanders, as they said last
+  std::mutex keeping_;  // guards the shares
+  MemoryShares shares_;
+  std::atomic<std::shared_ptr<CommonMemory>> known_;
 
   std::mutex posting_;  // orders what is announced of plans
   std::mutex observing_;

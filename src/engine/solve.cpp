@@ -23,7 +23,7 @@ void solve_alone(Worker& worker, const SharedSearch& shared) {
 Solution search(const Problem& problem, const SolveOptions& options, const Limits& limits,
                 RunObserver& observer) {
   const int lanes = options.deterministic ? kDeterministicLanes : options.threads;
-  SharedSearch shared(problem, options, limits, observer, lanes);
+  SharedSearch shared(problem, options, limits, observer);
   std::vector<std::unique_ptr<Worker>> workers;
   for (int number = 0; number < lanes; ++number)
     workers.push_back(std::make_unique<Worker>(problem, options, limits, shared, number));

@@ -26,7 +26,7 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
       shared_(shared),
       number_(number),
       stops_(problem.instance, problem.distances),
-      expander_(problem, stops_, techniques_of(options), options.seed),
+      expander_(problem, stops_, techniques_of(options), options.seed, shared.memory()),
       share_(problem.instance.agent_count()) {
   // To expand the root can take long where there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
@@ -34,7 +34,7 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
 }
 
 bool Worker::choose() {
-  expander_.limit_memory(shared_.keep_within_memory(number_, expander_.memory()));
+  shared_.keep_within_memory();
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
   if (has_primal && share_.may_begin() && share_.due(primal())) return true;
   node_ = shared_.take();
@@ -66,6 +66,8 @@ void Worker::step_primal() {
 
 void Worker::commit() {
   if (node_) {
+    expander_.publish();
+    expander_.turn_to(shared_.memory());
     shared_.finish(std::exchange(node_, nullptr), std::exchange(expansion_, {}));
     share_.tree_worked(work_);
   } else {

@@ -7,7 +7,7 @@
 // idea behind cardinal conflicts, Boyarski et al. 2015): of every split that the node's conflicts
 // allow, both sides are priced exactly - by how much does the sum of costs rise? - and the one
 // whose cheaper side rises most is taken. The prices are costs of single agents under constraints,
-// which Situations remembers: among the conflicts of a node most were priced at its parent. A side
+// which the memory keeps: among the conflicts of a node most were priced at its parent. A side
 // that cannot lead to a plan cheaper than the cutoff counts as infinitely dear, and a split with
 // two such sides ends the node.
 //
@@ -50,13 +50,12 @@ std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
 }  // namespace
 
 Brancher::Brancher(const Problem& problem, Techniques techniques, std::uint64_t seed,
-                   PathPlanner& planner, Situations& situations, PathSets& path_sets)
+                   PathPlanner& planner, Memory& memory)
     : problem_(problem),
       techniques_(techniques),
       seed_(seed),
       planner_(planner),
-      situations_(situations),
-      path_sets_(path_sets),
+      memory_(memory),
       finder_(problem.instance.grid()),
       others_(problem.instance.grid()),
       shown_(problem.instance.agent_count()) {}
@@ -76,7 +75,7 @@ void Brancher::find_conflicts() {
 }
 
 Situations::Id Brancher::situation(AgentIndex agent) {
-  return situations_.id(agent, order(agent), constraints_[agent]);
+  return memory_.id(agent, order(agent), constraints_[agent]);
 }
 
 Brancher::Outcome Brancher::branch(Cost cutoff, std::span<const Split> last_resorts,
@@ -214,8 +213,8 @@ Brancher::Step Brancher::estimate(const AgentConstraint& demand, Cost slack, con
 Brancher::Step Brancher::least_cost(AgentIndex agent, const Constraint& more, Time cutoff,
                                     const Limits& limits, Time& cost) {
   const auto constraints = constraints_with(agent, more);
-  const Situations::Id id = situations_.id(agent, order(agent), constraints);
-  Situations::Known& known = situations_.known(id);
+  const Situations::Id id = memory_.id(agent, order(agent), constraints);
+  Situations::Known known = memory_.known(id);
   if (!known.exact && known.at_least <= cutoff) {
     switch (planner_.find(agent, order(agent), constraints, nullptr, cutoff, limits, path_)) {
       case PathPlanner::Outcome::kFound:
@@ -230,6 +229,7 @@ Brancher::Step Brancher::least_cost(AgentIndex agent, const Constraint& more, Ti
       case PathPlanner::Outcome::kStopped:
         return Step::kStopped;
     }
+    memory_.learn(id, known);
   }
   cost = known.at_least;
   return Step::kDone;
@@ -301,8 +301,8 @@ Brancher::Step Brancher::replan_one(AgentIndex agent, const Constraint& more, Ti
     found = cost <= cutoff;
     if (!found) return Step::kDone;
     const auto constraints = constraints_with(agent, more);
-    const Situations::Id id = situations_.id(agent, order(agent), constraints);
-    const OptimalPaths* paths = path_sets_.find(id, agent, order(agent), constraints, cost, limits);
+    const Situations::Id id = memory_.id(agent, order(agent), constraints);
+    const OptimalPaths* paths = memory_.paths(id, agent, order(agent), constraints, cost, limits);
     if (!paths) return Step::kStopped;
     if (!paths->empty()) {
       fewest_conflicts_.find(*paths, others_, path_);

@@ -46,18 +46,17 @@ namespace {
 constexpr std::int32_t kExpansionsPerPair = 16;
 constexpr std::int32_t kExpansionsPerGroup = 32;
 constexpr std::size_t kMostInGroup = 6;
-constexpr std::size_t kBytesPerGroup = 160;  // about
-constexpr std::size_t kMostPairs = 50'000;   // of nodes, in a comparison
+constexpr std::size_t kMostPairs = 50'000;  // of nodes, in a comparison
 
 }  // namespace
 
 Dependencies::Dependencies(const Problem& problem, Techniques techniques, std::uint64_t seed,
-                           PathPlanner& planner, Situations& situations, PathSets& path_sets)
+                           PathPlanner& planner, Memory& memory)
     : instance_(problem.instance),
       agents_(problem.instance.agent_count()),
       techniques_(techniques),
-      path_sets_(path_sets),
-      pair_view_(problem, techniques, seed, planner, situations, path_sets),
+      memory_(memory),
+      pair_view_(problem, techniques, seed, planner, memory),
       pair_dependency_(problem.instance.grid()),
       situation_(static_cast<std::size_t>(agents_)) {}
 
@@ -81,11 +80,6 @@ void Dependencies::look_at(Brancher& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) situation_[agent] = view.situation(agent);
 }
 
-std::uint64_t Dependencies::key(AgentIndex a, AgentIndex b) const {
-  return static_cast<std::uint64_t>(situation_[a]) << 32 |
-         static_cast<std::uint32_t>(situation_[b]);
-}
-
 // Looks into every pair that conflicts at the node. False when a limit struck.
 bool Dependencies::solve_conflicting(const NodePtr& node, Brancher& view, Cost slack,
                                      const Limits& limits) {
@@ -94,7 +88,7 @@ bool Dependencies::solve_conflicting(const NodePtr& node, Brancher& view, Cost s
   std::ranges::sort(pairs);
   pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
   for (const auto& [a, b] : pairs) {
-    Known& known = known_[key(a, b)];
+    Known known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
     if (techniques_.has(Technique::kJointPaths) && known.excess == 0) {
       const auto dependence = compare(view, a, b, limits);
@@ -105,7 +99,7 @@ bool Dependencies::solve_conflicting(const NodePtr& node, Brancher& view, Cost s
     const bool solved =
         known.exact || solve(node, std::array{a, b}, slack, kExpansionsPerPair, limits, known);
     if (!solved) return false;
-    if (known.excess > 0) note(a, b, known.excess);
+    memory_.learn_pair(situation_[a], situation_[b], b, known);
   }
   return true;
 }
@@ -125,21 +119,8 @@ std::optional<Dependence> Dependencies::compare(Brancher& view, AgentIndex a, Ag
 const OptimalPaths* Dependencies::optimal_paths(Brancher& view, AgentIndex agent,
                                                 const Limits& limits) {
   const Time cost = static_cast<Time>(view.path(agent).size()) - 1;
-  return path_sets_.find(situation_[agent], agent, view.order(agent), view.constraints(agent), cost,
-                         limits);
-}
-
-// Keeps a pair for collect().
-void Dependencies::note(AgentIndex a, AgentIndex b, Cost excess) {
-  const auto id = static_cast<std::size_t>(situation_[a]);
-  if (id >= partners_.size()) partners_.resize(2 * id + 1);
-  auto& partners = partners_[id];
-  const auto same = [&](const Partner& p) { return p.agent == b && p.situation == situation_[b]; };
-  const auto known = std::ranges::find_if(partners, same);
-  if (known != partners.end())
-    known->excess = excess;
-  else
-    partners.push_back({b, situation_[b], excess});
+  return memory_.paths(situation_[agent], agent, view.order(agent), view.constraints(agent), cost,
+                       limits);
 }
 
 // Looks into every group that conflicts among itself though no pair of it has to cost more.
@@ -147,10 +128,11 @@ bool Dependencies::solve_groups(const NodePtr& node, Brancher& view, Cost slack,
                                 const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
     if (group.size() < 3 || group.size() > kMostInGroup) continue;
-    Known& known = known_groups_[key(group)];
+    const auto situations = key(group);
+    Known known = memory_.of_group(situations);
     if (known.exact || known.expansions > 0) continue;
-    groups_.insert(group);
     if (!solve(node, group, slack, kExpansionsPerGroup, limits, known)) return false;
+    memory_.learn_group(group, situations, known);
   }
   return true;
 }
@@ -160,8 +142,7 @@ std::vector<std::vector<AgentIndex>> Dependencies::groups_in_conflict(const Bran
   std::vector<AgentIndex> leader(static_cast<std::size_t>(agents_));
   std::iota(leader.begin(), leader.end(), 0);
   for (const Conflict& c : view.conflicts()) {
-    const auto known = known_.find(key(c.first, c.second));
-    if (known != known_.end() && known->second.excess > 0) continue;
+    if (known(c.first, c.second).excess > 0) continue;
     const AgentIndex from = std::max(leader[c.first], leader[c.second]);
     const AgentIndex to = std::min(leader[c.first], leader[c.second]);
     std::ranges::replace(leader, from, to);
@@ -209,18 +190,26 @@ bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group,
   return true;
 }
 
-// Every pair that is known to cost more in its present situations.
-void Dependencies::collect(std::vector<GroupExcess>& statements) const {
+// Every pair and group that is known to cost more in its present situations, once, in one order
+// whatever the order in which it became known.
+void Dependencies::collect(std::vector<GroupExcess>& statements) {
   for (AgentIndex a = 0; a < agents_; ++a) {
-    if (static_cast<std::size_t>(situation_[a]) >= partners_.size()) continue;
-    for (const Partner& b : partners_[situation_[a]])
+    partners_.clear();
+    memory_.partners(situation_[a], partners_);
+    for (const Excesses::Partner& b : partners_)
       if (situation_[b.agent] == b.situation) statements.push_back({{a, b.agent}, b.excess});
   }
+  groups_.clear();
+  memory_.groups(groups_);
   for (const auto& group : groups_) {
-    const auto known = known_groups_.find(key(group));
-    if (known != known_groups_.end() && known->second.excess > 0)
-      statements.push_back({group, known->second.excess});
+    const Cost excess = memory_.of_group(key(group)).excess;
+    if (excess > 0) statements.push_back({group, excess});
   }
+  std::ranges::sort(statements, [](const GroupExcess& s, const GroupExcess& t) {
+    return s.agents != t.agents ? s.agents < t.agents : s.excess > t.excess;
+  });
+  const auto repeated = std::ranges::unique(statements, {}, &GroupExcess::agents);
+  statements.erase(repeated.begin(), repeated.end());
 }
 
 void Dependencies::splits(Brancher& view, std::vector<Split>& splits) {
@@ -234,24 +223,10 @@ void Dependencies::splits(Brancher& view, std::vector<Split>& splits) {
   for (const Conflict& c : view.conflicts()) {
     if (std::pair(c.first, c.second) == last) continue;
     last = {c.first, c.second};
-    const auto known = known_.find(key(c.first, c.second));
-    const bool apply = known != known_.end() && known->second.excess > 0 &&
-                       instance_.agent(c.first).goal && instance_.agent(c.second).goal;
+    const bool apply = known(c.first, c.second).excess > 0 && instance_.agent(c.first).goal &&
+                       instance_.agent(c.second).goal;
     if (apply) splits.push_back({later(c.first), later(c.second)});
   }
-}
-
-void Dependencies::clear() {
-  known_.clear();
-  partners_.clear();
-  known_groups_.clear();
-  groups_.clear();
-}
-
-std::size_t Dependencies::bytes() const {
-  return known_.size() * (sizeof(std::uint64_t) + sizeof(Known) + 2 * sizeof(void*)) +
-         known_.bucket_count() * sizeof(void*) +
-         (known_groups_.size() + groups_.size()) * kBytesPerGroup;
 }
 
 }  // namespace grove

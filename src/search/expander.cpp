@@ -7,22 +7,15 @@
 #include <numeric>
 
 namespace grove {
-namespace {
-
-constexpr std::size_t kMostMemory = std::size_t{1} << 29;  // at first
-
-}  // namespace
-
 Expander::Expander(const Problem& problem, AgentStopsStore& stops, Techniques techniques,
-                   std::uint64_t seed)
+                   std::uint64_t seed, std::shared_ptr<CommonMemory> memory)
     : problem_(problem),
       techniques_(techniques),
       planner_(problem, stops),
-      path_sets_(planner_),
-      brancher_(problem, techniques, seed, planner_, situations_, path_sets_),
-      dependencies_(problem, techniques, seed, planner_, situations_, path_sets_),
-      all_(static_cast<std::size_t>(problem.instance.agent_count())),
-      most_memory_(kMostMemory) {
+      memory_(planner_, std::move(memory)),
+      brancher_(problem, techniques, seed, planner_, memory_),
+      dependencies_(problem, techniques, seed, planner_, memory_),
+      all_(static_cast<std::size_t>(problem.instance.agent_count())) {
   std::iota(all_.begin(), all_.end(), 0);
 }
 
@@ -33,7 +26,6 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
     nothing.stopped = true;
     return nothing;
   };
-  bound_memory();
   brancher_.enter(node, all_);
   if (brancher_.conflict_free()) {
     expansion.plan = plan(*node);
@@ -78,20 +70,6 @@ Plan Expander::plan(const Node& node) {
     plan.agents.push_back({cost, tasks_in_order(problem_.instance.agent(i), sequence), path});
   }
   return plan;
-}
-
-// Forgets everything when it has become too much.
-void Expander::bound_memory() {
-  path_sets_.trim();
-  if (memory() < most_memory_) return;
-  situations_.clear();
-  path_sets_.clear();
-  dependencies_.clear();
-}
-
-void Expander::limit_memory(std::size_t most) {
-  most_memory_ = most;
-  bound_memory();
 }
 
 ExpansionCounts Expander::counts() const {

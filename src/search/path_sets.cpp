@@ -1,43 +1,58 @@
 // SPDX-License-Identifier: MIT
 #include "grove/search/path_sets.h"
 
+#include <utility>
+
 namespace grove {
 namespace {
 
 constexpr std::size_t kMostNodes = 20'000;         // of one set
 constexpr std::size_t kMostNodesKept = 4'000'000;  // of all
 constexpr std::size_t kBytesPerNode = 24;          // about
-constexpr std::size_t kBytesPerSet = 160;
+constexpr std::size_t kBytesPerSet = 176;
+
+std::size_t part_of(Situations::Id id) {
+  return static_cast<std::size_t>(id) % Sharded<int>::kParts;
+}
 
 }  // namespace
 
-const OptimalPaths* PathSets::find(Situations::Id id, AgentIndex agent, const AgentOrder& order,
-                                   std::span<const Constraint> constraints, Time cost,
-                                   const Limits& limits) {
-  const auto [known, is_new] = sets_.try_emplace(id);
-  OptimalPaths& paths = known->second;
-  if (!is_new) return &paths;
+PathSets::Set PathSets::find(Situations::Id id) const {
+  return parts_.with(part_of(id), [&](const Part& part) {
+    const auto found = part.find(id);
+    return found == part.end() ? nullptr : found->second;
+  });
+}
+
+void PathSets::add(Situations::Id id, const Set& set) {
+  const bool is_new =
+      parts_.with(part_of(id), [&](Part& part) { return part.try_emplace(id, set).second; });
+  if (!is_new) return;
+  ++sets_;
+  nodes_ += static_cast<std::size_t>(set->node_count());
+}
+
+PathSets::Set PathSets::make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,
+                             std::span<const Constraint> constraints, Time cost,
+                             const Limits& limits) {
+  OptimalPaths paths;
   const auto outcome =
-      planner_.optimal_paths(agent, order, constraints, cost, kMostNodes, limits, paths);
-  if (outcome == OptimalPathsBuilder::Outcome::kStopped) {
-    sets_.erase(known);
-    return nullptr;
-  }
-  nodes_ += static_cast<std::size_t>(paths.node_count());
-  return &paths;
+      planner.optimal_paths(agent, order, constraints, cost, kMostNodes, limits, paths);
+  if (outcome == OptimalPathsBuilder::Outcome::kStopped) return nullptr;
+  return std::make_shared<const OptimalPaths>(std::move(paths));
 }
 
 void PathSets::trim() {
-  if (nodes_ > kMostNodesKept) clear();
+  if (nodes_ < kMostNodesKept) return;
+  for (std::size_t number = 0; number < Sharded<Part>::kParts; ++number) {
+    Part forgotten = parts_.with(number, [](Part& part) { return std::exchange(part, {}); });
+    for (const auto& [id, set] : forgotten) nodes_ -= static_cast<std::size_t>(set->node_count());
+    sets_ -= forgotten.size();
+  }
 }
 
 std::size_t PathSets::bytes() const {
-  return nodes_ * kBytesPerNode + sets_.size() * kBytesPerSet;
-}
-
-void PathSets::clear() {
-  sets_.clear();
-  nodes_ = 0;
+  return nodes_ * kBytesPerNode + sets_ * kBytesPerSet;
 }
 
 }  // namespace grove

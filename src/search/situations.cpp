@@ -8,7 +8,15 @@ namespace grove {
 namespace {
 
 constexpr Situations::Id kFree = -1;
-constexpr std::size_t kFirstSize = 1024;
+constexpr std::size_t kFirstSize = 64;
+
+std::size_t part_of(Situations::Id id) {
+  return static_cast<std::size_t>(id) % Sharded<int>::kParts;
+}
+
+std::size_t place_of(Situations::Id id) {
+  return static_cast<std::size_t>(id) / Sharded<int>::kParts;
+}
 
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
@@ -42,51 +50,62 @@ void canonical(std::vector<Constraint>& constraints) {
 
 Situations::Id Situations::id(AgentIndex agent, const AgentOrder& order,
                               std::span<const Constraint> constraints) {
-  if (2 * entries_.size() >= table_.size()) grow();
   const std::uint64_t hash = hash_of(agent, order, constraints);
-  const std::size_t mask = table_.size() - 1;
-  std::size_t at = hash & mask;
-  for (; table_[at] != kFree; at = (at + 1) & mask) {
-    const Entry& entry = entries_[table_[at]];
-    if (entry.hash == hash && same(entry, agent, order, constraints)) return table_[at];
+  const std::size_t number = hash >> (64 - Sharded<Part>::kBits);
+  const Entry key{hash, &order, agent, 0, static_cast<std::uint32_t>(constraints.size()), {}};
+  const Id at = parts_.with(number, [&](Part& part) {
+    const std::size_t before = part.bytes();
+    const Id id = part.find_or_add(key, constraints);
+    bytes_ += part.bytes() - before;
+    return id;
+  });
+  return at << Sharded<Part>::kBits | static_cast<Id>(number);
+}
+
+Situations::Known Situations::known(Id id) const {
+  return parts_.with(part_of(id),
+                     [&](const Part& part) { return part.entries[place_of(id)].known; });
+}
+
+void Situations::learn(Id id, Known learnt) {
+  parts_.with(part_of(id), [&](Part& part) {
+    Known& known = part.entries[place_of(id)].known;
+    if (!known.exact && (learnt.exact || learnt.at_least > known.at_least)) known = learnt;
+  });
+}
+
+Situations::Id Situations::Part::find_or_add(const Entry& key,
+                                             std::span<const Constraint> constraints_of_key) {
+  if (2 * entries.size() >= table.size()) grow();
+  const std::size_t mask = table.size() - 1;
+  const auto same = [&](const Entry& entry) {
+    return entry.hash == key.hash && entry.agent == key.agent && entry.order == key.order &&
+           std::ranges::equal(std::span(constraints).subspan(entry.first, entry.count),
+                              constraints_of_key);
+  };
+  std::size_t at = key.hash & mask;
+  for (; table[at] != kFree; at = (at + 1) & mask)
+    if (same(entries[table[at]])) return table[at];
+  const auto id = static_cast<Id>(entries.size());
+  entries.push_back(key);
+  entries.back().first = static_cast<std::uint32_t>(constraints.size());
+  constraints.insert(constraints.end(), constraints_of_key.begin(), constraints_of_key.end());
+  return table[at] = id;
+}
+
+void Situations::Part::grow() {
+  table.assign(std::max(kFirstSize, 2 * table.size()), kFree);
+  const std::size_t mask = table.size() - 1;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    std::size_t at = entries[i].hash & mask;
+    while (table[at] != kFree) at = (at + 1) & mask;
+    table[at] = static_cast<Id>(i);
   }
-  const auto id = static_cast<Id>(entries_.size());
-  entries_.push_back({hash,
-                      &order,
-                      agent,
-                      static_cast<std::uint32_t>(constraints_.size()),
-                      static_cast<std::uint32_t>(constraints.size()),
-                      {}});
-  constraints_.insert(constraints_.end(), constraints.begin(), constraints.end());
-  table_[at] = id;
-  return id;
 }
 
-bool Situations::same(const Entry& entry, AgentIndex agent, const AgentOrder& order,
-                      std::span<const Constraint> constraints) const {
-  return entry.agent == agent && entry.order == &order &&
-         std::ranges::equal(std::span(constraints_).subspan(entry.first, entry.count), constraints);
-}
-
-void Situations::grow() {
-  table_.assign(std::max(kFirstSize, 2 * table_.size()), kFree);
-  const std::size_t mask = table_.size() - 1;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    std::size_t at = entries_[i].hash & mask;
-    while (table_[at] != kFree) at = (at + 1) & mask;
-    table_[at] = static_cast<Id>(i);
-  }
-}
-
-std::size_t Situations::bytes() const {
-  return entries_.capacity() * sizeof(Entry) + constraints_.capacity() * sizeof(Constraint) +
-         table_.capacity() * sizeof(Id);
-}
-
-void Situations::clear() {
-  entries_ = {};
-  constraints_ = {};
-  table_ = {};
+std::size_t Situations::Part::bytes() const {
+  return entries.capacity() * sizeof(Entry) + constraints.capacity() * sizeof(Constraint) +
+         table.capacity() * sizeof(Id);
 }
 
 }  // namespace grove

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
+#include <thread>
+#include <tuple>
 
 namespace grove {
 namespace {
@@ -25,28 +28,59 @@ TEST(Situations, AreTheSameIfAgentOrderAndConstraintsAre) {
   std::mt19937 random(3);
   const std::vector<AgentOrder> orders(2);
   Situations situations;
-  std::vector<std::tuple<AgentIndex, const AgentOrder*, std::vector<Constraint>>> keys;
-  std::vector<Situations::Id> ids;
+  using Key = std::tuple<AgentIndex, const AgentOrder*, std::vector<Constraint>>;
+  std::map<Situations::Id, Key> keys;
   for (int round = 0; round < 3000; ++round) {
     const auto agent = static_cast<AgentIndex>(random() % 3);
     const AgentOrder& order = orders[random() % 2];
     const auto constraints = random_constraints(random);
     const Situations::Id id = situations.id(agent, order, constraints);
-    const std::tuple key{agent, &order, constraints};
-    if (static_cast<std::size_t>(id) == keys.size()) {
-      EXPECT_EQ(std::ranges::count(keys, key), 0);
-      keys.push_back(key);
-      situations.known(id) = {id, true};
+    const Key key{agent, &order, constraints};
+    if (!keys.contains(id)) {
+      EXPECT_TRUE(std::ranges::none_of(keys, [&](const auto& k) { return k.second == key; }));
+      EXPECT_EQ(situations.known(id), Situations::Known());
+      keys.emplace(id, key);
+      situations.learn(id, {id, true});
     }
-    ASSERT_LT(static_cast<std::size_t>(id), keys.size());
-    EXPECT_EQ(keys[id], key);
+    EXPECT_EQ(keys.at(id), key);
     EXPECT_EQ(situations.known(id).at_least, id);
   }
   EXPECT_GT(keys.size(), 500u);
   EXPECT_GT(situations.bytes(), keys.size() * sizeof(Constraint));
-  situations.clear();
-  EXPECT_EQ(situations.id(2, orders[0], {}), 0);
-  EXPECT_FALSE(situations.known(0).exact);
+}
+
+TEST(Situations, KeepTheStrongerStatement) {
+  Situations situations;
+  const AgentOrder order;
+  const Situations::Id id = situations.id(0, order, {});
+  situations.learn(id, {5, false});
+  situations.learn(id, {3, false});
+  EXPECT_EQ(situations.known(id), (Situations::Known{5, false}));
+  situations.learn(id, {7, true});
+  situations.learn(id, {6, false});
+  EXPECT_EQ(situations.known(id), (Situations::Known{7, true}));
+}
+
+TEST(Situations, AreNumberedAlikeForAllThreads) {
+  const std::vector<AgentOrder> orders(1);
+  Situations situations;
+  constexpr int kThreads = 4;
+  std::vector<std::vector<Situations::Id>> ids(kThreads);
+  std::vector<std::jthread> threads;
+  for (int thread = 0; thread < kThreads; ++thread)
+    threads.emplace_back([&, thread] {
+      std::mt19937 random(9);
+      for (int round = 0; round < 2000; ++round) {
+        const auto id = situations.id(static_cast<AgentIndex>(random() % 3), orders[0],
+                                      random_constraints(random));
+        situations.learn(id, {id, true});
+        ids[static_cast<std::size_t>(thread)].push_back(id);
+      }
+    });
+  threads.clear();
+  for (int thread = 1; thread < kThreads; ++thread)
+    EXPECT_EQ(ids[static_cast<std::size_t>(thread)], ids[0]);
+  for (const Situations::Id id : ids[0]) EXPECT_EQ(situations.known(id).at_least, id);
 }
 
 TEST(Situations, CanonicalListsHaveOneOrderAndNoRepeats) {

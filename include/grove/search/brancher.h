@@ -12,10 +12,9 @@
 #include "grove/model/limits.h"
 #include "grove/planning/conflict_avoidance_table.h"
 #include "grove/planning/fewest_conflicts.h"
+#include "grove/search/memory.h"
 #include "grove/search/node.h"
 #include "grove/search/path_planner.h"
-#include "grove/search/path_sets.h"
-#include "grove/search/situations.h"
 #include "grove/search/techniques.h"
 
 namespace grove {
@@ -33,10 +32,10 @@ class Brancher {
     kStopped,       // a limit struck: nothing is known
   };
 
-  // All must outlive this; `planner` and `situations` may be shared with others of the same thread.
+  // All must outlive this; `planner` and `memory` may be shared with others of the same thread.
   // `seed` decides between conflicts of equal time.
   Brancher(const Problem& problem, Techniques techniques, std::uint64_t seed, PathPlanner& planner,
-           Situations& situations, PathSets& path_sets);
+           Memory& memory);
 
   // Turns to a node and to the agents in scope, which are in ascending order.
   void enter(const NodePtr& node, std::span<const AgentIndex> scope);
@@ -102,8 +101,7 @@ class Brancher {
   const Techniques techniques_;
   const std::uint64_t seed_;
   PathPlanner& planner_;
-  Situations& situations_;
-  PathSets& path_sets_;
+  Memory& memory_;
   FewestConflicts fewest_conflicts_;
   ConflictFinder finder_;
   ConflictAvoidanceTable others_;  // the paths in scope

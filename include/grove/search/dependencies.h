@@ -3,17 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <set>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "grove/planning/pair_dependency.h"
 #include "grove/search/brancher.h"
 #include "grove/search/covering.h"
-#include "grove/search/path_sets.h"
+#include "grove/search/memory.h"
 
 namespace grove {
 
@@ -24,7 +21,7 @@ class Dependencies {
  public:
   // All must outlive this.
   Dependencies(const Problem& problem, Techniques techniques, std::uint64_t seed,
-               PathPlanner& planner, Situations& situations, PathSets& path_sets);
+               PathPlanner& planner, Memory& memory);
 
   // A proven lower bound on every plan that obeys the constraints of `node`, which `view` has
   // entered with all agents; or `cutoff`, if none of them is cheaper. None: a limit struck.
@@ -38,55 +35,40 @@ class Dependencies {
   // Expansions in pairs so far.
   std::int64_t expansions() const { return expansions_; }
 
-  // Memory held, in bytes (about). clear() must be called when the situations are cleared.
-  std::size_t bytes() const;
-  void clear();
-
  private:
-  // What is known of two agents in two situations.
-  struct Known {
-    Cost excess = 0;              // they cost at least so much more together than each alone
-    bool exact = false;           // and a conflict-free pair of paths costs that
-    std::int32_t expansions = 0;  // spent on it
-  };
+  using Known = Excesses::Known;
+
   struct Open {
     Cost cost;
     NodePtr node;
   };
 
   void look_at(Brancher& view);
-  std::uint64_t key(AgentIndex a, AgentIndex b) const;
+  Known known(AgentIndex a, AgentIndex b) const {
+    return memory_.of_pair(situation_[a], situation_[b]);
+  }
   bool solve_conflicting(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
   std::optional<Dependence> compare(Brancher& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
   const OptimalPaths* optimal_paths(Brancher& view, AgentIndex agent, const Limits& limits);
-  void note(AgentIndex a, AgentIndex b, Cost excess);
   bool solve_groups(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const Brancher& view) const;
   std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;
   bool solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
              std::int32_t most_expansions, const Limits& limits, Known& known);
-  void collect(std::vector<GroupExcess>& statements) const;
+  void collect(std::vector<GroupExcess>& statements);
 
   const Instance& instance_;
   const int agents_;
   const Techniques techniques_;
-  PathSets& path_sets_;
+  Memory& memory_;
   Brancher pair_view_;
   PairDependency pair_dependency_;
-  std::unordered_map<std::uint64_t, Known> known_;
-  // By situation of the first agent: the pairs that are known to cost more.
-  struct Partner {
-    AgentIndex agent;
-    Situations::Id situation;
-    Cost excess;
-  };
-  std::vector<std::vector<Partner>> partners_;
-  std::map<std::vector<Situations::Id>, Known> known_groups_;
-  std::set<std::vector<AgentIndex>> groups_;  // those that occur in it
-  std::vector<Situations::Id> situation_;     // by AgentIndex, at the node
-  std::vector<Open> open_;                    // a heap: least cost first
+  std::vector<Situations::Id> situation_;  // by AgentIndex, at the node
+  std::vector<Open> open_;                 // a heap: least cost first
   std::vector<NodePtr> children_;
+  std::vector<Excesses::Partner> partners_;
+  std::vector<std::vector<AgentIndex>> groups_;
   std::int64_t expansions_ = 0;
 };
 

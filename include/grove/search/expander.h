@@ -3,16 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "grove/model/limits.h"
 #include "grove/search/brancher.h"
 #include "grove/search/dependencies.h"
+#include "grove/search/memory.h"
 #include "grove/search/node.h"
 #include "grove/search/path_planner.h"
-#include "grove/search/path_sets.h"
-#include "grove/search/situations.h"
 #include "grove/search/techniques.h"
 
 namespace grove {
@@ -34,16 +35,17 @@ struct ExpansionCounts {
   std::int64_t pair_expansions = 0;
 };
 
-// Expands nodes with the workspace of one thread and a memory of what was found out about agents,
+// Expands nodes with the workspace of one thread and the memory of what was found out about agents,
 // pairs and groups before. What it says is proven whatever the memory holds; how much it says may
 // depend on it, since a pair is looked into once, with the cutoff of that moment. Engines give each
-// worker its own.
+// worker its own expander.
 class Expander {
  public:
   // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same
   // thread. `seed` breaks ties among conflicts.
   Expander(const Problem& problem, AgentStopsStore& stops, Techniques techniques,
-           std::uint64_t seed);
+           std::uint64_t seed,
+           std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>());
 
   // `cutoff`: plans that cost so much or more are of no interest (the incumbent's cost;
   // kInfiniteCost: all are).
@@ -51,26 +53,23 @@ class Expander {
 
   ExpansionCounts counts() const;
 
-  // What is remembered, in bytes (about), and the most that may be: beyond, all is forgotten.
-  std::size_t memory() const {
-    return situations_.bytes() + path_sets_.bytes() + dependencies_.bytes();
-  }
-  void limit_memory(std::size_t most);
+  // What was found out since the last publication is known to this expander only.
+  void publish() { memory_.publish(); }
+  // Goes on with another memory, perhaps an empty one.
+  void turn_to(std::shared_ptr<CommonMemory> memory) { memory_.turn_to(std::move(memory)); }
+  const std::shared_ptr<CommonMemory>& memory() const { return memory_.common(); }
 
  private:
   Plan plan(const Node& node);
-  void bound_memory();
 
   const Problem& problem_;
   const Techniques techniques_;
   PathPlanner planner_;
-  Situations situations_;
-  PathSets path_sets_;
+  Memory memory_;
   Brancher brancher_;
   Dependencies dependencies_;
   std::vector<AgentIndex> all_;
   std::vector<Split> splits_;
-  std::size_t most_memory_;
 };
 
 }  // namespace grove

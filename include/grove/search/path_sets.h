@@ -2,38 +2,45 @@
 // The sets of optimal paths of agents in situations, kept for whoever asks next.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <unordered_map>
 
 #include "grove/search/path_planner.h"
+#include "grove/search/sharded.h"
 #include "grove/search/situations.h"
 
 namespace grove {
 
-// All optimal paths by situation. One per thread.
+// All optimal paths by situation. All methods may be called from any thread.
 class PathSets {
  public:
-  // `planner` must outlive this and may be shared with others of the same thread.
-  explicit PathSets(PathPlanner& planner) : planner_(planner) {}
+  using Set = std::shared_ptr<const OptimalPaths>;
 
-  // The paths of the situation `id`, which is that of the other arguments, of least cost `cost`;
-  // valid until trim() or clear(). Empty if there are too many; null if a limit struck.
-  const OptimalPaths* find(Situations::Id id, AgentIndex agent, const AgentOrder& order,
-                           std::span<const Constraint> constraints, Time cost,
-                           const Limits& limits);
+  // Null: not known.
+  Set find(Situations::Id id) const;
+  // The set of a situation; ignored if one is known.
+  void add(Situations::Id id, const Set& set);
 
-  // Forgets everything if it has become too much.
+  // Makes the set of the situation that the arguments are, of least cost `cost`. Empty if there are
+  // too many; null if a limit struck. `planner` is the calling thread's.
+  static Set make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,
+                  std::span<const Constraint> constraints, Time cost, const Limits& limits);
+
+  // Forgets sets if there are too many.
   void trim();
 
-  // Memory held, in bytes (about). clear() must be called when the situations are cleared.
+  // Memory held, in bytes (about).
   std::size_t bytes() const;
-  void clear();
 
  private:
-  PathPlanner& planner_;
-  std::unordered_map<Situations::Id, OptimalPaths> sets_;
-  std::size_t nodes_ = 0;  // of the layered graphs
+  using Part = std::unordered_map<Situations::Id, Set>;
+
+  Sharded<Part> parts_;
+  std::atomic<std::size_t> sets_{0};
+  std::atomic<std::size_t> nodes_{0};  // of the layered graphs
 };
 
 }  // namespace grove

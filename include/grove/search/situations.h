@@ -2,12 +2,14 @@
 // What is known about single agents under sets of constraints.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "grove/search/node.h"
+#include "grove/search/sharded.h"
 
 namespace grove {
 
@@ -15,7 +17,7 @@ namespace grove {
 // constraint tree ask about situations that others asked about before: they are numbered as they
 // come up, and what is found out about each is kept. Keys are compared in full, so a hash can cost
 // time, never an answer. Costs are functions of the situation alone, so this memory changes no
-// result. One per thread.
+// result. All methods may be called from any thread.
 class Situations {
  public:
   using Id = std::int32_t;
@@ -23,17 +25,19 @@ class Situations {
   struct Known {
     Time at_least = 0;   // no path costs less; kNever: there is no path
     bool exact = false;  // a path of that cost exists, or `at_least` is kNever
+    friend bool operator==(const Known&, const Known&) = default;
   };
 
   // The number of a situation. `constraints` must be in canonical order, see canonical(). `order`
-  // must outlive this object or the next clear().
+  // must outlive this object.
   Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints);
 
-  Known& known(Id id) { return entries_[id].known; }
+  Known known(Id id) const;
+  // Adds what was found out; the stronger statement stays.
+  void learn(Id id, Known known);
 
-  // Memory held, in bytes (about). clear() forgets everything and makes all numbers invalid.
-  std::size_t bytes() const;
-  void clear();
+  // Memory held, in bytes (about).
+  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:
   struct Entry {
@@ -44,14 +48,18 @@ class Situations {
     std::uint32_t count;
     Known known;
   };
+  struct Part {
+    std::vector<Entry> entries;
+    std::vector<Constraint> constraints;
+    std::vector<Id> table;  // open addressing; a power of two
 
-  bool same(const Entry& entry, AgentIndex agent, const AgentOrder& order,
-            std::span<const Constraint> constraints) const;
-  void grow();
+    Id find_or_add(const Entry& key, std::span<const Constraint> constraints_of_key);
+    void grow();
+    std::size_t bytes() const;
+  };
 
-  std::vector<Entry> entries_;
-  std::vector<Constraint> constraints_;
-  std::vector<Id> table_;  // open addressing; a power of two
+  Sharded<Part> parts_;  // an Id is the place in a part and the part's number
+  std::atomic<std::size_t> bytes_{0};
 };
 
 // Puts a list of constraints into the order that Situations wants, repeated ones once.

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What was found out about agents, pairs and groups in the course of a search.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "grove/search/excesses.h"
+#include "grove/search/path_planner.h"
+#include "grove/search/path_sets.h"
+#include "grove/search/situations.h"
+
+namespace grove {
+
+// What all workers know. Thread-safe; nothing is ever taken back, so whoever wants it forgotten
+// starts another one.
+struct CommonMemory {
+  Situations situations;
+  PathSets path_sets;
+  Excesses excesses;
+
+  std::size_t bytes() const { return situations.bytes() + path_sets.bytes() + excesses.bytes(); }
+};
+
+// What one worker knows: the common memory, and what it has found out since it last published. So
+// what others find out at the same time does not reach it before it asks, and a worker that is
+// given the same common memory does the same again, whatever the others do meanwhile. Of one
+// thread.
+class Memory {
+ public:
+  using Id = Situations::Id;
+
+  // `planner` must outlive this.
+  Memory(PathPlanner& planner, std::shared_ptr<CommonMemory> common)
+      : planner_(planner), common_(std::move(common)) {}
+
+  // Adds what was found out to the common memory.
+  void publish();
+  // Turns to another common memory; what was not published is forgotten, and so are all numbers.
+  void turn_to(std::shared_ptr<CommonMemory> common);
+  const std::shared_ptr<CommonMemory>& common() const { return common_; }
+
+  // As those of Situations.
+  Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints) {
+    return common_->situations.id(agent, order, constraints);
+  }
+  Situations::Known known(Id id) const;
+  void learn(Id id, Situations::Known known) { costs_[id] = known; }
+
+  // As PathSets::find; valid until publish().
+  const OptimalPaths* paths(Id id, AgentIndex agent, const AgentOrder& order,
+                            std::span<const Constraint> constraints, Time cost,
+                            const Limits& limits);
+
+  // As those of Excesses. Partners and groups come in any order, perhaps more than once.
+  Excesses::Known of_pair(Id first, Id second) const;
+  void learn_pair(Id first, Id second, AgentIndex agent, Excesses::Known known);
+  void partners(Id first, std::vector<Excesses::Partner>& partners) const;
+  Excesses::Known of_group(const std::vector<Id>& situations) const;
+  void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
+                   Excesses::Known known);
+  void groups(std::vector<std::vector<AgentIndex>>& groups) const;
+
+ private:
+  struct Pair {
+    Id first;
+    Id second;
+    AgentIndex agent;
+    Excesses::Known known;
+  };
+  struct Group {
+    std::vector<AgentIndex> agents;
+    std::vector<Id> situations;
+    Excesses::Known known;
+  };
+
+  PathPlanner& planner_;
+  std::shared_ptr<CommonMemory> common_;
+  // Since the last publication. Of pairs and groups there are few at a time.
+  std::unordered_map<Id, Situations::Known> costs_;
+  std::unordered_map<Id, PathSets::Set> sets_;  // all that were asked for
+  std::vector<Pair> pairs_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace grove
