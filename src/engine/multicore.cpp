@@ -2,18 +2,19 @@
 // A worker is a TBB task that takes turns until there is nothing to do. Then it ends, for a task
 // that waits holds up a thread; whoever brings work back starts it again.
 //
-// No work is overlooked: a worker parks under the lock under which it saw that no node was open, and
-// a node is pushed before that lock is taken to look for who is parked. So either the parking worker
-// sees the node or the pushing one sees the worker.
+// No work is overlooked: a worker parks under the lock under which it saw that no node was open,
+// and a node is pushed before that lock is taken to look for who is parked. So either the parking
+// worker sees the node or the pushing one sees the worker.
 #include "multicore.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
 
 #include <mutex>
 #include <new>
 #include <vector>
+
+#include "tasks.h"
 
 namespace grove {
 namespace {
@@ -65,7 +66,7 @@ class Crew {
 
   SharedSearch& shared_;
   const Limits& limits_;
-  tbb::task_group tasks_;
+  Tasks tasks_;
   std::mutex mutex_;
   std::vector<Worker*> parked_;
 };
@@ -88,7 +89,7 @@ void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSea
   tbb::task_arena arena(threads);
   std::vector<Worker*> busy;
   arena.execute([&] {
-    tbb::task_group tasks;
+    Tasks tasks;
     while (!shared.over()) {
       busy.clear();
       for (const auto& worker : workers)
