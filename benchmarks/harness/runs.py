@@ -20,7 +20,7 @@ from harness.instances import instance_arguments
 COLUMNS = ["solver", "map", "agents", "tasks", "scenario", "status", "cost", "lower_bound",
            "gap_percent", "seconds", "first_plan_s", "nodes", "roots", "rtsp_calls", "memory_mb",
            "message"]
-FIRST_PLAN = re.compile(r"^\* .* (\d+\.\d+)s$", re.M)
+FIRST_PLAN = re.compile(r"^[*HCLS] .* (\d+\.\d+)s$", re.M)
 GRACE_S = 10  # after its time limit a program is killed
 
 

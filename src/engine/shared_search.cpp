@@ -153,7 +153,7 @@ bool SharedSearch::plan_is_wanted() {
 }
 
 void SharedSearch::finish(const NodePtr& node, Expansion expansion) {
-  if (expansion.stopped) {
+  if (expansion.stopped || expansion.unfinished) {
     frontier_.give_back(node);
     return;
   }

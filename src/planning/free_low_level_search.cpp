@@ -126,7 +126,8 @@ class FreeLowLevelSearch::Workspace {
       : grid_(grid), intervals_(grid), visit_check_(grid, intervals_) {}
 
   Outcome find(FreeGoals& goals, std::span<const Constraint> constraints,
-               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
+               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path,
+               std::int64_t most_labels);
   Outcome find(FreeGoals& goals, const Reservations& reservations, const Effort& effort,
                Time cutoff, const Limits& limits, Path& path);
   std::int64_t expanded() const { return expanded_; }
@@ -225,9 +226,9 @@ FreeLowLevelSearch::~FreeLowLevelSearch() = default;
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::find(FreeGoals& goals,
                                                      std::span<const Constraint> constraints,
                                                      const ConflictAvoidanceTable* others,
-                                                     Time cutoff, const Limits& limits,
-                                                     Path& path) {
-  return workspace_->find(goals, constraints, others, cutoff, limits, path);
+                                                     Time cutoff, const Limits& limits, Path& path,
+                                                     std::int64_t most_labels) {
+  return workspace_->find(goals, constraints, others, cutoff, limits, path, most_labels);
 }
 
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::find(FreeGoals& goals,
@@ -243,9 +244,9 @@ std::int64_t FreeLowLevelSearch::expanded() const {
 
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(
     FreeGoals& goals, std::span<const Constraint> constraints, const ConflictAvoidanceTable* others,
-    Time cutoff, const Limits& limits, Path& path) {
+    Time cutoff, const Limits& limits, Path& path, std::int64_t most_labels) {
   intervals_.assign(constraints);
-  return find_around(goals, others, Effort(), true, cutoff, limits, path);
+  return find_around(goals, others, {.most_labels = most_labels}, true, cutoff, limits, path);
 }
 
 FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals,
@@ -266,9 +267,8 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_around(
   others_ = others;
   limits_ = &limits;
   greed_percent_ = effort.greed_percent;
-  give_up_at_ = effort.most_labels < std::numeric_limits<std::int64_t>::max() - expanded_
-                    ? expanded_ + effort.most_labels
-                    : std::numeric_limits<std::int64_t>::max();
+  give_up_at_ =
+      effort.most_labels < kUnlimited - expanded_ ? expanded_ + effort.most_labels : kUnlimited;
   if (!prepare()) return Outcome::kInfeasible;
   latest_ = std::min(cutoff, intervals_.latest_rest());
   const bool must_rest = intervals_.latest_rest() < kNever;

@@ -38,6 +38,10 @@ namespace {
 // that alone does not prove that bypasses end.
 constexpr int kMostBypasses = 64;
 
+// A split that takes longer to price is not considered: with time windows, which is what cells
+// barred for ever make, the low level is NP-hard, and one call could take all the time there is.
+constexpr std::int64_t kMostLabelsForAPrice = 1 << 18;
+
 // A hash of the pair (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(conflict.first) << 32) +
@@ -138,13 +142,13 @@ Brancher::Step Brancher::choose(Cost slack, std::span<const Split> last_resorts,
   for (const Split& split : splits_)
     if (improve(best, split, slack, limits) == Step::kStopped) return Step::kStopped;
   for (const Split& split : last_resorts) {
-    if (best.gain.first > 0) break;
+    if (best.gain.second > 0) break;
     if (!in_conflict(split[0].agent, split[1].agent)) continue;
     if (improve(best, split, slack, limits) == Step::kStopped) return Step::kStopped;
   }
   if (techniques_.has(Technique::kSequenceSplits) && best.gain.first == 0)
     if (improve_by_sequences(best, slack, limits) == Step::kStopped) return Step::kStopped;
-  chosen = best.split;
+  chosen = best.gain.first >= 0 ? best.split : earliest();
   return Step::kDone;
 }
 
@@ -168,7 +172,8 @@ Brancher::Step Brancher::improve(Choice& choice, const Split& split, Cost slack,
                                  const Limits& limits) {
   std::array<Cost, 2> increases{};
   for (int i = 0; i < 2; ++i)
-    if (estimate(split[i], slack, limits, increases[i]) == Step::kStopped) return Step::kStopped;
+    if (const Step step = estimate(split[i], slack, limits, increases[i]); step != Step::kDone)
+      return step == Step::kTooHard ? Step::kDone : step;
   const std::pair<Cost, Cost> gain = std::minmax(increases[0], increases[1]);
   if (gain > choice.gain) choice = {gain, split};
   return Step::kDone;
@@ -198,8 +203,9 @@ Brancher::Step Brancher::estimate(const AgentConstraint& demand, Cost slack, con
     const Time cutoff =
         static_cast<Time>(std::min<Cost>(cost_of(agent) + slack - increase, kNever - 1));
     Time cost = 0;
-    if (least_cost(agent, *demand_on(agent, demand), cutoff, limits, cost) == Step::kStopped)
-      return Step::kStopped;
+    const Step step =
+        least_cost(agent, *demand_on(agent, demand), cutoff, kMostLabelsForAPrice, limits, cost);
+    if (step != Step::kDone) return step;
     if (cost > cutoff) {
       increase = kInfiniteCost;
       break;
@@ -211,12 +217,14 @@ Brancher::Step Brancher::estimate(const AgentConstraint& demand, Cost slack, con
 
 // What the agent costs under one constraint more; if that is above `cutoff`, anything above it.
 Brancher::Step Brancher::least_cost(AgentIndex agent, const Constraint& more, Time cutoff,
-                                    const Limits& limits, Time& cost) {
+                                    std::int64_t most_labels, const Limits& limits, Time& cost) {
   const auto constraints = constraints_with(agent, more);
   const Situations::Id id = memory_.id(agent, order(agent), constraints);
   Situations::Known known = memory_.known(id);
   if (!known.exact && known.at_least <= cutoff) {
-    switch (planner_.find(agent, order(agent), constraints, nullptr, cutoff, limits, path_)) {
+    if (known.hard && most_labels < FreeLowLevelSearch::kUnlimited) return Step::kTooHard;
+    switch (planner_.find(agent, order(agent), constraints, nullptr, cutoff, limits, path_,
+                          most_labels)) {
       case PathPlanner::Outcome::kFound:
         known = {static_cast<Time>(path_.size()) - 1, true};
         break;
@@ -227,9 +235,12 @@ Brancher::Step Brancher::least_cost(AgentIndex agent, const Constraint& more, Ti
         known = {kNever, true};
         break;
       case PathPlanner::Outcome::kStopped:
-        return Step::kStopped;
+        if (limits.stop_requested()) return Step::kStopped;
+        known.hard = true;
+        break;
     }
     memory_.learn(id, known);
+    if (known.hard) return Step::kTooHard;
   }
   cost = known.at_least;
   return Step::kDone;
@@ -297,7 +308,9 @@ Brancher::Step Brancher::replan_one(AgentIndex agent, const Constraint& more, Ti
                                     const Limits& limits, bool& found) {
   if (techniques_.has(Technique::kFewestConflicts)) {
     Time cost = 0;
-    if (least_cost(agent, more, cutoff, limits, cost) == Step::kStopped) return Step::kStopped;
+    if (least_cost(agent, more, cutoff, FreeLowLevelSearch::kUnlimited, limits, cost) !=
+        Step::kDone)
+      return Step::kStopped;
     found = cost <= cutoff;
     if (!found) return Step::kDone;
     const auto constraints = constraints_with(agent, more);

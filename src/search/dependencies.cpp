@@ -18,9 +18,11 @@
 // rest after A or b after B. Agents with a destination come to rest nowhere else, so "does not come
 // to rest there by A" (kNoRestBy) says it, and both sides cost at least one more. That settles at
 // once what splits on cells settle one by one where no cell is on all best paths (the rectangles of
-// Li et al., AAAI 2019, on open ground), so it is what to do when no conflict does better; but only
-// together with paths of fewest conflicts, which see where the delay is best spent. Five instances
-// of 100 agents on empty-32-32 without tasks, w = 0, 5 s: solved 5 with both, 1 with either alone.
+// Li et al., AAAI 2019, on open ground), so it is what to do where no conflict raises the cost of
+// any side (where one side rises, splitting on the conflict is better: with 20 agents in rooms 1 to
+// 8 times as many nodes otherwise); but only together with paths of fewest conflicts, which see
+// where the delay is best spent. Five instances of 100 agents on empty-32-32 without tasks, w = 0,
+// 5 s: solved 5 with both, 1 with either alone.
 //
 // What one pair costs more and what another does may be the same steps of a shared agent; the least
 // total that fulfils all statements is what covering_bound() finds.
@@ -38,6 +40,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 
 namespace grove {
@@ -46,13 +49,15 @@ namespace {
 constexpr std::int32_t kExpansionsPerPair = 16;
 constexpr std::int32_t kExpansionsPerGroup = 32;
 constexpr std::size_t kMostInGroup = 6;
-constexpr std::size_t kMostPairs = 50'000;  // of nodes, in a comparison
+constexpr std::int64_t kMostWorkAtOnce = 100'000;  // in labels: some ten milliseconds
+constexpr std::size_t kMostPairs = 50'000;         // of nodes, in a comparison
 
 }  // namespace
 
 Dependencies::Dependencies(const Problem& problem, Techniques techniques, std::uint64_t seed,
                            PathPlanner& planner, Memory& memory)
     : instance_(problem.instance),
+      planner_(planner),
       agents_(problem.instance.agent_count()),
       techniques_(techniques),
       memory_(memory),
@@ -60,29 +65,34 @@ Dependencies::Dependencies(const Problem& problem, Techniques techniques, std::u
       pair_dependency_(problem.instance.grid()),
       situation_(static_cast<std::size_t>(agents_)) {}
 
-std::optional<Cost> Dependencies::bound(const NodePtr& node, Brancher& view, Cost cutoff,
-                                        const Limits& limits) {
+Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, Brancher& view, Cost cutoff,
+                                               const Limits& limits, Cost& bound) {
+  bound = cutoff;
   const Cost slack = cutoff - node->cost() - 1;
-  if (slack < 0) return cutoff;
+  if (slack < 0) return Outcome::kDone;
   look_at(view);
-  if (!solve_conflicting(node, view, slack, limits)) return std::nullopt;
-  if (techniques_.has(Technique::kClusters) && !solve_groups(node, view, slack, limits))
-    return std::nullopt;
+  // What had to be forgotten once may be again: then nothing is left for later.
+  give_up_at_ =
+      memory_.has_forgotten() ? std::numeric_limits<std::int64_t>::max() : work() + kMostWorkAtOnce;
+  Outcome outcome = solve_conflicting(node, view, slack, limits);
+  if (outcome == Outcome::kDone && techniques_.has(Technique::kClusters))
+    outcome = solve_groups(node, view, slack, limits);
+  if (outcome != Outcome::kDone) return outcome;
   std::vector<GroupExcess> statements;
   collect(statements);
   // One that is above the cutoff by itself settles it.
-  if (std::ranges::any_of(statements, [&](const GroupExcess& s) { return s.excess > slack; }))
-    return cutoff;
-  return std::min(cutoff, node->cost() + covering_bound(statements));
+  if (std::ranges::none_of(statements, [&](const GroupExcess& s) { return s.excess > slack; }))
+    bound = std::min(cutoff, node->cost() + covering_bound(statements));
+  return Outcome::kDone;
 }
 
 void Dependencies::look_at(Brancher& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) situation_[agent] = view.situation(agent);
 }
 
-// Looks into every pair that conflicts at the node. False when a limit struck.
-bool Dependencies::solve_conflicting(const NodePtr& node, Brancher& view, Cost slack,
-                                     const Limits& limits) {
+// Looks into every pair that conflicts at the node.
+Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, Brancher& view,
+                                                      Cost slack, const Limits& limits) {
   std::vector<std::pair<AgentIndex, AgentIndex>> pairs;
   for (const Conflict& c : view.conflicts()) pairs.emplace_back(c.first, c.second);
   std::ranges::sort(pairs);
@@ -90,18 +100,19 @@ bool Dependencies::solve_conflicting(const NodePtr& node, Brancher& view, Cost s
   for (const auto& [a, b] : pairs) {
     Known known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
+    if (work() >= give_up_at_) return Outcome::kUnfinished;
     if (techniques_.has(Technique::kJointPaths) && known.excess == 0) {
       const auto dependence = compare(view, a, b, limits);
-      if (!dependence) return false;
+      if (!dependence) return Outcome::kStopped;
       known.exact = *dependence == Dependence::kCompatible;
       known.excess = *dependence == Dependence::kDependent ? 1 : 0;
     }
     const bool solved =
         known.exact || solve(node, std::array{a, b}, slack, kExpansionsPerPair, limits, known);
-    if (!solved) return false;
+    if (!solved) return Outcome::kStopped;
     memory_.learn_pair(situation_[a], situation_[b], b, known);
   }
-  return true;
+  return Outcome::kDone;
 }
 
 // Can both keep their costs? None: a limit struck.
@@ -124,17 +135,18 @@ const OptimalPaths* Dependencies::optimal_paths(Brancher& view, AgentIndex agent
 }
 
 // Looks into every group that conflicts among itself though no pair of it has to cost more.
-bool Dependencies::solve_groups(const NodePtr& node, Brancher& view, Cost slack,
-                                const Limits& limits) {
+Dependencies::Outcome Dependencies::solve_groups(const NodePtr& node, Brancher& view, Cost slack,
+                                                 const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
     if (group.size() < 3 || group.size() > kMostInGroup) continue;
     const auto situations = key(group);
     Known known = memory_.of_group(situations);
     if (known.exact || known.expansions > 0) continue;
-    if (!solve(node, group, slack, kExpansionsPerGroup, limits, known)) return false;
+    if (work() >= give_up_at_) return Outcome::kUnfinished;
+    if (!solve(node, group, slack, kExpansionsPerGroup, limits, known)) return Outcome::kStopped;
     memory_.learn_group(group, situations, known);
   }
-  return true;
+  return Outcome::kDone;
 }
 
 // The components of the graph of such conflicts, each in ascending order.

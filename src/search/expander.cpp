@@ -32,13 +32,21 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
     return expansion;
   }
   if (techniques_.has(Technique::kDependencies) && !node->is_bounded()) {
-    const auto bound = dependencies_.bound(node, brancher_, cutoff, limits);
-    if (!bound) return stopped();
-    if (*bound >= cutoff) return expansion;
-    if (*bound > node->bound()) {
+    Cost bound = 0;
+    switch (dependencies_.find_bound(node, brancher_, cutoff, limits, bound)) {
+      case Dependencies::Outcome::kStopped:
+        return stopped();
+      case Dependencies::Outcome::kUnfinished:
+        expansion.unfinished = true;
+        return expansion;
+      case Dependencies::Outcome::kDone:
+        break;
+    }
+    if (bound >= cutoff) return expansion;
+    if (bound > node->bound()) {
       Change change;
       change.cost = node->cost();
-      change.bound = *bound;
+      change.bound = bound;
       change.conflicts = node->conflicts();
       change.bounded = true;
       expansion.children.push_back(Node::child(node, problem_.instance.grid(), change));

@@ -25,11 +25,11 @@ PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops)
 PathPlanner::Outcome PathPlanner::find(AgentIndex agent, const AgentOrder& order,
                                        std::span<const Constraint> constraints,
                                        const ConflictAvoidanceTable* others, Time cutoff,
-                                       const Limits& limits, Path& path) {
+                                       const Limits& limits, Path& path, std::int64_t most_labels) {
   ++calls_;
   if (order.goals) return find_fixed(*order.goals, constraints, others, cutoff, limits, path);
   return free_.find(free_goals(agent, order, constraints), on_path(constraints), others, cutoff,
-                    limits, path);
+                    limits, path, most_labels);
 }
 
 PathPlanner::Outcome PathPlanner::find_fixed(const GoalSequence& goals,

@@ -70,7 +70,9 @@ Situations::Known Situations::known(Id id) const {
 void Situations::learn(Id id, Known learnt) {
   parts_.with(part_of(id), [&](Part& part) {
     Known& known = part.entries[place_of(id)].known;
+    const bool hard = known.hard || learnt.hard;
     if (!known.exact && (learnt.exact || learnt.at_least > known.at_least)) known = learnt;
+    known.hard = hard;
   });
 }
 

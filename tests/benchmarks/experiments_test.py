@@ -66,7 +66,7 @@ class Results(unittest.TestCase):
     def test_first_plan(self):
         log = ("     expanded   open   memory      time\n"
                "B           0      0     8 MB     0.10s\n"
-               "*           3      1     8 MB     1.25s\n"
+               "C           3      1     8 MB     1.25s\n"
                "*           9      0     8 MB     2.00s\n")
         self.assertEqual(runs.first_plan_seconds(log), 1.25)
         self.assertIsNone(runs.first_plan_seconds(log[:100]))

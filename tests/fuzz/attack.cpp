@@ -360,7 +360,12 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
                                 : plan.cost - random.below(4);
       Limits short_limits;
       short_limits.set_deadline(end + std::chrono::seconds(2));
-      const Expansion expansion = expander.expand(node, cutoff, short_limits);
+      Expansion expansion = expander.expand(node, cutoff, short_limits);
+      expander.publish();
+      while (expansion.unfinished) {
+        expansion = expander.expand(node, cutoff, short_limits);
+        expander.publish();
+      }
       if (expansion.stopped) {
         if (Limits::Clock::now() < end + std::chrono::seconds(1))
           fail(tiny, "stopped?", techniques, seed);
@@ -370,7 +375,8 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
       if (compare_histories && depth % 4 == 0) {
         AgentStopsStore fresh_stops(instance, problem.distances);
         Expander fresh(problem, fresh_stops, techniques, expander_seed);
-        const Expansion other = fresh.expand(node, cutoff, limits);
+        Expansion other = fresh.expand(node, cutoff, limits);
+        while (other.unfinished) other = fresh.expand(node, cutoff, limits);
         const auto said = [](const Expansion& e) {
           std::string text = e.plan ? fmt::format("plan {}", e.plan->cost) : "no plan";
           for (const NodePtr& c : e.children)

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "grove/search/sequence_forest.h"
+#include "grove/search/single_tree.h"
+#include "tests/primal/crowd.h"
 #include "tests/support/instances.h"
 
 namespace grove {
@@ -79,6 +81,37 @@ TEST(Expander, StopsWithoutATraceWhenALimitStrikes) {
   EXPECT_TRUE(expansion.stopped);
   EXPECT_TRUE(expansion.children.empty());
   EXPECT_FALSE(expansion.plan);
+}
+
+// The root of a crowd whose pairs are more work than is done at one go.
+TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
+  const Instance instance =
+      testing::random_crowd({.size = 20, .obstacles = 30, .agents = 60, .tasks = 120}, 3);
+  const Limits limits;
+  const Problem problem(instance, limits);
+  AgentStopsStore stops(instance, problem.distances);
+  NodePool pool;
+  SingleTree forest(problem, stops, pool, limits);
+  const NodePtr root = forest.next_root();
+
+  int turns = 0;
+  Expansion in_turns;
+  Expander expander(problem, stops, Techniques::usual(), 0);
+  do {
+    in_turns = expander.expand(root, kInfiniteCost, limits);
+    expander.publish();
+    ++turns;
+  } while (in_turns.unfinished);
+  EXPECT_GT(turns, 2);
+
+  // Who once had to forget leaves nothing for later.
+  Expander other(problem, stops, Techniques::usual(), 0);
+  other.turn_to(std::make_shared<CommonMemory>());
+  const Expansion at_once = other.expand(root, kInfiniteCost, limits);
+  ASSERT_FALSE(at_once.unfinished);
+  ASSERT_EQ(in_turns.children.size(), at_once.children.size());
+  for (std::size_t i = 0; i < at_once.children.size(); ++i)
+    EXPECT_EQ(in_turns.children[i]->bound(), at_once.children[i]->bound());
 }
 
 TEST(Expander, IsAPureFunctionOfTheNode) {

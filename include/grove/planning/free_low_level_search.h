@@ -25,8 +25,9 @@ class FreeLowLevelSearch {
     kFound,
     kAbove,       // proven: no path costs `cutoff` or less (whether there is one is not known)
     kInfeasible,  // proven: no path realizes a sequence of the class under the constraints
-    kStopped,     // a limit struck: nothing is known
+    kStopped,     // a limit struck, or too much would have to be done: nothing is known
   };
+  static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 
   // `grid` must outlive this.
   explicit FreeLowLevelSearch(const Grid& grid);
@@ -36,14 +37,16 @@ class FreeLowLevelSearch {
   // and obeys `constraints` (also while resting at the end), if that cost is at most `cutoff`
   // (kNever: any). Among equally cheap ways met it prefers few conflicts with `others` (may be
   // null). The path ends when the agent comes to rest: its cost is path.size() - 1. Widens the
-  // completions of `goals` as needed. Writes `path` only on kFound.
+  // completions of `goals` as needed. Gives up after expanding `most_labels`: kStopped. Writes
+  // `path` only on kFound.
   Outcome find(FreeGoals& goals, std::span<const Constraint> constraints,
-               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
+               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path,
+               std::int64_t most_labels = kUnlimited);
 
   // How to search around reservations, where a good path may be worth more than the best one late.
   struct Effort {
     int greed_percent = 0;  // labels come in order of time + (1 + greed) * cost to go
-    std::int64_t most_labels = std::numeric_limits<std::int64_t>::max();  // give up: kStopped
+    std::int64_t most_labels = kUnlimited;  // give up: kStopped
     // Make do with the sequences that the completions know, at least one; kStopped if that is why
     // there is no path. The path found may be dearer than one of another sequence.
     bool known_sequences = false;

@@ -53,7 +53,7 @@ class Brancher {
   // Makes the children, appended to `children`: every plan that obeys the node's constraints and
   // costs less than `cutoff` obeys those of one of them. At most two; a child that surely holds no
   // such plan is none. `last_resorts` are further splits, valid at the node: one is made where no
-  // conflict offers any that raises the cost of both sides, and its two agents are in conflict.
+  // conflict offers any that raises the cost of a side, and its two agents are in conflict.
   Outcome branch(Cost cutoff, std::span<const Split> last_resorts, const Limits& limits,
                  std::vector<NodePtr>& children);
 
@@ -66,7 +66,11 @@ class Brancher {
     std::vector<AgentIndex> agents;  // who goes another way ...
     std::vector<Path> paths;         // ... and which
   };
-  enum class Step : std::uint8_t { kDone, kStopped };
+  enum class Step : std::uint8_t {
+    kDone,
+    kTooHard,  // it would take longer than a price is worth
+    kStopped,  // a limit struck
+  };
 
   void find_conflicts();
   void show_others();
@@ -83,8 +87,8 @@ class Brancher {
   Step improve_by_sequences(Choice& choice, Cost slack, const Limits& limits);
   Split earliest() const;
   Step estimate(const AgentConstraint& demand, Cost slack, const Limits& limits, Cost& increase);
-  Step least_cost(AgentIndex agent, const Constraint& more, Time cutoff, const Limits& limits,
-                  Time& cost);
+  Step least_cost(AgentIndex agent, const Constraint& more, Time cutoff, std::int64_t most_labels,
+                  const Limits& limits, Time& cost);
   void affected(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const;
   std::span<const Constraint> constraints_with(AgentIndex agent, const Constraint& more);
   Step make_side(const AgentConstraint& demand, Cost slack, const Limits& limits, Side& side);

@@ -23,9 +23,17 @@ class Dependencies {
   Dependencies(const Problem& problem, Techniques techniques, std::uint64_t seed,
                PathPlanner& planner, Memory& memory);
 
+  enum class Outcome : std::uint8_t {
+    kDone,
+    kUnfinished,  // so much work was done that others should have their turn; asked again about the
+                  // same node, it goes on
+    kStopped,     // a limit struck
+  };
+
   // A proven lower bound on every plan that obeys the constraints of `node`, which `view` has
-  // entered with all agents; or `cutoff`, if none of them is cheaper. None: a limit struck.
-  std::optional<Cost> bound(const NodePtr& node, Brancher& view, Cost cutoff, const Limits& limits);
+  // entered with all agents; or `cutoff`, if none of them is cheaper. Sets `bound` only on kDone.
+  Outcome find_bound(const NodePtr& node, Brancher& view, Cost cutoff, const Limits& limits,
+                     Cost& bound);
 
   // Splits on the costs of two agents that conflict at the node that `view` has entered and are
   // known not to be able to keep both their costs: "the one comes to rest later | the other does".
@@ -47,18 +55,24 @@ class Dependencies {
   Known known(AgentIndex a, AgentIndex b) const {
     return memory_.of_pair(situation_[a], situation_[b]);
   }
-  bool solve_conflicting(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
+  Outcome solve_conflicting(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
   std::optional<Dependence> compare(Brancher& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
   const OptimalPaths* optimal_paths(Brancher& view, AgentIndex agent, const Limits& limits);
-  bool solve_groups(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
+  Outcome solve_groups(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const Brancher& view) const;
   std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;
   bool solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
              std::int32_t most_expansions, const Limits& limits, Known& known);
   void collect(std::vector<GroupExcess>& statements);
 
+  // Labels and calls of the low level that this thread has paid for so far.
+  std::int64_t work() const { return planner_.expanded() + kWorkPerCall * planner_.calls(); }
+
+  static constexpr std::int64_t kWorkPerCall = 16;  // in labels
+
   const Instance& instance_;
+  const PathPlanner& planner_;
   const int agents_;
   const Techniques techniques_;
   Memory& memory_;
@@ -70,6 +84,7 @@ class Dependencies {
   std::vector<Excesses::Partner> partners_;
   std::vector<std::vector<AgentIndex>> groups_;
   std::int64_t expansions_ = 0;
+  std::int64_t give_up_at_ = 0;  // of work()
 };
 
 }  // namespace grove

@@ -18,11 +18,12 @@
 
 namespace grove {
 
-// What an expansion led to. If `stopped`, a limit struck: nothing else is set and the node is as it
-// was. Otherwise the node's plans cheaper than the cutoff are exactly those of its children, or
+// What an expansion led to. If `stopped`, a limit struck, and if `unfinished`, there is more to find
+// out about the node than should be done at one go: nothing else is set and the node is as it was. Otherwise the node's plans cheaper than the cutoff are exactly those of its children, or
 // `plan` is the best of them.
 struct Expansion {
   bool stopped = false;
+  bool unfinished = false;
   std::optional<Plan> plan;       // the node's paths, or others as cheap, are conflict-free
   std::vector<NodePtr> children;  // at most two; a child without a path is none. One: perhaps the
                                   // same node with a higher bound

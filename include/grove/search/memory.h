@@ -40,8 +40,11 @@ class Memory {
 
   // Adds what was found out to the common memory.
   void publish();
-  // Turns to another common memory; what was not published is forgotten, and so are all numbers.
+  // Turns to this common memory. If it is another one, what was not published is forgotten, and so
+  // are all numbers.
   void turn_to(std::shared_ptr<CommonMemory> common);
+  // Did it ever turn to another one?
+  bool has_forgotten() const { return has_forgotten_; }
   const std::shared_ptr<CommonMemory>& common() const { return common_; }
 
   // As those of Situations.
@@ -80,6 +83,7 @@ class Memory {
 
   PathPlanner& planner_;
   std::shared_ptr<CommonMemory> common_;
+  bool has_forgotten_ = false;
   // Since the last publication. Of pairs and groups there are few at a time.
   std::unordered_map<Id, Situations::Known> costs_;
   std::unordered_map<Id, PathSets::Set> sets_;  // all that were asked for

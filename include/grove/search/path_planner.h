@@ -23,10 +23,11 @@ class PathPlanner {
   // Both must outlive this; `stops` may be shared with others of the same thread.
   PathPlanner(const Problem& problem, AgentStopsStore& stops);
 
-  // As FreeLowLevelSearch::find.
+  // As FreeLowLevelSearch::find; a fixed order does not heed `most_labels`.
   using Outcome = FreeLowLevelSearch::Outcome;
   Outcome find(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints,
-               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path);
+               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path,
+               std::int64_t most_labels = FreeLowLevelSearch::kUnlimited);
 
   // As OptimalPathsBuilder::build.
   OptimalPathsBuilder::Outcome optimal_paths(AgentIndex agent, const AgentOrder& order,

@@ -25,6 +25,7 @@ class Situations {
   struct Known {
     Time at_least = 0;   // no path costs less; kNever: there is no path
     bool exact = false;  // a path of that cost exists, or `at_least` is kNever
+    bool hard = false;   // finding out was once given up
     friend bool operator==(const Known&, const Known&) = default;
   };
 
