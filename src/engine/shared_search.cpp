@@ -103,18 +103,37 @@ bool SharedSearch::needs_tree() const {
 
 // Instantiates the next tree. Under growing_.
 void SharedSearch::grow() {
-  const NodePtr root = forest_->next_root();
+  const NodePtr root = prepared_ ? std::exchange(prepared_, nullptr) : forest_->next_root();
   if (root) {
+    ++trees_;
+    last_tree_cost_ = root->cost();
     watch([&] { observer_.on_root(root); });
     roots_.push_back(root);
     ++nodes_generated_;
     if (!gate_.prunes(root->bound())) frontier_.push(root);
   }
   next_tree_bound_ = forest_->next_bound();
-  last_tree_cost_ = forest_->last_cost().value_or(kNoTree);
-  trees_ = forest_->trees();
+  preparing_ = false;
   update_bound();
   if (root) tell(RunEvent::kTree);
+}
+
+// The paper's trees take time to make: sequencing problems, and a path for each agent.
+bool SharedSearch::claim_preparation() {
+  const bool wanted = options_.policy == Policy::kFixed && !omega_.is_infinite() &&
+                      next_tree_bound_ < kInfiniteCost && !over();
+  return wanted && !preparing_.exchange(true);
+}
+
+// A tree that is prepared is not instantiated: its root is not live, and bounds the trees to come.
+void SharedSearch::prepare_tree() {
+  const std::unique_lock lock(growing_, std::try_to_lock);
+  if (lock && (prepared_ = forest_->next_root())) {
+    next_tree_bound_ = std::min(prepared_->bound(), forest_->next_bound());
+    ++trees_prepared_;
+  } else {
+    preparing_ = false;
+  }
 }
 
 // When no node is left but some were given up: starts again from all roots, or first adds a tree
@@ -123,7 +142,7 @@ void SharedSearch::grow() {
 bool SharedSearch::begin_anew() {
   const Cost proven = frontier_.evicted_bound();
   if (proven == kInfiniteCost || omega_.is_infinite()) return false;
-  if (forest_->next_bound() < proven) {
+  if (next_tree_bound_ < proven) {
     grow();
     return true;
   }
@@ -152,7 +171,19 @@ bool SharedSearch::plan_is_wanted() {
   return ++estimates_turn_ % 2 != 0;
 }
 
+NodePtr SharedSearch::unfinished() const {
+  const std::lock_guard lock(helping_);
+  return unfinished_;
+}
+
 void SharedSearch::finish(const NodePtr& node, Expansion expansion) {
+  {
+    const std::lock_guard lock(helping_);
+    if (expansion.unfinished)
+      unfinished_ = node;
+    else if (unfinished_ == node)
+      unfinished_ = nullptr;
+  }
   if (expansion.stopped || expansion.unfinished) {
     frontier_.give_back(node);
     return;
@@ -244,10 +275,14 @@ Solution SharedSearch::conclude() const {
     solution.status = Status::kInfeasible;
     solution.lower_bound = 0;
   }
-  solution.stats.counts = {
-      {"nodes_expanded", nodes_expanded_},   {"nodes_generated", nodes_generated_},
-      {"nodes_evicted", nodes_evicted_},     {"restarts", restarts_},
-      {"roots_generated", forest_->trees()}, {"rtsp_calls", forest_->rtsp_calls()}};
+  solution.stats.counts = {{"nodes_expanded", nodes_expanded_},
+                           {"nodes_generated", nodes_generated_},
+                           {"nodes_evicted", nodes_evicted_},
+                           {"restarts", restarts_},
+                           {"roots_generated", trees_},
+                           {"trees_prepared", trees_prepared_},
+                           {"trees_prepared_in_vain", prepared_ ? 1 : 0},
+                           {"rtsp_calls", forest_->rtsp_calls()}};
   solution.stats.measures["node_bytes"] = pool_.mean_bytes();
   // A limit that struck after the search had ended changed nothing.
   if (!gate_.finished()) {

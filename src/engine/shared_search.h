@@ -43,6 +43,12 @@ class SharedSearch {
   NodePtr take();
   // What became of a node taken.
   void finish(const NodePtr& node, Expansion expansion);
+  // A node, perhaps in other hands, that came back unfinished last; null if it has been finished.
+  NodePtr unfinished() const;
+  // May the caller prepare the next tree before Algorithm 4 asks for it? Whoever is told so must do
+  // it. One at a time.
+  bool claim_preparation();
+  void prepare_tree();
   // A plan from elsewhere.
   void post(Plan plan, PlanSource source);
 
@@ -93,12 +99,15 @@ class SharedSearch {
 
   std::mutex growing_;  // guards the forest and what follows
   std::vector<NodePtr> roots_;
+  NodePtr prepared_;         // of the next tree, if it has been prepared
   Cost begun_anew_at_ = -1;  // the bound that the last run through the trees proved
   std::int64_t restarts_ = 0;
 
   std::atomic<Cost> next_tree_bound_;
   std::atomic<Cost> last_tree_cost_;
   std::atomic<std::int64_t> trees_{0};
+  std::atomic<bool> preparing_{false};
+  std::atomic<std::int64_t> trees_prepared_{0};
   std::atomic<bool> out_of_nodes_{false};  // though not finished
   std::atomic<std::int64_t> nodes_expanded_{0};
   std::atomic<std::int64_t> nodes_generated_{0};
@@ -108,6 +117,9 @@ class SharedSearch {
   std::mutex keeping_;  // guards the shares
   MemoryShares shares_;
   std::atomic<std::shared_ptr<CommonMemory>> known_;
+
+  mutable std::mutex helping_;
+  NodePtr unfinished_;  // under helping_
 
   std::mutex posting_;  // orders what is announced of plans
   std::mutex observing_;

@@ -20,8 +20,9 @@ class Worker {
   Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
          SharedSearch& shared, int number);
 
-  // Does the best there is to do: expands a node, or goes on with the primal search for about a
-  // millisecond. False: nothing can be done just now.
+  // Does the best there is to do: expands a node, helps another worker with one, goes on with the
+  // primal search for about a millisecond, or prepares the next tree. False: nothing can be done
+  // just now.
   bool turn() {
     if (!choose()) return false;
     perform();
@@ -40,7 +41,9 @@ class Worker {
 
  private:
   PrimalSearch& primal();
+  void expand();
   void step_primal();
+  void help();
 
   const Problem& problem_;
   const SolveOptions& options_;
@@ -53,10 +56,14 @@ class Worker {
   PrimalShare share_;
 
   // Of the turn under way.
-  NodePtr node_;  // null: the primal search
+  enum class Job { kExpand, kHelp, kPrimal, kPrepare };
+  Job job_ = Job::kExpand;
+  NodePtr node_;  // to expand or to help with
   Expansion expansion_;
   std::optional<Plan> plan_;
   std::int64_t work_ = 0;
+  NodePtr helped_;  // the last node that there was nothing left to help with
+  std::int64_t helps_ = 0;
 };
 
 }  // namespace grove

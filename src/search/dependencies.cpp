@@ -74,7 +74,7 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, Brancher& vi
   // What had to be forgotten once may be again: then nothing is left for later.
   give_up_at_ =
       memory_.has_forgotten() ? std::numeric_limits<std::int64_t>::max() : work() + kMostWorkAtOnce;
-  Outcome outcome = solve_conflicting(node, view, slack, limits);
+  Outcome outcome = solve_conflicting(node, view, slack, 0, limits);
   if (outcome == Outcome::kDone && techniques_.has(Technique::kClusters))
     outcome = solve_groups(node, view, slack, limits);
   if (outcome != Outcome::kDone) return outcome;
@@ -86,17 +86,31 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, Brancher& vi
   return Outcome::kDone;
 }
 
+bool Dependencies::help(const NodePtr& node, Brancher& view, Cost cutoff, double share,
+                        const Limits& limits) {
+  const Cost slack = cutoff - node->cost() - 1;
+  if (slack < 0) return false;
+  look_at(view);
+  const std::int64_t before = work();
+  give_up_at_ = before + kMostWorkAtOnce;
+  solve_conflicting(node, view, slack, share, limits);
+  return work() > before;
+}
+
 void Dependencies::look_at(Brancher& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) situation_[agent] = view.situation(agent);
 }
 
 // Looks into every pair that conflicts at the node.
 Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, Brancher& view,
-                                                      Cost slack, const Limits& limits) {
+                                                      Cost slack, double share,
+                                                      const Limits& limits) {
   std::vector<std::pair<AgentIndex, AgentIndex>> pairs;
   for (const Conflict& c : view.conflicts()) pairs.emplace_back(c.first, c.second);
   std::ranges::sort(pairs);
   pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  const auto first = static_cast<std::ptrdiff_t>(share * static_cast<double>(pairs.size()));
+  std::ranges::rotate(pairs, pairs.begin() + first);
   for (const auto& [a, b] : pairs) {
     Known known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;

@@ -67,6 +67,11 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
   return expansion;
 }
 
+bool Expander::help(const NodePtr& node, Cost cutoff, double share, const Limits& limits) {
+  brancher_.enter(node, all_);
+  return dependencies_.help(node, brancher_, cutoff, share, limits);
+}
+
 // The plan of the brancher's paths, which are conflict-free.
 Plan Expander::plan(const Node& node) {
   Plan plan;

@@ -30,6 +30,10 @@ class Dependencies {
     kStopped,     // a limit struck
   };
 
+  // Helps others that bound the same node with the same common memory: solves pairs, beginning at
+  // this `share` in [0, 1) of them. False: nothing was left to do.
+  bool help(const NodePtr& node, Brancher& view, Cost cutoff, double share, const Limits& limits);
+
   // A proven lower bound on every plan that obeys the constraints of `node`, which `view` has
   // entered with all agents; or `cutoff`, if none of them is cheaper. Sets `bound` only on kDone.
   Outcome find_bound(const NodePtr& node, Brancher& view, Cost cutoff, const Limits& limits,
@@ -55,7 +59,8 @@ class Dependencies {
   Known known(AgentIndex a, AgentIndex b) const {
     return memory_.of_pair(situation_[a], situation_[b]);
   }
-  Outcome solve_conflicting(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
+  Outcome solve_conflicting(const NodePtr& node, Brancher& view, Cost slack, double share,
+                            const Limits& limits);
   std::optional<Dependence> compare(Brancher& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
   const OptimalPaths* optimal_paths(Brancher& view, AgentIndex agent, const Limits& limits);

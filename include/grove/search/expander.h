@@ -52,6 +52,10 @@ class Expander {
   // kInfiniteCost: all are).
   Expansion expand(const NodePtr& node, Cost cutoff, const Limits& limits);
 
+  // Finds out some of what a worker needs that has come back with `node` unfinished, beginning at
+  // this `share` in [0, 1) of it; to publish it is all. False: nothing was left to do.
+  bool help(const NodePtr& node, Cost cutoff, double share, const Limits& limits);
+
   ExpansionCounts counts() const;
 
   // What was found out since the last publication is known to this expander only.
