@@ -12,6 +12,7 @@
 
 #include <mutex>
 #include <new>
+#include <thread>
 #include <vector>
 
 #include "tasks.h"
@@ -40,18 +41,20 @@ class Crew {
           call_another();
         else if (park(worker))
           return;
+        else
+          std::this_thread::yield();
     } catch (const std::bad_alloc&) {
       limits_.memory_exhausted();
     } catch (...) {
-      limits_.finish();
+      limits_.end_work();
       throw;
     }
-    limits_.finish();
+    limits_.end_work();
   }
 
   bool park(Worker& worker) {
     const std::lock_guard lock(mutex_);
-    if (shared_.over() || shared_.has_open()) return false;
+    if (shared_.over() || shared_.may_take()) return false;
     parked_.push_back(&worker);
     return true;
   }
@@ -59,7 +62,7 @@ class Crew {
   // Starts a parked worker if there is work for it.
   void call_another() {
     const std::lock_guard lock(mutex_);
-    if (parked_.empty() || !shared_.has_open()) return;
+    if (parked_.empty() || !shared_.may_take()) return;
     start(*parked_.back());
     parked_.pop_back();
   }
@@ -78,6 +81,10 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
   const auto threads = static_cast<int>(workers.size());
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
+  struct AllowWork {
+    const Limits& limits;
+    ~AllowWork() { limits.allow_work(); }
+  } const at_last{limits};
   tbb::task_arena arena(threads);
   arena.execute([&] { Crew(shared, limits).run(workers); });
 }

@@ -9,8 +9,8 @@
 // was read, and any other plan is in a live node, or was pruned: the minimum of the two bounds it.
 // A node is live until all that it led to has been pushed.
 //
-// *Nothing left* is said only when no node is live, while nobody else may instantiate a tree: nodes
-// come from live nodes and from new trees alone.
+// *Nothing left* is said only when no node is live and no tree is due, while nobody else may
+// instantiate one: nodes come from live nodes and from new trees alone.
 //
 // *Pruning.* An incumbent is in the gate, checked, before anybody prunes by it.
 //
@@ -90,7 +90,10 @@ NodePtr SharedSearch::take() {
   if (node || frontier_.live() > 0) return node;
   const std::unique_lock lock(growing_, std::try_to_lock);
   if (!lock || frontier_.live() > 0) return nullptr;
-  if (!begin_anew()) out_of_nodes_ = true;
+  if (needs_tree())
+    grow();
+  else if (!begin_anew())
+    out_of_nodes_ = true;
   return take_open();
 }
 
@@ -101,21 +104,23 @@ bool SharedSearch::needs_tree() const {
                               last == kNoTree ? std::nullopt : std::optional(last));
 }
 
-// Instantiates the next tree. Under growing_.
+// Instantiates the next tree. Under growing_. If anything throws, the root stays prepared.
 void SharedSearch::grow() {
-  const NodePtr root = prepared_ ? std::exchange(prepared_, nullptr) : forest_->next_root();
-  if (root) {
-    ++trees_;
-    last_tree_cost_ = root->cost();
-    watch([&] { observer_.on_root(root); });
-    roots_.push_back(root);
+  if (!prepared_) prepared_ = forest_->next_root();
+  const bool has_root = prepared_ != nullptr;
+  if (has_root) {
+    watch([&] { observer_.on_root(prepared_); });
+    roots_.push_back(prepared_);
+    if (!gate_.prunes(prepared_->bound())) frontier_.push(prepared_);
     ++nodes_generated_;
-    if (!gate_.prunes(root->bound())) frontier_.push(root);
+    ++trees_;
+    last_tree_cost_ = prepared_->cost();
   }
   next_tree_bound_ = forest_->next_bound();
+  prepared_ = nullptr;
   preparing_ = false;
   update_bound();
-  if (root) tell(RunEvent::kTree);
+  if (has_root) tell(RunEvent::kTree);
 }
 
 // The paper's trees take time to make: sequencing problems, and a path for each agent.
@@ -128,7 +133,7 @@ bool SharedSearch::claim_preparation() {
 // A tree that is prepared is not instantiated: its root is not live, and bounds the trees to come.
 void SharedSearch::prepare_tree() {
   const std::unique_lock lock(growing_, std::try_to_lock);
-  if (lock && (prepared_ = forest_->next_root())) {
+  if (lock && (prepared_ || (prepared_ = forest_->next_root()))) {
     next_tree_bound_ = std::min(prepared_->bound(), forest_->next_bound());
     ++trees_prepared_;
   } else {
@@ -247,8 +252,7 @@ void SharedSearch::keep_within_memory() {
 // The best open node stays. Evicting a leaf frees those ancestors that no other node shares.
 void SharedSearch::evict_to(std::size_t bytes) {
   while (pool_.bytes() > bytes && frontier_.open() > 1) {
-    const std::size_t open = frontier_.open();
-    const auto evicted = frontier_.evict(std::min(open - 1, open / 16 + 1));
+    const auto evicted = frontier_.evict(frontier_.open() / 16 + 1, 1);
     watch([&] {
       for (const NodePtr& node : evicted) observer_.on_evicted(node);
     });

@@ -52,8 +52,8 @@ class SharedSearch {
   // A plan from elsewhere.
   void post(Plan plan, PlanSource source);
 
-  // Is a node open?
-  bool has_open() const { return frontier_.open() > 0; }
+  // Is there something for an idle worker to take, or to find out?
+  bool may_take() const { return frontier_.open() > 0 || frontier_.live() == 0; }
   // Nodes that cost so much or more are of no use.
   Cost cutoff() const { return gate_.incumbent_cost().value_or(kInfiniteCost); }
   // The incumbent if it is cheaper than `cost`.

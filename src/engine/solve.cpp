@@ -38,9 +38,12 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   } catch (const std::bad_alloc&) {
     limits.memory_exhausted();
   }
+  Stats stats;
+  for (const auto& worker : workers) worker->add_counts(stats);
+  workers.clear();  // their memory may be needed for the answer
   shared.tell(RunEvent::kEnd);
   Solution solution = shared.conclude();
-  for (const auto& worker : workers) worker->add_counts(solution.stats);
+  solution.stats.counts.merge(stats.counts);
   return solution;
 }
 

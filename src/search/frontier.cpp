@@ -37,9 +37,14 @@ auto Frontier::order_in(Cost rank) const {
 
 void Frontier::push_locked(NodePtr node) {
   const Cost at = rank(node);
-  auto& heap = open_[at];
-  heap.push_back({serial_++, std::move(node)});
-  std::ranges::push_heap(heap, order_in(at));
+  const auto heap = open_.try_emplace(at).first;
+  try {
+    heap->second.push_back({serial_++, std::move(node)});
+  } catch (...) {
+    if (heap->second.empty()) open_.erase(heap);
+    throw;
+  }
+  std::ranges::push_heap(heap->second, order_in(at));
   ++open_count_;
 }
 
@@ -62,12 +67,13 @@ NodePtr Frontier::take_promising(Omega omega, Cost lower_bound, double per_confl
 }
 
 NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) {
+  std::size_t& taken = taken_[best->first];  // nothing has changed if this throws
   std::ranges::pop_heap(best->second, order_in(best->first));
   NodePtr node = std::move(best->second.back().node);
   best->second.pop_back();
   if (best->second.empty()) open_.erase(best);
   --open_count_;
-  ++taken_[rank(node)];
+  ++taken;
   ++taken_count_;
   return node;
 }
@@ -79,8 +85,8 @@ void Frontier::settle(const NodePtr& node) {
 
 void Frontier::give_back(NodePtr node) {
   const std::lock_guard lock(mutex_);
+  push_locked(node);
   release_locked(node);
-  push_locked(std::move(node));
 }
 
 void Frontier::release_locked(const NodePtr& node) {
@@ -99,17 +105,19 @@ std::size_t Frontier::prune(Cost bound) {
   return pruned;
 }
 
-std::vector<NodePtr> Frontier::evict(std::size_t count) {
+std::vector<NodePtr> Frontier::evict(std::size_t count, std::size_t keep) {
   const std::lock_guard lock(mutex_);
+  count = std::min(count, open_count_ - std::min(open_count_, keep));
   std::vector<NodePtr> evicted;
+  evicted.reserve(count);
   while (evicted.size() < count && !open_.empty()) {
     const auto worst = std::prev(open_.end());
     auto& [rank, heap] = *worst;
     evicted_ = std::min(evicted_, rank);
-    const std::size_t keep = heap.size() - std::min(heap.size(), count - evicted.size());
-    const auto first = heap.begin() + static_cast<std::ptrdiff_t>(keep);
+    const std::size_t left = heap.size() - std::min(heap.size(), count - evicted.size());
+    const auto first = heap.begin() + static_cast<std::ptrdiff_t>(left);
     const auto worse = order_in(rank);
-    if (keep > 0)
+    if (left > 0)
       std::ranges::nth_element(heap, first,
                                [&](const Open& a, const Open& b) { return worse(b, a); });
     for (auto it = first; it != heap.end(); ++it) evicted.push_back(std::move(it->node));
@@ -129,8 +137,9 @@ Cost Frontier::evicted_bound() const {
 // At one go: in between there would be neither nodes nor a bound.
 void Frontier::restart(std::span<const NodePtr> roots) {
   const std::lock_guard lock(mutex_);
-  proven_ = std::exchange(evicted_, kInfiniteCost);
+  proven_ = evicted_;
   for (const NodePtr& root : roots) push_locked(root);
+  evicted_ = kInfiniteCost;
 }
 
 void Frontier::abandon() {

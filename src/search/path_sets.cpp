@@ -25,11 +25,11 @@ PathSets::Set PathSets::find(Situations::Id id) const {
 }
 
 void PathSets::add(Situations::Id id, const Set& set) {
-  const bool is_new =
-      parts_.with(part_of(id), [&](Part& part) { return part.try_emplace(id, set).second; });
-  if (!is_new) return;
-  ++sets_;
-  nodes_ += static_cast<std::size_t>(set->node_count());
+  parts_.with(part_of(id), [&](Part& part) {
+    if (!part.try_emplace(id, set).second) return;
+    ++sets_;
+    nodes_ += static_cast<std::size_t>(set->node_count());
+  });
 }
 
 PathSets::Set PathSets::make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,

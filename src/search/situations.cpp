@@ -23,18 +23,19 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   return hash ^ hash >> 29;
 }
 
+// Of values, not of addresses: the same in every run, so that tables are of the same size.
 std::uint64_t hash_of(AgentIndex agent, const AgentOrder& order,
                       std::span<const Constraint> constraints) {
   const auto both = [](std::int32_t a, std::int32_t b) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 |
            static_cast<std::uint32_t>(b);
   };
-  std::uint64_t hash =
-      mixed(static_cast<std::uint64_t>(agent), reinterpret_cast<std::uintptr_t>(&order));
+  std::uint64_t hash = mixed(static_cast<std::uint64_t>(agent), order.sequences.forbidden_next);
+  for (const Stop stop : order.sequences.prefix) hash = mixed(hash, stop);
   for (const Constraint& c : constraints)
     hash = mixed(mixed(mixed(hash, both(c.cell, c.from)), both(c.begin, c.end)),
                  static_cast<std::uint64_t>(c.kind));
-  return hash;
+  return mixed(hash, 0);
 }
 
 auto key_of(const Constraint& c) {

@@ -47,7 +47,9 @@ class Limits {
   std::size_t last_resident() const { return last_resident_.load(std::memory_order_relaxed); }
   // Ends all work of the run, which has reached its end: stop_requested() is true from now on, and
   // reason() what it was.
-  void finish() const { finished_.store(true, std::memory_order_relaxed); }
+  void end_work() const { finished_.store(true, std::memory_order_relaxed); }
+  // Takes end_work() back, when all work has ended.
+  void allow_work() const { finished_.store(false, std::memory_order_relaxed); }
   // For allocations refused elsewhere: stops the run for lack of memory.
   void memory_exhausted() const { stop(StopReason::kMemory); }
 

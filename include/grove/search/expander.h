@@ -18,8 +18,9 @@
 
 namespace grove {
 
-// What an expansion led to. If `stopped`, a limit struck, and if `unfinished`, there is more to find
-// out about the node than should be done at one go: nothing else is set and the node is as it was. Otherwise the node's plans cheaper than the cutoff are exactly those of its children, or
+// What an expansion led to. If `stopped`, a limit struck, and if `unfinished`, there is more to
+// find out about the node than should be done at one go: nothing else is set and the node is as it
+// was. Otherwise the node's plans cheaper than the cutoff are exactly those of its children, or
 // `plan` is the best of them.
 struct Expansion {
   bool stopped = false;

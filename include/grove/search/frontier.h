@@ -20,7 +20,8 @@ namespace grove {
 // while any number of workers expand. Nodes may be given up for want of memory: bound() remembers
 // the least bound among them, and restart() begins anew. Why that is sound: frontier.cpp. All
 // methods may be called from any thread; each holds one mutex for O(log of the distinct bounds),
-// prune() and evict() for as long as it takes to find their nodes.
+// prune() and evict() for as long as it takes to find their nodes. Where memory for an entry cannot
+// be had, std::bad_alloc is thrown and no node is lost: one taken stays taken, and counts.
 class Frontier {
  public:
   void push(NodePtr node);
@@ -38,9 +39,9 @@ class Frontier {
   // many.
   std::size_t prune(Cost bound);
 
-  // Gives up the worst `count` open nodes, or all if there are no more, and returns them. Their
+  // Gives up the worst `count` open nodes but for the best `keep`, and returns them. Their
   // plans are no longer in any live node; the least of their bounds is kept in bound().
-  std::vector<NodePtr> evict(std::size_t count);
+  std::vector<NodePtr> evict(std::size_t count, std::size_t keep = 0);
   // The least bound of what was given up and not pruned since; kInfiniteCost: nothing.
   Cost evicted_bound() const;
   // Forgets what was given up and pushes the roots of all the trees that it came from. Only when no

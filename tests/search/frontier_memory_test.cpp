@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// The frontier when memory runs out in the middle of a change: no node is lost, and the bound
+// holds.
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <new>
+
+#include "grove/search/frontier.h"
+#include "tests/support/failing_new.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+class ScarceFrontier : public ::testing::Test {
+ protected:
+  NodePtr node(Time bound) {
+    const Instance instance = testing::instance_of({"........."}, {{{0, 0}, Position{8, 0}}});
+    Path path;
+    for (Cell cell = 0; cell <= bound; ++cell) path.push_back(cell);
+    trees_.push_back({&pool_, {}});
+    trees_.back().orders.push_back(std::make_shared<const AgentOrder>(
+        AgentOrder{{}, std::nullopt, PackedPath(instance.grid(), path)}));
+    return Node::root(trees_.back());
+  }
+
+  // Does `change` to a frontier with a node open and one taken, letting each of its allocations
+  // fail in turn; after each failure `holds` must be true. Returns how many failed.
+  template <class Change, class Holds>
+  int fail_everywhere(Change change, Holds holds) {
+    for (int at = 0;; ++at) {
+      Frontier frontier;
+      frontier.push(node(3));
+      const NodePtr taken = frontier.take();
+      frontier.push(node(5));
+      testing::allocations_until_failure = at;
+      try {
+        change(frontier, taken);
+      } catch (const std::bad_alloc&) {
+        testing::allocations_until_failure = -1;
+        EXPECT_TRUE(holds(frontier)) << "failure " << at;
+        frontier.take();  // still usable
+        continue;
+      }
+      testing::allocations_until_failure = -1;
+      return at;
+    }
+  }
+
+  NodePool pool_;
+  std::deque<Tree> trees_;
+};
+
+TEST_F(ScarceFrontier, LosesNothingWhenAPushFails) {
+  const NodePtr more = node(4);
+  const int failures = fail_everywhere(
+      [&](Frontier& frontier, const NodePtr&) { frontier.push(more); },
+      [](const Frontier& frontier) { return frontier.bound() == 3 && frontier.open() == 1; });
+  EXPECT_GT(failures, 0);
+}
+
+TEST_F(ScarceFrontier, LosesNothingWhenTakingFails) {
+  const int failures = fail_everywhere(
+      [](Frontier& frontier, const NodePtr& taken) {
+        frontier.settle(taken);
+        frontier.take();
+      },
+      [](const Frontier& frontier) { return frontier.bound() == 5 && frontier.open() == 1; });
+  EXPECT_GT(failures, 0);
+}
+
+TEST_F(ScarceFrontier, LosesNothingWhenGivingBackFails) {
+  const int failures =
+      fail_everywhere([](Frontier& frontier, const NodePtr& taken) { frontier.give_back(taken); },
+                      [](const Frontier& frontier) { return frontier.bound() == 3; });
+  EXPECT_GT(failures, 0);
+}
+
+TEST_F(ScarceFrontier, KeepsTheBoundWhenBeginningAnewFails) {
+  const std::vector<NodePtr> roots{node(1), node(2), node(6)};
+  const int failures = fail_everywhere(
+      [&](Frontier& frontier, const NodePtr& taken) {
+        frontier.settle(taken);
+        frontier.evict(1);
+        frontier.restart(roots);
+      },
+      [](const Frontier& frontier) { return frontier.bound() == 5; });
+  EXPECT_GT(failures, 0);
+}
+
+}  // namespace
+}  // namespace grove
