@@ -9,7 +9,7 @@
     benchmarks/experiments.py ablation --tasks 30        each technique switched off in turn
 
 Instances come from `grove generate instance` and the scenarios <map>-random-<k>.scen; every plan is
-re-checked with `grove check`. Options after `--` go to `grove solve` as they are. A case whose map
+re-checked with `grove check`. Options after `--` go to `grove solve` as they are; without `--threads` it runs on one. A case whose map
 is not there is left out, which is said. The tables are Markdown; --csv keeps a row per run.
 Exit codes: 0 all ran, 1 some failed or nothing ran, 2 wrong usage.
 """

@@ -21,6 +21,11 @@ std::filesystem::path IncumbentFiles::file(const std::string& prefix, int k) {
   return fmt::format("{}-{}{}", prefix, k, kSuffix);
 }
 
+void IncumbentFiles::remove_old(const std::string& prefix) {
+  std::error_code ignored;
+  for (int k = 1; std::filesystem::remove(file(prefix, k), ignored);) ++k;
+}
+
 bool IncumbentFiles::may_be_file(const std::string& prefix, const std::filesystem::path& path) {
   const std::filesystem::path first = file(prefix, 1);
   const auto folder = [](const std::filesystem::path& of) {

@@ -22,6 +22,8 @@ class IncumbentFiles : public RunObserver {
 
   // The file of the k-th plan, from 1.
   static std::filesystem::path file(const std::string& prefix, int k);
+  // Removes the files that an earlier run with this prefix left.
+  static void remove_old(const std::string& prefix);
   // Could that be one of the files? Such a path must not be anything else in the run.
   static bool may_be_file(const std::string& prefix, const std::filesystem::path& path);
 

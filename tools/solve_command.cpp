@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // grove solve: files in, log and plan file out.
 #include <fmt/format.h>
+#include <sched.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -69,12 +70,19 @@ double physical_memory_gb() {
          static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e9;
 }
 
+// The cores that this process may use.
+int usable_cores() {
+  cpu_set_t cores;
+  if (::sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;
+  return std::max(1, CPU_COUNT(&cores));
+}
+
 struct SolveArguments {
   InstanceArguments instance;
   std::string omega = "0.01";
   double time_limit_s = 180;
   double memory_limit_gb = std::floor(8 * physical_memory_gb()) / 10;
-  std::int64_t threads = std::max(1u, std::thread::hardware_concurrency());
+  std::int64_t threads = usable_cores();
   std::string policy = "auto";
   std::string rtsp = "auto";
   std::int64_t seed = 0;
@@ -115,16 +123,22 @@ CLI::Validator one_of(const std::map<std::string, Value>& table) {
       "");
 }
 
-std::string technique_names() {
+std::string names_of(Techniques techniques) {
   std::string names;
   for (Technique t : all_techniques())
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(t));
+    if (techniques.has(t)) names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(t));
   return names;
 }
 
-std::string check_technique(const std::string& text) {
-  if (parse_technique(text)) return {};
-  return fmt::format("found '{}'; expected one of {}", text, technique_names());
+// A technique that is used by default, or one that is not.
+CLI::Validator technique_of(Techniques known) {
+  return CLI::Validator(
+      [known](const std::string& text) {
+        const auto technique = parse_technique(text);
+        if (technique && known.has(*technique)) return std::string();
+        return fmt::format("found '{}'; expected one of {}", text, names_of(known));
+      },
+      "");
 }
 
 Techniques techniques_of(const SolveArguments& arguments) {
@@ -142,7 +156,9 @@ void add_options(CLI::App& app, SolveArguments& a) {
   app.add_option(
          "--omega", a.omega,
          "how far from optimal the plan may be: cost <= (1 + W) * lower bound. 0 asks for an "
-         "optimal plan, inf for any plan that the first joint task sequence allows")
+         "optimal plan, inf for the first plan found (with --policy fixed: that the first joint "
+         "task "
+         "sequence allows)")
       ->type_name("W|inf")
       ->check(CLI::Validator(check_omega, ""))
       ->capture_default_str();
@@ -154,8 +170,8 @@ void add_options(CLI::App& app, SolveArguments& a) {
              "nodes, whose bound still counts; stop if that does not help. By default 80 % of the "
              "machine's")
       ->type_name("GB");
-  add_integer(app, "--threads", a.threads, {1, 4096},
-              "search on so many threads. By default one for each core")
+  add_integer(app, "--threads", a.threads, {1, 1024},
+              "search on so many threads. By default one for each core that this process may use")
       ->type_name("T");
   app.add_option(
          "--policy", a.policy,
@@ -175,28 +191,31 @@ void add_options(CLI::App& app, SolveArguments& a) {
   add_integer(
       app, "--seed", a.seed, kSeeds,
       "breaks ties among conflicts and guides the search for plans: another seed, another run");
+  const Techniques unusual = Techniques::all().without(Techniques::usual());
   app.add_option("--without", a.without,
                  "do without a technique of the search, for ablation studies; several with commas. "
                  "Techniques change how fast the search is, never what it proves: " +
-                     technique_names())
+                     names_of(Techniques::usual()))
       ->type_name("TECHNIQUE")
       ->delimiter(',')
-      ->check(CLI::Validator(check_technique, ""));
-  app.add_option("--with", a.with,
-                 "use a technique that is not used by default, in the same way: sequence-splits")
+      ->check(technique_of(Techniques::usual()));
+  app.add_option(
+         "--with", a.with,
+         "use a technique that is not used by default, in the same way: " + names_of(unusual))
       ->type_name("TECHNIQUE")
       ->delimiter(',')
-      ->check(CLI::Validator(check_technique, ""));
+      ->check(technique_of(unusual));
   app.add_flag(
       "--deterministic", a.deterministic,
-      "let what happens depend on the work done alone: runs that no limit stops then find the same "
-      "plan and log the same, times and memory aside, whatever the number of threads");
+      "let what happens depend on the work done alone: runs that come near no time or memory limit "
+      "then find the same plan and log the same, times and memory aside, whatever the number of "
+      "threads. (Without it only runs on one thread do.)");
   app.add_option("--start", a.start,
                  "a plan file of this instance: its plan is checked and is the first incumbent")
       ->type_name("PLAN");
   app.add_option("--incumbents", a.incumbents,
                  "write every better plan, as soon as it is found, to PREFIX-1.plan.json, "
-                 "PREFIX-2.plan.json and so on")
+                 "PREFIX-2.plan.json and so on; those of an earlier run are removed")
       ->type_name("PREFIX");
   app.add_option("--output", a.output,
                  "the plan file; by default the instance's name with .plan.json, in this directory")
@@ -246,15 +265,16 @@ void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& a,
                         instance.grid().width(), instance.grid().height(),
                         instance.grid().passable_count()));
   sink.line(fmt::format("Options       {}", options.empty() ? "all defaults" : options));
+  sink.line(fmt::format("Threads       {}{}", a.threads, a.deterministic ? ", deterministic" : ""));
   sink.line();
   sink.line(
-      "First column, since the row before: a better plan (* from the tree, H by priorities, C by");
+      "First column: a better plan (* from the tree, H by priorities, C by configuration search,");
   sink.line(
-      "configuration search, L by large neighbourhood search, S given), B higher bound, T new "
-      "tree.");
+      "L by large neighbourhood search, S given), else a higher bound (B), else a new tree (T).");
   sink.line(
-      "The lower bound holds for every plan: it is the least bound of an open node or of the next "
-      "tree.");
+      "expanded, open: nodes of the search tree done and waiting. No plan costs less than the "
+      "lower");
+  sink.line("bound; incumbent is the cost of the best plan so far.");
   sink.line("gap = (incumbent - lower bound) / lower bound, so it compares with omega directly.");
   sink.line();
 }
@@ -279,6 +299,7 @@ void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
       throw InputError(file.string(), "",
                        fmt::format("--incumbents {} may write over it; expected another prefix",
                                    one_line(a.incumbents)));
+  IncumbentFiles::remove_old(a.incumbents);
   require_writable(IncumbentFiles::file(a.incumbents, 1));
 }
 
@@ -306,6 +327,7 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
   solution.stats.measures["wall_s"] = std::chrono::duration<double>(Clock::now() - start).count();
   solution.stats.measures["peak_memory_mb"] = static_cast<double>(peak_resident_bytes()) / 1e6;
   solution.stats.counts["seed"] = a.seed;
+  solution.stats.counts["threads"] = a.threads;
   solution.stats.texts["instance"] = a.instance.path();
   solution.stats.texts["options"] = options_text(app);
   solution.stats.texts["policy"] = a.policy == "fixed" ? "fixed" : "free";
@@ -315,6 +337,9 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
 void run_solve(const CLI::App& app, SolveArguments& a) {
   const Clock::time_point start = Clock::now();
   stop_on_signals();
+  if (a.policy == "fixed" && !(a.with.empty() && a.without.empty()))
+    throw CLI::ValidationError("--policy fixed",
+                               "uses no techniques; expected neither --with nor --without");
   const LoadedInstance loaded = a.instance.load();
   prepare_outputs(a, loaded);
   SolveOptions options;

@@ -52,7 +52,10 @@ def first_plan_seconds(log):
 
 @dataclasses.dataclass(frozen=True)
 class Grove:
-    """`grove solve` with some options. Every plan is re-checked with `grove check`."""
+    """`grove solve` with some options, on one thread unless they say otherwise.
+
+    Every plan is re-checked with `grove check`.
+    """
 
     program: str
     options: tuple = ()
@@ -62,9 +65,10 @@ class Grove:
         generate, instance = instance_arguments(self.program, maps, case, folder)
         if generate:
             run(generate)
+        threads = () if "--threads" in self.options else ("--threads", 1)
         plan, log = pathlib.Path(folder) / "plan.json", pathlib.Path(folder) / "log.txt"
         run([self.program, "solve", *instance, "--quiet", "--output", plan, "--log", log,
-             "--time-limit", time_limit, *self.options], timeout=time_limit + GRACE_S)
+             "--time-limit", time_limit, *threads, *self.options], timeout=time_limit + GRACE_S)
         result = json.loads(plan.read_text())
         if "cost" in result:
             run([self.program, "check", instance[0], plan, *instance[1:]])

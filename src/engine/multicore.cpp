@@ -20,6 +20,8 @@
 namespace grove {
 namespace {
 
+constexpr int kMostTurnsInARound = 4;
+
 class Crew {
  public:
   Crew(SharedSearch& shared, const Limits& limits) : shared_(shared), limits_(limits) {}
@@ -74,6 +76,32 @@ class Crew {
   std::vector<Worker*> parked_;
 };
 
+// A worker of a deterministic run and its turns of a round.
+struct Lane {
+  Worker* worker;
+  std::vector<Worker::Turn> turns;
+
+  void perform() {
+    for (Worker::Turn& turn : turns) worker->perform(turn);
+  }
+  void commit() {
+    for (Worker::Turn& turn : turns) worker->commit(turn);
+    turns.clear();
+  }
+};
+
+// The turns of a round: some nodes for each lane, the best ones evenly spread, or one step of its
+// primal search. More nodes would be a poorer choice, fewer would leave threads waiting for each
+// other.
+void choose_turns(std::vector<Lane>& lanes) {
+  for (int round = 0; round < kMostTurnsInARound; ++round)
+    for (Lane& lane : lanes) {
+      if (lane.turns.size() != static_cast<std::size_t>(round)) continue;
+      if (round > 0 && lane.turns.back().job != Worker::Turn::Job::kExpand) continue;
+      if (auto turn = lane.worker->choose()) lane.turns.push_back(std::move(*turn));
+    }
+}
+
 }  // namespace
 
 void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
@@ -94,16 +122,16 @@ void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSea
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  std::vector<Worker*> busy;
+  std::vector<Lane> lanes;
+  for (const auto& worker : workers) lanes.push_back({worker.get(), {}});
   arena.execute([&] {
     Tasks tasks;
     while (!shared.over()) {
-      busy.clear();
-      for (const auto& worker : workers)
-        if (worker->choose()) busy.push_back(worker.get());
-      for (Worker* worker : busy) tasks.run([worker] { worker->perform(); });
+      choose_turns(lanes);
+      for (Lane& lane : lanes)
+        if (!lane.turns.empty()) tasks.run([&lane] { lane.perform(); });
       tasks.wait();
-      for (Worker* worker : busy) worker->commit();
+      for (Lane& lane : lanes) lane.commit();
     }
   });
 }

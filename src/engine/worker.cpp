@@ -35,22 +35,17 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
   share_.tree_worked(kRootWorkPerPair * agents * agents);
 }
 
-bool Worker::choose() {
+std::optional<Worker::Turn> Worker::choose() {
+  using Job = Turn::Job;
   shared_.keep_within_memory();
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
-  if (has_primal && share_.may_begin() && share_.due(primal()))
-    job_ = Job::kPrimal;
-  else if ((node_ = shared_.take()))
-    job_ = Job::kExpand;
-  else if ((node_ = shared_.unfinished()) && node_ != helped_)
-    job_ = Job::kHelp;
-  else if (has_primal && !shared_.over() && !primal().optimal())
-    job_ = Job::kPrimal;
-  else if (shared_.claim_preparation())
-    job_ = Job::kPrepare;
-  else
-    return false;
-  return true;
+  if (has_primal && share_.may_begin() && share_.due(primal())) return Turn{Job::kPrimal};
+  if (NodePtr node = shared_.take()) return Turn{Job::kExpand, std::move(node)};
+  if (NodePtr node = shared_.unfinished(); node && node != helped_)
+    return Turn{Job::kHelp, std::move(node)};
+  if (has_primal && !shared_.over() && !primal().optimal()) return Turn{Job::kPrimal};
+  if (shared_.claim_preparation()) return Turn{Job::kPrepare};
+  return std::nullopt;
 }
 
 // The primal search, which knows the incumbent.
@@ -63,49 +58,48 @@ PrimalSearch& Worker::primal() {
   return *primal_;
 }
 
-void Worker::perform() {
-  switch (job_) {
-    case Job::kExpand:
-      return expand();
-    case Job::kHelp:
-      return help();
-    case Job::kPrimal:
-      return step_primal();
-    case Job::kPrepare:
+void Worker::perform(Turn& turn) {
+  switch (turn.job) {
+    case Turn::Job::kExpand:
+      return expand(turn);
+    case Turn::Job::kHelp:
+      return help(turn);
+    case Turn::Job::kPrimal:
+      return step_primal(turn);
+    case Turn::Job::kPrepare:
       return shared_.prepare_tree();
   }
 }
 
-void Worker::expand() {
+void Worker::expand(Turn& turn) {
   const std::int64_t before = work_of(expander_.counts());
-  expansion_ = expander_.expand(node_, shared_.cutoff(), limits_);
-  work_ = work_of(expander_.counts()) - before + node_->cost() / kStepsPerWork + 1;
+  turn.expansion = expander_.expand(turn.node, shared_.cutoff(), limits_);
+  turn.work = work_of(expander_.counts()) - before + turn.node->cost() / kStepsPerWork + 1;
 }
 
-void Worker::help() {
+void Worker::help(Turn& turn) {
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
   const std::int64_t before = work_of(expander_.counts());
-  if (!expander_.help(node_, shared_.cutoff(), share, limits_)) helped_ = node_;
-  work_ = work_of(expander_.counts()) - before + node_->cost() / kStepsPerWork + 1;
+  if (!expander_.help(turn.node, shared_.cutoff(), share, limits_)) helped_ = turn.node;
+  turn.work = work_of(expander_.counts()) - before + turn.node->cost() / kStepsPerWork + 1;
   ++helps_;
 }
 
-void Worker::step_primal() {
+void Worker::step_primal(Turn& turn) {
   const std::int64_t before = primal_->work();
-  plan_ = primal_->step(limits_);
-  work_ = primal_->work() - before;
+  turn.plan = primal_->step(limits_);
+  turn.work = primal_->work() - before;
 }
 
-void Worker::commit() {
-  if (job_ == Job::kPrimal) {
-    if (plan_) shared_.post(*std::exchange(plan_, std::nullopt), primal_->source());
-    share_.primal_worked(*primal_, work_);
-  } else if (job_ != Job::kPrepare) {
+void Worker::commit(Turn& turn) {
+  if (turn.job == Turn::Job::kPrimal) {
+    if (turn.plan) shared_.post(std::move(*turn.plan), primal_->source());
+    share_.primal_worked(*primal_, turn.work);
+  } else if (turn.job != Turn::Job::kPrepare) {
     expander_.publish();
     expander_.turn_to(shared_.memory());
-    const NodePtr node = std::exchange(node_, nullptr);
-    if (job_ == Job::kExpand) shared_.finish(node, std::exchange(expansion_, {}));
-    share_.tree_worked(work_);
+    if (turn.job == Turn::Job::kExpand) shared_.finish(turn.node, std::move(turn.expansion));
+    share_.tree_worked(turn.work);
   }
   shared_.tell(RunEvent::kProgress);
 }

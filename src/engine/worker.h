@@ -20,30 +20,41 @@ class Worker {
   Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
          SharedSearch& shared, int number);
 
+  // What is done at one go, and what became of it.
+  struct Turn {
+    enum class Job : std::uint8_t { kExpand, kHelp, kPrimal, kPrepare };
+    Job job;
+    NodePtr node = nullptr;  // to expand or to help with
+    Expansion expansion = {};
+    std::optional<Plan> plan = std::nullopt;
+    std::int64_t work = 0;
+  };
+
   // Does the best there is to do: expands a node, helps another worker with one, goes on with the
   // primal search for about a millisecond, or prepares the next tree. False: nothing can be done
   // just now.
   bool turn() {
-    if (!choose()) return false;
-    perform();
-    commit();
+    std::optional<Turn> turn = choose();
+    if (!turn) return false;
+    perform(*turn);
+    commit(*turn);
     return true;
   }
 
-  // A turn in three parts, of which perform() only reads what is shared: settles what to do (false:
+  // A turn in three parts, of which perform() only reads what is shared: settles what to do (none:
   // there is nothing), does it, and tells.
-  bool choose();
-  void perform();
-  void commit();
+  std::optional<Turn> choose();
+  void perform(Turn& turn);
+  void commit(Turn& turn);
 
   // Adds what this worker counted to the answer's statistics.
   void add_counts(Stats& stats) const;
 
  private:
   PrimalSearch& primal();
-  void expand();
-  void step_primal();
-  void help();
+  void expand(Turn& turn);
+  void help(Turn& turn);
+  void step_primal(Turn& turn);
 
   const Problem& problem_;
   const SolveOptions& options_;
@@ -54,14 +65,6 @@ class Worker {
   Expander expander_;
   std::unique_ptr<PrimalSearch> primal_;  // made when it is first due
   PrimalShare share_;
-
-  // Of the turn under way.
-  enum class Job { kExpand, kHelp, kPrimal, kPrepare };
-  Job job_ = Job::kExpand;
-  NodePtr node_;  // to expand or to help with
-  Expansion expansion_;
-  std::optional<Plan> plan_;
-  std::int64_t work_ = 0;
   NodePtr helped_;  // the last node that there was nothing left to help with
   std::int64_t helps_ = 0;
 };

@@ -5,7 +5,8 @@
     options_test.py README GROVE
 
 Every option of `grove solve --help` must stand in the table below "## Options of grove solve", and
-every option of that table in the help; so must every technique that `--without` knows. Exit codes: 0 the same, 1 not, 77 no program to ask.
+every option of that table in the help; so must every
+technique that `--without` and `--with` know. Exit codes: 0 the same, 1 not, 77 no program to ask.
 """
 import re
 import subprocess
@@ -33,9 +34,12 @@ def documented_techniques(readme):
 
 
 def offered_techniques(program):
-    refusal = subprocess.run([program, "solve", "--without", "?", "-"], capture_output=True,
-                             text=True, check=False).stderr
-    return set(refusal.split("expected one of ", 1)[1].split(" (", 1)[0].split(", "))
+    names = set()
+    for option in ("--without", "--with"):
+        refusal = subprocess.run([program, "solve", option, "?", "-"], capture_output=True,
+                                 text=True, check=False).stderr
+        names |= set(refusal.split("expected one of ", 1)[1].split(" (", 1)[0].split(", "))
+    return names
 
 
 def main():

@@ -335,7 +335,7 @@ TEST_F(Incumbents, AreRefusedAsAStartUnlessValid) {
   json changed = plan("p.json");
   changed["agents"][1]["path"][0] = {1, 1};
   EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /agents/1/path/0: "));
-  EXPECT_THAT(complaint_about(changed), HasSubstr("expected a valid plan for this instance"));
+  EXPECT_THAT(complaint_about(changed), HasSubstr("not a plan of this instance"));
   changed = plan("p.json");
   changed["cost"] = plan("p.json")["cost"].get<int>() - 1;
   EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /cost: "));
