@@ -46,4 +46,19 @@ void PackedSteps::unpack(const Grid& grid, Cell start, Path& path) const {
   }
 }
 
+bool PackedSteps::is_walk(const Grid& grid, Cell start) const {
+  const auto moves = offsets(grid);
+  Cell cell = start;
+  for (std::uint32_t step = 0; step < steps; ++step) {
+    const std::uint64_t code =
+        words[step / kMovesPerWord] >> (step % kMovesPerWord * kBitsPerMove) & 7;
+    if (code >= moves.size()) return false;
+    const Cell next = cell + moves[code];
+    const auto neighbors = grid.neighbors(cell);
+    if (next != cell && std::ranges::find(neighbors, next) == neighbors.end()) return false;
+    cell = next;
+  }
+  return true;
+}
+
 }  // namespace grove

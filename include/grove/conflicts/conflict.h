@@ -30,6 +30,7 @@ struct Conflict {
 struct AgentConstraint {
   AgentIndex agent = -1;
   Constraint constraint;
+  friend bool operator==(const AgentConstraint&, const AgentConstraint&) = default;
 };
 
 // What `added`, a constraint of a constraint-tree node, demands of `agent`; none if nothing. A

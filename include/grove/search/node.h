@@ -103,6 +103,21 @@ class Node {
   bool is_bounded() const { return bounded_; }
   const Tree& tree() const { return *tree_; }
   bool is_root() const { return !parent_; }
+  // Null at a root.
+  const Node* parent() const { return parent_.get(); }
+  // What it demands beyond its parent; agent -1: nothing.
+  const AgentConstraint& added() const { return added_; }
+  // Calls visit(agent, packed steps) for each path that is not its parent's. The steps are valid as
+  // long as the node is.
+  template <class Visit>
+  void for_each_path(Visit visit) const {
+    const auto* word = reinterpret_cast<const std::uint64_t*>(this + 1);
+    for (std::uint32_t i = 0; i < path_count_; ++i) {
+      const auto head = std::bit_cast<PathHead>(*word++);
+      visit(head.agent, PackedSteps{head.steps, word});
+      word += packed_words(head.steps);
+    }
+  }
 
   // The paths at this node of all agents, or of some (the others' are left empty); `paths` is
   // resized to the number of agents. O(depth + total length).
@@ -135,16 +150,6 @@ class Node {
 
   static std::size_t bytes(std::span<const NewPath> paths);
   std::size_t bytes() const;
-  // Calls visit(agent, packed steps) for each path that changed.
-  template <class Visit>
-  void for_each_path(Visit visit) const {
-    const auto* word = reinterpret_cast<const std::uint64_t*>(this + 1);
-    for (std::uint32_t i = 0; i < path_count_; ++i) {
-      const auto head = std::bit_cast<PathHead>(*word++);
-      visit(head.agent, PackedSteps{head.steps, word});
-      word += packed_words(head.steps);
-    }
-  }
   static void release(const Node* node);
 
   mutable std::atomic<std::uint32_t> references_{0};

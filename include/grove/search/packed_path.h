@@ -21,6 +21,9 @@ struct PackedSteps {
   Time cost() const { return static_cast<Time>(steps); }
   // Overwrites `path`, which keeps its capacity.
   void unpack(const Grid& grid, Cell start, Path& path) const;
+  // Is it one: a walk on passable cells? What was packed by pack() is; what came from elsewhere
+  // must be asked before it is unpacked.
+  bool is_walk(const Grid& grid, Cell start) const;
 };
 
 // How many words a path of so many steps takes.

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// A constraint-tree node without its ancestors, to be kept or sent elsewhere.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grove/search/node.h"
+
+namespace grove {
+
+// All that a node demands and is, beside its tree. A value.
+struct NodeRecord {
+  struct Walk {
+    AgentIndex agent = -1;
+    std::uint32_t steps = 0;
+    std::vector<std::uint64_t> words;  // see packed_path.h
+    friend bool operator==(const Walk&, const Walk&) = default;
+  };
+
+  std::vector<AgentConstraint> constraints;  // in the order in which they were made
+  std::vector<Walk> paths;                   // those that are not the tree's, by agent
+  Cost cost = 0;
+  Cost bound = 0;
+  std::uint32_t conflicts = 0;
+  bool bounded = false;
+  friend bool operator==(const NodeRecord&, const NodeRecord&) = default;
+};
+
+// O(depth + length of the paths).
+NodeRecord record_of(const Node& node);
+
+// The node again, below the root of a tree that fixes the same. Ancestors are made for it that have
+// its constraints and nothing else. Throws std::invalid_argument for a record that cannot be of
+// this instance: an agent that is not there, a path that is none, a bound below the root's.
+NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& instance);
+
+}  // namespace grove

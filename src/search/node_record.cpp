@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/node_record.h"
+
+#include <algorithm>
+#include <ranges>
+#include <stdexcept>
+
+namespace grove {
+namespace {
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+void check(const NodeRecord& record, const Node& root, const Instance& instance) {
+  const auto is_agent = [&](AgentIndex agent) {
+    return agent >= 0 && agent < instance.agent_count();
+  };
+  const auto on_grid = [&](Cell cell) { return cell >= 0 && cell < instance.grid().cell_count(); };
+  for (const AgentConstraint& c : record.constraints)
+    require(is_agent(c.agent) && on_grid(c.constraint.cell),
+            "a node's constraint must be on an agent and a cell of the instance");
+  for (const NodeRecord::Walk& walk : record.paths) {
+    require(is_agent(walk.agent) && walk.words.size() == packed_words(walk.steps),
+            "a node's path must be of an agent of the instance");
+    const PackedSteps steps{walk.steps, walk.words.data()};
+    require(steps.is_walk(instance.grid(), instance.agent(walk.agent).start),
+            "a node's path must be a walk on the map");
+  }
+  require(record.bound >= root.bound() && record.bound >= record.cost,
+          "a node's bound must not be below its root's or its cost");
+}
+
+}  // namespace
+
+NodeRecord record_of(const Node& node) {
+  NodeRecord record;
+  record.cost = node.cost();
+  record.bound = node.bound();
+  record.conflicts = node.conflicts();
+  record.bounded = node.is_bounded();
+  for (const Node* at = &node; !at->is_root(); at = at->parent()) {
+    if (at->added().agent >= 0) record.constraints.push_back(at->added());
+    at->for_each_path([&](AgentIndex agent, const PackedSteps& path) {
+      if (std::ranges::count(record.paths, agent, &NodeRecord::Walk::agent) > 0) return;
+      record.paths.push_back(
+          {agent, path.steps, {path.words, path.words + packed_words(path.steps)}});
+    });
+  }
+  std::ranges::reverse(record.constraints);
+  std::ranges::sort(record.paths, {}, &NodeRecord::Walk::agent);
+  return record;
+}
+
+NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& instance) {
+  check(record, *root, instance);
+  NodePtr node = root;
+  for (const AgentConstraint& constraint : record.constraints) {
+    Change change;
+    change.added = constraint;
+    node = Node::child(node, instance.grid(), change);
+  }
+  std::vector<Path> paths(record.paths.size());
+  std::vector<NewPath> changed;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const NodeRecord::Walk& walk = record.paths[i];
+    PackedSteps{walk.steps, walk.words.data()}.unpack(instance.grid(),
+                                                      instance.agent(walk.agent).start, paths[i]);
+    changed.push_back({walk.agent, &paths[i]});
+  }
+  Change change;
+  change.paths = changed;
+  change.cost = record.cost;
+  change.bound = record.bound;
+  change.conflicts = record.conflicts;
+  change.bounded = record.bounded;
+  return Node::child(node, instance.grid(), change);
+}
+
+}  // namespace grove

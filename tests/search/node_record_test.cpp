@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/node_record.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "grove/search/expander.h"
+#include "grove/search/single_tree.h"
+#include "tests/primal/crowd.h"
+
+namespace grove {
+namespace {
+
+// Nodes of a real search, some levels deep.
+class NodeRecords : public ::testing::Test {
+ protected:
+  NodeRecords() {
+    std::vector<NodePtr> open{root_};
+    for (std::size_t i = 0; i < open.size() && open.size() < 200; ++i) {
+      const Expansion expansion = expander_.expand(open[i], kInfiniteCost, limits_);
+      open.insert(open.end(), expansion.children.begin(), expansion.children.end());
+    }
+    nodes_.assign(open.begin() + 1, open.end());
+  }
+
+  Limits limits_;
+  Instance instance_ =
+      testing::random_crowd({.size = 10, .obstacles = 25, .agents = 12, .tasks = 12}, 5);
+  Problem problem_{instance_, limits_};
+  AgentStopsStore stops_{instance_, problem_.distances};
+  NodePool pool_;
+  SingleTree forest_{problem_, stops_, pool_, limits_};
+  NodePtr root_ = forest_.next_root();
+  Expander expander_{problem_, stops_, Techniques::all(), 0};
+  std::vector<NodePtr> nodes_;
+};
+
+TEST_F(NodeRecords, MakeTheNodeAgain) {
+  ASSERT_GT(nodes_.size(), 50u);
+  for (const NodePtr& node : nodes_) {
+    const NodeRecord record = record_of(*node);
+    const NodePtr again = node_of(record, root_, instance_);
+    EXPECT_EQ(record_of(*again), record);
+    EXPECT_EQ(again->bound(), node->bound());
+    EXPECT_EQ(again->cost(), node->cost());
+    EXPECT_EQ(again->conflicts(), node->conflicts());
+    EXPECT_EQ(again->is_bounded(), node->is_bounded());
+    std::vector<Path> paths;
+    std::vector<Path> paths_again;
+    node->paths(problem_, paths);
+    again->paths(problem_, paths_again);
+    EXPECT_EQ(paths_again, paths);
+    std::vector<std::vector<Constraint>> constraints;
+    std::vector<std::vector<Constraint>> constraints_again;
+    node->constraints(constraints);
+    again->constraints(constraints_again);
+    EXPECT_EQ(constraints_again, constraints);
+  }
+}
+
+TEST_F(NodeRecords, OfAnotherInstanceAreRefused) {
+  const NodeRecord record = record_of(*nodes_.back());
+  ASSERT_FALSE(record.paths.empty());
+  ASSERT_FALSE(record.constraints.empty());
+  const auto refused = [&](auto spoil) {
+    NodeRecord spoilt = record;
+    spoil(spoilt);
+    EXPECT_THROW(node_of(spoilt, root_, instance_), std::invalid_argument);
+  };
+  refused([](NodeRecord& r) { r.constraints[0].agent = 99; });
+  refused([](NodeRecord& r) { r.constraints[0].constraint.cell = 10'000; });
+  refused([](NodeRecord& r) { r.paths[0].agent = -1; });
+  refused([](NodeRecord& r) { r.paths[0].steps += 100; });
+  refused([](NodeRecord& r) { r.paths[0].words[0] = ~std::uint64_t{0}; });
+  refused([](NodeRecord& r) { r.bound = 0; });
+  refused([](NodeRecord& r) { r.cost = r.bound + 1; });
+}
+
+// Any other walk than the one packed: every move to the left, through whatever is there.
+TEST_F(NodeRecords, OfPathsThroughWallsAreRefused) {
+  NodeRecord record = record_of(*nodes_.back());
+  record.paths[0].steps = 21;
+  record.paths[0].words.assign(1, 0x36DB6DB6DB6DB6DB & 0x7FFFFFFFFFFFFFFF);
+  EXPECT_THROW(node_of(record, root_, instance_), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace grove
