@@ -97,10 +97,11 @@ NodePtr SharedSearch::take() {
   return take_open();
 }
 
-// Algorithm 4.
+// Algorithm 4, where there is a tree left.
 bool SharedSearch::needs_tree() const {
   const Cost last = last_tree_cost_;
-  return gate_.needs_new_tree(frontier_.bound(),
+  return next_tree_bound_ < kInfiniteCost &&
+         gate_.needs_new_tree(frontier_.bound(),
                               last == kNoTree ? std::nullopt : std::optional(last));
 }
 

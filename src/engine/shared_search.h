@@ -35,6 +35,8 @@ class SharedSearch {
 
   // Before all else, from one thread: the plan to start from.
   void begin();
+  // What the first tree found out about the agents' stops, for workers to begin with.
+  const AgentStopsStore& stops() const { return stops_; }
   // Is there nothing left to do, or no time to do it?
   bool over() const;
 

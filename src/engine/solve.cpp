@@ -25,10 +25,10 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   const int lanes = options.deterministic ? kDeterministicLanes : options.threads;
   SharedSearch shared(problem, options, limits, observer);
   std::vector<std::unique_ptr<Worker>> workers;
-  for (int number = 0; number < lanes; ++number)
-    workers.push_back(std::make_unique<Worker>(problem, options, limits, shared, number));
   try {
     shared.begin();
+    for (int number = 0; number < lanes; ++number)
+      workers.push_back(std::make_unique<Worker>(problem, options, limits, shared, number));
     if (options.deterministic)
       solve_in_rounds(workers, shared, options.threads);
     else if (lanes > 1)

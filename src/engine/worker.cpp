@@ -27,7 +27,7 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
       limits_(limits),
       shared_(shared),
       number_(number),
-      stops_(problem.instance, problem.distances),
+      stops_(shared.stops()),
       expander_(problem, stops_, techniques_of(options), options.seed, shared.memory()),
       share_(problem.instance.agent_count()) {
   // To expand the root can take long where there are many pairs of agents.

@@ -61,10 +61,10 @@ StopSet checked_set(const Sequence& prefix, StopSet all) {
 AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent)
     : start_(instance.agent(agent).start),
       destination_(instance.agent(agent).goal),
-      stop_at_(instance.grid().cell_count(), kNoStop),
       completions_(cost_matrix(instance, agent, distances)) {
+  std::vector<std::int8_t> stop_at(instance.grid().cell_count(), kNoStop);
   for (TaskIndex task : instance.agent(agent).tasks) {
-    stop_at_[instance.task(task).cell] = static_cast<std::int8_t>(cells_.size());
+    stop_at[instance.task(task).cell] = static_cast<std::int8_t>(cells_.size());
     cells_.push_back(instance.task(task).cell);
   }
   if (destination_)
@@ -72,12 +72,14 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
   else if (cells_.empty())
     throw std::invalid_argument("an agent without a destination needs a task");
 
-  distances_.resize(stop_at_.size() * cells_.size());
+  std::vector<Time> to_stops(stop_at.size() * cells_.size());
   for (std::size_t stop = 0; stop < cells_.size(); ++stop) {
     const DistanceField& field = distances.to(cells_[stop]);
     for (std::size_t cell = 0; cell < field.size(); ++cell)
-      distances_[cell * cells_.size() + stop] = field[cell];
+      to_stops[cell * cells_.size() + stop] = field[cell];
   }
+  stop_at_ = std::make_shared<const std::vector<std::int8_t>>(std::move(stop_at));
+  distances_ = std::make_shared<const std::vector<Time>>(std::move(to_stops));
 }
 
 FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work)

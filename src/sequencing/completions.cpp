@@ -14,18 +14,23 @@
 
 namespace grove {
 
+// Immutable, so that any number of Completions may share one.
 class Completions::Store {
  public:
-  explicit Store(CostMatrix matrix) : matrix_(std::move(matrix)) {}
+  explicit Store(std::shared_ptr<const CostMatrix> matrix) : matrix_(std::move(matrix)) {}
   virtual ~Store() = default;
 
-  const CostMatrix& matrix() const { return matrix_; }
+  const CostMatrix& matrix() const { return *matrix_; }
   virtual Time beyond() const = 0;
   virtual Time completion(StopSet left, int stop) const = 0;
-  virtual bool widen(Time reach, const Limits& limits) = 0;
+  // One with a beyond() > reach; null when a limit struck. Only if this has not.
+  virtual std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const = 0;
+
+ protected:
+  const std::shared_ptr<const CostMatrix>& shared_matrix() const { return matrix_; }
 
  private:
-  CostMatrix matrix_;
+  std::shared_ptr<const CostMatrix> matrix_;
 };
 
 template <class Entry>
@@ -37,8 +42,9 @@ class Completions::Table : public Store {
   Time completion(StopSet left, int stop) const override {
     return table_.built() ? table_.completion(left, stop) : kNever;
   }
-  bool widen(Time, const Limits& limits) override {
-    return table_.built() || table_.build(matrix(), limits);
+  std::shared_ptr<const Store> widened(Time, const Limits& limits) const override {
+    auto built = std::make_shared<Table>(this->shared_matrix());
+    return built->table_.build(matrix(), limits) ? built : nullptr;
   }
 
  private:
@@ -47,37 +53,35 @@ class Completions::Table : public Store {
 
 class Completions::Graph : public Store {
  public:
-  explicit Graph(CostMatrix matrix)
-      : Store(std::move(matrix)), relaxation_(this->matrix()), dag_(relaxation_.root_bound()) {}
+  explicit Graph(std::shared_ptr<const CostMatrix> matrix)
+      : Store(std::move(matrix)),
+        relaxation_(std::make_shared<const PathRelaxation>(this->matrix())),
+        dag_(relaxation_->root_bound()) {}
+  Graph(const Graph& narrower, SequenceDag dag)
+      : Store(narrower.shared_matrix()), relaxation_(narrower.relaxation_), dag_(std::move(dag)) {}
 
   Time beyond() const override { return dag_.beyond(); }
   Time completion(StopSet left, int stop) const override { return dag_.completion(left, stop); }
-  bool widen(Time reach, const Limits& limits) override {
-    if (dag_.beyond() > reach) return true;
+  std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const override {
     auto wider =
-        SequenceDag::build(matrix(), relaxation_, std::max(reach, dag_.next_reach()), limits);
-    if (!wider) return false;
-    dag_ = std::move(*wider);
-    return true;
+        SequenceDag::build(matrix(), *relaxation_, std::max(reach, dag_.next_reach()), limits);
+    return wider ? std::make_shared<Graph>(*this, std::move(*wider)) : nullptr;
   }
 
  private:
-  PathRelaxation relaxation_;
+  std::shared_ptr<const PathRelaxation> relaxation_;
   SequenceDag dag_;
 };
 
 Completions::Completions(CostMatrix matrix) {
-  if (matrix.stops() > kTableStops)
-    store_ = std::make_unique<Graph>(std::move(matrix));
-  else if (fits_narrow_table(matrix))
-    store_ = std::make_unique<Table<std::int16_t>>(std::move(matrix));
+  auto shared = std::make_shared<const CostMatrix>(std::move(matrix));
+  if (shared->stops() > kTableStops)
+    store_ = std::make_shared<Graph>(std::move(shared));
+  else if (fits_narrow_table(*shared))
+    store_ = std::make_shared<Table<std::int16_t>>(std::move(shared));
   else
-    store_ = std::make_unique<Table<std::int32_t>>(std::move(matrix));
+    store_ = std::make_shared<Table<std::int32_t>>(std::move(shared));
 }
-
-Completions::~Completions() = default;
-Completions::Completions(Completions&&) noexcept = default;
-Completions& Completions::operator=(Completions&&) noexcept = default;
 
 const CostMatrix& Completions::matrix() const {
   return store_->matrix();
@@ -92,7 +96,11 @@ Time Completions::completion(StopSet left, int stop) const {
 }
 
 bool Completions::widen(Time reach, const Limits& limits) {
-  return store_->widen(reach, limits);
+  if (beyond() > reach) return true;
+  auto wider = store_->widened(reach, limits);
+  if (!wider) return false;
+  store_ = std::move(wider);
+  return true;
 }
 
 }  // namespace grove

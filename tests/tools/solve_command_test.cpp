@@ -293,8 +293,9 @@ class Incumbents : public SolveCommand {
 };
 
 TEST_F(Incumbents, AreFilesThatTheCheckerAccepts) {
-  const ProcessResult solved = solve({"doors.json", "--omega", "0", "--time-limit", "1",
-                                      "--incumbents", "best", "--output", "p.json"});
+  const ProcessResult solved =
+      solve({"doors.json", "--omega", "0", "--time-limit", "1", "--threads", "1", "--incumbents",
+             "best", "--output", "p.json"});
   ASSERT_EQ(solved.exit_code, 0) << solved.err;
   int k = 1;
   for (std::int64_t last = kInfiniteCost; exists(fmt::format("best-{}.plan.json", k)); ++k) {

@@ -18,6 +18,13 @@ class AgentStopsStore {
   AgentStopsStore(const Instance& instance, const DistanceFields& distances)
       : instance_(instance), distances_(distances), stops_(instance.agent_count()) {}
 
+  // The same for another thread: shares what `other` knows by now.
+  AgentStopsStore(const AgentStopsStore& other)
+      : instance_(other.instance_), distances_(other.distances_), stops_(other.stops_.size()) {
+    for (std::size_t agent = 0; agent < stops_.size(); ++agent)
+      if (other.stops_[agent]) stops_[agent] = std::make_unique<AgentStops>(*other.stops_[agent]);
+  }
+
   AgentStops& of(AgentIndex agent) {
     auto& stops = stops_[agent];
     if (!stops) stops = std::make_unique<AgentStops>(instance_, distances_, agent);

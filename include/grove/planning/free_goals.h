@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,7 +17,8 @@
 
 namespace grove {
 
-// One agent's stops, with all that does not depend on the class: shared by its FreeGoals.
+// One agent's stops, with all that does not depend on the class: shared by its FreeGoals. Copies
+// share what does not change; a copy may go to another thread.
 class AgentStops {
  public:
   static constexpr int kNoStop = -1;
@@ -30,12 +32,12 @@ class AgentStops {
   std::optional<Cell> destination() const { return destination_; }
   Cell cell(int stop) const { return cells_[stop]; }
   // The stop on this cell; kNoStop: none.
-  int stop_at(Cell cell) const { return stop_at_[cell]; }
+  int stop_at(Cell cell) const { return (*stop_at_)[cell]; }
   StopSet all() const { return completions_.matrix().all(); }
 
   // From a cell to each stop: count() distances in a row.
   const Time* distances_from(Cell cell) const {
-    return distances_.data() + static_cast<std::size_t>(cell) * cells_.size();
+    return distances_->data() + static_cast<std::size_t>(cell) * cells_.size();
   }
   // From a cell to the destination, which there must be.
   Time to_destination(Cell cell) const { return (*to_destination_)[cell]; }
@@ -47,8 +49,8 @@ class AgentStops {
   Cell start_;
   std::optional<Cell> destination_;
   std::vector<Cell> cells_;
-  std::vector<std::int8_t> stop_at_;  // by cell
-  std::vector<Time> distances_;       // by cell, then stop
+  std::shared_ptr<const std::vector<std::int8_t>> stop_at_;  // by cell
+  std::shared_ptr<const std::vector<Time>> distances_;       // by cell, then stop
   const DistanceField* to_destination_ = nullptr;
   Completions completions_;
 };

@@ -11,14 +11,11 @@ namespace grove {
 
 // Exact costs to go of one agent, for every sequence cheaper than beyond(). A table of all states
 // where that is small, else a sequence graph that grows on demand. At first there is nothing:
-// widen(). Any number of threads may read one that nobody widens.
+// widen(). Any number of threads may read one that nobody widens. Copies share what is known, and
+// each is widened for itself: a copy may go to another thread.
 class Completions {
  public:
   explicit Completions(CostMatrix matrix);
-  ~Completions();
-  Completions(Completions&&) noexcept;
-  Completions& operator=(Completions&&) noexcept;
-
   const CostMatrix& matrix() const;
 
   // Proven: a sequence with a state outside costs at least this. kNever: there is none such.
@@ -36,7 +33,7 @@ class Completions {
   class Graph;
   template <class Entry>
   class Table;
-  std::unique_ptr<Store> store_;
+  std::shared_ptr<const Store> store_;
 };
 
 }  // namespace grove
