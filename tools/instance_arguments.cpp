@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "grove/io/input_error.h"
 #include "options.h"
 
 namespace grove {
@@ -29,6 +30,9 @@ LoadedInstance InstanceArguments::read() const {
   const bool is_scenario = path_.ends_with(".scen");
   if (!is_scenario && (!map_.empty() || agents_ > 0))
     throw CLI::ValidationError("--map, --agents", "expected only with a .scen file");
+  if (path_.ends_with(".map"))
+    throw InputError(
+        path_, "", "a map; expected an instance, FILE.cts.json, which names its map, or FILE.scen");
   if (!is_scenario) return read_instance(path_);
   if (map_.empty()) throw CLI::ValidationError("--map", "required with a .scen file");
   if (agents_ == 0) throw CLI::ValidationError("--agents", "required with a .scen file");

@@ -37,14 +37,17 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
 
 std::optional<Worker::Turn> Worker::choose() {
   using Job = Turn::Job;
+  const auto one = [](Job job, NodePtr node = nullptr) {
+    return std::optional<Turn>(std::in_place, job, std::move(node));
+  };
   shared_.keep_within_memory();
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
-  if (has_primal && share_.may_begin() && share_.due(primal())) return Turn{Job::kPrimal};
-  if (NodePtr node = shared_.take()) return Turn{Job::kExpand, std::move(node)};
+  if (has_primal && share_.may_begin() && share_.due(primal())) return one(Job::kPrimal);
+  if (NodePtr node = shared_.take()) return one(Job::kExpand, std::move(node));
   if (NodePtr node = shared_.unfinished(); node && node != helped_)
-    return Turn{Job::kHelp, std::move(node)};
-  if (has_primal && !shared_.over() && !primal().optimal()) return Turn{Job::kPrimal};
-  if (shared_.claim_preparation()) return Turn{Job::kPrepare};
+    return one(Job::kHelp, std::move(node));
+  if (has_primal && !shared_.over() && !primal().optimal()) return one(Job::kPrimal);
+  if (shared_.claim_preparation()) return one(Job::kPrepare);
   return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "grove/engine/solve.h"
 #include "grove/primal/primal_search.h"
@@ -23,10 +24,13 @@ class Worker {
   // What is done at one go, and what became of it.
   struct Turn {
     enum class Job : std::uint8_t { kExpand, kHelp, kPrimal, kPrepare };
+    explicit Turn(Job the_job, NodePtr the_node = nullptr)
+        : job(the_job), node(std::move(the_node)) {}
+
     Job job;
-    NodePtr node = nullptr;  // to expand or to help with
-    Expansion expansion = {};
-    std::optional<Plan> plan = std::nullopt;
+    NodePtr node;  // to expand or to help with
+    Expansion expansion;
+    std::optional<Plan> plan;
     std::int64_t work = 0;
   };
 
