@@ -318,12 +318,12 @@ TEST_F(Incumbents, AreFilesThatTheCheckerAccepts) {
 }
 
 TEST_F(Incumbents, AreMarkedInTheLogByWhereTheyCameFrom) {
-  const ProcessResult solved =
-      solve({"doors.json", "--omega", "0", "--time-limit", "0.5", "--output", "p.json"});
+  const ProcessResult solved = solve({"doors.json", "--omega", "0", "--threads", "1",
+                                      "--time-limit", "0.5", "--output", "p.json"});
   EXPECT_THAT(solved.out, HasSubstr("\nH  "));
   EXPECT_THAT(solved.out, HasSubstr("\nL  "));
   EXPECT_GT(plan("p.json")["stats"]["primal_neighborhoods"], 0);
-  EXPECT_THAT(solve({data("first.cts.json")}).out, HasSubstr("\n*  "));
+  EXPECT_THAT(solve({data("first.cts.json"), "--threads", "1"}).out, HasSubstr("\n*  "));
   EXPECT_THAT(solve({"doors.json", "--time-limit", "0.5", "--start", "p.json"}).out,
               HasSubstr("\nS  "));
 }
