@@ -4,7 +4,8 @@
 //
 // No work is overlooked: a worker parks under the lock under which it saw that no node was open,
 // and a node is pushed before that lock is taken to look for who is parked. So either the parking
-// worker sees the node or the pushing one sees the worker.
+// worker sees the node or the pushing one sees the worker. And nobody parks while no node is live:
+// then the next tree is due, or the run is over, and somebody must find out.
 #include "multicore.h"
 
 #include <oneapi/tbb/global_control.h>

@@ -9,14 +9,9 @@
 namespace grove {
 namespace {
 
-constexpr std::int64_t kRootWorkPerPair = 8;  // of agents
-constexpr std::int64_t kWorkPerCall = 16;  // in labels: what a call of the low level costs beside
+constexpr std::int64_t kRootWorkPerPair = 8;   // of agents
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 constexpr std::int64_t kStepsPerWork = 4;      // of the paths of a node that is looked through
-
-std::int64_t work_of(const ExpansionCounts& counts) {
-  return counts.low_level_expanded + kWorkPerCall * counts.low_level_calls;
-}
 
 }  // namespace
 
@@ -75,16 +70,16 @@ void Worker::perform(Turn& turn) {
 }
 
 void Worker::expand(Turn& turn) {
-  const std::int64_t before = work_of(expander_.counts());
+  const std::int64_t before = expander_.work();
   turn.expansion = expander_.expand(turn.node, shared_.cutoff(), limits_);
-  turn.work = work_of(expander_.counts()) - before + turn.node->cost() / kStepsPerWork + 1;
+  turn.work = expander_.work() - before + turn.node->cost() / kStepsPerWork + 1;
 }
 
 void Worker::help(Turn& turn) {
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
-  const std::int64_t before = work_of(expander_.counts());
+  const std::int64_t before = expander_.work();
   if (!expander_.help(turn.node, shared_.cutoff(), share, limits_)) helped_ = turn.node;
-  turn.work = work_of(expander_.counts()) - before + turn.node->cost() / kStepsPerWork + 1;
+  turn.work = expander_.work() - before + turn.node->cost() / kStepsPerWork + 1;
   ++helps_;
 }
 

@@ -72,8 +72,8 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, Brancher& vi
   if (slack < 0) return Outcome::kDone;
   look_at(view);
   // What had to be forgotten once may be again: then nothing is left for later.
-  give_up_at_ =
-      memory_.has_forgotten() ? std::numeric_limits<std::int64_t>::max() : work() + kMostWorkAtOnce;
+  give_up_at_ = memory_.has_forgotten() ? std::numeric_limits<std::int64_t>::max()
+                                        : planner_.work() + kMostWorkAtOnce;
   Outcome outcome = solve_conflicting(node, view, slack, 0, limits);
   if (outcome == Outcome::kDone && techniques_.has(Technique::kClusters))
     outcome = solve_groups(node, view, slack, limits);
@@ -91,10 +91,10 @@ bool Dependencies::help(const NodePtr& node, Brancher& view, Cost cutoff, double
   const Cost slack = cutoff - node->cost() - 1;
   if (slack < 0) return false;
   look_at(view);
-  const std::int64_t before = work();
+  const std::int64_t before = planner_.work();
   give_up_at_ = before + kMostWorkAtOnce;
   solve_conflicting(node, view, slack, share, limits);
-  return work() > before;
+  return planner_.work() > before;
 }
 
 void Dependencies::look_at(Brancher& view) {
@@ -114,7 +114,7 @@ Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, Branc
   for (const auto& [a, b] : pairs) {
     Known known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
-    if (work() >= give_up_at_) return Outcome::kUnfinished;
+    if (planner_.work() >= give_up_at_) return Outcome::kUnfinished;
     if (techniques_.has(Technique::kJointPaths) && known.excess == 0) {
       const auto dependence = compare(view, a, b, limits);
       if (!dependence) return Outcome::kStopped;
@@ -156,7 +156,7 @@ Dependencies::Outcome Dependencies::solve_groups(const NodePtr& node, Brancher& 
     const auto situations = key(group);
     Known known = memory_.of_group(situations);
     if (known.exact || known.expansions > 0) continue;
-    if (work() >= give_up_at_) return Outcome::kUnfinished;
+    if (planner_.work() >= give_up_at_) return Outcome::kUnfinished;
     if (!solve(node, group, slack, kExpansionsPerGroup, limits, known)) return Outcome::kStopped;
     memory_.learn_group(group, situations, known);
   }

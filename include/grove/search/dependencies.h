@@ -71,11 +71,6 @@ class Dependencies {
              std::int32_t most_expansions, const Limits& limits, Known& known);
   void collect(std::vector<GroupExcess>& statements);
 
-  // Labels and calls of the low level that this thread has paid for so far.
-  std::int64_t work() const { return planner_.expanded() + kWorkPerCall * planner_.calls(); }
-
-  static constexpr std::int64_t kWorkPerCall = 16;  // in labels
-
   const Instance& instance_;
   const PathPlanner& planner_;
   const int agents_;
@@ -89,7 +84,7 @@ class Dependencies {
   std::vector<Excesses::Partner> partners_;
   std::vector<std::vector<AgentIndex>> groups_;
   std::int64_t expansions_ = 0;
-  std::int64_t give_up_at_ = 0;  // of work()
+  std::int64_t give_up_at_ = 0;  // of the planner's work
 };
 
 }  // namespace grove

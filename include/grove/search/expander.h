@@ -58,6 +58,8 @@ class Expander {
   bool help(const NodePtr& node, Cost cutoff, double share, const Limits& limits);
 
   ExpansionCounts counts() const;
+  // All that the low level has done so far, in units of about one label.
+  std::int64_t work() const { return planner_.work(); }
 
   // What was found out since the last publication is known to this expander only.
   void publish() { memory_.publish(); }

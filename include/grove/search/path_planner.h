@@ -48,9 +48,13 @@ class PathPlanner {
   // Calls of find(), and labels expanded by them, so far.
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return fixed_.expanded() + free_.expanded(); }
+  // Both in units of about one label.
+  std::int64_t work() const { return expanded() + kWorkPerCall * calls_; }
 
  private:
   using Constraints = std::span<const Constraint>;
+
+  static constexpr std::int64_t kWorkPerCall = 16;  // what a call costs beside its labels
 
   FreeGoals& free_goals(AgentIndex agent, const AgentOrder& order, Constraints constraints);
   FreeGoals& free_goals(AgentIndex agent, const SequenceClass& work);

@@ -21,12 +21,12 @@ enum class Technique : std::uint8_t {
   kFewestConflicts,  // of equally cheap paths take one with the fewest conflicts
   kTarget,           // split on when an agent comes to rest
   kTraversal,        // split on which of two agents passes a corridor
-  kSequenceSplits,   // split on an agent's next stop, where no conflict raises a bound; not usual
-  kDependencies,     // bound from pairs of agents that cannot both have their best paths
-  kJointPaths,       // see such pairs in their optimal paths, without a search
-  kCostSplits,       // split on which of two such agents costs more
-  kClusters,         // the same for groups that conflict though no pair of them must cost more
-  kEstimates,        // with w > 0, while there is no plan: every other node by what it promises
+  kSequenceSplits,  // split on an agent's next stop, where no conflict raises both sides; not usual
+  kDependencies,    // bound from pairs of agents that cannot both have their best paths
+  kJointPaths,      // see such pairs in their optimal paths, without a search
+  kCostSplits,      // split on which of two such agents costs more
+  kClusters,        // the same for groups that conflict though no pair of them must cost more
+  kEstimates,       // with w > 0, while there is no plan: every other node by what it promises
 };
 
 // A set of techniques; a value.
