@@ -134,41 +134,56 @@ TEST(ObeysAll, ReadsOrdersOffAPath) {
   EXPECT_TRUE(obeys_all(instance, 0, SequenceClass({}, 1), {}, back));
 }
 
-TEST(PlantedOptimum, SurvivesWholeSearches) {
-  std::size_t followed = 0;
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+// Solves the cases of so many seeds that have a plan, with the options that `choose` makes of each,
+// and shows `look` every answer with the optimum that was followed.
+template <class Choose, class Look>
+void follow_optima(std::uint64_t seeds, std::chrono::milliseconds patience, Choose choose,
+                   Look look) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const FuzzCase fuzz_case = random_case(seed);
     const Instance instance = fuzz_case.instance.build();
     const auto truth = oracle::solve_jointly(instance);
     if (!truth.plan) continue;
     PlantedOptimum planted(instance, *truth.plan);
     Limits limits;
-    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(100));
-    SolveOptions options;
-    options.omega = fuzz_case.options.omega;
-    solve(instance, options, limits, &planted);
+    limits.set_deadline(Limits::Clock::now() + patience);
+    const SolveOptions options = choose(fuzz_case.options);
+    const Solution solution = solve(instance, options, limits, &planted);
     EXPECT_THAT(planted.complaints(), IsEmpty()) << fuzz_case.to_text();
-    followed += planted.nodes_followed();
+    EXPECT_THAT(false_claims(instance, truth, options.omega, solution, true), IsEmpty());
+    look(solution, planted);
   }
+}
+
+TEST(PlantedOptimum, SurvivesWholeSearches) {
+  std::size_t followed = 0;
+  follow_optima(
+      150, std::chrono::milliseconds(100),
+      [](const SolveOptions& random) {
+        SolveOptions options;
+        options.omega = random.omega;
+        return options;
+      },
+      [&](const Solution&, const PlantedOptimum& planted) {
+        followed += planted.nodes_followed();
+      });
   EXPECT_GT(followed, 300u);
 }
 
 // They are made where no conflict raises the cost of both sides, so rarely beside other techniques.
 TEST(PlantedOptimum, SurvivesSplitsOfSequenceClasses) {
-  for (std::uint64_t seed = 0; seed < 600; ++seed) {
-    const FuzzCase fuzz_case = random_case(seed);
-    const Instance instance = fuzz_case.instance.build();
-    const auto truth = oracle::solve_jointly(instance);
-    if (!truth.plan) continue;
-    PlantedOptimum planted(instance, *truth.plan);
-    Limits limits;
-    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(50));
-    SolveOptions options;
-    options.techniques = {Technique::kStrongBranching, Technique::kSequenceSplits};
-    const Solution solution = solve(instance, options, limits, &planted);
-    EXPECT_THAT(planted.complaints(), IsEmpty()) << fuzz_case.to_text();
-    EXPECT_THAT(false_claims(instance, truth, options.omega, solution, true), IsEmpty());
-  }
+  std::size_t followed = 0;
+  follow_optima(
+      600, std::chrono::milliseconds(50),
+      [](const SolveOptions&) {
+        SolveOptions options;
+        options.techniques = {Technique::kStrongBranching, Technique::kSequenceSplits};
+        return options;
+      },
+      [&](const Solution&, const PlantedOptimum& planted) {
+        followed += planted.nodes_followed();
+      });
+  EXPECT_GT(followed, 1000u);
 }
 
 // With memory for a handful of nodes, plain CBS, so that there is something to give up.
@@ -177,27 +192,22 @@ TEST(PlantedOptimum, SurvivesSearchesThatGiveNodesUp) {
   std::int64_t restarts = 0;
   int asked = 0;
   int optimal = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const FuzzCase fuzz_case = random_case(seed);
-    const Instance instance = fuzz_case.instance.build();
-    const auto truth = oracle::solve_jointly(instance);
-    if (!truth.plan) continue;
-    PlantedOptimum planted(instance, *truth.plan);
-    Limits limits;
-    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(100));
-    SolveOptions options;
-    options.policy = fuzz_case.options.policy;
-    options.techniques = Techniques();
-    options.node_memory = 3000;
-    const Solution solution = solve(instance, options, limits, &planted);
-    EXPECT_THAT(planted.complaints(), IsEmpty()) << fuzz_case.to_text();
-    EXPECT_THAT(false_claims(instance, truth, options.omega, solution, true), IsEmpty());
-    const std::int64_t given_up = solution.stats.counts.at("nodes_evicted");
-    evicted += given_up;
-    restarts += solution.stats.counts.at("restarts");
-    asked += given_up > 0;
-    optimal += given_up > 0 && solution.status == Status::kOptimal;
-  }
+  follow_optima(
+      400, std::chrono::milliseconds(100),
+      [](const SolveOptions& random) {
+        SolveOptions options;
+        options.policy = random.policy;
+        options.techniques = Techniques();
+        options.node_memory = 3000;
+        return options;
+      },
+      [&](const Solution& solution, const PlantedOptimum&) {
+        const std::int64_t given_up = solution.stats.counts.at("nodes_evicted");
+        evicted += given_up;
+        restarts += solution.stats.counts.at("restarts");
+        asked += given_up > 0;
+        optimal += given_up > 0 && solution.status == Status::kOptimal;
+      });
   EXPECT_GT(evicted, 1000);
   EXPECT_GT(restarts, 20);
   EXPECT_GT(asked, 20);
