@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// One tag on one communicator, so MPI keeps the order between each two ranks (MPI 4.0, section
+// 3.5). Failures end the job by MPI's own handler, which names the rank.
+#include "mpi/mpi_transport.h"
+
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace grove {
+namespace {
+
+constexpr int kTag = 0;
+
+}  // namespace
+
+MpiTransport::MpiTransport(MPI_Comm communicator) {
+  MPI_Comm_dup(communicator, &communicator_);
+  MPI_Comm_rank(communicator_, &rank_);
+  MPI_Comm_size(communicator_, &ranks_);
+}
+
+MpiTransport::~MpiTransport() {
+  for (Sending& sending : sending_) MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
+  MPI_Comm_free(&communicator_);
+}
+
+void MpiTransport::send(int to, std::string bytes) {
+  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw std::length_error("a message is too long for MPI");
+  forget_sent();
+  Sending& sending = sending_.emplace_back(MPI_REQUEST_NULL, std::move(bytes));
+  MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE, to, kTag,
+            communicator_, &sending.request);
+}
+
+std::optional<Parcel> MpiTransport::receive() {
+  forget_sent();
+  int arrived = 0;
+  MPI_Message message;
+  MPI_Status status;
+  MPI_Improbe(MPI_ANY_SOURCE, kTag, communicator_, &arrived, &message, &status);
+  if (arrived == 0) return std::nullopt;
+  int size = 0;
+  MPI_Get_count(&status, MPI_BYTE, &size);
+  Parcel parcel{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
+  MPI_Mrecv(parcel.bytes.data(), size, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+  return parcel;
+}
+
+// The oldest are done first, as a rule.
+void MpiTransport::forget_sent() {
+  while (!sending_.empty()) {
+    int done = 0;
+    MPI_Test(&sending_.front().request, &done, MPI_STATUS_IGNORE);
+    if (done == 0) return;
+    sending_.pop_front();
+  }
+}
+
+}  // namespace grove

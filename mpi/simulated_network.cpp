@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/simulated_network.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace grove {
+
+class SimulatedNetwork::End : public Transport {
+ public:
+  End(SimulatedNetwork& network, int rank) : network_(network), rank_(rank) {}
+
+  int rank() const override { return rank_; }
+  int ranks() const override { return static_cast<int>(network_.ends_.size()); }
+  void send(int to, std::string bytes) override { network_.send(rank_, to, std::move(bytes)); }
+  std::optional<Parcel> receive() override { return network_.receive(rank_); }
+
+ private:
+  SimulatedNetwork& network_;
+  const int rank_;
+};
+
+SimulatedNetwork::SimulatedNetwork(int ranks, Delay delay)
+    : delay_(std::move(delay)),
+      inboxes_(static_cast<std::size_t>(ranks)),
+      last_arrival_(static_cast<std::size_t>(ranks)) {
+  for (int rank = 0; rank < ranks; ++rank) ends_.push_back(std::make_unique<End>(*this, rank));
+}
+
+SimulatedNetwork::~SimulatedNetwork() = default;
+
+Transport& SimulatedNetwork::at(int rank) {
+  return *ends_[static_cast<std::size_t>(rank)];
+}
+
+void SimulatedNetwork::advance_to(double time) {
+  now_ = std::max(now_, time);
+}
+
+double SimulatedNetwork::next_arrival(int rank) const {
+  const Inbox& inbox = inboxes_[static_cast<std::size_t>(rank)];
+  return inbox.empty() ? std::numeric_limits<double>::infinity() : inbox.top().arrival;
+}
+
+void SimulatedNetwork::send(int from, int to, std::string bytes) {
+  auto& lasts = last_arrival_[static_cast<std::size_t>(from)];
+  if (lasts.empty()) lasts.resize(ends_.size());  // most pairs never talk
+  double& last = lasts[static_cast<std::size_t>(to)];
+  last = std::max(last, now_ + delay_(from, to, bytes.size()));
+  bytes_ += static_cast<std::int64_t>(bytes.size());
+  inboxes_[static_cast<std::size_t>(to)].push({last, messages_++, {from, std::move(bytes)}});
+}
+
+std::optional<Parcel> SimulatedNetwork::receive(int rank) {
+  Inbox& inbox = inboxes_[static_cast<std::size_t>(rank)];
+  if (inbox.empty() || inbox.top().arrival > now_) return std::nullopt;
+  // Moving the bytes out does not touch what the order depends on.
+  Parcel parcel = std::move(const_cast<UnderWay&>(inbox.top()).parcel);
+  inbox.pop();
+  return parcel;
+}
+
+}  // namespace grove
