@@ -6,11 +6,12 @@
 // and a node is pushed before that lock is taken to look for who is parked. So either the parking
 // worker sees the node or the pushing one sees the worker. And nobody parks while no node is live:
 // then the next tree is due, or the run is over, and somebody must find out.
-#include "multicore.h"
+#include "grove/engine/multicore.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <chrono>
 #include <mutex>
 #include <new>
 #include <thread>
@@ -22,6 +23,7 @@ namespace grove {
 namespace {
 
 constexpr int kMostTurnsInARound = 4;
+constexpr auto kPause = std::chrono::microseconds(100);  // where no node is live just now
 
 class Crew {
  public:
@@ -45,7 +47,7 @@ class Crew {
         else if (park(worker))
           return;
         else
-          std::this_thread::yield();
+          std::this_thread::sleep_for(kPause);
     } catch (const std::bad_alloc&) {
       limits_.memory_exhausted();
     } catch (...) {

@@ -5,13 +5,15 @@
 #include <new>
 #include <string>
 
+#include "grove/engine/central_ledger.h"
+#include "grove/engine/local_nodes.h"
+#include "grove/engine/multicore.h"
 #include "grove/engine/run_observer.h"
+#include "grove/engine/shared_search.h"
+#include "grove/engine/worker.h"
 #include "grove/search/feasibility.h"
 #include "grove/search/gate.h"
-#include "multicore.h"
-#include "shared_search.h"
 #include "stop_text.h"
-#include "worker.h"
 
 namespace grove {
 namespace {
@@ -23,12 +25,15 @@ void solve_alone(Worker& worker, const SharedSearch& shared) {
 Solution search(const Problem& problem, const SolveOptions& options, const Limits& limits,
                 RunObserver& observer) {
   const int lanes = options.deterministic ? kDeterministicLanes : options.threads;
-  SharedSearch shared(problem, options, limits, observer);
+  LocalNodes nodes;
+  CentralLedger ledger(problem, options, limits, observer, nodes.pool, nodes);
+  SharedSearch shared(options, limits, nodes, ledger);
   std::vector<std::unique_ptr<Worker>> workers;
   try {
-    shared.begin();
+    ledger.begin();
     for (int number = 0; number < lanes; ++number)
-      workers.push_back(std::make_unique<Worker>(problem, options, limits, shared, number));
+      workers.push_back(
+          std::make_unique<Worker>(problem, options, limits, shared, ledger.stops(), number));
     if (options.deterministic)
       solve_in_rounds(workers, shared, options.threads);
     else if (lanes > 1)
@@ -41,9 +46,11 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   Stats stats;
   for (const auto& worker : workers) worker->add_counts(stats);
   workers.clear();  // their memory may be needed for the answer
-  shared.tell(RunEvent::kEnd);
-  Solution solution = shared.conclude();
+  ledger.end();
+  Solution solution = ledger.conclude();
+  shared.add_counts(solution.stats);
   solution.stats.counts.merge(stats.counts);
+  solution.stats.measures["node_bytes"] = nodes.pool.mean_bytes();
   return solution;
 }
 

@@ -29,7 +29,7 @@ struct SolveOptions {
   Omega omega;
   Policy policy = Policy::kAuto;
   RtspBackend rtsp = RtspBackend::kAuto;  // of kFixed
-  int threads = 1;  // at least 1
+  int threads = 1;                        // at least 1
   // What happens depends on the work done alone, not on the threads or the clock: the same plan and
   // the same events for any number of threads, limits aside.
   bool deterministic = false;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "worker.h"
+#include "grove/engine/worker.h"
 
 namespace grove {
 
