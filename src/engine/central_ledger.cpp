@@ -177,7 +177,7 @@ bool CentralLedger::begin_anew() {
     watch([&] { observer_.on_root(root); });
     if (!gate_.prunes(root->bound())) roots.push_back(root);
   }
-  nodes_.restart(roots);
+  nodes_.restart(roots, proven);
   return true;
 }
 

@@ -78,6 +78,28 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
   return node;
 }
 
+// Until enough are found; a heap's last half holds none of its better ones.
+std::vector<NodePtr> Frontier::take_spare(std::size_t count) {
+  const std::lock_guard lock(mutex_);
+  std::vector<NodePtr> spare;
+  spare.reserve(std::min(count, open_count_));
+  for (auto& [rank, heap] : open_) {
+    const bool is_best = rank == open_.begin()->first;
+    const std::size_t half = (heap.size() + (is_best ? 0 : 1)) / 2;
+    const std::size_t here = std::min(half, count - spare.size());
+    if (here == 0) continue;
+    taken_[rank] += here;
+    taken_count_ += here;
+    open_count_ -= here;
+    for (auto it = heap.end() - static_cast<std::ptrdiff_t>(here); it != heap.end(); ++it)
+      spare.push_back(std::move(it->node));
+    heap.erase(heap.end() - static_cast<std::ptrdiff_t>(here), heap.end());
+    if (spare.size() == count) break;
+  }
+  std::erase_if(open_, [](const auto& level) { return level.second.empty(); });
+  return spare;
+}
+
 void Frontier::settle(const NodePtr& node) {
   const std::lock_guard lock(mutex_);
   release_locked(node);
@@ -135,9 +157,9 @@ Cost Frontier::evicted_bound() const {
 }
 
 // At one go: in between there would be neither nodes nor a bound.
-void Frontier::restart(std::span<const NodePtr> roots) {
+void Frontier::restart(std::span<const NodePtr> roots, Cost proven) {
   const std::lock_guard lock(mutex_);
-  proven_ = evicted_;
+  proven_ = proven;
   for (const NodePtr& root : roots) push_locked(root);
   evicted_ = kInfiniteCost;
 }
@@ -160,6 +182,14 @@ Cost Frontier::bound() const {
 std::size_t Frontier::open() const {
   const std::lock_guard lock(mutex_);
   return open_count_;
+}
+
+std::vector<Frontier::Level> Frontier::levels(std::size_t most) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Level> levels;
+  for (auto it = open_.begin(); it != open_.end() && levels.size() < most; ++it)
+    levels.push_back({it->first, static_cast<std::int64_t>(it->second.size())});
+  return levels;
 }
 
 std::size_t Frontier::live() const {

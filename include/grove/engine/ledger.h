@@ -77,7 +77,7 @@ class LiveNodes {
   // Drops nodes whose bound is at least `cost`, which a checked plan costs.
   virtual void prune(Cost cost) = 0;
   // See Frontier::restart().
-  virtual void restart(std::span<const NodePtr> roots) = 0;
+  virtual void restart(std::span<const NodePtr> roots, Cost proven) = 0;
 };
 
 }  // namespace grove

@@ -23,7 +23,9 @@ struct LocalNodes : LiveNodes {
   Counts counts() const override { return {expanded, static_cast<std::int64_t>(frontier.open())}; }
   void push(const NodePtr& root) override { frontier.push(root); }
   void prune(Cost cost) override { frontier.prune(cost); }
-  void restart(std::span<const NodePtr> roots) override { frontier.restart(roots); }
+  void restart(std::span<const NodePtr> roots, Cost proven) override {
+    frontier.restart(roots, proven);
+  }
 
   NodePool pool;
   Frontier frontier;
