@@ -106,6 +106,7 @@ void Rank::give(const message::Order& order) {
   in_custody_ += std::ssize(nodes);
   send(order.to, batch);
   ++peer.sent;
+  nodes_sent_ += std::ssize(nodes);
   urgent_ = true;
 }
 
@@ -163,9 +164,18 @@ void Rank::speak(double now) {
 }
 
 void Rank::farewell(const Stats& stats) {
+  Stats all = stats;
+  search_.add_counts(all);
+  all.counts["messages"] += transport_.messages();
+  all.counts["message_bytes"] += transport_.bytes();
+  all.counts["nodes_sent"] += nodes_sent_;
   message::Farewell farewell;
-  farewell.counts = stats.counts;
-  for (const auto& [rank, peer] : peers_) farewell.batches.emplace_back(rank, peer.sent);
+  std::int64_t& batches = all.counts["batches"];
+  for (const auto& [rank, peer] : peers_) {
+    farewell.batches.emplace_back(rank, peer.sent);
+    batches += peer.sent;
+  }
+  farewell.counts = std::move(all.counts);
   send(0, farewell);
 }
 

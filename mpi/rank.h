@@ -84,6 +84,7 @@ class Rank {
   std::map<int, Peer> peers_;
   std::int64_t batches_taken_ = 0;
   std::int64_t in_custody_ = 0;  // nodes
+  std::int64_t nodes_sent_ = 0;
 
   message::Status said_;  // last
   double said_at_ = -1;
