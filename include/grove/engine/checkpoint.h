@@ -21,6 +21,10 @@
 namespace grove {
 
 // What is known beside the nodes. A value.
+//
+// Who goes on from here under kFixed must see to it that the forest has the same trees first, not
+// only as many: the back ends of sequencing break ties each in its own way, so that skipping a
+// number of trees may skip others than those instantiated, and with them a bound.
 struct CheckpointHeader {
   std::uint64_t fingerprint = 0;        // of the instance; see model/fingerprint.h
   Policy policy = Policy::kFree;        // not kAuto
