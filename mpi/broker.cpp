@@ -25,6 +25,10 @@ std::optional<Frontier::Level> spare(const std::vector<Frontier::Level>& levels)
 
 }  // namespace
 
+Broker::Broker(int ranks) : ranks_(static_cast<std::size_t>(ranks)) {
+  for (int rank = 0; rank < ranks; ++rank) place(rank);
+}
+
 void Broker::heard(int rank, const message::Status& status) {
   view(rank).levels = status.levels;
   view(rank).idle = status.idle;

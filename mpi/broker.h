@@ -22,7 +22,8 @@ class Broker {
     std::int64_t nodes = 0;  // at most
   };
 
-  explicit Broker(int ranks) : ranks_(static_cast<std::size_t>(ranks)) {}
+  // Nobody has nodes yet.
+  explicit Broker(int ranks);
 
   // A rank's new status.
   void heard(int rank, const message::Status& status);

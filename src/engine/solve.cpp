@@ -80,18 +80,24 @@ Solution stopped_before_search(const Instance& instance, const SolveOptions& opt
 
 }  // namespace
 
+std::optional<Solution> answer_without_search(const Problem& problem, const SolveOptions& options,
+                                              const Limits& limits, RunObserver& observer) {
+  if (!problem.distances.complete())
+    return stopped_before_search(problem.instance, options, limits, observer);
+  const auto reason = evident_infeasibility(problem);
+  if (!reason) return std::nullopt;
+  observer.on_infeasible(*reason);
+  return without_search(options, Status::kInfeasible, "reason", *reason);
+}
+
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer) {
   RunObserver silent;
   RunObserver& watcher = observer ? *observer : silent;
   try {
     const Problem problem(instance, limits);
-    if (!problem.distances.complete())
-      return stopped_before_search(instance, options, limits, watcher);
-    if (const auto reason = evident_infeasibility(problem)) {
-      watcher.on_infeasible(*reason);
-      return without_search(options, Status::kInfeasible, "reason", *reason);
-    }
+    if (auto answer = answer_without_search(problem, options, limits, watcher))
+      return std::move(*answer);
     return search(problem, options, limits, watcher);
   } catch (const std::bad_alloc&) {  // before the search: nothing is known yet
     limits.memory_exhausted();

@@ -15,6 +15,7 @@
 namespace grove {
 
 class RunObserver;  // grove/engine/run_observer.h
+struct Problem;     // grove/search/problem.h
 
 // What a tree of the forest fixes about the agents' orders of visits.
 enum class Policy : std::uint8_t {
@@ -51,5 +52,10 @@ struct SolveOptions {
 // failing).
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer = nullptr);
+
+// The answer where there is no search to be made: the instance is seen to have no plan, or limits
+// struck before `problem` was complete. None: search. For engines.
+std::optional<Solution> answer_without_search(const Problem& problem, const SolveOptions& options,
+                                              const Limits& limits, RunObserver& observer);
 
 }  // namespace grove
