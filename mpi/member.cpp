@@ -6,8 +6,8 @@
 namespace grove {
 
 Member::Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
-               RunObserver& observer, Transport& transport)
-    : transport_(transport), rank_(problem, options, limits, transport) {
+               RunObserver& observer, Transport& transport, const AgentStopsStore& stops)
+    : transport_(transport), rank_(problem, options, limits, transport, stops) {
   if (transport.rank() != 0) return;
   coordinator_ = std::make_unique<Coordinator>(problem, options, limits, observer, transport);
   coordinator_->begin();

@@ -15,9 +15,13 @@ namespace grove {
 // what Rank says otherwise.
 class Member {
  public:
-  // All must outlive this. The observer hears of the run on rank 0.
+  // All must outlive this, but for `stops`; see Rank. The observer hears of the run on rank 0.
   Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
-         RunObserver& observer, Transport& transport);
+         RunObserver& observer, Transport& transport, const AgentStopsStore& stops);
+  Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
+         RunObserver& observer, Transport& transport)
+      : Member(problem, options, limits, observer, transport,
+               AgentStopsStore(problem.instance, problem.distances)) {}
 
   // Handles what has arrived and says what is new. `now` in seconds of any clock. True if anything
   // had arrived.

@@ -22,11 +22,11 @@ struct Overloaded : Handlers... {
 }  // namespace
 
 Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
-           Transport& transport)
+           Transport& transport, const AgentStopsStore& stops)
     : problem_(problem),
       limits_(limits),
       transport_(transport),
-      stops_(problem.instance, problem.distances),
+      stops_(stops),
       ledger_(limits, nodes_.frontier),
       search_(options, limits, nodes_, ledger_),
       trees_(problem, stops_, nodes_.pool) {}
@@ -154,13 +154,16 @@ void Rank::speak(double now) {
   const bool at_once = urgent_ || status.bound != said_.bound || status.stopped != said_.stopped ||
                        status.idle != said_.idle || (status.live == 0) != (said_.live == 0);
   const bool changed = status.expanded != said_.expanded || status.open != said_.open;
-  const double pause = kPause + kPausePerRank * transport_.ranks();
-  if (!at_once && !(changed && now >= said_at_ + pause)) return;
+  if (!at_once && !(changed && now >= said_at_ + pause(transport_.ranks()))) return;
   send(0, status);
   for (auto& [rank, peer] : peers_) peer.news = false;
   said_ = std::move(status);
   said_at_ = now;
   urgent_ = false;
+}
+
+double Rank::pause(int ranks) {
+  return kPause + kPausePerRank * ranks;
 }
 
 void Rank::farewell(const Stats& stats) {

@@ -25,14 +25,18 @@ namespace grove {
 // leads to may be used from any thread, the rest by one: the one that speaks.
 class Rank {
  public:
-  // All must outlive this.
+  // All must outlive this, but for `stops`, of which it makes a copy: what is known already of the
+  // agents' stops.
   Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
-       Transport& transport);
+       Transport& transport, const AgentStopsStore& stops);
 
   SharedSearch& search() { return search_; }
   const LocalNodes& nodes() const { return nodes_; }
   // For workers to begin with.
   const AgentStopsStore& stops() const { return stops_; }
+
+  // Of so many ranks, one says no more often than this, in seconds, what nothing hangs on.
+  static double pause(int ranks);
 
   // Something that a rank may be told. Throws std::invalid_argument for what cannot be.
   void handle(int from, message::Message&& message);

@@ -45,9 +45,7 @@ double SimulatedNetwork::next_arrival(int rank) const {
 }
 
 void SimulatedNetwork::send(int from, int to, std::string bytes) {
-  auto& lasts = last_arrival_[static_cast<std::size_t>(from)];
-  if (lasts.empty()) lasts.resize(ends_.size());  // most pairs never talk
-  double& last = lasts[static_cast<std::size_t>(to)];
+  double& last = last_arrival_[static_cast<std::size_t>(from)][to];
   last = std::max(last, now_ + delay_(from, to, bytes.size()));
   inboxes_[static_cast<std::size_t>(to)].push({last, serial_++, {from, std::move(bytes)}});
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <queue>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "mpi/transport.h"
@@ -53,7 +54,7 @@ class SimulatedNetwork {
   const Delay delay_;
   std::vector<std::unique_ptr<End>> ends_;
   std::vector<Inbox> inboxes_;
-  std::vector<std::vector<double>> last_arrival_;  // by sender, then receiver
+  std::vector<std::unordered_map<int, double>> last_arrival_;  // by sender, then receiver
   double now_ = 0;
   std::int64_t serial_ = 0;
 };

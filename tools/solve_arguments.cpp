@@ -69,7 +69,7 @@ Techniques techniques_of(const SolveArguments& arguments) {
 
 }  // namespace
 
-void add_search_options(CLI::App& app, SolveArguments& a) {
+void add_omega_option(CLI::App& app, SolveArguments& a) {
   app.add_option(
          "--omega", a.omega,
          "how far from optimal the plan may be: cost <= (1 + W) * lower bound. 0 asks for an "
@@ -79,17 +79,9 @@ void add_search_options(CLI::App& app, SolveArguments& a) {
       ->type_name("W|inf")
       ->check(CLI::Validator(check_omega, ""))
       ->capture_default_str();
-  add_number(app, "--time-limit", a.time_limit_s, 0, 1e9,
-             "stop after so many seconds with what there is")
-      ->type_name("S");
-  add_number(app, "--memory-limit", a.memory_limit_gb, 0, 1e6,
-             "stay below so many gigabytes: forget what can be found again, then give up the worst "
-             "nodes, whose bound still counts; stop if that does not help. By default 80 % of the "
-             "machine's")
-      ->type_name("GB");
-  add_integer(app, "--threads", a.threads, {1, 1024},
-              "search on so many threads. By default one for each core that this process may use")
-      ->type_name("T");
+}
+
+void add_method_options(CLI::App& app, SolveArguments& a) {
   app.add_option(
          "--policy", a.policy,
          "what a tree of the forest fixes: a complete task sequence for every agent (fixed: the "
@@ -122,6 +114,22 @@ void add_search_options(CLI::App& app, SolveArguments& a) {
       ->type_name("TECHNIQUE")
       ->delimiter(',')
       ->check(technique_of(unusual));
+}
+
+void add_search_options(CLI::App& app, SolveArguments& a) {
+  add_omega_option(app, a);
+  add_number(app, "--time-limit", a.time_limit_s, 0, 1e9,
+             "stop after so many seconds with what there is")
+      ->type_name("S");
+  add_number(app, "--memory-limit", a.memory_limit_gb, 0, 1e6,
+             "stay below so many gigabytes: forget what can be found again, then give up the worst "
+             "nodes, whose bound still counts; stop if that does not help. By default 80 % of the "
+             "machine's")
+      ->type_name("GB");
+  add_integer(app, "--threads", a.threads, {1, 1024},
+              "search on so many threads. By default one for each core that this process may use")
+      ->type_name("T");
+  add_method_options(app, a);
   app.add_flag(
       "--deterministic", a.deterministic,
       "let what happens depend on the work done alone: runs that come near no time or memory limit "

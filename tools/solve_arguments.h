@@ -39,6 +39,9 @@ struct SolveArguments {
 // Adds the options of a search - names, ranges, defaults and the texts of the help, once - and
 // those that name the files of one run. `arguments` must outlive the parsing.
 void add_search_options(CLI::App& app, SolveArguments& arguments);
+// Parts of them: how good the plan must be, and by what means it is sought.
+void add_omega_option(CLI::App& app, SolveArguments& arguments);
+void add_method_options(CLI::App& app, SolveArguments& arguments);
 void add_file_options(CLI::App& app, SolveArguments& arguments);
 
 // What was asked for that is not the default, as one types it.

@@ -101,7 +101,7 @@ void SharedSearch::keep_within_memory() {
     evict_to(shares_.for_nodes() / 8 * 7);
   }
   if (known > std::min(kMostKnown, shares_.for_expanders()))
-    known_.store(std::make_shared<CommonMemory>());
+    known_.store(std::make_shared<CommonMemory>(CommonMemory::Successor{}));
 }
 
 // The best open node stays. Evicting a leaf frees those ancestors that no other node shares.

@@ -72,7 +72,7 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, Brancher& vi
   if (slack < 0) return Outcome::kDone;
   look_at(view);
   // What had to be forgotten once may be again: then nothing is left for later.
-  give_up_at_ = memory_.has_forgotten() ? std::numeric_limits<std::int64_t>::max()
+  give_up_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
                                         : planner_.work() + kMostWorkAtOnce;
   Outcome outcome = solve_conflicting(node, view, slack, 0, limits);
   if (outcome == Outcome::kDone && techniques_.has(Technique::kClusters))

@@ -19,7 +19,6 @@ void Memory::publish() {
 
 void Memory::turn_to(std::shared_ptr<CommonMemory> common) {
   if (common == common_) return;
-  has_forgotten_ = true;
   costs_.clear();
   sets_.clear();
   pairs_.clear();

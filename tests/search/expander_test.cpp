@@ -106,7 +106,7 @@ TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
 
   // Who once had to forget leaves nothing for later.
   Expander other(problem, stops, Techniques::usual(), 0);
-  other.turn_to(std::make_shared<CommonMemory>());
+  other.turn_to(std::make_shared<CommonMemory>(CommonMemory::Successor{}));
   const Expansion at_once = other.expand(root, kInfiniteCost, limits);
   ASSERT_FALSE(at_once.unfinished);
   ASSERT_EQ(in_turns.children.size(), at_once.children.size());

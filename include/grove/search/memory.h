@@ -19,9 +19,16 @@ namespace grove {
 // What all workers know. Thread-safe; nothing is ever taken back, so whoever wants it forgotten
 // starts another one.
 struct CommonMemory {
+  CommonMemory() = default;
+  // Takes the place of one that was full.
+  struct Successor {};
+  explicit CommonMemory(Successor /*successor*/) : follows_another(true) {}
+
   Situations situations;
   PathSets path_sets;
   Excesses excesses;
+  // What is found out may have to be forgotten again before it is of use.
+  const bool follows_another = false;
 
   std::size_t bytes() const { return situations.bytes() + path_sets.bytes() + excesses.bytes(); }
 };
@@ -43,8 +50,6 @@ class Memory {
   // Turns to this common memory. If it is another one, what was not published is forgotten, and so
   // are all numbers.
   void turn_to(std::shared_ptr<CommonMemory> common);
-  // Did it ever turn to another one?
-  bool has_forgotten() const { return has_forgotten_; }
   const std::shared_ptr<CommonMemory>& common() const { return common_; }
 
   // As those of Situations.
@@ -83,7 +88,6 @@ class Memory {
 
   PathPlanner& planner_;
   std::shared_ptr<CommonMemory> common_;
-  bool has_forgotten_ = false;
   // Since the last publication. Of pairs and groups there are few at a time.
   std::unordered_map<Id, Situations::Known> costs_;
   std::unordered_map<Id, PathSets::Set> sets_;  // all that were asked for

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The machine that a simulation takes for granted.
+#pragma once
+
+namespace grove {
+
+// Messages as in LogGP (Alexandrov et al., SPAA 1995): whoever sends or receives one is busy for
+// `message_cost` and the time its bytes take, one message after the other, and `latency` passes in
+// between. A rank has a processor that searches and another that speaks, which looks at the network
+// every `poll` seconds, or as soon as it has dealt with what it found there last.
+struct Machine {
+  double latency = 2e-6;       // seconds
+  double bandwidth = 1e9;      // bytes per second, packing and unpacking included
+  double message_cost = 5e-6;  // seconds
+  double poll = 0.2e-3;        // seconds; as solve_distributed()
+  // Expanding takes so many seconds per unit of Expander::work(), or, if 0, the processor time that
+  // it really took here, with which no two runs are the same.
+  double seconds_per_work = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// The clock of one thread.
+#pragma once
+
+namespace grove {
+
+// Seconds that the calling thread has had a processor.
+double processor_time();
+
+}  // namespace grove

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Discrete events. A rank has a worker and a talker; an event is that one of them is due, and what
+// it does then makes others due. One thread plays all ranks with the engine's own coordinator,
+// ranks and nodes, and one expander serves them all: only what a rank has found out about agents,
+// pairs and groups is its own, for that is not told to others.
+//
+// The talker looks at the network every so often, but that matters only if there is a message or
+// something new to say. So each cause of talk asks for the next look that there would be.
+#include "mpi/simulator/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <queue>
+#include <stdexcept>
+#include <utility>
+
+#include "grove/engine/techniques_of.h"
+#include "mpi/member.h"
+#include "mpi/simulated_network.h"
+#include "mpi/simulator/busy_profile.h"
+#include "mpi/simulator/processor_time.h"
+#include "mpi/simulator/timed_transport.h"
+
+namespace grove {
+namespace {
+
+constexpr double kNotDue = std::numeric_limits<double>::infinity();
+constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
+
+// What all ranks have in common.
+struct World {
+  World(const Problem& the_problem, const SolveOptions& the_options, const Limits& the_limits,
+        int ranks, const Machine& the_machine)
+      : problem(the_problem),
+        options(the_options),
+        limits(the_limits),
+        machine(the_machine),
+        network(ranks, [this](int, int, std::size_t) { return talk.takes_s + machine.latency; }),
+        stops(problem.instance, problem.distances) {
+    for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent) stops.of(agent);
+  }
+
+  const Problem& problem;
+  const SolveOptions& options;
+  const Limits& limits;
+  const Machine& machine;
+  RunObserver observer;
+  Talk talk;
+  SimulatedNetwork network;
+  AgentStopsStore stops;
+};
+
+struct SimulatedRank {
+  SimulatedRank(World& world, int rank)
+      : transport(world.network, rank, world.machine, world.talk),
+        member(world.problem, world.options, limits, world.observer, transport, world.stops),
+        worker(member.rank().search(), world.limits, world.machine),
+        first_look(world.machine.poll * (rank * kGoldenRatio - std::floor(rank * kGoldenRatio))) {}
+
+  bool has_open_nodes() { return member.rank().nodes().frontier.open() > 0; }
+
+  Limits limits;  // of its own, for ranks end one after the other
+  TimedTransport transport;
+  Member member;
+  SimulatedWorker worker;
+  double first_look;  // at the network
+  double talk_due = kNotDue;
+  double talks_until = 0;   // now, or did last
+  double silent_until = 0;  // what was not worth a status at once will be by then
+  double talking_s = 0;
+  bool said_farewell = false;
+  bool left = false;
+};
+
+class Simulation {
+ public:
+  explicit Simulation(World& world, int ranks)
+      : world_(world),
+        expander_(world.problem, world.stops, techniques_of(world.options), world.options.seed) {
+    for (int rank = 0; rank < ranks; ++rank) ranks_.emplace_back(world, rank);
+    talked(0, 0);
+  }
+
+  SimulatedRun run() {
+    bool stopped = false;
+    while (left_ < std::ssize(ranks_) && !stopped) {
+      if (agenda_.empty()) throw std::logic_error("a simulated search came to a standstill");
+      const Event event = agenda_.top();
+      agenda_.pop();
+      world_.network.advance_to(event.time);
+      now_ = event.time;
+      if (event.who == Who::kTalker)
+        talk(event.rank);
+      else
+        work(event.rank);
+      stopped = world_.limits.stop_requested();
+    }
+    return result(!stopped);
+  }
+
+ private:
+  enum class Who : std::uint8_t { kTalker, kWorker };
+  struct Event {
+    double time;
+    std::int64_t serial;  // the order in which events were foreseen
+    int rank;
+    Who who;
+  };
+  struct Later {
+    bool operator()(const Event& a, const Event& b) const {
+      return a.time != b.time ? a.time > b.time : a.serial > b.serial;
+    }
+  };
+
+  SimulatedRank& at(int rank) { return ranks_[static_cast<std::size_t>(rank)]; }
+  void foresee(double time, int rank, Who who) { agenda_.push({time, serial_++, rank, who}); }
+
+  // There is cause for this rank's talker to look at the network at `time` or soon after.
+  void talk_from(double time, int rank) {
+    SimulatedRank& r = at(rank);
+    const double pause = world_.machine.poll;
+    const double looks = std::ceil(std::max(0.0, time - r.first_look) / pause);
+    if (time > r.talks_until && pause > 0) time = std::max(time, r.first_look + pause * looks);
+    time = std::max(time, r.talks_until);
+    if (time >= r.talk_due) return;
+    r.talk_due = time;
+    foresee(time, rank, Who::kTalker);
+  }
+
+  void talk(int rank) {
+    SimulatedRank& r = at(rank);
+    if (r.talk_due != now_) return;  // it was due before
+    r.talk_due = kNotDue;
+    world_.talk = {};
+    const double before_s = processor_time();
+    r.member.converse(now_);
+    if (r.member.rank().ended() && !r.said_farewell) {
+      if (r.worker.busy()) abandon_work(r);
+      r.member.rank().farewell({});
+      r.said_farewell = true;
+    }
+    talking_processor_s_ += processor_time() - before_s;
+    talked(rank, now_);
+  }
+
+  // What follows from the talk that this rank began at `time`.
+  void talked(int rank, double time) {
+    SimulatedRank& r = at(rank);
+    r.talks_until = time + world_.talk.takes_s;
+    r.talking_s += world_.talk.takes_s;
+    for (const int to : world_.talk.receivers) talk_from(world_.network.next_arrival(to), to);
+    if (const double next = world_.network.next_arrival(rank); next < kNotDue)
+      talk_from(next, rank);
+    if (r.silent_until > time) talk_from(r.silent_until, rank);
+    if (!r.said_farewell && !r.worker.busy() && r.has_open_nodes())
+      foresee(r.talks_until, rank, Who::kWorker);
+    if (!r.said_farewell || r.left || !r.member.left()) return;
+    r.left = true;
+    ++left_;
+    wall_s_ = std::max(wall_s_, r.talks_until);
+  }
+
+  void work(int rank) {
+    SimulatedRank& r = at(rank);
+    if (r.said_farewell) return;
+    if (r.worker.busy()) {
+      if (r.worker.busy_until() > now_) return;  // it had begun before
+      r.worker.end();
+      profile_.add(r.worker.began(), now_);
+      r.silent_until = now_ + Rank::pause(static_cast<int>(ranks_.size()));
+      talk_from(now_, rank);
+    }
+    r.worker.begin(now_, expander_);
+    if (r.worker.busy()) foresee(r.worker.busy_until(), rank, Who::kWorker);
+  }
+
+  void abandon_work(SimulatedRank& r) {
+    r.worker.abandon(now_);
+    profile_.add(r.worker.began(), now_);
+  }
+
+  SimulatedRun result(bool ended) {
+    SimulatedRun run;
+    run.ended = ended;
+    run.solution = at(0).member.coordinator()->conclude();
+    run.wall_s = ended ? wall_s_ : now_;
+    for (const SimulatedRank& r : ranks_)
+      run.ranks.push_back({r.worker.tally(), r.talking_s, r.transport.messages(),
+                           r.transport.bytes(), r.transport.received(), r.transport.waited_s()});
+    run.busy = profile_.means(run.wall_s, SimulatedRun::kParts);
+    run.talking_processor_s = talking_processor_s_;
+    return run;
+  }
+
+  World& world_;
+  std::deque<SimulatedRank> ranks_;
+  Expander expander_;  // goes first, with the node that it holds
+  std::priority_queue<Event, std::vector<Event>, Later> agenda_;
+  std::int64_t serial_ = 0;
+  double now_ = 0;
+  std::int64_t left_ = 0;
+  double wall_s_ = 0;
+  BusyProfile profile_;
+  double talking_processor_s_ = 0;
+};
+
+}  // namespace
+
+SimulatedRun simulate(const Problem& problem, const SolveOptions& options, const Limits& limits,
+                      int ranks, const Machine& machine) {
+  World world(problem, options, limits, ranks, machine);
+  return Simulation(world, ranks).run();
+}
+
+}  // namespace grove

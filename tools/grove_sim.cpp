@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// grove-sim: how the distributed search would scale, predicted on one processor.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "grove/engine/run_observer.h"
+#include "grove/io/atomic_file.h"
+#include "grove/io/input_error.h"
+#include "grove/primal/primal_search.h"
+#include "mpi/simulator/scaling_table.h"
+#include "mpi/simulator/simulation.h"
+#include "options.h"
+#include "program.h"
+#include "signals.h"
+#include "solve_arguments.h"
+#include "start_plan.h"
+
+namespace grove {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kDescription =
+    "Predicts how the search of grove-mpi scales with the number of ranks. One thread plays them\n"
+    "all, with the engine's own coordinator, ranks and expansions, on a clock of its own: an\n"
+    "expansion takes the time that its work takes here, a message what the machine's figures "
+    "say.\n";
+
+constexpr const char* kFooter =
+    "Each rank has one worker. Nobody looks for plans beside the tree, so begin with a good one:\n"
+    "--start, or what the search for plans finds in --primal-steps. With --omega 0 and an optimal\n"
+    "plan what must be expanded is nearly fixed, and what is seen is scaling; else luck as well.\n"
+    "The time to read the instance and to start the ranks is left out.\n"
+    "\n"
+    "Without --cost-per-work the run of one rank is timed, and its mean time per unit of work\n"
+    "(about one label of the low level) is what work costs in the others. Given the figure, all\n"
+    "is repeatable.\n"
+    "\n"
+    "Examples:\n"
+    "  grove-sim benchmarks/data/rooms-32x32_n10_m30.cts.json --omega 0 --ranks 1,2,16\n"
+    "  grove-sim INSTANCE.cts.json --omega 0 --start PLAN --output scaling.csv";
+
+struct SimArguments {
+  SolveArguments solve;
+  std::vector<std::int64_t> ranks{1, 2, 16, 128, 1024, 4096};
+  Machine machine;
+  std::int64_t primal_steps = 2000;
+  std::filesystem::path profile;
+};
+
+void add_options(CLI::App& app, SimArguments& a) {
+  a.solve.time_limit_s = 3600;
+  a.solve.instance.add_to(app);
+  add_integers(app, "--ranks", a.ranks, {1, 1 << 16},
+               "how many ranks; a run of one is made in any case, to compare with")
+      ->default_str("1,2,16,128,1024,4096");
+  add_number(app, "--latency", a.machine.latency, 0, 1e3,
+             "seconds that a message is under way, however short")
+      ->type_name("S");
+  add_number(app, "--bandwidth", a.machine.bandwidth, 1, 1e15,
+             "bytes that a rank packs and sends, or receives and unpacks, in a second")
+      ->type_name("B/S");
+  add_number(app, "--message-cost", a.machine.message_cost, 0, 1e3,
+             "seconds that sender and receiver spend on each message beside its bytes")
+      ->type_name("S");
+  add_number(app, "--poll", a.machine.poll, 0, 1e3,
+             "seconds between two looks of a rank at the network")
+      ->type_name("S");
+  add_number(app, "--cost-per-work", a.machine.seconds_per_work, 0, 1e3,
+             "seconds that a unit of an expansion's work takes; 0: what it takes here")
+      ->type_name("S");
+  add_omega_option(app, a.solve);
+  add_method_options(app, a.solve);
+  app.add_option("--start", a.solve.start, "a plan file of this instance: the first incumbent")
+      ->type_name("PLAN");
+  add_integer(app, "--primal-steps", a.primal_steps, {0, 1'000'000'000},
+              "without --start, look for a plan first, for about so many milliseconds");
+  add_number(app, "--time-limit", a.solve.time_limit_s, 0, 1e9,
+             "simulate no number of ranks for longer than so many seconds")
+      ->type_name("S");
+  add_number(app, "--memory-limit", a.solve.memory_limit_gb, 0, 1e6,
+             "nor one for which this process would need more than so many gigabytes")
+      ->type_name("GB");
+  app.add_option("--output", a.solve.output, "write the table to this file too")
+      ->type_name("TABLE.csv");
+  app.add_option("--profile", a.profile,
+                 "write here how many workers are busy, in each hundredth of each run's time")
+      ->type_name("FILE.csv");
+}
+
+// What the search for plans finds by itself.
+std::optional<Plan> find_plan(const Problem& problem, const SolveOptions& options,
+                              const Limits& limits, std::int64_t steps) {
+  AgentStopsStore stops(problem.instance, problem.distances);
+  PrimalSearch primal(problem, stops, options.seed, options.techniques);
+  std::optional<Plan> best;
+  for (std::int64_t i = 0; i < steps && !primal.optimal() && !limits.stop_requested(); ++i)
+    if (auto plan = primal.step(limits)) best = std::move(plan);
+  return best;
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class Study {
+ public:
+  explicit Study(SimArguments& arguments)
+      : a_(arguments), options_(solve_options(a_.solve)), loaded_(a_.solve.instance.load()) {
+    for (const auto& file : {a_.solve.output, a_.profile}) {
+      if (file.empty()) continue;
+      require_distinct_files(file, a_.solve.instance.path(), "the instance");
+      require_distinct_files(file, loaded_.map_path, "the map");
+      require_distinct_files(file, a_.solve.start, "the start plan");
+      require_writable(file);
+    }
+    require_distinct_files(a_.profile, a_.solve.output, "the table");
+  }
+
+  void run() {
+    const Limits unlimited;
+    const Problem problem(loaded_.instance, unlimited);
+    RunObserver silent;
+    if (answer_without_search(problem, options_, unlimited, silent))
+      throw InputError(a_.solve.instance.path(), "",
+                       "has no plan, as is seen without a search; expected something to search");
+    begin_with_plan(problem);
+    print_line(scaling_header());
+    const SimulatedRun alone = simulated(problem, 1);
+    calibrate(alone);
+    for (const std::int64_t ranks : a_.ranks) {
+      if (interrupted) break;
+      if (ranks == 1)
+        report(alone, alone);
+      else
+        report(simulated(problem, static_cast<int>(ranks)), alone);
+    }
+    if (!a_.solve.output.empty()) write_file_atomically(a_.solve.output, table_);
+    if (!a_.profile.empty()) write_file_atomically(a_.profile, profile_);
+  }
+
+ private:
+  void begin_with_plan(const Problem& problem) {
+    Limits limits;
+    limits.watch_interrupt(&interrupted);
+    options_.start = a_.solve.start.empty() ? find_plan(problem, options_, limits, a_.primal_steps)
+                                            : read_start_plan(a_.solve.start, loaded_.instance);
+    note(options_.start ? fmt::format("begins with a plan of cost {}", options_.start->cost)
+                        : "begins without a plan");
+  }
+
+  SimulatedRun simulated(const Problem& problem, int ranks) {
+    const Clock::time_point start = Clock::now();
+    Limits limits;
+    set_limits(limits, a_.solve, start);
+    SimulatedRun run = simulate(problem, options_, limits, ranks, a_.machine);
+    std::int64_t received = 0;
+    for (const SimulatedRun::Rank& rank : run.ranks) received += rank.received;
+    note(fmt::format("{} ranks simulated in {:.1f} s; to deal with a message took {:.1f} us here",
+                     ranks, seconds_since(start),
+                     1e6 * run.talking_processor_s / static_cast<double>(received + 1)));
+    return run;
+  }
+
+  void calibrate(const SimulatedRun& alone) {
+    if (a_.machine.seconds_per_work > 0) return;
+    const SimulatedWorker::Tally& tally = alone.ranks.front().worker;
+    a_.machine.seconds_per_work = tally.processor_s / tally.work;
+    note(fmt::format("--cost-per-work {:.4g}", a_.machine.seconds_per_work));
+  }
+
+  void report(const SimulatedRun& run, const SimulatedRun& alone) {
+    print_line(csv_line(scaling_row(run, alone)));
+    for (std::size_t i = 0; i < run.busy.size(); ++i)
+      profile_ +=
+          fmt::format("{},{:.6g},{:.6g}\n", run.ranks.size(),
+                      run.wall_s * static_cast<double>(i) / SimulatedRun::kParts, run.busy[i]);
+  }
+
+  void print_line(const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+    table_ += line + '\n';
+  }
+  static void note(const std::string& text) { fmt::print(stderr, "grove-sim: {}\n", text); }
+
+  SimArguments& a_;
+  SolveOptions options_;
+  LoadedInstance loaded_;
+  std::string table_;
+  std::string profile_ = "ranks,from_s,busy\n";
+};
+
+int main(int argc, char** argv) {
+  CLI::App app(kDescription, "grove-sim");
+  app.footer(kFooter);
+  prepare_program(app);
+  app.require_subcommand(0);
+  SimArguments arguments;
+  add_options(app, arguments);
+  app.callback([&] {
+    stop_on_signals();
+    Study(arguments).run();
+  });
+  try {
+    return run_program(app, argc, argv);
+  } catch (const std::exception& error) {
+    complain(app, fmt::format("internal failure: {}", error.what()));
+    return kExitInternalFailure;
+  }
+}
+
+}  // namespace
+}  // namespace grove
+
+int main(int argc, char** argv) {
+  return grove::main(argc, argv);
+}
