@@ -162,11 +162,21 @@ class Study {
     Limits limits;
     set_limits(limits, a_.solve, start);
     SimulatedRun run = simulate(problem, options_, limits, ranks, a_.machine);
-    std::int64_t received = 0;
-    for (const SimulatedRun::Rank& rank : run.ranks) received += rank.received;
-    note(fmt::format("{} ranks simulated in {:.1f} s; to deal with a message took {:.1f} us here",
-                     ranks, seconds_since(start),
-                     1e6 * run.talking_processor_s / static_cast<double>(received + 1)));
+    double processor_s = 0;
+    double busy_s = 0;
+    for (const SimulatedRun::Rank& rank : run.ranks) {
+      processor_s += rank.worker.processor_s;
+      busy_s += rank.worker.busy_s;
+    }
+    const SimulatedRun::Rank& first = run.ranks.front();
+    note(fmt::format(
+        "{} ranks simulated in {:.1f} s, {:.0f} MB; expansions took {:.2f} s here, {:.2f} s by "
+        "their work; "
+        "rank 0 {:.1f} us here for a message that it sent or received, {:.1f} as simulated",
+        ranks, seconds_since(start), static_cast<double>(peak_resident_bytes()) / 1e6, processor_s,
+        busy_s,
+        1e6 * first.talking_processor_s / static_cast<double>(first.received + first.messages + 1),
+        1e6 * first.talking_s / static_cast<double>(first.received + first.messages + 1)));
     return run;
   }
 

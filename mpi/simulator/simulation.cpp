@@ -70,6 +70,7 @@ struct SimulatedRank {
   double talks_until = 0;   // now, or did last
   double silent_until = 0;  // what was not worth a status at once will be by then
   double talking_s = 0;
+  double talking_processor_s = 0;
   bool said_farewell = false;
   bool left = false;
 };
@@ -141,7 +142,7 @@ class Simulation {
       r.member.rank().farewell({});
       r.said_farewell = true;
     }
-    talking_processor_s_ += processor_time() - before_s;
+    r.talking_processor_s += processor_time() - before_s;
     talked(rank, now_);
   }
 
@@ -188,9 +189,9 @@ class Simulation {
     run.wall_s = ended ? wall_s_ : now_;
     for (const SimulatedRank& r : ranks_)
       run.ranks.push_back({r.worker.tally(), r.talking_s, r.transport.messages(),
-                           r.transport.bytes(), r.transport.received(), r.transport.waited_s()});
+                           r.transport.bytes(), r.transport.received(), r.transport.waited_s(),
+                           r.talking_processor_s});
     run.busy = profile_.means(run.wall_s, SimulatedRun::kParts);
-    run.talking_processor_s = talking_processor_s_;
     return run;
   }
 
@@ -203,7 +204,6 @@ class Simulation {
   std::int64_t left_ = 0;
   double wall_s_ = 0;
   BusyProfile profile_;
-  double talking_processor_s_ = 0;
 };
 
 }  // namespace

@@ -22,8 +22,9 @@ struct SimulatedRun {
     double talking_s = 0;
     std::int64_t messages = 0;  // sent
     std::int64_t bytes = 0;
-    std::int64_t received = 0;  // messages
-    double waited_s = 0;        // between the arrival of each and its being dealt with, summed
+    std::int64_t received = 0;       // messages
+    double waited_s = 0;             // between the arrival of each and its being dealt with, summed
+    double talking_processor_s = 0;  // here: what it did but for expanding nodes
   };
 
   bool ended = false;  // else limits struck, and the rest says how far it came
@@ -32,7 +33,6 @@ struct SimulatedRun {
   std::vector<Rank> ranks;
   std::vector<double>
       busy;  // in each of kParts equal parts of wall_s: the mean number of workers busy
-  double talking_processor_s = 0;  // here: what all ranks did but to expand nodes
 };
 
 // Simulates so many ranks with one worker each. `options.start` had better be a good plan: nobody
