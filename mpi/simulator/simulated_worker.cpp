@@ -8,7 +8,15 @@
 namespace grove {
 namespace {
 
-constexpr double kStepsPerWork = 4;  // of the paths of a node that is looked through; as Worker
+// In units of about one label. By regression on the processor time of single expansions of five
+// instances with 20 to 40 agents: correlation 0.84 to 0.99. (Expander::work(), which the engine
+// goes by, leaves the sets of optimal paths out; they are most of what a rank does that knows
+// nothing of the pairs at its node.)
+double work_of(const ExpansionCounts& counts) {
+  return static_cast<double>(counts.low_level_expanded) +
+         0.5 * static_cast<double>(counts.optimal_nodes) + static_cast<double>(counts.joint_pairs) +
+         2 * static_cast<double>(counts.situations) + 0.15 * static_cast<double>(counts.path_steps);
+}
 
 }  // namespace
 
@@ -17,13 +25,12 @@ void SimulatedWorker::begin(double now, Expander& expander) {
   node_ = search_.take();
   if (!node_) return;
   const double before_s = processor_time();
-  const std::int64_t before = expander.work();
+  const double before = work_of(expander.counts());
   expander.turn_to(search_.memory());
   expansion_ = expander.expand(node_, search_.ledger().cutoff(), limits_);
   expander.publish();  // nobody else on this rank asks before this turn has ended
   const double processor_s = processor_time() - before_s;
-  const double work = static_cast<double>(expander.work() - before) +
-                      static_cast<double>(node_->cost()) / kStepsPerWork + 1;
+  const double work = work_of(expander.counts()) - before;
   const double takes_s =
       machine_.seconds_per_work > 0 ? work * machine_.seconds_per_work : processor_s;
   began_ = now;

@@ -17,7 +17,7 @@ class SimulatedWorker {
  public:
   struct Tally {
     std::int64_t turns = 0;
-    double work = 0;          // in units of Expander::work()
+    double work = 0;          // in units of about one label of the low level
     double busy_s = 0;        // simulated
     double processor_s = 0;   // that it really took
     double first_turn_s = 0;  // if any: when it began

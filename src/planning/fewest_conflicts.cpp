@@ -11,6 +11,7 @@ namespace grove {
 
 void FewestConflicts::find(const OptimalPaths& paths, const ConflictAvoidanceTable& others,
                            Path& path) {
+  nodes_ += paths.node_count();
   const Time cost = paths.cost();
   best_.resize(static_cast<std::size_t>(paths.node_count()));
   for (Time time = cost; time >= 0; --time) {

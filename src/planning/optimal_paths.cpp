@@ -36,6 +36,7 @@ class OptimalPathsBuilder::Workspace {
 
   Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t most_nodes, const Limits& limits, OptimalPaths& paths);
+  std::int64_t nodes() const { return met_; }
 
  private:
   using StateId = FreeGoals::StateId;
@@ -67,6 +68,7 @@ class OptimalPathsBuilder::Workspace {
   std::vector<NodeId> reduced_;    // by node; kNoNode: leads nowhere
   std::vector<NodeId> newest_at_;  // by cell: the reduced node of this layer made last
   std::vector<NodeId> older_;      // by reduced node: the one of its cell and layer before it
+  std::int64_t met_ = 0;           // nodes, in all calls
 
   // Of the call under way.
   FreeGoals* goals_ = nullptr;
@@ -77,6 +79,10 @@ class OptimalPathsBuilder::Workspace {
 OptimalPathsBuilder::OptimalPathsBuilder(const Grid& grid)
     : workspace_(std::make_unique<Workspace>(grid)) {}
 OptimalPathsBuilder::~OptimalPathsBuilder() = default;
+
+std::int64_t OptimalPathsBuilder::nodes() const {
+  return workspace_->nodes();
+}
 
 OptimalPathsBuilder::Outcome OptimalPathsBuilder::build(FreeGoals& goals,
                                                         std::span<const Constraint> constraints,
@@ -99,6 +105,7 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::build(
   limits_ = &limits;
   cost_ = cost;
   const Outcome outcome = build_layers(most_nodes);
+  met_ += std::ssize(nodes_);
   if (outcome == Outcome::kBuilt) reduce(paths);
   return outcome;
 }

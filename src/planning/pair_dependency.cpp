@@ -20,7 +20,7 @@
 namespace grove {
 namespace {
 
-constexpr std::size_t kPairsPerPoll = 1024;
+constexpr std::int64_t kPairsPerPoll = 1024;
 
 using NodeId = OptimalPaths::NodeId;
 using Range = OptimalPaths::Range;
@@ -88,6 +88,7 @@ class PairDependency::Workspace {
 
   Dependence find(const OptimalPaths& a, const OptimalPaths& b, std::size_t most_pairs,
                   const Limits& limits);
+  std::int64_t pairs() const { return expanded_; }
 
  private:
   struct Pair {
@@ -109,7 +110,7 @@ class PairDependency::Workspace {
   Time last_contact_ = -1;
   PairSet known_;
   std::vector<Pair> open_;
-  std::size_t expanded_ = 0;
+  std::int64_t expanded_ = 0;
   // By parity of the time, then cell: stamp_ + the time at which a_ was last seen there.
   std::array<std::vector<std::int64_t>, 2> seen_;
   std::int64_t stamp_ = 1;
@@ -117,6 +118,10 @@ class PairDependency::Workspace {
 
 PairDependency::PairDependency(const Grid& grid) : workspace_(std::make_unique<Workspace>(grid)) {}
 PairDependency::~PairDependency() = default;
+
+std::int64_t PairDependency::pairs() const {
+  return workspace_->pairs();
+}
 
 Dependence PairDependency::find(const OptimalPaths& a, const OptimalPaths& b,
                                 std::size_t most_pairs, const Limits& limits) {

@@ -76,6 +76,7 @@ void Brancher::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
 
 void Brancher::find_conflicts() {
   finder_.all(paths_, scope_, conflicts_);
+  for (const AgentIndex agent : scope_) steps_ += std::ssize(paths_[agent]);
 }
 
 Situations::Id Brancher::situation(AgentIndex agent) {

@@ -86,7 +86,14 @@ Plan Expander::plan(const Node& node) {
 }
 
 ExpansionCounts Expander::counts() const {
-  return {planner_.calls(), planner_.expanded(), dependencies_.expansions()};
+  const Brancher& pairs = dependencies_.pair_view();
+  return {planner_.calls(),
+          planner_.expanded(),
+          dependencies_.expansions(),
+          planner_.optimal_nodes() + brancher_.optimal_nodes() + pairs.optimal_nodes(),
+          dependencies_.joint_pairs(),
+          memory_.asked(),
+          brancher_.steps() + pairs.steps()};
 }
 
 }  // namespace grove

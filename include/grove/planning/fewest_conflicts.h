@@ -18,12 +18,16 @@ class FewestConflicts {
   // ConflictAvoidanceTable::conflicts_of counts them. O(edges of `paths`).
   void find(const OptimalPaths& paths, const ConflictAvoidanceTable& others, Path& path);
 
+  // Nodes of the paths looked at so far.
+  std::int64_t nodes() const { return nodes_; }
+
  private:
   struct Best {
     std::int32_t conflicts;
     OptimalPaths::NodeId next;
   };
   std::vector<Best> best_;  // from each node to the end
+  std::int64_t nodes_ = 0;
 };
 
 }  // namespace grove

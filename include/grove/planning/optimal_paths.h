@@ -72,6 +72,9 @@ class OptimalPathsBuilder {
   Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t most_nodes, const Limits& limits, OptimalPaths& paths);
 
+  // Nodes met so far, those that lead nowhere included.
+  std::int64_t nodes() const;
+
  private:
   class Workspace;
   std::unique_ptr<Workspace> workspace_;

@@ -33,6 +33,9 @@ class PairDependency {
   Dependence find(const OptimalPaths& a, const OptimalPaths& b, std::size_t most_pairs,
                   const Limits& limits);
 
+  // Pairs of nodes looked at so far.
+  std::int64_t pairs() const;
+
  private:
   class Workspace;
   std::unique_ptr<Workspace> workspace_;

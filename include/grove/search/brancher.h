@@ -57,6 +57,11 @@ class Brancher {
   Outcome branch(Cost cutoff, std::span<const Split> last_resorts, const Limits& limits,
                  std::vector<NodePtr>& children);
 
+  // So far: steps of paths looked through for conflicts, nodes of sets of paths for those of
+  // fewest.
+  std::int64_t steps() const { return steps_; }
+  std::int64_t optimal_nodes() const { return fewest_conflicts_.nodes(); }
+
  private:
   // What one side of a split leads to.
   struct Side {
@@ -125,6 +130,7 @@ class Brancher {
   std::vector<AgentIndex> affected_;
   std::vector<AgentIndex> in_conflict_;
   Path path_;
+  std::int64_t steps_ = 0;
 };
 
 }  // namespace grove

@@ -46,6 +46,10 @@ class Dependencies {
 
   // Expansions in pairs so far.
   std::int64_t expansions() const { return expansions_; }
+  // Pairs of places compared in sets of optimal paths, so far.
+  std::int64_t joint_pairs() const { return pair_dependency_.pairs(); }
+  // What looks at the pairs.
+  const Brancher& pair_view() const { return pair_view_; }
 
  private:
   using Known = Excesses::Known;

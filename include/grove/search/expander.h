@@ -35,6 +35,10 @@ struct ExpansionCounts {
   std::int64_t low_level_calls = 0;
   std::int64_t low_level_expanded = 0;  // labels
   std::int64_t pair_expansions = 0;
+  std::int64_t optimal_nodes = 0;  // of sets of optimal paths, made or searched for conflicts
+  std::int64_t joint_pairs = 0;    // of such nodes, compared
+  std::int64_t situations = 0;     // asked about
+  std::int64_t path_steps = 0;     // looked through for conflicts
 };
 
 // Expands nodes with the workspace of one thread and the memory of what was found out about agents,

@@ -54,8 +54,11 @@ class Memory {
 
   // As those of Situations.
   Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints) {
+    ++asked_;
     return common_->situations.id(agent, order, constraints);
   }
+  // How often so far.
+  std::int64_t asked() const { return asked_; }
   Situations::Known known(Id id) const;
   void learn(Id id, Situations::Known known) { costs_[id] = known; }
 
@@ -88,6 +91,7 @@ class Memory {
 
   PathPlanner& planner_;
   std::shared_ptr<CommonMemory> common_;
+  std::int64_t asked_ = 0;
   // Since the last publication. Of pairs and groups there are few at a time.
   std::unordered_map<Id, Situations::Known> costs_;
   std::unordered_map<Id, PathSets::Set> sets_;  // all that were asked for

@@ -48,7 +48,9 @@ class PathPlanner {
   // Calls of find(), and labels expanded by them, so far.
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return fixed_.expanded() + free_.expanded(); }
-  // Both in units of about one label.
+  // Nodes of sets of optimal paths, so far.
+  std::int64_t optimal_nodes() const { return optimal_.nodes(); }
+  // Calls and labels, in units of about one label.
   std::int64_t work() const { return expanded() + kWorkPerCall * calls_; }
 
  private:
