@@ -10,6 +10,12 @@ void serialize(Archive& archive, Frontier::Level& level) {
   archive(level.bound, level.open);
 }
 
+template <class Archive>
+void serialize(Archive& archive, Finding& finding) {
+  archive(finding.node, finding.agents, finding.known.excess, finding.known.exact,
+          finding.known.expansions);
+}
+
 template <class Archive, class Enum>
 void enumerated(Archive& archive, Enum& value, Enum last) {
   auto number = static_cast<std::uint8_t>(value);
@@ -40,7 +46,7 @@ void serialize(Archive& archive, Farewell& farewell) {
 
 template <class Archive>
 void serialize(Archive& archive, Batch& batch) {
-  archive(batch.era, batch.nodes);
+  archive(batch.era, batch.nodes, batch.findings);
 }
 
 template <class Archive>

@@ -14,6 +14,7 @@
 #include "grove/engine/serialise.h"
 #include "grove/model/limits.h"
 #include "grove/primal/plan_source.h"
+#include "grove/search/findings.h"
 #include "grove/search/frontier.h"
 #include "grove/search/node_record.h"
 #include "grove/search/tree_record.h"
@@ -51,10 +52,12 @@ struct Farewell {
   std::vector<std::pair<std::int32_t, std::int64_t>> batches;
 };
 
-// Rank to rank: nodes, each with the number of its tree. Perhaps none.
+// Rank to rank: nodes, each with the number of its tree, and what is known about them. Perhaps
+// none.
 struct Batch {
   std::int32_t era = 0;
   std::vector<std::pair<std::int32_t, NodeRecord>> nodes;
+  std::vector<Finding> findings;
 };
 
 // Coordinator to all: the trees, numbered as they come.

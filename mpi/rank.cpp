@@ -76,10 +76,15 @@ void Rank::take_over(int from, message::Batch& batch) {
     held_.push_back({from, std::move(batch)});
     return;
   }
+  std::vector<NodePtr> nodes;  // null: pruned
   for (const auto& [tree, record] : batch.nodes) {
-    if (record.bound >= ledger_.cutoff()) continue;
-    nodes_.push(node_of(record, roots_.at(static_cast<std::size_t>(tree)), problem_.instance));
+    const NodePtr& root = roots_.at(static_cast<std::size_t>(tree));
+    const bool pruned = record.bound >= ledger_.cutoff();
+    nodes.push_back(pruned ? nullptr : node_of(record, root, problem_.instance));
   }
+  learn(batch.findings, nodes, *search_.memory());
+  for (NodePtr& node : nodes)
+    if (node) nodes_.push(std::move(node));
   Peer& peer = peers_[from];
   ++peer.taken;
   ++batches_taken_;
@@ -101,6 +106,7 @@ void Rank::give(const message::Order& order) {
     const auto root = std::ranges::find_if(roots_, same_tree);
     batch.nodes.emplace_back(static_cast<std::int32_t>(root - roots_.begin()), record_of(*node));
   }
+  batch.findings = findings_about(nodes, *search_.memory());
   Peer& peer = peers_[order.to];
   peer.custody[peer.sent + 1] = nodes;
   in_custody_ += std::ssize(nodes);

@@ -93,6 +93,7 @@ ExpansionCounts Expander::counts() const {
           planner_.optimal_nodes() + brancher_.optimal_nodes() + pairs.optimal_nodes(),
           dependencies_.joint_pairs(),
           memory_.asked(),
+          memory_.groups_asked(),
           brancher_.steps() + pairs.steps()};
 }
 

@@ -60,6 +60,7 @@ void Memory::partners(Id first, std::vector<Excesses::Partner>& partners) const 
 }
 
 Excesses::Known Memory::of_group(const std::vector<Id>& situations) const {
+  ++groups_asked_;
   const auto found = std::ranges::find(groups_, situations, &Group::situations);
   return found == groups_.end() ? common_->excesses.of_group(situations) : found->known;
 }

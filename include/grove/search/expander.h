@@ -38,6 +38,7 @@ struct ExpansionCounts {
   std::int64_t optimal_nodes = 0;  // of sets of optimal paths, made or searched for conflicts
   std::int64_t joint_pairs = 0;    // of such nodes, compared
   std::int64_t situations = 0;     // asked about
+  std::int64_t groups = 0;         // asked about
   std::int64_t path_steps = 0;     // looked through for conflicts
 };
 

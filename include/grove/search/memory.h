@@ -57,8 +57,9 @@ class Memory {
     ++asked_;
     return common_->situations.id(agent, order, constraints);
   }
-  // How often so far.
+  // Situations, and groups, that were asked about so far.
   std::int64_t asked() const { return asked_; }
+  std::int64_t groups_asked() const { return groups_asked_; }
   Situations::Known known(Id id) const;
   void learn(Id id, Situations::Known known) { costs_[id] = known; }
 
@@ -92,6 +93,7 @@ class Memory {
   PathPlanner& planner_;
   std::shared_ptr<CommonMemory> common_;
   std::int64_t asked_ = 0;
+  mutable std::int64_t groups_asked_ = 0;
   // Since the last publication. Of pairs and groups there are few at a time.
   std::unordered_map<Id, Situations::Known> costs_;
   std::unordered_map<Id, PathSets::Set> sets_;  // all that were asked for

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Whoever is given a node without what is known about the pairs at it finds all of that out again:
+// as much work as at the root, while its next ancestor left one or two pairs to look into. With
+// many workers who each expand few nodes that is most of what they do. So a node is sent with the
+// findings about it.
+//
+// *Claim: a finding is as true there as here.* It speaks of agents under sets of constraints, of
+// which both sides have the same text, and of nothing else; see dependencies.cpp. Its numbers of
+// situations differ, so agents and a node stand for them.
+#include "grove/search/findings.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace grove {
+namespace {
+
+using Id = Situations::Id;
+using Known = Excesses::Known;
+
+bool says_something(const Known& known) {
+  return known.exact || known.excess > 0 || known.expansions > 0;
+}
+
+// The situations of all agents at a node.
+class SituationsAt {
+ public:
+  explicit SituationsAt(CommonMemory& memory) : memory_(memory) {}
+
+  const std::vector<Id>& of(const Node& node) {
+    node.constraints(constraints_);
+    ids_.resize(constraints_.size());
+    for (std::size_t agent = 0; agent < ids_.size(); ++agent) {
+      canonical(constraints_[agent]);
+      ids_[agent] = memory_.situations.id(static_cast<AgentIndex>(agent),
+                                          *node.tree().orders[agent], constraints_[agent]);
+    }
+    return ids_;
+  }
+
+ private:
+  CommonMemory& memory_;
+  std::vector<std::vector<Constraint>> constraints_;
+  std::vector<Id> ids_;
+};
+
+// Collects what is known at one node after the other, once.
+class Collector {
+ public:
+  explicit Collector(CommonMemory& memory) : memory_(memory), situations_(memory) {
+    memory.excesses.groups(groups_);
+  }
+
+  void look_at(const Node& node, std::int32_t place, std::vector<Finding>& findings) {
+    const std::vector<Id>& ids = situations_.of(node);
+    is_new_.resize(ids.size());
+    for (std::size_t agent = 0; agent < ids.size(); ++agent)
+      is_new_[agent] = seen_.insert(ids[agent]).second;
+    for (std::size_t a = 0; a < ids.size(); ++a)
+      for (std::size_t b = a + 1; b < ids.size(); ++b) {
+        if (!is_new_[a] && !is_new_[b]) continue;
+        const Known known = memory_.excesses.of_pair(ids[a], ids[b]);
+        if (says_something(known))
+          findings.push_back(
+              {place, {static_cast<AgentIndex>(a), static_cast<AgentIndex>(b)}, known});
+      }
+    for (const auto& group : groups_) {
+      if (std::ranges::none_of(group, [&](AgentIndex agent) { return is_new_[agent]; })) continue;
+      key_.clear();
+      for (const AgentIndex agent : group) key_.push_back(ids[agent]);
+      const Known known = memory_.excesses.of_group(key_);
+      if (says_something(known)) findings.push_back({place, group, known});
+    }
+  }
+
+ private:
+  CommonMemory& memory_;
+  SituationsAt situations_;
+  std::vector<std::vector<AgentIndex>> groups_;
+  std::set<Id> seen_;
+  std::vector<bool> is_new_;  // by AgentIndex: a situation that no earlier node had
+  std::vector<Id> key_;
+};
+
+void require_place(const Finding& finding, std::size_t nodes) {
+  if (finding.node < 0 || static_cast<std::size_t>(finding.node) >= nodes)
+    throw std::invalid_argument("a finding must be about one of the nodes that it came with");
+}
+
+void require_agents(const Finding& finding, std::size_t agents) {
+  const auto& group = finding.agents;
+  const bool ascend = std::ranges::adjacent_find(group, std::greater_equal<>()) == group.end();
+  if (group.size() < 2 || !ascend || group.front() < 0 ||
+      static_cast<std::size_t>(group.back()) >= agents || finding.known.excess < 0)
+    throw std::invalid_argument("a finding must be about agents of the instance, in order");
+}
+
+}  // namespace
+
+std::vector<Finding> findings_about(std::span<const NodePtr> nodes, CommonMemory& memory) {
+  std::vector<Finding> findings;
+  if (memory.excesses.bytes() == 0) return findings;
+  Collector collector(memory);
+  for (std::size_t place = 0; place < nodes.size(); ++place)
+    collector.look_at(*nodes[place], static_cast<std::int32_t>(place), findings);
+  return findings;
+}
+
+void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes,
+           CommonMemory& memory) {
+  SituationsAt situations(memory);
+  const Node* at = nullptr;  // whose situations these are:
+  std::vector<Id> ids;
+  std::vector<Id> key;
+  for (const Finding& finding : findings) {
+    require_place(finding, nodes.size());
+    const Node* node = nodes[static_cast<std::size_t>(finding.node)].get();
+    if (!node) continue;
+    require_agents(finding, node->tree().orders.size());
+    if (node != at) ids = situations.of(*node);
+    at = node;
+    key.clear();
+    for (const AgentIndex agent : finding.agents) key.push_back(ids[agent]);
+    if (key.size() > 2) {
+      if (!says_something(memory.excesses.of_group(key)))
+        memory.excesses.learn_group(finding.agents, key, finding.known);
+    } else if (!says_something(memory.excesses.of_pair(key[0], key[1]))) {
+      memory.excesses.learn_pair(key[0], key[1], finding.agents[1], finding.known);
+    }
+  }
+}
+
+}  // namespace grove
