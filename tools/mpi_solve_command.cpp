@@ -99,13 +99,16 @@ class Run {
   void prepare(const std::string& workers) {
     prepare_outputs(a_, *loaded_);
     if (!a_.start.empty()) options_.start = read_start_plan(a_.start, loaded_->instance);
+    resumed_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
     sink_ = std::make_unique<LogSink>(!a_.quiet, a_.log);
     log_head(*sink_, app_, a_, *loaded_, workers);
+    if (resumed_) log_resumed(*sink_, resumed_->header());
   }
 
   void solve_and_write() {
     RunLog log(*sink_, start_, a_.time_limit_s, false);
-    IncumbentFiles observer(a_.incumbents, loaded_->instance, options_.omega, log);
+    IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
+                            options_.omega, log);
     Solution solution = *solve_with(observer);
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
@@ -134,6 +137,7 @@ class Run {
   std::optional<LoadedInstance> loaded_;
   Limits limits_;
   RunObserver silent_;
+  std::unique_ptr<CheckpointReader> resumed_;
   std::unique_ptr<LogSink> sink_;
 };
 
@@ -145,6 +149,7 @@ void add_mpi_solve_command(CLI::App& root, MpiSession& session) {
   const auto arguments = std::make_shared<SolveArguments>();
   arguments->instance.add_to(*app);
   add_search_options(*app, *arguments);
+  add_checkpoint_options(*app, arguments->checkpoints);
   add_file_options(*app, *arguments);
   app->callback([app, arguments, &session] { Run(*app, *arguments, session).run(); });
 }

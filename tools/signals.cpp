@@ -6,11 +6,12 @@
 namespace grove {
 
 std::atomic<bool> interrupted{false};
+std::atomic<bool> checkpoint_asked{false};
 
 namespace {
 
-extern "C" void on_signal(int) {
-  interrupted = true;
+extern "C" void on_signal(int signal) {
+  (signal == SIGUSR1 ? checkpoint_asked : interrupted) = true;
 }
 
 }  // namespace
@@ -22,6 +23,8 @@ void stop_on_signals() {
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
   ::sigaction(SIGHUP, &action, nullptr);
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGUSR1, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
 }
 
