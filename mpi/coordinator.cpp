@@ -118,7 +118,7 @@ void Coordinator::heard(int from, message::Status status) {
   broker_.heard(from, status);
   for (const auto& [giver, batches] : status.batches) {
     broker_.arrived(from);
-    release(giver, {from, batches});
+    transport_.send(giver, bytes_of(message::Release{from, batches}));
   }
   if (status.stopped != StopReason::kNone) limits_.stop(status.stopped);
   nodes_.update(from, std::move(status));
@@ -130,18 +130,8 @@ void Coordinator::heard(int from, message::Status status) {
     transport_.send(gift->from, bytes_of(message::Order{gift->to, gift->nodes}));
 }
 
-void Coordinator::release(int giver, const message::Release& release) {
-  if (gathering_ && gathering_->is_looking())
-    held_releases_.emplace_back(giver, release);
-  else
-    transport_.send(giver, bytes_of(release));
-}
-
 // One at a time; the last one when the search is over, before the ranks are told.
 void Coordinator::look_after_checkpoints() {
-  if (gathering_ && !gathering_->is_looking())
-    for (const auto& [giver, release] : std::exchange(held_releases_, {}))
-      transport_.send(giver, bytes_of(release));
   if (gathering_ && gathering_->is_done()) gathering_.reset();
   if (gathering_ || options_.checkpoints.directory.empty() || !restored_) return;
   const bool is_last = ledger_.over() && !gathered_at_end_;

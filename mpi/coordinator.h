@@ -62,7 +62,6 @@ class Coordinator {
 
   void restore(CheckpointReader& checkpoint);
   void heard(int from, message::Status status);
-  void release(int giver, const message::Release& release);
   void look_after_checkpoints();
   void leave(const message::Farewell& farewell);
 
@@ -78,7 +77,6 @@ class Coordinator {
 
   CheckpointTimer timer_;
   std::optional<Gathering> gathering_;
-  std::vector<std::pair<int, message::Release>> held_releases_;  // until all ranks have looked
   bool restored_ = true;  // nothing of a checkpoint is missing
   bool gathered_at_end_ = false;
   bool ending_ = false;

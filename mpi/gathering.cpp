@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The ranks do not look at the same moment, and nodes travel. Yet none is missed: while some rank
-// has yet to look, nobody is released from custody. So a node that one rank gave to another before
-// it looked itself is in its custody still, and seen there; or it had been released, and that was
-// said to it, before Gather was, because the receiver's status covered the node, which that rank
-// then holds, or what the node led to, when it hears of Gather. What was entrusted to a rank was so
+// The ranks do not look at the same moment, and nodes travel. Yet none is missed. All are told at
+// one moment of the coordinator's, and each hears that in order with the releases from custody. So
+// a node that one rank gave to another is still in its custody when it looks; or the release was
+// sent before Gather was, because a status of the receiver covered the node by then, so that this
+// rank held it, or what it led to, before it heard of Gather. What was entrusted to a rank was so
 // before Gather. A node seen twice does no harm.
 //
 // The rest is as in engine/local_checkpoints.cpp: trees are counted before anybody looks, nodes of

@@ -24,8 +24,6 @@ class Gathering {
   Gathering(const Checkpoints& checkpoints, CentralLedger& ledger, RankNodes& nodes,
             Transport& transport);
 
-  // Does some rank still have to look? Until then nobody may be released from custody.
-  bool is_looking() const { return looked_ < transport_.ranks(); }
   bool is_done() const { return done_; }
 
   void handle(const message::Gathered& gathered);
