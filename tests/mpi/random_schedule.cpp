@@ -82,11 +82,18 @@ struct Process {
   std::int64_t frozen_until = 0;
 };
 
-SimulatedNetwork::Delay random_delays(Dice& dice) {
-  const double typical = std::vector<double>{0, 1, 10, 100}[dice() % 4] * kTick;
-  return [&dice, typical](int, int, std::size_t) {
-    const double most = chance(dice, 10) ? 20 * typical : typical;
-    return std::uniform_real_distribution<double>(0, most + kTick)(dice);
+// Each link has a pace of its own: what one rank says to another may be overtaken for long by what
+// both say to the coordinator.
+SimulatedNetwork::Delay random_delays(Dice& dice, int ranks) {
+  const std::vector<double> paces{0, 1, 10, 100, 3000};
+  const double usual = paces[dice() % 4];
+  std::vector<double> typical;
+  for (int link = 0; link < ranks * ranks; ++link)
+    typical.push_back(kTick * (chance(dice, 70) ? usual : paces[dice() % paces.size()]));
+  return [&dice, typical, ranks](int from, int to, std::size_t) {
+    const double most = typical[static_cast<std::size_t>(from * ranks + to)];
+    return std::uniform_real_distribution<double>(0,
+                                                  (chance(dice, 10) ? 20 : 1) * most + kTick)(dice);
   };
 }
 
@@ -96,7 +103,7 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
                                const Schedule& schedule, RunObserver& observer,
                                const std::function<bool(Cost)>& look, ScheduleCounts& counts) {
   Dice dice(schedule.seed);
-  SimulatedNetwork network(schedule.ranks, random_delays(dice));
+  SimulatedNetwork network(schedule.ranks, random_delays(dice, schedule.ranks));
   const Limits no_limits;
   const Problem problem(instance, no_limits);
   std::deque<Process> processes;
