@@ -23,8 +23,10 @@ ENTER = ["setpriv", "--pdeathsig", "KILL",
          "--mount-proc", "--fork", "--kill-child"]
 MARK = "GROVE_SANDBOX"
 
-# mpirun refuses to run as root, which it is in here, unless told twice.
-MPI_AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+# What mpirun needs in here. It refuses to run as root, unless told twice; and its files, which it
+# leaves behind if it is killed, go with the sandbox.
+MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                   "OMPI_MCA_orte_tmpdir_base": str(FILES)}
 
 
 class NotHere(Exception):
@@ -84,14 +86,16 @@ def _outside():
                       "CAP_SYS_ADMIN and CAP_NET_ADMIN")
     inside = subprocess.Popen([*ENTER, sys.executable, *sys.argv], env={**os.environ, MARK: "1"})
 
+    signals = []
+
     def end(number, _):
+        signals.append(number)
         inside.kill()
-        inside.wait()
-        os._exit(128 + number)
 
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, end)
-    return _exit_code(inside.wait())
+    status = _exit_code(inside.wait())
+    return 128 + signals[0] if signals else status
 
 
 def _first_process(function):
@@ -109,9 +113,10 @@ def _first_process(function):
 
 
 def _furnish():
-    """A name, an address, and a /run of its own, where daemons have their sockets."""
+    """A name, an address, and of its own: /run, where daemons have their sockets, and /dev/shm."""
     subprocess.run(["hostname", HOST], check=True)
     subprocess.run(["mount", "-t", "tmpfs", "-o", "mode=755", "grove", "/run"], check=True)
+    subprocess.run(["mount", "-t", "tmpfs", "shm", "/dev/shm"], check=True)
     FILES.mkdir()
     set_hosts({HOST: ADDRESS})
     subprocess.run(["mount", "--bind", FILES / "hosts", "/etc/hosts"], check=True)

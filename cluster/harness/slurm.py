@@ -40,6 +40,7 @@ SelectTypeParameters=CR_CPU_Memory
 SlurmdParameters=config_overrides
 PreemptType=preempt/partition_prio
 PreemptMode=REQUEUE
+SchedulerParameters=batch_sched_delay=0,sched_interval=1,bf_interval=1
 SlurmctldParameters=preempt_send_user_signal
 NodeName={nodes} CPUs={cpus} RealMemory={memory} State=UNKNOWN
 PartitionName=batch Nodes=ALL Default=YES PriorityTier=1 MaxTime=60
@@ -52,7 +53,7 @@ def start(hosts):
     take jobs. Returns the environment that commands need."""
     sandbox.need_programs("munge", "munged")
     sandbox.need_programs("slurm-wlm", "slurmctld", "slurmd", "sbatch")
-    environment = {**os.environ, **sandbox.MPI_AS_ROOT, "SLURM_CONF": str(CONFIGURATION)}
+    environment = {**os.environ, **sandbox.MPI_ENVIRONMENT, "SLURM_CONF": str(CONFIGURATION)}
     _start_munged()
     (FOLDER / "state").mkdir(parents=True)
     CONFIGURATION.write_text(TEMPLATE.format(
