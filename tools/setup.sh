@@ -41,7 +41,7 @@ switch_off_daemons() {
   [ -d /run/systemd/system ] || return 0
   for package in "${missing[@]}"; do
     case $package in
-      munge | slurmctld | slurmd) quietly "$@" systemctl disable --now "$package" ;;
+      munge | slurmctld | slurmd) quietly "$@" systemctl disable --now "$package" || true ;;
     esac
   done
 }

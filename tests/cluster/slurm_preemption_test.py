@@ -71,6 +71,7 @@ class AnUrgentJob(PreemptScript, unittest.TestCase):
         submit_and_wait("--partition=urgent", "--cpus-per-task=4", "--output=/dev/null",
                         "--wrap=true", cwd=self.folder)
         self.wait_until_job_is(10, JobState="PENDING", Restarts="1")
+        self.assertIn("Plan file", self.log())
         self.second_run(checked_plan(self.instance, self.plan)["lower_bound"])
 
 
@@ -83,6 +84,16 @@ class TimeOfGrace(PreemptScript, unittest.TestCase):
         self.assertEqual(plan["stats"]["stopped_by"], "interrupt")
         self.assertNotRegex(self.log(), RESUMED)
         self.second_run(plan["lower_bound"])
+
+
+class Cancelled(PreemptScript, unittest.TestCase):
+    def test_a_cancelled_job_writes_its_plan_and_does_not_come_back(self):
+        run("scancel", self.job)
+        self.wait_until_job_is(10, JobState="CANCELLED", Restarts="0")
+        self.assertIn("Plan file", self.log())
+        self.assertEqual(checked_plan(self.instance, self.plan)["stats"]["stopped_by"],
+                         "interrupt")
+        self.assertFalse(run("squeue", "--noheader"))
 
 
 if __name__ == "__main__":
