@@ -35,7 +35,7 @@ class NotHere(Exception):
 
 def run_in_sandbox(function):
     """Ends this program with what function() returns when called as root in a sandbox, on a host
-    called HOST: this program runs once more in there. If it cannot, says why and ends with SKIPPED."""
+    called HOST: this program runs once more in there. If it cannot, says why; ends with SKIPPED."""
     os.environ["PATH"] += ":/usr/sbin:/sbin"
     try:
         inside = os.environ.pop(MARK, None) and os.getpid() == 1
@@ -46,10 +46,9 @@ def run_in_sandbox(function):
     sys.exit(status)
 
 
-def need_programs(package, *programs):
-    for program in programs:
-        if not shutil.which(program):
-            raise NotHere(f"there is no {program}; it is in the Debian package {package}")
+def need_program(package, program):
+    if not shutil.which(program):
+        raise NotHere(f"there is no {program}; it is in the Debian package {package}")
 
 
 def run_command(command, environment):
@@ -78,13 +77,16 @@ def connect(address, *on_host):
 def _outside():
     if os.geteuid() != 0:
         raise NotHere("only root may make namespaces and start daemons in them")
-    need_programs("iproute2", "ip")
+    need_program("iproute2", "ip")
     attempt = subprocess.run([*ENTER, "ip", "link", "set", "lo", "up"], capture_output=True,
                              text=True)
     if attempt.returncode != 0:
         raise NotHere(f"namespaces are not permitted ({attempt.stderr.strip()}); a container needs "
                       "CAP_SYS_ADMIN and CAP_NET_ADMIN")
-    inside = subprocess.Popen([*ENTER, sys.executable, *sys.argv], env={**os.environ, MARK: "1"})
+    # Of a Slurm job or an mpirun that we may be part of, nothing is to be seen inside.
+    environment = {name: value for name, value in os.environ.items()
+                   if not name.startswith(("SLURM", "SBATCH", "SRUN", "PMI"))}
+    inside = subprocess.Popen([*ENTER, sys.executable, *sys.argv], env={**environment, MARK: "1"})
 
     signals = []
 

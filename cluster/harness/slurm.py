@@ -2,8 +2,9 @@
 """A Slurm of its own inside a sandbox: munged, one slurmctld, a slurmd on each host.
 
 Its configuration is what a cluster of such hosts has, with two partitions: `batch`, and `urgent`,
-whose jobs take the place of those of `batch`. Ports and sockets are the usual ones: nobody else is
-in the sandbox.
+whose jobs take the place of those of `batch`. It does without cgroups (proctrack/pgid), which a
+container may not have; so it binds no rank to cores and does not enforce memory. Ports and sockets are the
+usual ones: nobody else is in the sandbox.
 """
 import os
 import subprocess
@@ -14,8 +15,8 @@ from . import sandbox, second_host
 FOLDER = sandbox.FILES / "slurm"
 CONFIGURATION = FOLDER / "slurm.conf"
 READY_WITHIN_S = 20
-# What a node is said to offer, so that jobs need not queue on a small machine.
-CPUS, MEMORY_MB = 4, 4000
+# What a node is said to offer: what the job scripts ask for.
+CPUS, MEMORY_MB = 8, 16384
 
 SILENT = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
@@ -43,16 +44,18 @@ PreemptMode=REQUEUE
 SchedulerParameters=batch_sched_delay=0,sched_interval=1,bf_interval=1
 SlurmctldParameters=preempt_send_user_signal
 NodeName={nodes} CPUs={cpus} RealMemory={memory} State=UNKNOWN
-PartitionName=batch Nodes=ALL Default=YES PriorityTier=1 MaxTime=60
-PartitionName=urgent Nodes=ALL PriorityTier=2 PreemptMode=OFF MaxTime=60
+PartitionName=batch Nodes=ALL Default=YES PriorityTier=1
+PartitionName=urgent Nodes=ALL PriorityTier=2 PreemptMode=OFF
 """
 
 
 def start(hosts):
     """Starts the daemons on these hosts, the first of which is the sandbox's, and waits until they
     take jobs. Returns the environment that commands need."""
-    sandbox.need_programs("munge", "munged")
-    sandbox.need_programs("slurm-wlm", "slurmctld", "slurmd", "sbatch")
+    sandbox.need_program("munge", "munged")
+    sandbox.need_program("slurmctld", "slurmctld")
+    sandbox.need_program("slurmd", "slurmd")
+    sandbox.need_program("slurm-client", "sbatch")
     environment = {**os.environ, **sandbox.MPI_ENVIRONMENT, "SLURM_CONF": str(CONFIGURATION)}
     _start_munged()
     (FOLDER / "state").mkdir(parents=True)

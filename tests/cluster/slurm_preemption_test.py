@@ -68,8 +68,8 @@ class AnUrgentJob(PreemptScript, unittest.TestCase):
         wait_until("a checkpoint", self.checkpoint_files, 5)
         self.assertTrue(self.job_is(JobState="RUNNING"))
         self.assertNotRegex(self.log(), RESUMED)
-        submit_and_wait("--partition=urgent", "--cpus-per-task=4", "--output=/dev/null",
-                        "--wrap=true", cwd=self.folder)
+        submit_and_wait("--partition=urgent", "--exclusive", "--output=/dev/null", "--wrap=true",
+                        cwd=self.folder)
         self.wait_until_job_is(10, JobState="PENDING", Restarts="1")
         self.assertIn("Plan file", self.log())
         self.second_run(checked_plan(self.instance, self.plan)["lower_bound"])

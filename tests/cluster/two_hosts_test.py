@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A solve by two hosts, as cluster/README.md says for hosts without Slurm. Run by cluster/two_hosts."""
+"""A solve by two hosts without Slurm, as cluster/README.md says. Run by cluster/two_hosts."""
 import os
 import tempfile
 import unittest
