@@ -3,8 +3,8 @@
 
 Its configuration is what a cluster of such hosts has, with two partitions: `batch`, and `urgent`,
 whose jobs take the place of those of `batch`. It does without cgroups (proctrack/pgid), which a
-container may not have; so it binds no rank to cores and does not enforce memory. Ports and sockets are the
-usual ones: nobody else is in the sandbox.
+container may not have; so it neither binds ranks to cores nor enforces limits of memory. Ports and
+sockets are the usual ones: nobody else is in the sandbox.
 """
 import os
 import subprocess
