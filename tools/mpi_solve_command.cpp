@@ -6,10 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "grove/engine/run_observer.h"
 #include "grove/io/plan_file.h"
@@ -54,15 +58,61 @@ int fair_threads(const MpiSession& session) {
   return std::max(1, usable_cores() / static_cast<int>(sharing));
 }
 
-std::string workers_text(const MpiSession& session, std::int64_t threads) {
-  const auto hosts = session.gather(host());
-  const auto each = session.gather(std::to_string(threads));
-  const bool same = std::set(each.begin(), each.end()).size() == 1;
-  const auto count = std::set(hosts.begin(), hosts.end()).size();
-  return fmt::format("{} on {} rank{}, {} host{}",
-                     same ? each.front() + " each" : fmt::format("{}", fmt::join(each, ", ")),
-                     session.ranks(), session.ranks() == 1 ? "" : "s", count,
-                     count == 1 ? "" : "s");
+// What each rank says of itself, by rank.
+struct Crew {
+  std::vector<std::string> hosts;
+  std::vector<int> threads;
+  std::vector<int> cores;     // that it may use
+  std::vector<int> machines;  // all cores of its host
+};
+
+std::vector<int> gather_numbers(const MpiSession& session, int mine) {
+  std::vector<int> all;
+  for (const std::string& text : session.gather(std::to_string(mine)))
+    all.push_back(std::stoi(text));
+  return all;
+}
+
+Crew gather_crew(const MpiSession& session, std::int64_t threads) {
+  return {session.gather(host()), gather_numbers(session, static_cast<int>(threads)),
+          gather_numbers(session, usable_cores()),
+          gather_numbers(session, static_cast<int>(std::thread::hardware_concurrency()))};
+}
+
+std::string workers_text(const Crew& crew) {
+  const bool same = std::set(crew.threads.begin(), crew.threads.end()).size() == 1;
+  const auto hosts = std::set(crew.hosts.begin(), crew.hosts.end()).size();
+  return fmt::format("{}{} on {} rank{}, {} host{}",
+                     same ? fmt::format("{}", crew.threads.front())
+                          : fmt::format("{}", fmt::join(crew.threads, ", ")),
+                     crew.threads.size() > 1 && same ? " each" : "", crew.threads.size(),
+                     crew.threads.size() == 1 ? "" : "s", hosts, hosts == 1 ? "" : "s");
+}
+
+// More threads than cores slow each other down, and cores may be left idle without intent.
+std::vector<std::string> warnings(const Crew& crew) {
+  std::vector<std::string> found;
+  std::map<std::string, std::pair<int, int>> by_host;  // threads, cores
+  for (std::size_t rank = 0; rank < crew.hosts.size(); ++rank) {
+    auto& [threads, cores] = by_host[crew.hosts[rank]];
+    threads += crew.threads[rank];
+    cores = crew.machines[rank];
+    if (crew.threads[rank] > crew.cores[rank])
+      found.push_back(fmt::format(
+          "rank {} has {} threads and may use {} of {} cores; see mpirun's --bind-to none", rank,
+          crew.threads[rank], crew.cores[rank], crew.machines[rank]));
+  }
+  for (const auto& [name, counts] : by_host) {
+    const auto [threads, cores] = counts;
+    if (threads > cores)
+      found.push_back(fmt::format("host {} has {} cores for {} threads", name, cores, threads));
+    else if (threads < cores)
+      found.push_back(fmt::format(
+          "host {} has {} cores and {} will be used; for more see --threads and mpirun's "
+          "--bind-to none",
+          name, cores, threads));
+  }
+  return found;
 }
 
 // What a rank has and does in a run.
@@ -83,9 +133,9 @@ class Run {
     require_same(session_, "an instance of fingerprint",
                  fmt::format("{:016x}", fingerprint(loaded_->instance)));
     set_limits(limits_, a_, start_);
-    const std::string workers = workers_text(session_, a_.threads);
+    const Crew crew = gather_crew(session_, a_.threads);
     together(session_, [&] {
-      if (is_first()) prepare(workers);
+      if (is_first()) prepare(crew);
     });
     if (is_first())
       solve_and_write();
@@ -96,12 +146,13 @@ class Run {
  private:
   bool is_first() const { return session_.rank() == 0; }
 
-  void prepare(const std::string& workers) {
+  void prepare(const Crew& crew) {
     prepare_outputs(a_, *loaded_);
     if (!a_.start.empty()) options_.start = read_start_plan(a_.start, loaded_->instance);
     resumed_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
-    sink_ = std::make_unique<LogSink>(!a_.quiet, a_.log);
-    log_head(*sink_, app_, a_, *loaded_, workers);
+    sink_ = std::make_unique<LogSink>(!a_.quiet, a_.log, false);
+    log_head(*sink_, app_, a_, *loaded_, workers_text(crew));
+    for (const std::string& warning : warnings(crew)) sink_->line("Warning: " + warning);
     if (resumed_) log_resumed(*sink_, resumed_->header());
   }
 

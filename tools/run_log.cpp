@@ -74,8 +74,9 @@ int telling(char letter) {
 
 }  // namespace
 
-LogSink::LogSink(bool to_stdout, const std::filesystem::path& file)
-    : to_stdout_(to_stdout), shows_progress_(to_stdout && ::isatty(STDOUT_FILENO) == 1) {
+LogSink::LogSink(bool to_stdout, const std::filesystem::path& file, bool may_show_progress)
+    : to_stdout_(to_stdout),
+      shows_progress_(to_stdout && may_show_progress && ::isatty(STDOUT_FILENO) == 1) {
   if (file.empty()) return;
   file_.reset(std::fopen(file.c_str(), "w"));
   if (!file_)

@@ -19,8 +19,9 @@ namespace grove {
 // line that the next line overwrites.
 class LogSink {
  public:
-  // `file` empty: no file. Throws InputError when it cannot be opened.
-  LogSink(bool to_stdout, const std::filesystem::path& file);
+  // `file` empty: no file. Throws InputError when it cannot be opened. `may_show_progress`: mpirun
+  // gives its programs a terminal even where there is none.
+  LogSink(bool to_stdout, const std::filesystem::path& file, bool may_show_progress = true);
 
   void line(std::string_view text = "");
   bool shows_progress() const { return shows_progress_; }

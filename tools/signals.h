@@ -12,9 +12,9 @@ extern std::atomic<bool> interrupted;
 // Set by SIGUSR1, likewise; whoever writes the checkpoint resets it.
 extern std::atomic<bool> checkpoint_asked;
 
-// SIGUSR1 asks for a checkpoint. The first Ctrl-C, SIGTERM or hang-up ends the search; a second one
-// has its usual effect. A reader of the log that goes away (`| head`) must not take the plan with
-// it.
+// SIGUSR1 asks for a checkpoint. The first Ctrl-C, SIGTERM or hang-up ends the search; a second
+// Ctrl-C has its usual effect (batch systems send SIGTERM twice, so that one has not). A reader of
+// the log that goes away (`| head`) must not take the plan with it.
 void stop_on_signals();
 
 }  // namespace grove

@@ -92,7 +92,7 @@ void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& a,
 void log_resumed(LogSink& sink, const CheckpointHeader& checkpoint) {
   const auto expanded = checkpoint.counters.find("nodes_expanded");
   sink.line(fmt::format(
-      "Going on from a checkpoint after {:.1f} s and {} nodes: lower bound {}{}",
+      "Resuming from a checkpoint after {:.1f} s and {} nodes: lower bound {}{}",
       checkpoint.seconds, expanded == checkpoint.counters.end() ? 0 : expanded->second,
       checkpoint.lower_bound,
       checkpoint.incumbent ? fmt::format(", incumbent {}", checkpoint.incumbent->cost) : ""));

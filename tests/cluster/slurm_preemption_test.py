@@ -45,7 +45,7 @@ class PreemptScript:
         wait_until(f"{fields} in scontrol show job", lambda: self.job_is(**fields), seconds)
 
     def checkpoint_files(self):
-        return [path for path in (self.folder / "hard.checkpoint").rglob("*") if path.is_file()]
+        return [path for path in (self.folder / "hard.checkpoint").rglob("*") if path.name == "checkpoint.grove"]
 
     def second_run(self, bound_before):
         """The job, which is in the queue once more, runs to the end of its time limit."""
