@@ -13,7 +13,8 @@
 namespace grove::batch {
 
 LineFile::LineFile(std::filesystem::path path)
-    : path_(std::move(path)), fd_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)) {
+    : path_(std::move(path)),
+      fd_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666)) {
   if (fd_ < 0) fail();
 }
 

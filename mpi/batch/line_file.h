@@ -10,7 +10,7 @@ namespace grove::batch {
 // Appends to a file. A process that is killed leaves at most the last line torn. Of one thread.
 class LineFile {
  public:
-  // The file must exist. Throws InputError when it cannot be written.
+  // Makes the file if it is missing. Throws InputError when it cannot be written.
   explicit LineFile(std::filesystem::path path);
   ~LineFile();
   LineFile(const LineFile&) = delete;

@@ -174,7 +174,7 @@ void ResultTable::put_last_what_was_begun(std::vector<Entry>& entries) {
       kept += it->first + "\n";
     }
   std::ranges::stable_sort(entries, {}, [&](const Entry& entry) { return times[entry.id]; });
-  write_file_atomically(begun_file(), kept);
+  if (kept != text) write_file_atomically(begun_file(), kept);
   begun_.emplace(begun_file());
 }
 
