@@ -65,9 +65,7 @@ std::optional<Entry> FarmClient::next_entry() {
     if (!message) {
       options_.idle();
     } else if (auto* assignment = std::get_if<Assignment>(&*message)) {
-      if (!interrupted_) return std::move(assignment->entry);
-      tell_master(GaveUp{});
-      tell_master(AskForWork{});
+      return std::move(assignment->entry);
     } else if (std::holds_alternative<Dismissal>(*message)) {
       return std::nullopt;
     } else {
