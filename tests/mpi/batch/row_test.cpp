@@ -131,7 +131,7 @@ TEST(Rows, RefuseWhatIsNone) {
 TEST(Results, SayWhatTheSolutionSays) {
   Solution solution;
   solution.status = Status::kFeasible;
-  solution.plan = Plan{.cost = 20, .agents = {}};
+  solution.plan.emplace().cost = 20;
   solution.lower_bound = 10;
   solution.stats.counts["nodes_expanded"] = 5;
   solution.stats.texts["stopped_by"] = "time limit";
