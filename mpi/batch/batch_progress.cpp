@@ -50,7 +50,10 @@ std::string progress_line(const BatchState& state) {
   if (state.limited > 0) text += fmt::format(", {} at a limit", state.limited);
   if (state.failed > 0) text += fmt::format(", {} failed", state.failed);
   text += fmt::format("; {} gone", duration_text(state.elapsed_s));
-  if (state.ending) text += fmt::format(", ending: {} under way", state.under_way);
+  if (state.ending && state.under_way > 0)
+    text += fmt::format(", ending: {} under way", state.under_way);
+  if (state.ending && state.under_way == 0)
+    text += fmt::format(", {} left for another run", state.total - state.done());
   if (const auto left = seconds_left(state); left && *left > 0)
     text += fmt::format(", about {} left", duration_text(*left));
   return text;

@@ -2,6 +2,7 @@
 // Has an instance changed since it was solved?
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>

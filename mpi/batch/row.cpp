@@ -32,14 +32,19 @@ std::vector<std::pair<std::string, Json>> head_columns(const Row& row) {
           {"gap", of_result(gap(row.result))}};
 }
 
+// To a millionth: nobody reads more.
+Json seconds_json(std::optional<double> seconds) {
+  if (!seconds) return nullptr;
+  return std::round(*seconds * 1e6) / 1e6;
+}
+
 std::vector<std::pair<std::string, Json>> tail_columns(const Row& row) {
-  const auto first_plan = row.result.first_plan_s;
   return {{"version", row.version},
           {"ranks", row.ranks},
           {"threads", row.threads},
-          {"wall_s", row.wall_s},
+          {"wall_s", seconds_json(row.wall_s)},
           {"nodes_expanded", row.result.nodes_expanded},
-          {"first_plan_s", first_plan ? Json(*first_plan) : Json(nullptr)},
+          {"first_plan_s", seconds_json(row.result.first_plan_s)},
           {"stopped_by", row.result.stopped_by},
           {"error", row.error},
           {"plan_file", row.result.plan_file},

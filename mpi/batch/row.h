@@ -43,9 +43,9 @@ struct Row {
   Result result;
   std::string error;  // why there is no result; empty: there is one
   std::string version;
-  int ranks = 1;    // that solved it together
-  int threads = 1;  // of each
-  double wall_s = 0;
+  int ranks = 1;           // that solved it together
+  int threads = 1;         // of each
+  double wall_s = 0;       // files keep microseconds
   std::string started_at;  // UTC, as 2026-11-30T23:59:59Z
 
   bool failed() const { return !error.empty(); }

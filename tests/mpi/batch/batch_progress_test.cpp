@@ -80,6 +80,9 @@ TEST(ProgressTexts, SayWhatThereIs) {
   EXPECT_EQ(progress_line(state),
             "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, ending: 2 under way, about "
             "0:06 left");
+  state.under_way = 0;
+  EXPECT_EQ(progress_line(state),
+            "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, 94 left for another run");
   BatchState first;
   first.total = 2;
   first.under_way = 1;

@@ -98,6 +98,15 @@ TEST(Rows, HaveAGapWhereThereIsOne) {
   EXPECT_NE(csv_line(row, {}).find(",637,0,inf,"), std::string::npos);
 }
 
+TEST(Rows, HaveSecondsThatPeopleCanRead) {
+  Row row = finished_row();
+  row.wall_s = 0.00015441900177393109;
+  row.result.first_plan_s = 1.0 / 3;
+  const auto json = nlohmann::json::parse(json_line(row, {}));
+  EXPECT_EQ(json["wall_s"].dump(), "0.000154");
+  EXPECT_EQ(json["first_plan_s"].dump(), "0.333333");
+}
+
 TEST(Rows, WithTextThatIsNoUtf8AreStillJson) {
   Row row = failed_row();
   row.error = "\xff!";
