@@ -25,7 +25,7 @@ MpiTransport::~MpiTransport() {
   MPI_Comm_free(&communicator_);
 }
 
-void MpiTransport::send(int to, std::string bytes) {
+void MpiTransport::do_send(int to, std::string bytes) {
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw std::length_error("a message is too long for MPI");
   forget_sent();

@@ -21,7 +21,6 @@ class MpiTransport : public Transport {
 
   int rank() const override { return rank_; }
   int ranks() const override { return ranks_; }
-  void send(int to, std::string bytes) override;
   std::optional<Parcel> receive() override;
 
  private:
@@ -29,6 +28,7 @@ class MpiTransport : public Transport {
     MPI_Request request;
     std::string bytes;
   };
+  void do_send(int to, std::string bytes) override;
   void forget_sent();
 
   MPI_Comm communicator_ = MPI_COMM_NULL;

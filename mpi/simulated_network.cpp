@@ -13,10 +13,11 @@ class SimulatedNetwork::End : public Transport {
 
   int rank() const override { return rank_; }
   int ranks() const override { return static_cast<int>(network_.ends_.size()); }
-  void send(int to, std::string bytes) override { network_.send(rank_, to, std::move(bytes)); }
   std::optional<Parcel> receive() override { return network_.receive(rank_); }
 
  private:
+  void do_send(int to, std::string bytes) override { network_.send(rank_, to, std::move(bytes)); }
+
   SimulatedNetwork& network_;
   const int rank_;
 };
@@ -48,8 +49,7 @@ void SimulatedNetwork::send(int from, int to, std::string bytes) {
   if (lasts.empty()) lasts.resize(ends_.size());  // most pairs never talk
   double& last = lasts[static_cast<std::size_t>(to)];
   last = std::max(last, now_ + delay_(from, to, bytes.size()));
-  bytes_ += static_cast<std::int64_t>(bytes.size());
-  inboxes_[static_cast<std::size_t>(to)].push({last, messages_++, {from, std::move(bytes)}});
+  inboxes_[static_cast<std::size_t>(to)].push({last, serial_++, {from, std::move(bytes)}});
 }
 
 std::optional<Parcel> SimulatedNetwork::receive(int rank) {

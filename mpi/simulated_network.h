@@ -33,10 +33,6 @@ class SimulatedNetwork {
   // When the next message for `rank` arrives, perhaps in the past; infinity: none is under way.
   double next_arrival(int rank) const;
 
-  // So far.
-  std::int64_t messages() const { return messages_; }
-  std::int64_t bytes() const { return bytes_; }
-
  private:
   class End;
   struct UnderWay {
@@ -59,8 +55,7 @@ class SimulatedNetwork {
   std::vector<Inbox> inboxes_;
   std::vector<std::vector<double>> last_arrival_;  // by sender, then receiver
   double now_ = 0;
-  std::int64_t messages_ = 0;
-  std::int64_t bytes_ = 0;
+  std::int64_t serial_ = 0;
 };
 
 }  // namespace grove

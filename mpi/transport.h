@@ -2,8 +2,10 @@
 // How processes talk.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace grove {
 
@@ -26,9 +28,23 @@ class Transport {
   virtual int rank() const = 0;
   virtual int ranks() const = 0;
   // Returns at once; the message is under way.
-  virtual void send(int to, std::string bytes) = 0;
+  void send(int to, std::string bytes) {
+    ++messages_;
+    bytes_ += static_cast<std::int64_t>(bytes.size());
+    do_send(to, std::move(bytes));
+  }
   // The next message that has arrived, if any has; returns at once.
   virtual std::optional<Parcel> receive() = 0;
+
+  // Sent so far.
+  std::int64_t messages() const { return messages_; }
+  std::int64_t bytes() const { return bytes_; }
+
+ private:
+  virtual void do_send(int to, std::string bytes) = 0;
+
+  std::int64_t messages_ = 0;
+  std::int64_t bytes_ = 0;
 };
 
 }  // namespace grove

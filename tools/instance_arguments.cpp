@@ -39,9 +39,9 @@ LoadedInstance InstanceArguments::read() const {
   return read_scenario_instance(path_, map_, static_cast<int>(agents_));
 }
 
-LoadedInstance InstanceArguments::load() const {
+LoadedInstance InstanceArguments::load(bool speaks) const {
   LoadedInstance loaded = read();
-  print_warnings(loaded.warnings);
+  if (speaks) print_warnings(loaded.warnings);
   return loaded;
 }
 

@@ -15,9 +15,9 @@ class InstanceArguments {
  public:
   void add_to(CLI::App& command);
 
-  // Reads the files; prints the warnings on stderr. Throws InputError, or CLI::ValidationError when
-  // the arguments do not fit together.
-  LoadedInstance load() const;
+  // Reads the files; prints the warnings on stderr if it `speaks`. Throws InputError, or
+  // CLI::ValidationError when the arguments do not fit together.
+  LoadedInstance load(bool speaks = true) const;
 
   const std::string& path() const { return path_; }
 

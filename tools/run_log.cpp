@@ -169,6 +169,14 @@ void RunLog::on_infeasible(std::string_view reason) {
   sink_.line(fmt::format("There is no plan: {}.", reason));
 }
 
+void RunLog::on_checkpoint(const CheckpointReport& report) {
+  if (report.failure.empty())
+    sink_.line(fmt::format("  Checkpoint of {} nodes written in {:.2f} s ({:.2f}s)", report.nodes,
+                           report.seconds, seconds()));
+  else
+    sink_.line(fmt::format("  NO checkpoint was written: {}", report.failure));
+}
+
 void RunLog::finish(const Solution& solution, const std::filesystem::path& plan_path) {
   const auto text = [&](const char* key) {
     const auto it = solution.stats.texts.find(key);

@@ -6,11 +6,12 @@
 // and a node is pushed before that lock is taken to look for who is parked. So either the parking
 // worker sees the node or the pushing one sees the worker. And nobody parks while no node is live:
 // then the next tree is due, or the run is over, and somebody must find out.
-#include "multicore.h"
+#include "grove/engine/multicore.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <chrono>
 #include <mutex>
 #include <new>
 #include <thread>
@@ -22,10 +23,12 @@ namespace grove {
 namespace {
 
 constexpr int kMostTurnsInARound = 4;
+constexpr auto kPause = std::chrono::microseconds(100);  // where no node is live just now
 
 class Crew {
  public:
-  Crew(SharedSearch& shared, const Limits& limits) : shared_(shared), limits_(limits) {}
+  Crew(SharedSearch& shared, const Limits& limits, const BetweenTurns& between_turns)
+      : shared_(shared), limits_(limits), between_turns_(between_turns) {}
 
   void run(std::span<const std::unique_ptr<Worker>> workers) {
     for (const auto& worker : workers) start(*worker);
@@ -39,13 +42,13 @@ class Crew {
 
   void work(Worker& worker) {
     try {
-      while (!shared_.over())
+      for (; !shared_.over(); between_turns_())
         if (worker.turn())
           call_another();
         else if (park(worker))
           return;
         else
-          std::this_thread::yield();
+          std::this_thread::sleep_for(kPause);
     } catch (const std::bad_alloc&) {
       limits_.memory_exhausted();
     } catch (...) {
@@ -72,6 +75,7 @@ class Crew {
 
   SharedSearch& shared_;
   const Limits& limits_;
+  const BetweenTurns& between_turns_;
   Tasks tasks_;
   std::mutex mutex_;
   std::vector<Worker*> parked_;
@@ -105,8 +109,12 @@ void choose_turns(std::vector<Lane>& lanes) {
 
 }  // namespace
 
+void solve_alone(Worker& worker, const SharedSearch& shared, const BetweenTurns& between_turns) {
+  for (; !shared.over(); between_turns()) worker.turn();
+}
+
 void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
-                    const Limits& limits) {
+                    const Limits& limits, const BetweenTurns& between_turns) {
   const auto threads = static_cast<int>(workers.size());
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
@@ -115,11 +123,11 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
     ~AllowWork() { limits.allow_work(); }
   } const at_last{limits};
   tbb::task_arena arena(threads);
-  arena.execute([&] { Crew(shared, limits).run(workers); });
+  arena.execute([&] { Crew(shared, limits, between_turns).run(workers); });
 }
 
 void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
-                     int threads) {
+                     int threads, const BetweenTurns& between_turns) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
@@ -133,6 +141,7 @@ void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSea
         if (!lane.turns.empty()) tasks.run([&lane] { lane.perform(); });
       tasks.wait();
       for (Lane& lane : lanes) lane.commit();
+      between_turns();
     }
   });
 }

@@ -9,7 +9,7 @@
 // work it may do 8 x^3: much more than the tree while it improves, as much at x = 1/2, an eighth at
 // 1/4; and never less than 1/32. None of this knows how large the instance is or how fast the
 // machine.
-#include "primal_share.h"
+#include "grove/engine/primal_share.h"
 
 #include <algorithm>
 

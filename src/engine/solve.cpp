@@ -5,45 +5,85 @@
 #include <new>
 #include <string>
 
+#include "grove/engine/central_ledger.h"
+#include "grove/engine/local_nodes.h"
+#include "grove/engine/multicore.h"
 #include "grove/engine/run_observer.h"
+#include "grove/engine/shared_search.h"
+#include "grove/engine/worker.h"
 #include "grove/search/feasibility.h"
 #include "grove/search/gate.h"
-#include "multicore.h"
-#include "shared_search.h"
+#include "local_checkpoints.h"
 #include "stop_text.h"
-#include "worker.h"
 
 namespace grove {
 namespace {
 
-void solve_alone(Worker& worker, const SharedSearch& shared) {
-  while (!shared.over()) worker.turn();
+// The first tree, or all that a checkpoint knows. False: there is nothing to search.
+bool begin(const Problem& problem, const SolveOptions& options, CentralLedger& ledger,
+           LocalNodes& nodes) {
+  if (options.resume) return restore(*options.resume, problem.instance, ledger, nodes);
+  ledger.begin();
+  return true;
 }
+
+// The workers of a run, whose turns are what happens in it.
+class Workers {
+ public:
+  Workers(const Problem& problem, const SolveOptions& options, const Limits& limits,
+          SharedSearch& shared, const AgentStopsStore& stops)
+      : options_(options), limits_(limits), shared_(shared) {
+    const int lanes = options.deterministic ? kDeterministicLanes : options.threads;
+    for (int number = 0; number < lanes; ++number)
+      workers_.push_back(std::make_unique<Worker>(problem, options, limits, shared, stops, number));
+  }
+
+  void run(const BetweenTurns& between_turns) {
+    if (options_.deterministic)
+      solve_in_rounds(workers_, shared_, options_.threads, between_turns);
+    else if (workers_.size() > 1)
+      solve_together(workers_, shared_, limits_, between_turns);
+    else
+      solve_alone(*workers_.front(), shared_, between_turns);
+  }
+
+  void add_counts(Stats& stats) const {
+    for (const auto& worker : workers_) worker->add_counts(stats);
+  }
+
+ private:
+  const SolveOptions& options_;
+  const Limits& limits_;
+  SharedSearch& shared_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+};
 
 Solution search(const Problem& problem, const SolveOptions& options, const Limits& limits,
                 RunObserver& observer) {
-  const int lanes = options.deterministic ? kDeterministicLanes : options.threads;
-  SharedSearch shared(problem, options, limits, observer);
-  std::vector<std::unique_ptr<Worker>> workers;
+  LocalNodes nodes;
+  CentralLedger ledger(problem, options, limits, observer, nodes.pool, nodes);
+  SharedSearch shared(options, limits, nodes, ledger);
+  LocalCheckpoints checkpoints(options, ledger, nodes);
+  std::optional<Workers> workers;
+  bool begun = false;
   try {
-    shared.begin();
-    for (int number = 0; number < lanes; ++number)
-      workers.push_back(std::make_unique<Worker>(problem, options, limits, shared, number));
-    if (options.deterministic)
-      solve_in_rounds(workers, shared, options.threads);
-    else if (lanes > 1)
-      solve_together(workers, shared, limits);
-    else
-      solve_alone(*workers.front(), shared);
+    begun = begin(problem, options, ledger, nodes);
+    if (begun) {
+      workers.emplace(problem, options, limits, shared, ledger.stops());
+      workers->run([&] { checkpoints.write_if_due(); });
+    }
   } catch (const std::bad_alloc&) {
     limits.memory_exhausted();
   }
   Stats stats;
-  for (const auto& worker : workers) worker->add_counts(stats);
-  workers.clear();  // their memory may be needed for the answer
-  shared.tell(RunEvent::kEnd);
-  Solution solution = shared.conclude();
+  if (workers) workers->add_counts(stats);
+  workers.reset();  // their memory may be needed for the answer
+  if (begun) checkpoints.write_last();
+  ledger.end();
+  Solution solution = ledger.conclude();
+  shared.add_counts(solution.stats);
   solution.stats.counts.merge(stats.counts);
+  solution.stats.measures["node_bytes"] = nodes.pool.mean_bytes();
   return solution;
 }
 
@@ -73,18 +113,24 @@ Solution stopped_before_search(const Instance& instance, const SolveOptions& opt
 
 }  // namespace
 
+std::optional<Solution> answer_without_search(const Problem& problem, const SolveOptions& options,
+                                              const Limits& limits, RunObserver& observer) {
+  if (!problem.distances.complete())
+    return stopped_before_search(problem.instance, options, limits, observer);
+  const auto reason = evident_infeasibility(problem);
+  if (!reason) return std::nullopt;
+  observer.on_infeasible(*reason);
+  return without_search(options, Status::kInfeasible, "reason", *reason);
+}
+
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer) {
   RunObserver silent;
   RunObserver& watcher = observer ? *observer : silent;
   try {
     const Problem problem(instance, limits);
-    if (!problem.distances.complete())
-      return stopped_before_search(instance, options, limits, watcher);
-    if (const auto reason = evident_infeasibility(problem)) {
-      watcher.on_infeasible(*reason);
-      return without_search(options, Status::kInfeasible, "reason", *reason);
-    }
+    if (auto answer = answer_without_search(problem, options, limits, watcher))
+      return std::move(*answer);
     return search(problem, options, limits, watcher);
   } catch (const std::bad_alloc&) {  // before the search: nothing is known yet
     limits.memory_exhausted();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "worker.h"
+#include "grove/engine/worker.h"
 
 #include <cmath>
 #include <utility>
 
-#include "techniques_of.h"
+#include "grove/engine/techniques_of.h"
 
 namespace grove {
 namespace {
@@ -16,13 +16,13 @@ constexpr std::int64_t kStepsPerWork = 4;      // of the paths of a node that is
 }  // namespace
 
 Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
-               SharedSearch& shared, int number)
+               SharedSearch& shared, const AgentStopsStore& stops, int number)
     : problem_(problem),
       options_(options),
       limits_(limits),
       shared_(shared),
       number_(number),
-      stops_(shared.stops()),
+      stops_(stops),
       expander_(problem, stops_, techniques_of(options), options.seed, shared.memory()),
       share_(problem.instance.agent_count()) {
   // To expand the root can take long where there are many pairs of agents.
@@ -42,7 +42,7 @@ std::optional<Worker::Turn> Worker::choose() {
   if (NodePtr node = shared_.unfinished(); node && node != helped_)
     return one(Job::kHelp, std::move(node));
   if (has_primal && !shared_.over() && !primal().optimal()) return one(Job::kPrimal);
-  if (shared_.claim_preparation()) return one(Job::kPrepare);
+  if (shared_.ledger().claim_preparation()) return one(Job::kPrepare);
   return std::nullopt;
 }
 
@@ -51,7 +51,7 @@ PrimalSearch& Worker::primal() {
   if (!primal_)
     primal_ = std::make_unique<PrimalSearch>(
         problem_, stops_, options_.seed + static_cast<std::uint64_t>(number_), options_.techniques);
-  if (const auto plan = shared_.plan_below(primal_->best_cost().value_or(kInfiniteCost)))
+  if (const auto plan = shared_.ledger().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
     primal_->adopt(*plan);
   return *primal_;
 }
@@ -65,20 +65,20 @@ void Worker::perform(Turn& turn) {
     case Turn::Job::kPrimal:
       return step_primal(turn);
     case Turn::Job::kPrepare:
-      return shared_.prepare_tree();
+      return shared_.ledger().prepare_tree();
   }
 }
 
 void Worker::expand(Turn& turn) {
   const std::int64_t before = expander_.work();
-  turn.expansion = expander_.expand(turn.node, shared_.cutoff(), limits_);
+  turn.expansion = expander_.expand(turn.node, shared_.ledger().cutoff(), limits_);
   turn.work = expander_.work() - before + turn.node->cost() / kStepsPerWork + 1;
 }
 
 void Worker::help(Turn& turn) {
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
   const std::int64_t before = expander_.work();
-  if (!expander_.help(turn.node, shared_.cutoff(), share, limits_)) helped_ = turn.node;
+  if (!expander_.help(turn.node, shared_.ledger().cutoff(), share, limits_)) helped_ = turn.node;
   turn.work = expander_.work() - before + turn.node->cost() / kStepsPerWork + 1;
   ++helps_;
 }
@@ -91,7 +91,7 @@ void Worker::step_primal(Turn& turn) {
 
 void Worker::commit(Turn& turn) {
   if (turn.job == Turn::Job::kPrimal) {
-    if (turn.plan) shared_.post(std::move(*turn.plan), primal_->source());
+    if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
     share_.primal_worked(*primal_, turn.work);
   } else if (turn.job != Turn::Job::kPrepare) {
     expander_.publish();
@@ -99,7 +99,7 @@ void Worker::commit(Turn& turn) {
     if (turn.job == Turn::Job::kExpand) shared_.finish(turn.node, std::move(turn.expansion));
     share_.tree_worked(turn.work);
   }
-  shared_.tell(RunEvent::kProgress);
+  shared_.ledger().worked();
 }
 
 void Worker::add_counts(Stats& stats) const {

@@ -9,6 +9,8 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -95,11 +97,11 @@ class TemporaryFile {
   }
 
   void write(std::string_view content) {
-    if (!write_all(file_.get(), content) || ::fsync(file_.get()) != 0) fail_to_write(name_, errno);
-    if (!file_.close()) fail_to_write(name_, errno);
+    if (!write_all(file_.get(), content)) fail_to_write(name_, errno);
   }
 
   void rename_to(const fs::path& target) {
+    if (::fsync(file_.get()) != 0 || !file_.close()) fail_to_write(name_, errno);
     if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write(name_, errno);
     renamed_ = true;
   }
@@ -118,12 +120,27 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-void write_directly(const fs::path& path, std::string_view content) {
-  // Appending: a shell's redirection may already hold the output of others.
-  Descriptor file(path, O_WRONLY | O_APPEND | O_NOCTTY);
-  if (!file.is_open() || !write_all(file.get(), content) || !file.close())
-    fail_to_write(path, errno);
-}
+// A special file, written to as it stands.
+class SpecialFile {
+ public:
+  explicit SpecialFile(const fs::path& path)
+      : path_(path),
+        // Appending: a shell's redirection may already hold the output of others.
+        file_(path, O_WRONLY | O_APPEND | O_NOCTTY) {
+    if (!file_.is_open()) fail_to_write(path_, errno);
+  }
+
+  void write(std::string_view content) {
+    if (!write_all(file_.get(), content)) fail_to_write(path_, errno);
+  }
+  void close() {
+    if (!file_.close()) fail_to_write(path_, errno);
+  }
+
+ private:
+  fs::path path_;
+  Descriptor file_;
+};
 
 // After a crash of the machine either name must lead to a whole file.
 void flush_directory(const fs::path& directory) {
@@ -133,15 +150,42 @@ void flush_directory(const fs::path& directory) {
 
 }  // namespace
 
-void write_file_atomically(const fs::path& path, std::string_view content) {
+struct AtomicFile::Files {
+  fs::path target;
+  std::optional<TemporaryFile> temporary;
+  std::optional<SpecialFile> special;
+};
+
+AtomicFile::AtomicFile(const fs::path& path) : files_(std::make_unique<Files>()) {
   fs::file_status status;
-  const fs::path target = resolved(path, status);
-  if (is_special(path, status)) return write_directly(path, content);
-  TemporaryFile file(target, path);
-  if (fs::exists(status)) file.copy_permissions(status);
+  files_->target = resolved(path, status);
+  if (is_special(path, status)) {
+    files_->special.emplace(path);
+    return;
+  }
+  files_->temporary.emplace(files_->target, path);
+  if (fs::exists(status)) files_->temporary->copy_permissions(status);
+}
+
+AtomicFile::~AtomicFile() = default;
+
+void AtomicFile::write(std::string_view bytes) {
+  if (files_->special)
+    files_->special->write(bytes);
+  else
+    files_->temporary->write(bytes);
+}
+
+void AtomicFile::commit() {
+  if (files_->special) return files_->special->close();
+  files_->temporary->rename_to(files_->target);
+  flush_directory(files_->target.parent_path());
+}
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+  AtomicFile file(path);
   file.write(content);
-  file.rename_to(target);
-  flush_directory(target.parent_path());
+  file.commit();
 }
 
 void require_writable(const fs::path& path) {

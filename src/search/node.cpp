@@ -114,4 +114,9 @@ std::vector<TaskIndex> tasks_in_order(const Agent& agent, const Sequence& sequen
   return tasks;
 }
 
+GoalSequence goals_in_order(const Problem& problem, AgentIndex agent, const Sequence& sequence) {
+  return GoalSequence(problem.instance, problem.distances, agent,
+                      tasks_in_order(problem.instance.agent(agent), sequence));
+}
+
 }  // namespace grove

@@ -18,8 +18,9 @@ void check(const NodeRecord& record, const Node& root, const Instance& instance)
   };
   const auto on_grid = [&](Cell cell) { return cell >= 0 && cell < instance.grid().cell_count(); };
   for (const AgentConstraint& c : record.constraints)
-    require(is_agent(c.agent) && on_grid(c.constraint.cell),
-            "a node's constraint must be on an agent and a cell of the instance");
+    require(is_agent(c.agent) && on_grid(c.constraint.cell) &&
+                (c.constraint.from == kNoCell || on_grid(c.constraint.from)),
+            "a node's constraint must be on an agent and cells of the instance");
   for (const NodeRecord::Walk& walk : record.paths) {
     require(is_agent(walk.agent) && walk.words.size() == packed_words(walk.steps),
             "a node's path must be of an agent of the instance");

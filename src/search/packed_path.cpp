@@ -19,7 +19,7 @@ std::array<Cell, 5> offsets(const Grid& grid) {
 }  // namespace
 
 std::size_t packed_words(std::uint32_t steps) {
-  return (steps + kMovesPerWord - 1) / kMovesPerWord;
+  return (std::size_t{steps} + kMovesPerWord - 1) / kMovesPerWord;
 }
 
 void pack(const Grid& grid, const Path& path, std::uint64_t* words) {

@@ -82,8 +82,7 @@ bool SequenceForest::plan_missing_orders(const JointSequence& joint) {
 bool SequenceForest::plan_order(AgentIndex agent, std::uint32_t rank) {
   const Instance& instance = problem_.instance;
   const Sequence& sequence = sequences_.sequence(agent, rank);
-  GoalSequence goals(instance, problem_.distances, agent,
-                     tasks_in_order(instance.agent(agent), sequence));
+  GoalSequence goals = goals_in_order(problem_, agent, sequence);
   const auto outcome = low_level_.find(goals, {}, &others_, limits_, path_);
   if (outcome == LowLevelSearch::Outcome::kStopped) return false;
   if (outcome == LowLevelSearch::Outcome::kInfeasible)

@@ -2,14 +2,13 @@
 #include "grove/io/atomic_file.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <string>
 
-#include "refusal.h"
+#include "tests/support/file_size_limit.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
@@ -116,24 +115,6 @@ TEST(WriteFileAtomically, WritesSpecialFilesDirectly) {
   EXPECT_EQ(writing("/dev/full"), "full: cannot be written: No space left on device");
 }
 
-// Ignores SIGXFSZ and lets no file grow beyond some bytes, while it lives.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    ::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
-
 TEST(WriteFileAtomically, LeavesTheOldFileWhenTheDiskIsFull) {
   const TemporaryDirectory directory;
   directory.write("file", "old");
@@ -143,6 +124,30 @@ TEST(WriteFileAtomically, LeavesTheOldFileWhenTheDiskIsFull) {
     said = writing_content(directory / "file", std::string(5000, 'x'));
   }
   EXPECT_EQ(said, "file: cannot be written: File too large");
+  EXPECT_EQ(file_content(directory / "file"), "old");
+  EXPECT_EQ(directory.files(), Names{"file"});
+}
+
+TEST(AtomicFile, AppearsWhenAllItsPiecesAreThere) {
+  const TemporaryDirectory directory;
+  directory.write("file", "old");
+  AtomicFile file(directory / "file");
+  file.write("new");
+  file.write(" pieces");
+  EXPECT_EQ(file_content(directory / "file"), "old");
+  file.commit();
+  EXPECT_EQ(file_content(directory / "file"), "new pieces");
+  EXPECT_EQ(directory.files(), Names{"file"});
+}
+
+TEST(AtomicFile, LeavesNothingBehindUnlessCommitted) {
+  const TemporaryDirectory directory;
+  directory.write("file", "old");
+  {
+    AtomicFile file(directory / "file");
+    file.write("new");
+    EXPECT_EQ(directory.files().size(), 2u);
+  }
   EXPECT_EQ(file_content(directory / "file"), "old");
   EXPECT_EQ(directory.files(), Names{"file"});
 }

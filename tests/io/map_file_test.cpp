@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "refusal.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove {

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "refusal.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "grove/io/instance_file.h"
-#include "refusal.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove {

@@ -83,7 +83,7 @@ TEST_F(ScarceFrontier, KeepsTheBoundWhenBeginningAnewFails) {
       [&](Frontier& frontier, const NodePtr& taken) {
         frontier.settle(taken);
         frontier.evict(1);
-        frontier.restart(roots);
+        frontier.restart(roots, frontier.evicted_bound());
       },
       [](const Frontier& frontier) { return frontier.bound() == 5; });
   EXPECT_GT(failures, 0);

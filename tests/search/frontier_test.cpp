@@ -54,6 +54,32 @@ TEST_F(FrontierTest, CountsTakenNodesAsLive) {
   EXPECT_EQ(frontier_.bound(), 4);
 }
 
+TEST_F(FrontierTest, SpareNodesCountUntilTheyAreSettled) {
+  for (const Time bound : {3, 3, 3, 3, 5, 8}) frontier_.push(node(bound));
+  EXPECT_EQ(frontier_.levels(2), (std::vector<Frontier::Level>{{3, 4}, {5, 1}}));
+  const auto spare = frontier_.take_spare(3);
+  ASSERT_EQ(spare.size(), 3);
+  EXPECT_EQ(spare[1]->bound(), 3);
+  EXPECT_EQ(spare[2]->bound(), 5);
+  EXPECT_EQ(frontier_.open(), 3);
+  EXPECT_EQ(frontier_.live(), 6);
+  EXPECT_EQ(frontier_.levels(9), (std::vector<Frontier::Level>{{3, 2}, {8, 1}}));
+  frontier_.settle(frontier_.take());
+  frontier_.settle(frontier_.take());
+  EXPECT_EQ(frontier_.bound(), 3);
+  for (const NodePtr& given : spare) frontier_.settle(given);
+  EXPECT_EQ(frontier_.bound(), 8);
+}
+
+TEST_F(FrontierTest, TheNodeThatIsNextIsNotSpare) {
+  frontier_.push(node(2));
+  EXPECT_TRUE(frontier_.take_spare(5).empty());
+  frontier_.push(node(7));
+  EXPECT_EQ(frontier_.take_spare(5).front()->bound(), 7);
+  EXPECT_EQ(frontier_.take()->bound(), 2);
+  EXPECT_EQ(frontier_.take(), nullptr);
+}
+
 TEST_F(FrontierTest, TwoTakenNodesOfOneBoundAreTwo) {
   frontier_.push(node(1));
   frontier_.push(node(1));
@@ -143,7 +169,7 @@ TEST_F(FrontierTest, BeginsAnewWithTheProvenBoundNewestFirst) {
   frontier_.push(node(4));
   frontier_.evict(1);
   const NodePtr newest = node(3);
-  frontier_.restart(std::vector{node(1), node(5), newest});
+  frontier_.restart(std::vector{node(1), node(5), newest}, frontier_.evicted_bound());
   EXPECT_EQ(frontier_.evicted_bound(), kInfiniteCost);
   EXPECT_EQ(frontier_.live(), 3u);
   EXPECT_EQ(frontier_.bound(), 4);

@@ -71,8 +71,13 @@ TEST_F(NodeRecords, OfAnotherInstanceAreRefused) {
   };
   refused([](NodeRecord& r) { r.constraints[0].agent = 99; });
   refused([](NodeRecord& r) { r.constraints[0].constraint.cell = 10'000; });
+  refused([](NodeRecord& r) { r.constraints[0].constraint.from = 10'000; });
   refused([](NodeRecord& r) { r.paths[0].agent = -1; });
   refused([](NodeRecord& r) { r.paths[0].steps += 100; });
+  refused([](NodeRecord& r) {
+    r.paths[0].steps = ~std::uint32_t{0};
+    r.paths[0].words.clear();
+  });
   refused([](NodeRecord& r) { r.paths[0].words[0] = ~std::uint64_t{0}; });
   refused([](NodeRecord& r) { r.bound = 0; });
   refused([](NodeRecord& r) { r.cost = r.bound + 1; });

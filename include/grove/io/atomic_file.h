@@ -3,9 +3,29 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace grove {
+
+// The file at `path`, replaced piece by piece: written beside it under a temporary name, flushed to
+// disk and renamed by commit(). Without that the old file stands and the temporary one goes with
+// this object (a process that is killed leaves it behind: .grove-*.tmp). Special files are written
+// to directly. For one thread. All but the destructor throw InputError; what can be done then is to
+// destroy this. See write_file_atomically on SIGXFSZ.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+
+  void write(std::string_view bytes);
+  // To be called once, last.
+  void commit();
+
+ private:
+  struct Files;
+  std::unique_ptr<Files> files_;
+};
 
 // Replaces the file at `path` by `content`: written beside it under a temporary name, flushed to
 // disk and renamed. On failure the old file stands, the temporary one is gone, and InputError is

@@ -50,11 +50,12 @@ class Limits {
   void end_work() const { finished_.store(true, std::memory_order_relaxed); }
   // Takes end_work() back, when all work has ended.
   void allow_work() const { finished_.store(false, std::memory_order_relaxed); }
+  // Stops the run for a reason that was found elsewhere.
+  void stop(StopReason reason) const;
   // For allocations refused elsewhere: stops the run for lack of memory.
   void memory_exhausted() const { stop(StopReason::kMemory); }
 
  private:
-  void stop(StopReason reason) const;
 
   std::optional<Clock::time_point> deadline_;
   std::optional<std::size_t> memory_limit_;

@@ -13,5 +13,6 @@ enum class PlanSource : std::uint8_t {
   kConfigurations,  // configuration search
   kNeighborhood,    // large neighbourhood search
 };
+inline constexpr PlanSource kLastPlanSource = PlanSource::kNeighborhood;
 
 }  // namespace grove

@@ -31,6 +31,10 @@ class Frontier {
   // which the cheapest plan is expected, if each conflict costs `per_conflict`. Null when there is
   // none. O(distinct bounds within omega).
   NodePtr take_promising(Omega omega, Cost lower_bound, double per_conflict);
+  // Takes up to `count` nodes for another frontier, beginning with the best bound, but not the node
+  // that take() would: of each bound half of the open nodes, the worse ones. Settle them when they
+  // count there.
+  std::vector<NodePtr> take_spare(std::size_t count);
   // A taken node has been replaced by what it led to (push that first), or pruned.
   void settle(const NodePtr& node);
   // A taken node goes back unexpanded.
@@ -45,9 +49,19 @@ class Frontier {
   // The least bound of what was given up and not pruned since; kInfiniteCost: nothing.
   Cost evicted_bound() const;
   // Forgets what was given up and pushes the roots of all the trees that it came from. Only when no
-  // node is live, and after every tree not yet instantiated costs at least evicted_bound(). Nodes
-  // below that bound are then taken newest first.
-  void restart(std::span<const NodePtr> roots);
+  // node is live, and after every tree not yet instantiated costs at least `proven`, which is
+  // evicted_bound(), or the least of several frontiers'. Nodes below that bound are then taken
+  // newest first.
+  void restart(std::span<const NodePtr> roots, Cost proven);
+
+  // All that is not settled or pruned, and the least bound of what was given up, at one moment.
+  struct Snapshot {
+    std::vector<NodePtr> live;
+    Cost evicted_bound = kInfiniteCost;
+  };
+  Snapshot snapshot() const;
+  // Something of this bound was given up elsewhere, and is now this frontier's to remember.
+  void note_evicted(Cost bound);
 
   // Empties the frontier without giving its nodes up, for when their pool is about to go: releasing
   // millions of nodes one by one takes seconds.
@@ -57,6 +71,13 @@ class Frontier {
   // when there is none.
   Cost bound() const;
   std::size_t open() const;
+  // How many open nodes there are of each bound; the least `most` bounds.
+  struct Level {
+    Cost bound = 0;
+    std::int64_t open = 0;
+    friend bool operator==(const Level&, const Level&) = default;
+  };
+  std::vector<Level> levels(std::size_t most) const;
   // Open or taken.
   std::size_t live() const;
   bool empty() const { return bound() == kInfiniteCost; }
@@ -76,10 +97,10 @@ class Frontier {
   mutable std::mutex mutex_;
   std::map<Cost, std::vector<Open>> open_;  // heaps, by rank
   std::map<Cost, std::size_t> taken_;       // how many nodes of each rank are in workers' hands
+  std::vector<NodePtr> in_hand_;            // these; few
   Cost evicted_ = kInfiniteCost;
   Cost proven_ = -1;  // before the restart: no plan costs less; -1: there was none
   std::size_t open_count_ = 0;
-  std::size_t taken_count_ = 0;
   std::uint64_t serial_ = 0;
 };
 

@@ -65,13 +65,14 @@ class WatchedTransport : public Transport {
   WatchedTransport(Transport& other, Look look) : other_(other), look_(std::move(look)) {}
   int rank() const override { return other_.rank(); }
   int ranks() const override { return other_.ranks(); }
-  void send(int to, std::string bytes) override {
-    look_(to, bytes);
-    other_.send(to, std::move(bytes));
-  }
   std::optional<Parcel> receive() override { return other_.receive(); }
 
  private:
+  void do_send(int to, std::string bytes) override {
+    look_(to, bytes);
+    other_.send(to, std::move(bytes));
+  }
+
   Transport& other_;
   const Look look_;
 };

@@ -6,20 +6,21 @@
 #include <optional>
 #include <utility>
 
+#include "grove/engine/primal_share.h"
+#include "grove/engine/shared_search.h"
 #include "grove/engine/solve.h"
 #include "grove/primal/primal_search.h"
 #include "grove/search/expander.h"
-#include "primal_share.h"
-#include "shared_search.h"
 
 namespace grove {
 
 // An expander and a primal search with their memories, which take turns. For one thread at a time.
 class Worker {
  public:
-  // All must outlive this. `number` from 0; each number looks for plans from another seed.
+  // All must outlive this, but for `stops`, of which it makes a copy. `number` from 0; each number
+  // looks for plans from another seed.
   Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
-         SharedSearch& shared, int number);
+         SharedSearch& shared, const AgentStopsStore& stops, int number);
 
   // What is done at one go, and what became of it.
   struct Turn {

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Ranks hold the nodes of one search and pass them to each other; the coordinator holds the ledger.
+// Messages between two ranks arrive in the order in which they were sent, others in any order.
+//
+// *The bound.* Every node that may still lead to a plan is covered, at every moment, by the latest
+// status that the coordinator has of some rank, by a root that it has sent and not yet seen
+// covered, or by a tree not yet instantiated:
+// - A rank covers the nodes in its frontier, open or taken. A worker settles a node after what it
+// led
+//   to was pushed, and after a plan that it led to was posted; and a rank sends the plans posted
+//   before a status made no later. So the coordinator knows of the plan when it hears that the node
+//   is gone.
+// - A rank that gives nodes away keeps them taken: in custody. The receiver pushes them and then
+//   says so in a status; when the coordinator has processed that one, which covers them, it
+//   releases the sender, whose later statuses do without. (The minimum of the ranks' own bounds,
+//   sampled while nodes travel, would miss those that travel.)
+// - A root is covered by the coordinator until the status that says it has been pushed.
+// - What is not pushed is pruned by an incumbent that the gate has checked.
+// So min(latest statuses, roots under way, next tree) bounds all plans but those pruned, whatever
+// the delays, and a rank that says nothing for long only keeps the bound low.
+//
+// *The end.* By the same argument no node is live if no latest status knows a live one and no root
+// is under way. There is no other test for it, and no batch can be under way then.
+//
+// *A new beginning*, after nodes were given up for want of memory: nothing is live, all forget what
+// they gave up, and the roots are pushed again. A rank may be given nodes by one that has begun
+// anew before it hears of that itself: batches carry their era, and wait. Until a rank's status is
+// of the new era it is not known what it holds.
+//
+// *Leaving.* After End a rank says farewell and sends nothing more; the coordinator then tells each
+// how many batches were sent to it, so that nothing is left under way.
+#include "mpi/coordinator.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace grove {
+
+Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, const Limits& limits,
+                         RunObserver& observer, Transport& transport)
+    : limits_(limits),
+      transport_(transport),
+      announcer_(observer, transport),
+      nodes_(transport),
+      ledger_(problem, options, limits, announcer_, pool_, nodes_),
+      broker_(transport.ranks()),
+      batches_to_(static_cast<std::size_t>(transport.ranks())) {}
+
+// An observer may have it written to disk: that comes first.
+void Coordinator::Announcer::on_incumbent(const Plan& plan, PlanSource source,
+                                          const Progress& progress) {
+  observer_.on_incumbent(plan, source, progress);
+  tell_all(transport_, message::Incumbent{plan});
+}
+
+void Coordinator::begin() {
+  ledger_.begin();
+}
+
+bool Coordinator::is_for_coordinator(const message::Message& message) {
+  return std::holds_alternative<message::Status>(message) ||
+         std::holds_alternative<message::Found>(message) ||
+         std::holds_alternative<message::Farewell>(message);
+}
+
+void Coordinator::handle(int from, message::Message&& message) {
+  if (auto* status = std::get_if<message::Status>(&message))
+    heard(from, std::move(*status));
+  else if (auto* found = std::get_if<message::Found>(&message))
+    ledger_.post(std::move(found->plan), found->source);
+  else if (auto* farewell = std::get_if<message::Farewell>(&message))
+    part(*farewell);
+  else
+    throw std::invalid_argument("a message for a rank came to the coordinator");
+}
+
+void Coordinator::heard(int from, message::Status status) {
+  broker_.heard(from, status);
+  for (const auto& [giver, batches] : status.batches) {
+    broker_.arrived(from);
+    transport_.send(giver, bytes_of(message::Release{from, batches}));
+  }
+  if (status.stopped != StopReason::kNone) limits_.stop(status.stopped);
+  nodes_.update(from, std::move(status));
+  ledger_.nodes_changed();
+  ledger_.worked();
+  ledger_.bring_due_tree();
+  if (!nodes_.any()) ledger_.bring_nodes();
+  while (const auto gift = broker_.next())
+    transport_.send(gift->from, bytes_of(message::Order{gift->to, gift->nodes}));
+}
+
+void Coordinator::step() {
+  if (ending_) return;
+  if (ledger_.over()) {
+    ending_ = true;
+    tell_all(transport_, message::End{});
+  } else if (ledger_.claim_preparation()) {
+    ledger_.prepare_tree();
+  }
+}
+
+void Coordinator::part(const message::Farewell& farewell) {
+  for (const auto& [to, batches] : farewell.batches)
+    batches_to_.at(static_cast<std::size_t>(to)) += batches;
+  for (const auto& [key, count] : farewell.counts) counts_[key] += count;
+  if (++farewells_ < transport_.ranks()) return;
+  for (int rank = 0; rank < transport_.ranks(); ++rank)
+    transport_.send(rank, bytes_of(message::Goodbye{batches_to_[static_cast<std::size_t>(rank)]}));
+}
+
+Solution Coordinator::conclude() {
+  ledger_.end();
+  Solution solution = ledger_.conclude();
+  for (const auto& [key, count] : counts_) solution.stats.counts[key] += count;
+  return solution;
+}
+
+}  // namespace grove

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The head of a distributed search.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "grove/engine/central_ledger.h"
+#include "grove/engine/run_observer.h"
+#include "grove/search/node_pool.h"
+#include "mpi/broker.h"
+#include "mpi/messages.h"
+#include "mpi/rank_nodes.h"
+#include "mpi/transport.h"
+
+namespace grove {
+
+// Holds the ledger, checks plans, brings trees, keeps ranks at work and ends the run. On rank 0, by
+// whose transport it speaks. The protocol and why it is sound: coordinator.cpp. Of one thread.
+class Coordinator {
+ public:
+  // All must outlive this.
+  Coordinator(const Problem& problem, const SolveOptions& options, const Limits& limits,
+              RunObserver& observer, Transport& transport);
+
+  // Before all else: the plan to start from, and the first tree.
+  void begin();
+  // Is it a message to the coordinator? Then handle() does what it asks for. Throws
+  // std::invalid_argument for what no rank can send, and what Gate::post() throws.
+  static bool is_for_coordinator(const message::Message& message);
+  void handle(int from, message::Message&& message);
+  // Looks at the limits; to be called now and then.
+  void step();
+
+  const Ledger& ledger() const { return ledger_; }
+  // Have all ranks said farewell?
+  bool ended() const { return farewells_ == transport_.ranks(); }
+  // Then: the answer.
+  Solution conclude();
+
+ private:
+  // Passes on better plans to all.
+  class Announcer : public RunObserver {
+   public:
+    Announcer(RunObserver& observer, Transport& transport)
+        : observer_(observer), transport_(transport) {}
+    void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
+    void on_event(RunEvent event, const Progress& progress) override {
+      observer_.on_event(event, progress);
+    }
+    void on_root(const NodePtr& root) override { observer_.on_root(root); }
+
+   private:
+    RunObserver& observer_;
+    Transport& transport_;
+  };
+
+  void heard(int from, message::Status status);
+  void part(const message::Farewell& farewell);
+
+  const Limits& limits_;
+  Transport& transport_;
+  Announcer announcer_;
+  NodePool pool_;  // of the roots
+  RankNodes nodes_;
+  CentralLedger ledger_;
+  Broker broker_;
+
+  bool ending_ = false;
+  int farewells_ = 0;
+  std::vector<std::int64_t> batches_to_;  // by rank, of those that have said farewell
+  std::map<std::string, std::int64_t> counts_;
+};
+
+}  // namespace grove

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/ledger_copy.h"
+
+namespace grove {
+
+std::optional<Plan> LedgerCopy::plan_below(Cost cost) const {
+  if (cutoff_ >= cost) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  return incumbent_;
+}
+
+void LedgerCopy::post(Plan plan, PlanSource source) {
+  const std::lock_guard lock(mutex_);
+  const Cost best = found_ ? found_->plan.cost : cutoff_.load();
+  if (plan.cost < best) found_ = Found{std::move(plan), source};
+}
+
+std::optional<LedgerCopy::Found> LedgerCopy::take_found() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(found_, std::nullopt);
+}
+
+void LedgerCopy::adopt(Plan plan) {
+  const std::lock_guard lock(mutex_);
+  if (plan.cost >= cutoff_) return;
+  const Cost cost = plan.cost;
+  incumbent_ = std::move(plan);
+  cutoff_ = cost;
+}
+
+void LedgerCopy::end() {
+  over_ = true;
+  limits_.end_work();
+}
+
+}  // namespace grove

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The ledger where it is in another process.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "grove/engine/ledger.h"
+#include "grove/model/limits.h"
+#include "grove/search/frontier.h"
+
+namespace grove {
+
+// What was last heard of the ledger, and the plans that it has yet to hear of. What workers ask may
+// be asked from any thread; the rest is for the thread that speaks for this rank.
+class LedgerCopy : public Ledger {
+ public:
+  struct Found {
+    Plan plan;
+    PlanSource source{};
+  };
+
+  // Both must outlive this.
+  LedgerCopy(const Limits& limits, const Frontier& frontier)
+      : limits_(limits), frontier_(frontier) {}
+
+  bool over() const override { return over_ || limits_.stop_requested(); }
+  Cost cutoff() const override { return cutoff_; }
+  std::optional<Plan> plan_below(Cost cost) const override;
+  // That of the nodes here will do to choose among them.
+  Cost lower_bound() const override { return frontier_.bound(); }
+  // Nobody prunes by the plan before it has been checked.
+  void post(Plan plan, PlanSource source) override;
+  void nodes_changed() override {}
+  void expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/) override {}
+  void evicted(std::span<const NodePtr> /*nodes*/) override {}
+  void worked() override {}
+  void bring_due_tree() override {}
+  void bring_nodes() override {}
+  bool claim_preparation() override { return false; }
+  void prepare_tree() override {}
+
+  // The best plan posted since, if it is of use.
+  std::optional<Found> take_found();
+  // A plan that has been checked.
+  void adopt(Plan plan);
+  // The run is over.
+  void end();
+
+ private:
+  const Limits& limits_;
+  const Frontier& frontier_;
+  std::atomic<bool> over_{false};
+  std::atomic<Cost> cutoff_{kInfiniteCost};
+  mutable std::mutex mutex_;
+  std::optional<Plan> incumbent_;  // under mutex_, as is found_
+  std::optional<Found> found_;
+};
+
+}  // namespace grove

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/messages.h"
+
+#include <cereal/types/variant.hpp>
+
+namespace grove {
+
+template <class Archive>
+void serialize(Archive& archive, Frontier::Level& level) {
+  archive(level.bound, level.open);
+}
+
+template <class Archive, class Enum>
+void enumerated(Archive& archive, Enum& value, Enum last) {
+  auto number = static_cast<std::uint8_t>(value);
+  archive(number);
+  if (number > static_cast<std::uint8_t>(last)) throw cereal::Exception("a value of no known kind");
+  value = static_cast<Enum>(number);
+}
+
+namespace message {
+
+template <class Archive>
+void serialize(Archive& archive, Status& s) {
+  archive(s.bound, s.evicted_bound, s.live, s.idle, s.open, s.expanded, s.era, s.roots);
+  enumerated(archive, s.stopped, StopReason::kInterrupt);
+  archive(s.levels, s.batches);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Found& found) {
+  archive(found.plan);
+  enumerated(archive, found.source, kLastPlanSource);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Farewell& farewell) {
+  archive(farewell.counts, farewell.batches);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Batch& batch) {
+  archive(batch.era, batch.nodes);
+}
+
+template <class Archive>
+void serialize(Archive& archive, NewTree& tree) {
+  archive(tree.tree);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Root& root) {
+  archive(root.tree);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Order& order) {
+  archive(order.to, order.count);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Release& release) {
+  archive(release.to, release.batches);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Incumbent& incumbent) {
+  archive(incumbent.plan);
+}
+
+template <class Archive>
+void serialize(Archive& archive, BeginAnew& anew) {
+  archive(anew.proven);
+}
+
+template <class Archive>
+void serialize(Archive&, End&) {}
+
+template <class Archive>
+void serialize(Archive& archive, Goodbye& goodbye) {
+  archive(goodbye.batches);
+}
+
+std::string bytes_of(const Message& message) {
+  return to_bytes(message);
+}
+
+Message message_of(std::string_view bytes) {
+  return from_bytes<Message>(bytes);
+}
+
+}  // namespace message
+
+void tell_all(Transport& transport, const message::Message& message) {
+  const std::string bytes = bytes_of(message);
+  for (int rank = 0; rank < transport.ranks(); ++rank) transport.send(rank, bytes);
+}
+
+}  // namespace grove

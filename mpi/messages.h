@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// All that ranks say to each other about one search. The coordinator is on rank 0, beside that
+// rank's own nodes. Values; see coordinator.cpp for the protocol.
+#pragma once
+
+#include <cereal/types/utility.hpp>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "grove/engine/serialise.h"
+#include "grove/model/limits.h"
+#include "grove/primal/plan_source.h"
+#include "grove/search/frontier.h"
+#include "grove/search/node_record.h"
+#include "grove/search/tree_record.h"
+#include "mpi/transport.h"
+
+namespace grove::message {
+
+// Rank to coordinator: where it stands. Covers the nodes it holds, those it has given away that
+// nobody was said to have taken over, and the least bound of those it has given up.
+struct Status {
+  Cost bound = kInfiniteCost;
+  Cost evicted_bound = kInfiniteCost;
+  std::int64_t live = 0;
+  bool idle = true;  // none to expand
+  std::int64_t open = 0;
+  std::int64_t expanded = 0;
+  std::int32_t era = 0;                    // how many BeginAnew it has obeyed
+  std::int64_t roots = 0;                  // how many Root it has obeyed
+  StopReason stopped = StopReason::kNone;  // a limit that struck there
+  std::vector<Frontier::Level> levels;     // of its open nodes, the least ones
+  // Of each rank that it has nodes from: how many batches it has taken over.
+  std::vector<std::pair<std::int32_t, std::int64_t>> batches;
+};
+
+// Rank to coordinator: a plan, to be checked.
+struct Found {
+  Plan plan;
+  PlanSource source{};
+};
+
+// Rank to coordinator, after End: what it counted, and how many batches it has sent to whom. It
+// sends nothing more.
+struct Farewell {
+  std::map<std::string, std::int64_t> counts;
+  std::vector<std::pair<std::int32_t, std::int64_t>> batches;
+};
+
+// Rank to rank: nodes, each with the number of its tree. Perhaps none.
+struct Batch {
+  std::int32_t era = 0;
+  std::vector<std::pair<std::int32_t, NodeRecord>> nodes;
+};
+
+// Coordinator to all: the trees, numbered as they come.
+struct NewTree {
+  TreeRecord tree;
+};
+
+// Coordinator to a rank: the root of this tree is yours.
+struct Root {
+  std::int32_t tree = 0;
+};
+
+// Coordinator to a rank: send up to `count` nodes to rank `to`, in one batch.
+struct Order {
+  std::int32_t to = 0;
+  std::int64_t count = 0;
+};
+
+// Coordinator to a rank: what it sent to rank `to`, up to this number of batches, is covered by
+// that rank's status.
+struct Release {
+  std::int32_t to = 0;
+  std::int64_t batches = 0;
+};
+
+// Coordinator to all: a plan that has been checked.
+struct Incumbent {
+  Plan plan;
+};
+
+// Coordinator to all: no node is live anywhere; forget what was given up, the roots come again.
+// Every plan that was not pruned costs `proven` at least.
+struct BeginAnew {
+  Cost proven = 0;
+};
+
+// Coordinator to all: it is over; say farewell.
+struct End {};
+
+// Coordinator to all, after their farewells: how many batches were sent to this rank altogether.
+struct Goodbye {
+  std::int64_t batches = 0;
+};
+
+using Message = std::variant<Status, Found, Farewell, Batch, NewTree, Root, Order, Release,
+                             Incumbent, BeginAnew, End, Goodbye>;
+
+// Throws std::invalid_argument for bytes that are no message.
+std::string bytes_of(const Message& message);
+Message message_of(std::string_view bytes);
+
+}  // namespace grove::message
+
+namespace grove {
+
+// Sends a message to every rank, this one included.
+void tell_all(Transport& transport, const message::Message& message);
+
+}  // namespace grove

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The MPI of a process, from beginning to end.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mpi/transport.h"
+
+namespace grove {
+
+// One per process, made by the thread that is to speak, which is the only one that may use this and
+// the transports. What all ranks must call together is marked so.
+class MpiSession {
+ public:
+  // Throws std::runtime_error if MPI cannot be started.
+  MpiSession(int& argc, char**& argv);
+  ~MpiSession();
+  MpiSession(const MpiSession&) = delete;
+  MpiSession& operator=(const MpiSession&) = delete;
+
+  int rank() const { return rank_; }
+  int ranks() const { return ranks_; }
+  // All ranks: what each of them says, by rank.
+  std::vector<std::string> gather(const std::string& mine) const;
+  // All ranks: a network among those that name the same group, numbered as they are here.
+  std::unique_ptr<Transport> connect(int group = 0) const;
+  // Ends the processes of all ranks.
+  [[noreturn]] void abort(int exit_code) const;
+
+ private:
+  int rank_ = 0;
+  int ranks_ = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/rank.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace grove {
+namespace {
+
+constexpr std::size_t kLevels = 4;
+// Between two statuses that nothing hangs on, in seconds. The coordinator hears all ranks.
+constexpr double kPause = 2e-3;
+constexpr double kPausePerRank = 50e-6;
+
+template <class... Handlers>
+struct Overloaded : Handlers... {
+  using Handlers::operator()...;
+};
+
+}  // namespace
+
+Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
+           Transport& transport)
+    : problem_(problem),
+      limits_(limits),
+      transport_(transport),
+      stops_(problem.instance, problem.distances),
+      ledger_(limits, nodes_.frontier),
+      search_(options, limits, nodes_, ledger_),
+      trees_(problem, stops_, nodes_.pool) {}
+
+void Rank::handle(int from, message::Message&& message) {
+  const auto unexpected = [](const auto&) {
+    throw std::invalid_argument("a message for the coordinator came to a rank");
+  };
+  std::visit(Overloaded{[&](message::Batch& batch) { take_over(from, batch); },
+                        [&](message::NewTree& tree) {
+                          roots_.push_back(trees_.add(tree.tree));
+                          take_over_held();
+                        },
+                        [&](message::Root& root) {
+                          const NodePtr& node = roots_.at(static_cast<std::size_t>(root.tree));
+                          if (node->bound() < ledger_.cutoff()) nodes_.push(node);
+                          ++roots_taken_;
+                          urgent_ = true;
+                        },
+                        [&](message::Order& order) { give(order); },
+                        [&](message::Release& covered) { release(covered); },
+                        [&](message::Incumbent& incumbent) {
+                          const Cost cost = incumbent.plan.cost;
+                          ledger_.adopt(std::move(incumbent.plan));
+                          nodes_.prune(cost);
+                        },
+                        [&](message::BeginAnew& anew) { begin_anew(anew.proven); },
+                        [&](message::End&) {
+                          ended_ = true;
+                          ledger_.end();
+                        },
+                        [&](message::Goodbye& goodbye) { batches_to_come_ = goodbye.batches; },
+                        unexpected},
+             message);
+}
+
+// Its tree may not have been heard of yet, or what was given up here has yet to be forgotten.
+bool Rank::is_early(const message::Batch& batch) const {
+  return batch.era > era_ || std::ranges::any_of(batch.nodes, [&](const auto& node) {
+           return static_cast<std::size_t>(node.first) >= roots_.size();
+         });
+}
+
+void Rank::take_over(int from, message::Batch& batch) {
+  const bool must_wait = std::ranges::any_of(held_, [&](const Held& h) { return h.from == from; });
+  if (must_wait || is_early(batch)) {
+    held_.push_back({from, std::move(batch)});
+    return;
+  }
+  for (const auto& [tree, record] : batch.nodes) {
+    if (record.bound >= ledger_.cutoff()) continue;
+    nodes_.push(node_of(record, roots_.at(static_cast<std::size_t>(tree)), problem_.instance));
+  }
+  Peer& peer = peers_[from];
+  ++peer.taken;
+  ++batches_taken_;
+  peer.news = true;
+  urgent_ = true;
+}
+
+void Rank::take_over_held() {
+  for (auto& [from, batch] : std::exchange(held_, {})) take_over(from, batch);
+}
+
+// What is given stays in custody: taken from the frontier, but not settled.
+void Rank::give(const message::Order& order) {
+  const auto nodes = nodes_.frontier.take_spare(static_cast<std::size_t>(order.count));
+  message::Batch batch;
+  batch.era = era_;
+  for (const NodePtr& node : nodes) {
+    const auto same_tree = [&](const NodePtr& root) { return &root->tree() == &node->tree(); };
+    const auto root = std::ranges::find_if(roots_, same_tree);
+    batch.nodes.emplace_back(static_cast<std::int32_t>(root - roots_.begin()), record_of(*node));
+  }
+  Peer& peer = peers_[order.to];
+  peer.custody[peer.sent + 1] = nodes;
+  in_custody_ += std::ssize(nodes);
+  send(order.to, batch);
+  ++peer.sent;
+  nodes_sent_ += std::ssize(nodes);
+  urgent_ = true;
+}
+
+void Rank::release(const message::Release& covered) {
+  Peer& peer = peers_[covered.to];
+  while (!peer.custody.empty() && peer.custody.begin()->first <= covered.batches) {
+    for (const NodePtr& node : peer.custody.begin()->second) nodes_.frontier.settle(node);
+    in_custody_ -= std::ssize(peer.custody.begin()->second);
+    peer.custody.erase(peer.custody.begin());
+  }
+}
+
+void Rank::begin_anew(Cost proven) {
+  nodes_.restart({}, proven);
+  ++era_;
+  urgent_ = true;
+  take_over_held();
+}
+
+message::Status Rank::status() const {
+  message::Status status;
+  status.bound = nodes_.bound();
+  status.evicted_bound = nodes_.evicted_bound();
+  status.live = static_cast<std::int64_t>(nodes_.frontier.live());
+  status.idle = status.live == in_custody_;
+  status.levels = nodes_.frontier.levels(kLevels);
+  status.open = static_cast<std::int64_t>(nodes_.frontier.open());
+  status.expanded = nodes_.expanded;
+  status.era = era_;
+  status.roots = roots_taken_;
+  limits_.stop_requested();  // nobody else may look
+  status.stopped = limits_.reason();
+  for (const auto& [rank, peer] : peers_)
+    if (peer.news) status.batches.emplace_back(rank, peer.taken);
+  return status;
+}
+
+// A node that led to a plan is settled after the plan was posted. So a status that does not count
+// the node any more is made before plans are looked for, and sent after them.
+void Rank::speak(double now) {
+  if (ended_) return;
+  message::Status status = this->status();
+  if (auto found = ledger_.take_found())
+    send(0, message::Found{std::move(found->plan), found->source});
+  const bool at_once = urgent_ || status.bound != said_.bound || status.stopped != said_.stopped ||
+                       status.idle != said_.idle || (status.live == 0) != (said_.live == 0);
+  const bool changed = status.expanded != said_.expanded || status.open != said_.open;
+  const double pause = kPause + kPausePerRank * transport_.ranks();
+  if (!at_once && !(changed && now >= said_at_ + pause)) return;
+  send(0, status);
+  for (auto& [rank, peer] : peers_) peer.news = false;
+  said_ = std::move(status);
+  said_at_ = now;
+  urgent_ = false;
+}
+
+void Rank::farewell(const Stats& stats) {
+  Stats all = stats;
+  search_.add_counts(all);
+  all.counts["messages"] += transport_.messages();
+  all.counts["message_bytes"] += transport_.bytes();
+  all.counts["nodes_sent"] += nodes_sent_;
+  message::Farewell farewell;
+  std::int64_t& batches = all.counts["batches"];
+  for (const auto& [rank, peer] : peers_) {
+    farewell.batches.emplace_back(rank, peer.sent);
+    batches += peer.sent;
+  }
+  farewell.counts = std::move(all.counts);
+  send(0, farewell);
+}
+
+bool Rank::left() const {
+  const auto held = static_cast<std::int64_t>(held_.size());
+  return batches_to_come_ && batches_taken_ + held >= *batches_to_come_;
+}
+
+void Rank::send(int to, const message::Message& message) {
+  transport_.send(to, message::bytes_of(message));
+}
+
+}  // namespace grove

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// One rank's part of a search, and of the talk about it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "grove/engine/local_nodes.h"
+#include "grove/engine/shared_search.h"
+#include "grove/engine/solve.h"
+#include "grove/planning/agent_stops_store.h"
+#include "grove/search/problem.h"
+#include "grove/search/tree_record.h"
+#include "mpi/ledger_copy.h"
+#include "mpi/messages.h"
+#include "mpi/transport.h"
+
+namespace grove {
+
+// The nodes that a rank holds, for its workers, and all that is said about them to the coordinator
+// and to other ranks. The protocol is told at the head of coordinator.cpp. search() and what it
+// leads to may be used from any thread, the rest by one: the one that speaks.
+class Rank {
+ public:
+  // All must outlive this.
+  Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
+       Transport& transport);
+
+  SharedSearch& search() { return search_; }
+  const LocalNodes& nodes() const { return nodes_; }
+  // For workers to begin with.
+  const AgentStopsStore& stops() const { return stops_; }
+
+  // Something that a rank may be told. Throws std::invalid_argument for what cannot be.
+  void handle(int from, message::Message&& message);
+  // Says what is new: plans always; where it stands at once if that may matter at once, else not
+  // more often than ranks can bear. `now` in seconds of any clock.
+  void speak(double now);
+
+  // Is it time for workers to end? Then, when they have, say farewell: what they counted.
+  bool ended() const { return ended_; }
+  void farewell(const Stats& stats);
+  // Is nothing more to come?
+  bool left() const;
+
+ private:
+  struct Held {  // that arrived before what it needs
+    int from;
+    message::Batch batch;
+  };
+
+  void take_over(int from, message::Batch& batch);
+  void take_over_held();
+  bool is_early(const message::Batch& batch) const;
+  void give(const message::Order& order);
+  void release(const message::Release& release);
+  void begin_anew(Cost proven);
+  message::Status status() const;
+  void send(int to, const message::Message& message);
+
+  const Problem& problem_;
+  const Limits& limits_;
+  Transport& transport_;
+  LocalNodes nodes_;
+  AgentStopsStore stops_;
+  LedgerCopy ledger_;
+  SharedSearch search_;
+
+  Trees trees_;
+  std::vector<NodePtr> roots_;  // by tree
+  std::int32_t era_ = 0;
+  std::int64_t roots_taken_ = 0;
+  std::vector<Held> held_;
+
+  struct Peer {
+    std::int64_t sent = 0;                                 // batches
+    std::int64_t taken = 0;                                // batches from there
+    bool news = false;                                     // of `taken`, since the last status
+    std::map<std::int64_t, std::vector<NodePtr>> custody;  // by the number of the batch
+  };
+  std::map<int, Peer> peers_;
+  std::int64_t batches_taken_ = 0;
+  std::int64_t in_custody_ = 0;  // nodes
+  std::int64_t nodes_sent_ = 0;
+
+  message::Status said_;  // last
+  double said_at_ = -1;
+  bool urgent_ = false;
+  bool ended_ = false;
+  std::optional<std::int64_t> batches_to_come_;  // altogether; known at the very end
+};
+
+}  // namespace grove

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/rank_nodes.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace grove {
+
+RankNodes::RankNodes(Transport& transport)
+    : transport_(transport),
+      latest_(static_cast<std::size_t>(transport.ranks())),
+      under_way_(latest_.size()),
+      ranks_of_this_era_(transport.ranks()) {
+  for (std::size_t rank = 0; rank < latest_.size(); ++rank) bounds_.insert(kInfiniteCost);
+}
+
+// A rank obeys in the order in which it is told: its status covers the first roots that it was
+// sent.
+void RankNodes::update(int rank, message::Status status) {
+  const auto place = static_cast<std::size_t>(rank);
+  message::Status& latest = latest_[place];
+  std::deque<Cost>& roots = under_way_[place];
+  const std::int64_t arrived = status.roots - latest.roots;
+  if (arrived < 0 || arrived > std::ssize(roots) || status.era < latest.era || status.era > era_)
+    throw std::invalid_argument("a status of a rank that does not fit what it was told");
+  bounds_.insert(status.bound);
+  bounds_.erase(bounds_.find(latest.bound));
+  for (std::int64_t i = 0; i < arrived; ++i) {
+    bounds_.erase(bounds_.find(roots.front()));
+    roots.pop_front();
+    --roots_under_way_;
+  }
+  add(latest, -1);
+  add(status, 1);
+  latest = std::move(status);
+}
+
+void RankNodes::add(const message::Status& status, int sign) {
+  counts_.expanded += sign * status.expanded;
+  counts_.open += sign * status.open;
+  if (status.live > 0) ranks_with_nodes_ += sign;
+  if (status.era == era_) ranks_of_this_era_ += sign;
+}
+
+Cost RankNodes::bound() const {
+  return *bounds_.begin();
+}
+
+Cost RankNodes::evicted_bound() const {
+  return std::ranges::min(latest_, {}, &message::Status::evicted_bound).evicted_bound;
+}
+
+// What a rank that has yet to hear of a new beginning holds is not known.
+bool RankNodes::any() const {
+  return ranks_with_nodes_ > 0 || roots_under_way_ > 0 || ranks_of_this_era_ < std::ssize(latest_);
+}
+
+void RankNodes::push(const NodePtr& root) {
+  const auto number = static_cast<std::int32_t>(numbers_.size());
+  const auto [tree, is_new] = numbers_.try_emplace(&root->tree(), number);
+  if (is_new) tell_all(transport_, message::NewTree{record_of(root->tree())});
+  const int rank = idlest();
+  bounds_.insert(root->bound());
+  under_way_[static_cast<std::size_t>(rank)].push_back(root->bound());
+  ++roots_under_way_;
+  transport_.send(rank, bytes_of(message::Root{tree->second}));
+}
+
+int RankNodes::idlest() const {
+  std::vector<int> ranks(latest_.size());
+  for (std::size_t i = 0; i < ranks.size(); ++i) ranks[i] = static_cast<int>(i);
+  return std::ranges::min(ranks, {}, [&](int rank) {
+    const auto place = static_cast<std::size_t>(rank);
+    return std::tuple(under_way_[place].size(), latest_[place].open, rank);
+  });
+}
+
+void RankNodes::restart(std::span<const NodePtr> roots, Cost proven) {
+  tell_all(transport_, message::BeginAnew{proven});
+  ++era_;
+  ranks_of_this_era_ = 0;
+  for (const NodePtr& root : roots) push(root);
+}
+
+}  // namespace grove

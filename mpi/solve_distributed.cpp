@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/solve_distributed.h"
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "grove/engine/multicore.h"
+#include "grove/engine/worker.h"
+#include "mpi/member.h"
+
+namespace grove {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Messages wait so long at most. Looking for them costs little, sleeping in between nothing.
+constexpr auto kNap = std::chrono::microseconds(200);
+
+// The threads that search, and what became of them.
+class Searching {
+ public:
+  Searching(const Problem& problem, const SolveOptions& options, const Limits& limits, Rank& rank,
+            int number)
+      : limits_(limits), shared_(rank.search()) {
+    for (int i = 0; i < options.threads; ++i)
+      workers_.push_back(std::make_unique<Worker>(problem, options, limits, shared_, rank.stops(),
+                                                  number * options.threads + i));
+    thread_ = std::jthread([this] { run(); });
+  }
+  ~Searching() { limits_.end_work(); }
+
+  // Throws what a worker threw.
+  bool ended() const {
+    if (!ended_) return false;
+    if (failure_) std::rethrow_exception(failure_);
+    return true;
+  }
+  Stats counts() const {
+    Stats stats;
+    for (const auto& worker : workers_) worker->add_counts(stats);
+    return stats;
+  }
+
+ private:
+  void run() {
+    try {
+      solve_together(workers_, shared_, limits_, [] {});
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    ended_ = true;
+  }
+
+  const Limits& limits_;
+  SharedSearch& shared_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::exception_ptr failure_;
+  std::atomic<bool> ended_{false};
+  std::jthread thread_;  // the first to go
+};
+
+}  // namespace
+
+std::optional<Solution> solve_distributed(const Problem& problem, const SolveOptions& options,
+                                          const Limits& limits, Transport& transport,
+                                          RunObserver& observer,
+                                          const std::function<void()>& meanwhile) {
+  const Clock::time_point begin = Clock::now();
+  Member member(problem, options, limits, observer, transport);
+  Searching searching(problem, options, limits, member.rank(), transport.rank());
+  bool said_farewell = false;
+  while (!member.left()) {
+    const double now = std::chrono::duration<double>(Clock::now() - begin).count();
+    const bool heard = member.converse(now);
+    meanwhile();
+    if (!said_farewell && searching.ended() && member.rank().ended()) {
+      member.rank().farewell(searching.counts());
+      said_farewell = true;
+    }
+    if (!heard) std::this_thread::sleep_for(kNap);
+  }
+  if (!member.coordinator()) return std::nullopt;
+  return member.coordinator()->conclude();
+}
+
+}  // namespace grove

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+// The file: 8 bytes of magic and a version of 4, then blocks. A block is its kind (4 bytes), the
+// length of its content (8), the content (see serialise.h) and a CRC-32 (4); numbers come low bytes
+// first. The checksum is that of the whole file up to there, so that blocks can neither be changed
+// nor lost, doubled or reordered; but for the checksums before it, since what is followed by its
+// own CRC has the same one, whatever it was. One head, then blocks of trees, then blocks of nodes,
+// then the end with their number, and nothing behind it: a file cut short anywhere has no end.
+#include "grove/engine/checkpoint.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <span>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "grove/engine/serialise.h"
+#include "grove/io/input_error.h"
+
+namespace grove {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMagic = "GROVE-CP";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // about so many to a block
+constexpr std::size_t kBlockHeadBytes = 12;
+constexpr std::size_t kChecksumBytes = 4;
+
+constexpr std::uint32_t kind_of(std::string_view name) {
+  std::uint32_t kind = 0;
+  for (std::size_t i = 0; i < 4; ++i) kind |= static_cast<std::uint32_t>(name[i]) << 8 * i;
+  return kind;
+}
+constexpr std::uint32_t kHead = kind_of("HEAD");
+constexpr std::uint32_t kTrees = kind_of("TREE");
+constexpr std::uint32_t kNodes = kind_of("NODE");
+constexpr std::uint32_t kEnd = kind_of("ENDS");
+
+// The header without its trees.
+struct Head {
+  std::uint64_t fingerprint = 0;
+  std::uint8_t policy = 0;
+  std::optional<Plan> incumbent;
+  Cost lower_bound = 0;
+  Cost evicted_bound = 0;
+  std::int64_t trees_instantiated = 0;
+  std::uint64_t trees = 0;
+  std::map<std::string, std::int64_t> counters;
+  double seconds = 0;
+};
+
+template <class Archive>
+void serialize(Archive& archive, Head& head) {
+  archive(head.fingerprint, head.policy, head.incumbent, head.lower_bound, head.evicted_bound,
+          head.trees_instantiated, head.trees, head.counters, head.seconds);
+}
+
+// Stored as such: the numbers of an enumeration may change.
+constexpr std::uint8_t kFixed = 1;
+constexpr std::uint8_t kFree = 2;
+
+std::uint8_t stored(Policy policy) {
+  if (policy == Policy::kAuto)
+    throw std::invalid_argument("a checkpoint must be of a policy that is settled");
+  return policy == Policy::kFixed ? kFixed : kFree;
+}
+
+std::string policy_name(std::uint8_t policy) {
+  return policy == kFixed ? "fixed" : policy == kFree ? "free" : fmt::format("{}", policy);
+}
+
+std::uint32_t checksum(std::uint32_t before, std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+void append(std::string& bytes, std::uint64_t number, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(number >> 8 * i & 0xFF);
+}
+
+std::uint64_t number_in(std::string_view bytes) {
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    number |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << 8 * i;
+  return number;
+}
+
+std::string opening() {
+  std::string bytes(kMagic);
+  append(bytes, kVersion, 4);
+  return bytes;
+}
+
+std::size_t bytes_of(const NodeRecord& node) {
+  std::size_t bytes = 64 + 24 * node.constraints.size();
+  for (const NodeRecord::Walk& walk : node.paths) bytes += 16 + 8 * walk.words.size();
+  return bytes;
+}
+
+std::size_t bytes_of(const TreeRecord& tree) {
+  std::size_t bytes = 8;
+  for (const TreeRecord::Order& order : tree.orders)
+    bytes += 32 + order.sequences.prefix.size() + 8 * order.words.size();
+  return bytes;
+}
+
+}  // namespace
+
+template <class Archive>
+void serialize(Archive& archive, CheckpointNode& node) {
+  archive(node.tree, node.node);
+}
+
+fs::path checkpoint_file(const fs::path& directory) {
+  return directory / "checkpoint.grove";
+}
+
+CheckpointWriter::CheckpointWriter(const fs::path& directory, const CheckpointHeader& header)
+    : file_(checkpoint_file(directory)),
+      checksum_(checksum(0, opening())),
+      trees_(header.trees.size()) {
+  const Head head{header.fingerprint,  stored(header.policy), header.incumbent,
+                  header.lower_bound,  header.evicted_bound,  header.trees_instantiated,
+                  header.trees.size(), header.counters,       header.seconds};
+  file_.write(opening());
+  write(kHead, to_bytes(head));
+  write_trees(header.trees);
+}
+
+void CheckpointWriter::write_trees(const std::vector<TreeRecord>& trees) {
+  std::vector<TreeRecord> block;
+  std::size_t bytes = 0;
+  for (const TreeRecord& tree : trees) {
+    block.push_back(tree);
+    bytes += bytes_of(tree);
+    if (bytes < kBlockBytes && &tree != &trees.back()) continue;
+    write(kTrees, to_bytes(block));
+    block.clear();
+    bytes = 0;
+  }
+}
+
+void CheckpointWriter::add(std::uint32_t tree, NodeRecord node) {
+  if (tree >= trees_) throw std::invalid_argument("a node must be of a tree of its checkpoint");
+  waiting_bytes_ += bytes_of(node);
+  waiting_.push_back({tree, std::move(node)});
+  ++nodes_;
+  if (waiting_bytes_ >= kBlockBytes) write_nodes();
+}
+
+void CheckpointWriter::write_nodes() {
+  write(kNodes, to_bytes(waiting_));
+  waiting_.clear();
+  waiting_bytes_ = 0;
+}
+
+void CheckpointWriter::finish() {
+  if (!waiting_.empty()) write_nodes();
+  write(kEnd, to_bytes(nodes_));
+  file_.commit();
+}
+
+void CheckpointWriter::write(std::uint32_t kind, std::string_view content) {
+  std::string head;
+  append(head, kind, 4);
+  append(head, content.size(), 8);
+  checksum_ = checksum(checksum(checksum_, head), content);
+  std::string tail;
+  append(tail, checksum_, kChecksumBytes);
+  file_.write(head);
+  file_.write(content);
+  file_.write(tail);
+}
+
+// The blocks of a file, one after the other.
+class CheckpointReader::Blocks {
+ public:
+  explicit Blocks(fs::path path) : path_(std::move(path)), file_(nullptr, &std::fclose) {
+    std::error_code error;
+    size_ = fs::file_size(path_, error);
+    if (error) fail_to_read(error.value());
+    file_.reset(std::fopen(path_.c_str(), "rb"));
+    if (!file_) fail_to_read(errno);
+    read_opening();
+  }
+
+  struct Block {
+    std::uint32_t kind = 0;
+    std::string content;
+  };
+
+  Block next() {
+    block_begin_ = offset_;
+    const std::string head = read(kBlockHeadBytes);
+    Block block{static_cast<std::uint32_t>(number_in(std::string_view(head).substr(0, 4))), {}};
+    const std::uint64_t length = number_in(std::string_view(head).substr(4));
+    // First of all: nobody vouches for the length yet.
+    if (length > left() || left() - length < kChecksumBytes)
+      refuse(fmt::format("announces {} bytes more; expected at most the {} left", length, left()));
+    block.content = read(length);
+    checksum_ = checksum(checksum(checksum_, head), block.content);
+    if (const std::uint64_t found = number_in(read(kChecksumBytes)); found != checksum_)
+      refuse(fmt::format("found the checksum {:08x}; expected {:08x}", found, checksum_));
+    return block;
+  }
+
+  // The value that is all of a block's content.
+  template <class T>
+  T value(std::string_view content) const try {
+    return from_bytes<T>(content);
+  } catch (const std::invalid_argument& error) {
+    refuse(error.what());
+  }
+
+  std::uint64_t left() const { return size_ - offset_; }
+
+  // Something is wrong with the block read last.
+  [[noreturn]] void refuse(std::string_view what) const {
+    throw InputError(path_.string(), fmt::format("byte {}", block_begin_),
+                     fmt::format("is damaged: {}", what));
+  }
+  // It is whole, and not what was asked for.
+  [[noreturn]] void refuse_file(std::string_view what) const {
+    throw InputError(path_.string(), "", what);
+  }
+
+ private:
+  [[noreturn]] void fail_to_read(int error) const {
+    throw InputError(path_.string(), "",
+                     "cannot be read: " + std::generic_category().message(error));
+  }
+
+  void read_opening() {
+    const std::string magic = read(std::min<std::uint64_t>(kMagic.size(), left()));
+    if (magic != kMagic)
+      refuse_file(fmt::format("is no checkpoint: begins with '{}'; expected '{}'", magic, kMagic));
+    const std::uint64_t version = number_in(read(4));
+    if (version != kVersion)
+      refuse_file(fmt::format("is a checkpoint of format version {}; expected version {}", version,
+                              kVersion));
+  }
+
+  std::string read(std::uint64_t size) {
+    if (size > left())
+      refuse(fmt::format("ends after {} bytes; expected {} more", size_, size - left()));
+    std::string bytes(size, '\0');
+    const std::size_t read = std::fread(bytes.data(), 1, bytes.size(), file_.get());
+    if (std::ferror(file_.get()) != 0) fail_to_read(errno);
+    if (read != size) refuse("became shorter while it was read");
+    offset_ += size;
+    return bytes;
+  }
+
+  fs::path path_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::uint64_t size_ = 0;
+  std::uint64_t offset_ = 0;
+  std::uint64_t block_begin_ = 0;
+  std::uint32_t checksum_ = checksum(0, opening());  // as far as read
+};
+
+CheckpointReader::CheckpointReader(const fs::path& directory, std::uint64_t fingerprint,
+                                   Policy policy)
+    : blocks_(std::make_unique<Blocks>(checkpoint_file(directory))) {
+  read_header(fingerprint, policy);
+}
+
+CheckpointReader::~CheckpointReader() = default;
+
+void CheckpointReader::read_header(std::uint64_t fingerprint, Policy policy) {
+  const Blocks::Block block = blocks_->next();
+  if (block.kind != kHead) blocks_->refuse("begins with no head");
+  auto head = blocks_->value<Head>(block.content);
+  if (head.fingerprint != fingerprint)
+    blocks_->refuse_file(
+        fmt::format("is a checkpoint of another instance: found fingerprint {:016x}; expected "
+                    "{:016x}",
+                    head.fingerprint, fingerprint));
+  if (head.policy != stored(policy))
+    blocks_->refuse_file(fmt::format("is a checkpoint of policy {}; expected policy {}",
+                                     policy_name(head.policy), policy_name(stored(policy))));
+  header_ = {head.fingerprint,
+             policy,
+             std::move(head.incumbent),
+             head.lower_bound,
+             head.evicted_bound,
+             head.trees_instantiated,
+             {},
+             std::move(head.counters),
+             head.seconds};
+  read_trees(head.trees);
+}
+
+void CheckpointReader::read_trees(std::uint64_t count) {
+  while (header_.trees.size() < count) {
+    const Blocks::Block block = blocks_->next();
+    if (block.kind != kTrees) blocks_->refuse("lacks trees");
+    for (TreeRecord& tree : blocks_->value<std::vector<TreeRecord>>(block.content))
+      header_.trees.push_back(std::move(tree));
+  }
+  if (header_.trees.size() != count) blocks_->refuse("has more trees than it announces");
+}
+
+std::optional<CheckpointNode> CheckpointReader::next() {
+  while (next_ == nodes_.size() && !ended_) {
+    const Blocks::Block block = blocks_->next();
+    if (block.kind == kEnd) {
+      read_end(block.content);
+    } else {
+      if (block.kind != kNodes) blocks_->refuse("holds a block of no known kind");
+      nodes_ = blocks_->value<std::vector<CheckpointNode>>(block.content);
+      nodes_read_ += nodes_.size();
+      next_ = 0;
+    }
+  }
+  if (next_ == nodes_.size()) return std::nullopt;
+  CheckpointNode& node = nodes_[next_++];
+  if (node.tree >= header_.trees.size()) blocks_->refuse("holds a node of no tree");
+  return std::move(node);
+}
+
+void CheckpointReader::read_end(std::string_view content) {
+  const auto count = blocks_->value<std::uint64_t>(content);
+  if (count != nodes_read_)
+    blocks_->refuse(fmt::format("holds {} nodes; expected {}", nodes_read_, count));
+  if (blocks_->left() != 0)
+    blocks_->refuse(fmt::format("is followed by {} bytes; expected none", blocks_->left()));
+  ended_ = true;
+}
+
+}  // namespace grove

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// A root's cost is the first bound of its tree, so what comes from elsewhere is checked as far as
+// the distances settle it at once: a path that takes the least time for the order in which it
+// visits its stops. For a fixed order that proves the bound again.
+#include "grove/search/tree_record.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace grove {
+namespace {
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+TreeRecord::Order record_of(const AgentOrder& order) {
+  const PackedSteps path = order.path.view();
+  return {order.sequences, order.goals.has_value(), path.steps,
+          std::vector(path.words, path.words + packed_words(path.steps))};
+}
+
+bool is_complete(const Sequence& sequence, const Agent& agent) {
+  std::vector<bool> seen(agent.tasks.size());
+  for (const Stop stop : sequence) {
+    if (stop >= seen.size() || seen[stop]) return false;
+    seen[stop] = true;
+  }
+  return sequence.size() == seen.size();
+}
+
+bool visits_in_turn(const Path& path, const GoalSequence& goals) {
+  auto now = path.begin();
+  for (int k = 0; k < goals.size(); ++k) {
+    now = std::find(now, path.end(), goals.goal(k));
+    if (now == path.end()) return false;
+  }
+  return path.back() == goals.last();
+}
+
+Path path_of(const TreeRecord::Order& record, const Instance& instance, AgentIndex agent) {
+  const Cell start = instance.agent(agent).start;
+  require(record.words.size() == packed_words(record.steps),
+          "a tree's path must have the length it claims");
+  const PackedSteps steps{record.steps, record.words.data()};
+  require(steps.is_walk(instance.grid(), start),
+          "a tree's path must be a walk on the map from its agent's start");
+  Path path;
+  steps.unpack(instance.grid(), start, path);
+  return path;
+}
+
+}  // namespace
+
+TreeRecord record_of(const Tree& tree) {
+  TreeRecord record;
+  for (const auto& order : tree.orders) record.orders.push_back(record_of(*order));
+  return record;
+}
+
+Trees::Trees(const Problem& problem, AgentStopsStore& stops, NodePool& pool)
+    : problem_(problem), stops_(stops), pool_(pool), orders_(problem.instance.agent_count()) {}
+
+NodePtr Trees::add(const TreeRecord& record) {
+  require(record.orders.size() == orders_.size(),
+          "a tree must fix as many agents' orders as the instance has agents");
+  Tree tree{&pool_, {}};
+  for (std::size_t agent = 0; agent < orders_.size(); ++agent)
+    tree.orders.push_back(order_of(static_cast<AgentIndex>(agent), record.orders[agent]));
+  return Node::root(trees_.emplace_back(std::move(tree)));
+}
+
+Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) {
+  auto& known = orders_[agent];
+  const auto same = [&](const Order& order) {
+    return order->sequences == record.sequences && record_of(*order) == record;
+  };
+  const auto found = std::ranges::find_if(known, same);
+  if (found != known.end()) return *found;
+  return known.emplace_back(std::make_shared<const AgentOrder>(made(agent, record)));
+}
+
+AgentOrder Trees::made(AgentIndex agent, const TreeRecord::Order& record) {
+  const Instance& instance = problem_.instance;
+  const Path path = path_of(record, instance, agent);
+  if (record.fixed)
+    require(is_complete(record.sequences.prefix, instance.agent(agent)) &&
+                record.sequences.forbidden_next == 0,
+            "a fixed order must hold every stop of its agent once");
+  GoalSequence goals = goals_in_order(
+      problem_, agent,
+      record.fixed ? record.sequences.prefix
+                   : realized_sequence(FreeGoals(stops_.of(agent), record.sequences), path));
+  require(visits_in_turn(path, goals), "a tree's path must visit its agent's stops in order");
+  require(static_cast<Time>(record.steps) == goals.distance(goals.start(), 0),
+          "a tree's path must be shortest in its order of stops");
+  return {record.sequences, record.fixed ? std::optional(std::move(goals)) : std::nullopt,
+          PackedPath(instance.grid(), path)};
+}
+
+}  // namespace grove

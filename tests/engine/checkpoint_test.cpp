@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: MIT
+#include "grove/engine/checkpoint.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "grove/engine/serialise.h"
+#include "grove/model/fingerprint.h"
+#include "grove/search/expander.h"
+#include "grove/search/sequence_forest.h"
+#include "tests/primal/crowd.h"
+#include "tests/support/file_size_limit.h"
+#include "tests/support/refusal.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// A checkpoint as one value.
+struct Whole {
+  CheckpointHeader header;
+  std::vector<CheckpointNode> nodes;
+};
+
+// The nodes of a real search, breadth first below the first trees of the paper's forest.
+class Search {
+ public:
+  Search() {
+    std::vector<NodePtr> open;
+    for (int tree = 0; tree < 5; ++tree) open.push_back(forest_.next_root());
+    for (const NodePtr& root : open) trees_.push_back(&root->tree());
+    for (std::size_t i = 0; i < open.size() && open.size() < 10'005; ++i) {
+      const Expansion expansion = expander_.expand(open[i], kInfiniteCost, limits_);
+      open.insert(open.end(), expansion.children.begin(), expansion.children.end());
+    }
+    nodes_.assign(open.begin() + 5, open.end());
+  }
+
+  Whole whole(std::size_t most_nodes) const {
+    Whole whole;
+    for (const Tree* tree : trees_) whole.header.trees.push_back(record_of(*tree));
+    for (std::size_t i = 0; i < nodes_.size() && i < most_nodes; ++i) {
+      const auto tree = std::ranges::find(trees_, &nodes_[i]->tree()) - trees_.begin();
+      whole.nodes.push_back({static_cast<std::uint32_t>(tree), record_of(*nodes_[i])});
+    }
+    whole.header.fingerprint = fingerprint(instance_);
+    whole.header.policy = Policy::kFixed;
+    whole.header.incumbent = Plan{90, {{50, {1, 0}, {3, 4, 4}}, {40, {}, {7}}}};
+    whole.header.lower_bound = 77;
+    whole.header.evicted_bound = 80;
+    whole.header.trees_instantiated = 9;
+    whole.header.counters = {{"nodes_expanded", 123'456'789'012}, {"roots_generated", 9}};
+    whole.header.seconds = 12.5;
+    return whole;
+  }
+
+  const Instance& instance() const { return instance_; }
+  const Problem& problem() const { return problem_; }
+
+ private:
+  Limits limits_;
+  Instance instance_ =
+      testing::random_crowd({.size = 10, .obstacles = 25, .agents = 12, .tasks = 12}, 5);
+  Problem problem_{instance_, limits_};
+  AgentStopsStore stops_{instance_, problem_.distances};
+  NodePool pool_;
+  SequenceForest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
+  Expander expander_{problem_, stops_, Techniques(), 0};
+  std::vector<const Tree*> trees_;
+  std::vector<NodePtr> nodes_;
+};
+
+const Search& search() {
+  static const Search search;
+  return search;
+}
+
+void write(const std::filesystem::path& directory, const Whole& whole) {
+  CheckpointWriter writer(directory, whole.header);
+  for (const CheckpointNode& node : whole.nodes) writer.add(node.tree, node.node);
+  writer.finish();
+}
+
+Whole read(const std::filesystem::path& directory, std::uint64_t fingerprint, Policy policy) {
+  CheckpointReader reader(directory, fingerprint, policy);
+  Whole whole{reader.header(), {}};
+  while (auto node = reader.next()) whole.nodes.push_back(std::move(*node));
+  EXPECT_FALSE(reader.next());  // still none
+  return whole;
+}
+
+Whole read(const std::filesystem::path& directory) {
+  return read(directory, fingerprint(search().instance()), Policy::kFixed);
+}
+
+void expect_same(const Whole& found, const Whole& expected) {
+  EXPECT_EQ(found.header.fingerprint, expected.header.fingerprint);
+  EXPECT_EQ(found.header.policy, expected.header.policy);
+  EXPECT_EQ(to_bytes(found.header.incumbent), to_bytes(expected.header.incumbent));
+  EXPECT_EQ(found.header.lower_bound, expected.header.lower_bound);
+  EXPECT_EQ(found.header.evicted_bound, expected.header.evicted_bound);
+  EXPECT_EQ(found.header.trees_instantiated, expected.header.trees_instantiated);
+  EXPECT_EQ(found.header.trees, expected.header.trees);
+  EXPECT_EQ(found.header.counters, expected.header.counters);
+  EXPECT_EQ(found.header.seconds, expected.header.seconds);
+  const auto same = [](const CheckpointNode& a, const CheckpointNode& b) {
+    return a.tree == b.tree && a.node == b.node;
+  };
+  EXPECT_TRUE(std::ranges::equal(found.nodes, expected.nodes, same));
+}
+
+TEST(Checkpoint, OfTenThousandNodesIsReadAgain) {
+  const TemporaryDirectory directory;
+  const Whole whole = search().whole(10'000);
+  ASSERT_EQ(whole.nodes.size(), 10'000u);
+  write(directory.path(), whole);
+  EXPECT_EQ(directory.files(), Names{"checkpoint.grove"});
+  expect_same(read(directory.path()), whole);
+}
+
+// What a resumed run does with it.
+TEST(Checkpoint, HoldsTreesAndNodesToGoOnFrom) {
+  const TemporaryDirectory directory;
+  const Whole whole = search().whole(300);
+  write(directory.path(), whole);
+  const Whole found = read(directory.path());
+  NodePool pool;
+  AgentStopsStore stops(search().instance(), search().problem().distances);
+  Trees trees(search().problem(), stops, pool);
+  std::vector<NodePtr> roots;
+  for (const TreeRecord& tree : found.header.trees) roots.push_back(trees.add(tree));
+  for (std::size_t i = 0; i < found.nodes.size(); ++i) {
+    const CheckpointNode& node = found.nodes[i];
+    const NodePtr again = node_of(node.node, roots[node.tree], search().instance());
+    EXPECT_EQ(record_of(*again), whole.nodes[i].node);
+  }
+}
+
+TEST(Checkpoint, MayHoldNothing) {
+  const TemporaryDirectory directory;
+  CheckpointHeader header;
+  header.policy = Policy::kFree;
+  CheckpointWriter(directory.path(), header).finish();
+  expect_same(read(directory.path(), 0, Policy::kFree), {header, {}});
+}
+
+TEST(Checkpoint, OfManyTreesIsReadAgain) {
+  const TemporaryDirectory directory;
+  Whole whole = search().whole(0);
+  while (whole.header.trees.size() < 2000) whole.header.trees.push_back(whole.header.trees.back());
+  write(directory.path(), whole);
+  EXPECT_GT(file_content(checkpoint_file(directory.path())).size(), 600'000u);
+  expect_same(read(directory.path()), whole);
+}
+
+TEST(Checkpoint, ReplacesTheOneBeforeWhenFinished) {
+  const TemporaryDirectory directory;
+  const Whole before = search().whole(10);
+  const Whole after = search().whole(2000);
+  write(directory.path(), before);
+  CheckpointWriter writer(directory.path(), after.header);
+  for (const CheckpointNode& node : after.nodes) writer.add(node.tree, node.node);
+  expect_same(read(directory.path()), before);
+  writer.finish();
+  expect_same(read(directory.path()), after);
+}
+
+TEST(Checkpoint, GivenUpLeavesTheOneBefore) {
+  const TemporaryDirectory directory;
+  const Whole before = search().whole(10);
+  write(directory.path(), before);
+  {
+    CheckpointWriter writer(directory.path(), before.header);
+    for (const CheckpointNode& node : search().whole(2000).nodes) writer.add(node.tree, node.node);
+  }
+  expect_same(read(directory.path()), before);
+  EXPECT_EQ(directory.files(), Names{"checkpoint.grove"});
+}
+
+TEST(Checkpoint, OfAProcessKilledWhileWritingLeavesTheOneBefore) {
+  const TemporaryDirectory directory;
+  const Whole before = search().whole(10);
+  const Whole after = search().whole(5000);
+  write(directory.path(), before);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    CheckpointWriter writer(directory.path(), after.header);
+    for (const CheckpointNode& node : after.nodes) writer.add(node.tree, node.node);
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  expect_same(read(directory.path()), before);
+  write(directory.path(), after);
+  expect_same(read(directory.path()), after);
+}
+
+TEST(Checkpoint, OnAFullDiskIsAnErrorAndLeavesTheOneBefore) {
+  const TemporaryDirectory directory;
+  const Whole before = search().whole(10);
+  const Whole after = search().whole(5000);
+  write(directory.path(), before);
+  std::string said;
+  {
+    const FileSizeLimit limit(500'000);
+    said = refusal([&] { write(directory.path(), after); });
+  }
+  EXPECT_EQ(said, "checkpoint.grove: cannot be written: File too large");
+  expect_same(read(directory.path()), before);
+  EXPECT_EQ(directory.files(), Names{"checkpoint.grove"});
+
+  const TemporaryDirectory full;
+  std::filesystem::create_symlink("/dev/full", checkpoint_file(full.path()));
+  EXPECT_EQ(refusal([&] { write(full.path(), before); }),
+            "checkpoint.grove: cannot be written: No space left on device");
+}
+
+TEST(Checkpoint, InAFolderThatIsNoneIsAnError) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("file", "");
+  const auto said = [](const std::filesystem::path& path, auto act) {
+    return refusal([&] { act(path); });
+  };
+  const auto writes = [](const auto& path) { write(path, search().whole(1)); };
+  const auto reads = [](const auto& path) { read(path); };
+  EXPECT_EQ(said(directory / "missing", writes),
+            "checkpoint.grove: cannot be written: No such file or directory");
+  EXPECT_EQ(said(file, writes), "checkpoint.grove: cannot be written: Not a directory");
+  EXPECT_EQ(said(directory.path(), reads),
+            "checkpoint.grove: cannot be read: No such file or directory");
+  EXPECT_EQ(said(file, reads), "checkpoint.grove: cannot be read: Not a directory");
+  std::filesystem::create_directory(checkpoint_file(directory.path()));
+  EXPECT_EQ(said(directory.path(), reads), "checkpoint.grove: cannot be read: Is a directory");
+}
+
+TEST(Checkpoint, IsNotMadeOfWhatCannotBe) {
+  const TemporaryDirectory directory;
+  CheckpointHeader header = search().whole(0).header;
+  EXPECT_THROW(CheckpointWriter(directory.path(), header).add(5, NodeRecord()),
+               std::invalid_argument);
+  header.policy = Policy::kAuto;
+  EXPECT_THROW(CheckpointWriter(directory.path(), header), std::invalid_argument);
+  EXPECT_TRUE(directory.files().empty());
+}
+
+// A small checkpoint as bytes, and what is said of others in its place.
+class DamagedCheckpoint : public ::testing::Test {
+ protected:
+  DamagedCheckpoint() {
+    write(directory_.path(), search().whole(6));
+    bytes_ = file_content(checkpoint_file(directory_.path()));
+  }
+
+  std::string reading(std::string_view bytes) {
+    directory_.write("checkpoint.grove", bytes);
+    return refusal([&] { read(directory_.path()); });
+  }
+  void expect_damage_found(const std::string& bytes, const char* place, std::size_t offset) {
+    const std::string said = reading(bytes);
+    EXPECT_TRUE(said.find("is damaged") != std::string::npos ||
+                said.find("is no checkpoint") != std::string::npos ||
+                said.find("of format version") != std::string::npos)
+        << place << ' ' << offset << ": " << said;
+  }
+
+  TemporaryDirectory directory_;
+  std::string bytes_;
+};
+
+TEST_F(DamagedCheckpoint, IsAcceptedUndamaged) {
+  EXPECT_EQ(reading(bytes_), "accepted");
+}
+
+TEST_F(DamagedCheckpoint, CutShortIsRefused) {
+  for (std::size_t size = 0; size < bytes_.size(); ++size)
+    expect_damage_found(bytes_.substr(0, size), "cut at", size);
+}
+
+TEST_F(DamagedCheckpoint, WithABitFlippedIsRefused) {
+  for (std::size_t byte = 0; byte < bytes_.size(); ++byte) {
+    std::string damaged = bytes_;
+    damaged[byte] = static_cast<char>(damaged[byte] ^ 1 << byte % 8);
+    expect_damage_found(damaged, "flipped in byte", byte);
+  }
+}
+
+TEST_F(DamagedCheckpoint, WithNoiseInItIsRefused) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 300; ++i) {
+    std::string damaged = bytes_;
+    const std::size_t begin = random() % bytes_.size();
+    const std::size_t end = std::min(bytes_.size(), begin + 1 + random() % 600);
+    const bool torn = random() % 2 == 0;
+    for (std::size_t byte = begin; byte < end; ++byte)
+      damaged[byte] = static_cast<char>(torn ? 0 : random());
+    if (damaged != bytes_) expect_damage_found(damaged, "noise from", begin);
+  }
+}
+
+TEST_F(DamagedCheckpoint, WithBytesBehindItsEndIsRefused) {
+  expect_damage_found(bytes_ + '\0', "behind", bytes_.size());
+  expect_damage_found(bytes_ + bytes_, "behind", bytes_.size());
+}
+
+// Where each block begins, and the end of the last.
+std::vector<std::size_t> block_begins(const std::string& bytes) {
+  std::vector<std::size_t> begins{12};
+  while (begins.back() < bytes.size()) {
+    std::size_t length = 0;
+    for (int i = 0; i < 8; ++i)
+      length |= std::size_t{static_cast<unsigned char>(bytes[begins.back() + 4 + i])} << 8 * i;
+    begins.push_back(begins.back() + 12 + length + 4);
+  }
+  return begins;
+}
+
+// Each block is whole, and has its own checksum.
+TEST_F(DamagedCheckpoint, WithBlocksLostOrInAnotherOrderIsRefused) {
+  write(directory_.path(), search().whole(5000));
+  bytes_ = file_content(checkpoint_file(directory_.path()));
+  const std::vector<std::size_t> begins = block_begins(bytes_);
+  ASSERT_GE(begins.size(), 6u);
+  const auto block = [&](std::size_t k) {
+    return bytes_.substr(begins[k], begins[k + 1] - begins[k]);
+  };
+  for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
+    std::string lost = bytes_;
+    lost.erase(begins[k], block(k).size());
+    expect_damage_found(lost, "lost block", k);
+    std::string doubled = bytes_;
+    doubled.insert(begins[k], block(k));
+    expect_damage_found(doubled, "doubled block", k);
+    if (k == 0) continue;
+    std::string swapped = bytes_;
+    swapped.replace(begins[k - 1], begins[k + 1] - begins[k - 1], block(k) + block(k - 1));
+    expect_damage_found(swapped, "swapped block", k);
+  }
+}
+
+// A length that nobody wrote: refused at once, before memory for it is asked for.
+TEST_F(DamagedCheckpoint, ThatAnnouncesMoreThanItHoldsIsRefused) {
+  bytes_.replace(16, 8, std::string(6, '\xff') + '\x0f' + '\0');
+  EXPECT_EQ(
+      reading(bytes_),
+      "checkpoint.grove: byte 12: is damaged: announces 4503599627370495 bytes more; expected "
+      "at most the " +
+          std::to_string(bytes_.size() - 24) + " left");
+}
+
+TEST_F(DamagedCheckpoint, OfAnotherVersionOrKindIsRefused) {
+  std::string later = bytes_;
+  later[8] = 7;
+  EXPECT_EQ(reading(later),
+            "checkpoint.grove: is a checkpoint of format version 7; expected version 1");
+  EXPECT_EQ(reading("{\"status\": \"optimal\"}"),
+            "checkpoint.grove: is no checkpoint: begins with '{\"status'; expected 'GROVE-CP'");
+  EXPECT_EQ(reading(""), "checkpoint.grove: is no checkpoint: begins with ''; expected 'GROVE-CP'");
+}
+
+TEST_F(DamagedCheckpoint, OfAnotherInstanceOrPolicyIsRefused) {
+  Whole other = search().whole(1);
+  other.header.fingerprint = 0xABC;
+  write(directory_.path(), other);
+  EXPECT_EQ(refusal([&] { read(directory_.path(), 0x123, Policy::kFixed); }),
+            "checkpoint.grove: is a checkpoint of another instance: found fingerprint "
+            "0000000000000abc; expected 0000000000000123");
+  EXPECT_EQ(refusal([&] { read(directory_.path(), 0xABC, Policy::kFree); }),
+            "checkpoint.grove: is a checkpoint of policy fixed; expected policy free");
+  EXPECT_EQ(refusal([&] { read(directory_.path(), 0xABC, Policy::kFixed); }), "accepted");
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "grove/engine/serialise.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace grove {
+namespace {
+
+NodeRecord a_node() {
+  NodeRecord record;
+  record.constraints = {{3, {17, kNoCell, 4, kNever, ConstraintKind::kBar}},
+                        {0, {17, 16, 4, 4, ConstraintKind::kNoTraversal}},
+                        {1, {5, kNoCell, 2, 0, ConstraintKind::kStopIsNot}}};
+  record.paths = {{1, 25, {0x0123456789ABCDEF, 7}}, {4, 0, {}}};
+  record.cost = 612;
+  record.bound = 613;
+  record.conflicts = 9;
+  record.bounded = true;
+  return record;
+}
+
+TreeRecord a_tree() {
+  TreeRecord record;
+  record.orders = {{{{2, 0, 1}, 0}, true, 30, {1, 2}}, {{{}, ~StopSet{0}}, false, 0, {}}};
+  return record;
+}
+
+Plan a_plan() {
+  return {70, {{40, {2, 0}, {5, 6, 7, 7}}, {30, {}, {9}}}};
+}
+
+bool same(const AgentPlan& a, const AgentPlan& b) {
+  return a.cost == b.cost && a.sequence == b.sequence && a.path == b.path;
+}
+
+// What is said against them; empty: nothing.
+template <class T>
+std::string refusal(std::string_view bytes) {
+  try {
+    from_bytes<T>(bytes);
+    return "";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+template <class T>
+bool is_refused(std::string_view bytes) {
+  return !refusal<T>(bytes).empty();
+}
+
+TEST(Bytes, MakeTheValueAgain) {
+  EXPECT_EQ(from_bytes<NodeRecord>(to_bytes(a_node())), a_node());
+  EXPECT_EQ(from_bytes<NodeRecord>(to_bytes(NodeRecord())), NodeRecord());
+  EXPECT_EQ(from_bytes<TreeRecord>(to_bytes(a_tree())), a_tree());
+  const Plan plan = from_bytes<Plan>(to_bytes(a_plan()));
+  EXPECT_EQ(plan.cost, 70);
+  EXPECT_TRUE(std::ranges::equal(plan.agents, a_plan().agents, same));
+  using Counts = std::map<std::string, std::optional<std::int64_t>>;
+  const Counts counts{{"nodes", 5}, {"", -1}, {"none", std::nullopt}};
+  EXPECT_EQ(from_bytes<Counts>(to_bytes(counts)), counts);
+}
+
+// Of machines of either kind: the format says which of its bytes comes first.
+TEST(Bytes, HaveAnOrderOfTheirOwn) {
+  EXPECT_EQ(to_bytes(std::uint32_t{0x01020304}), std::string("\1\4\3\2\1", 5));
+  EXPECT_EQ(from_bytes<std::uint32_t>(std::string("\0\1\2\3\4", 5)), 0x01020304u);
+}
+
+template <class T>
+void expect_every_cut_refused(const T& value) {
+  const std::string bytes = to_bytes(value);
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_TRUE(is_refused<T>(std::string(bytes, 0, size))) << size;
+  EXPECT_TRUE(is_refused<T>(bytes + '\0'));
+}
+
+TEST(Bytes, CutShortOrTooLongAreRefused) {
+  expect_every_cut_refused(a_node());
+  expect_every_cut_refused(a_tree());
+  expect_every_cut_refused(a_plan());
+}
+
+// Whatever a damaged byte makes of it: another value of the same shape, or none.
+template <class T>
+void expect_no_damage_unnoticed(const T& value) {
+  const std::string bytes = to_bytes(value);
+  int refused = 0;
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    std::string damaged = bytes;
+    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ 1 << bit % 8);
+    if (is_refused<T>(damaged))
+      ++refused;
+    else
+      EXPECT_NE(to_bytes(from_bytes<T>(damaged)), bytes) << bit;
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(Bytes, WithABitFlippedAreAnotherValueOrRefused) {
+  expect_no_damage_unnoticed(a_node());
+  expect_no_damage_unnoticed(a_tree());
+  expect_no_damage_unnoticed(a_plan());
+}
+
+TEST(Bytes, OfNoiseDoNoHarm) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 20'000; ++i) {
+    std::string noise(random() % 200, '\0');
+    for (char& c : noise) c = static_cast<char>(random() % 4 == 0 ? random() : 0);
+    if (!noise.empty()) noise[0] = 1;
+    is_refused<NodeRecord>(noise);
+    is_refused<TreeRecord>(noise);
+    is_refused<Plan>(noise);
+  }
+}
+
+// At once: the memory for them is not asked for.
+TEST(Bytes, ThatAnnounceMoreThanTheyHoldAreRefused) {
+  const std::string said = "more items are announced than there are bytes left";
+  const std::string bytes = to_bytes(a_node());
+  for (const std::uint64_t count : {std::uint64_t{bytes.size()}, std::uint64_t{1} << 31,
+                                    std::uint64_t{1} << 61, ~std::uint64_t{0}}) {
+    const std::string announced = to_bytes(count);
+    std::string hostile = bytes;
+    hostile.replace(1, 8, announced.substr(1));
+    EXPECT_EQ(refusal<NodeRecord>(hostile), said) << count;
+    EXPECT_EQ(refusal<std::vector<std::uint64_t>>(announced + std::string(99, 'x')), said);
+    EXPECT_EQ(refusal<std::string>(announced + "xy"), said);
+    using Map = std::map<std::string, std::string>;
+    EXPECT_EQ(refusal<Map>(announced + "xy"), said);
+  }
+}
+
+TEST(Bytes, ThatAreNoTruthValueOrKindAreRefused) {
+  EXPECT_TRUE(is_refused<bool>(std::string("\1\2", 2)));
+  Constraint strange;
+  std::string bytes = to_bytes(strange);
+  bytes.back() = static_cast<char>(ConstraintKind::kStopIsNot) + 1;
+  EXPECT_TRUE(is_refused<Constraint>(bytes));
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "grove/model/fingerprint.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+using Rows = std::vector<std::string>;
+using Agents = std::vector<testing::AgentSpec>;
+
+std::uint64_t of(const Rows& rows, const Agents& agents) {
+  return fingerprint(testing::instance_of(rows, agents));
+}
+
+const Rows kRows{"...", ".@.", "..."};
+const Agents kAgents{{{0, 0}, Position{2, 0}, {{1, 0}, {0, 2}}}, {{0, 1}, {}, {{2, 2}}}};
+
+// Files of earlier versions must be known again.
+TEST(Fingerprint, StaysWhatItIs) {
+  EXPECT_EQ(of(kRows, kAgents), 9616560128765021026u);
+}
+
+TEST(Fingerprint, TellsInstancesApart) {
+  std::set<std::uint64_t> seen{of(kRows, kAgents)};
+  const auto is_new = [&](std::uint64_t found) { return seen.insert(found).second; };
+  EXPECT_TRUE(is_new(of({"...", "...", "..."}, kAgents)));
+  EXPECT_TRUE(is_new(of({"...", ".@.", "...", "..."}, kAgents)));
+  const auto other = [&](auto change) {
+    Agents agents = kAgents;
+    change(agents);
+    return of(kRows, agents);
+  };
+  EXPECT_TRUE(is_new(other([](Agents& a) { a[0].start = {2, 1}; })));
+  EXPECT_TRUE(is_new(other([](Agents& a) { a[0].goal = Position{2, 1}; })));
+  EXPECT_TRUE(is_new(other([](Agents& a) { a[0].goal.reset(); })));
+  EXPECT_TRUE(is_new(other([](Agents& a) { a[1].tasks = {{2, 1}}; })));
+  EXPECT_TRUE(is_new(other([](Agents& a) { a[1].tasks.push_back({0, 2}); })));
+  EXPECT_TRUE(is_new(other([](Agents& a) { std::swap(a[0].tasks[0], a[0].tasks[1]); })));
+  EXPECT_TRUE(is_new(other([](Agents& a) { std::swap(a[0], a[1]); })));
+  EXPECT_TRUE(is_new(other([](Agents& a) { a.pop_back(); })));
+}
+
+TEST(Fingerprint, DoesNotCountNames) {
+  const auto named = [](const char* agent, const char* task) {
+    InstanceBuilder builder(testing::grid_of(kRows));
+    builder.add_agent(agent, {0, 0}, {});
+    builder.add_task(task, {2, 2}, std::vector<std::string>{agent});
+    return fingerprint(std::move(builder).build());
+  };
+  EXPECT_EQ(named("a", "t"), named("robot", "dock"));
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// A distributed search inside one thread, in which whatever can happen next happens in random
+// order.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "grove/engine/run_observer.h"
+#include "grove/engine/solve.h"
+#include "grove/model/instance.h"
+
+namespace grove::testing {
+
+struct Schedule {
+  int ranks = 2;
+  int workers = 1;  // of each rank
+  std::uint64_t seed = 0;
+  std::int64_t most_steps = 50'000;
+};
+
+struct ScheduleCounts {
+  std::int64_t steps = 0;
+  std::int64_t messages = 0;
+  bool ended = false;  // else most_steps were made
+};
+
+// Solves `instance`: each step is a part of a worker's turn, a look at the messages by one rank, or
+// the passing of time; messages are late by random amounts, and ranks stand still for long. After
+// every step `look` is told the lower bound. Throws what the search throws.
+Solution solve_in_random_order(const Instance& instance, const SolveOptions& options,
+                               const Schedule& schedule, RunObserver& observer,
+                               const std::function<void(Cost)>& look, ScheduleCounts& counts);
+
+}  // namespace grove::testing

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// grove-mpi: the same search by several processes.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "commands.h"
+#include "mpi/mpi_session.h"
+#include "mpi_commands.h"
+#include "program.h"
+
+namespace grove {
+namespace {
+
+constexpr const char* kDescription =
+    "Grove by several processes, on one machine or many: each rank searches with threads of its\n"
+    "own, all share one search. Start it with mpirun or srun.\n";
+
+constexpr const char* kFooter =
+    "Exit codes:\n"
+    "  0  ended cleanly; a plan file says how\n"
+    "  1  internal failure\n"
+    "  2  bad usage or input: one line on stderr with file, place and what was expected\n"
+    "\n"
+    "'grove-mpi COMMAND --help' explains a command, with examples.";
+
+int main(int argc, char** argv) {
+  MpiSession session(argc, argv);
+  CLI::App app(kDescription, "grove-mpi");
+  app.footer(kFooter);
+  prepare_program(app);
+  add_mpi_solve_command(app, session);
+  try {
+    return run_program(app, argc, argv, session.rank() == 0);
+  } catch (const std::exception& error) {
+    complain(app, fmt::format("internal failure of rank {}: {}", session.rank(), error.what()));
+    session.abort(kExitInternalFailure);
+  }
+}
+
+}  // namespace
+}  // namespace grove
+
+int main(int argc, char** argv) {
+  return grove::main(argc, argv);
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// What there is to work with.
+#pragma once
+
+#include <string>
+
+namespace grove {
+
+double physical_memory_gb();
+// The cores that this process may use.
+int usable_cores();
+// Which these are; the same text, the same cores.
+std::string usable_cores_text();
+// "host Linux x86_64, 8 cores, 16.0 GB"
+std::string machine_text();
+
+}  // namespace grove

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The subcommands of grove-mpi; see commands.h. All ranks run the same command. `session` must
+// outlive the parsing.
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "mpi/mpi_session.h"
+
+namespace grove {
+
+void add_mpi_solve_command(CLI::App& app, MpiSession& session);
+
+}  // namespace grove

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// grove-mpi solve: as grove solve, by all ranks.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "grove/engine/run_observer.h"
+#include "grove/io/plan_file.h"
+#include "grove/model/fingerprint.h"
+#include "incumbent_files.h"
+#include "machine.h"
+#include "mpi/solve_distributed.h"
+#include "mpi_commands.h"
+#include "run_log.h"
+#include "signals.h"
+#include "solve_arguments.h"
+#include "solve_run.h"
+#include "start_plan.h"
+#include "together.h"
+#include "version.h"
+
+namespace grove {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kFooter =
+    "All ranks work on the one instance, each with --threads threads beside the one that talks to\n"
+    "the others. Every rank must be able to read the instance; rank 0 alone writes files and the "
+    "log.\n"
+    "The limits are those of every rank: --memory-limit is for each process.\n"
+    "\n"
+    "Examples:\n"
+    "  mpirun -np 2 grove-mpi solve benchmarks/data/first.cts.json\n"
+    "  mpirun -np 4 --map-by node --bind-to none grove-mpi solve INSTANCE.cts.json --threads 16";
+
+std::string host() {
+  char name[256] = {};
+  ::gethostname(name, sizeof name - 1);
+  return name;
+}
+
+// Ranks that may use the same cores share them.
+int fair_threads(const MpiSession& session) {
+  const auto all = session.gather(host() + usable_cores_text());
+  const auto sharing = std::ranges::count(all, all[static_cast<std::size_t>(session.rank())]);
+  return std::max(1, usable_cores() / static_cast<int>(sharing));
+}
+
+std::string workers_text(const MpiSession& session, std::int64_t threads) {
+  const auto hosts = session.gather(host());
+  const auto each = session.gather(std::to_string(threads));
+  const bool same = std::set(each.begin(), each.end()).size() == 1;
+  const auto count = std::set(hosts.begin(), hosts.end()).size();
+  return fmt::format("{} on {} rank{}, {} host{}",
+                     same ? each.front() + " each" : fmt::format("{}", fmt::join(each, ", ")),
+                     session.ranks(), session.ranks() == 1 ? "" : "s", count,
+                     count == 1 ? "" : "s");
+}
+
+// What a rank has and does in a run.
+class Run {
+ public:
+  Run(const CLI::App& app, SolveArguments& arguments, MpiSession& session)
+      : app_(app), a_(arguments), session_(session) {}
+
+  void run() {
+    stop_on_signals();
+    if (app_.count("--threads") == 0) a_.threads = fair_threads(session_);
+    options_ = solve_options(a_);
+    if (a_.deterministic)
+      throw CLI::ValidationError("--deterministic", "is for one process: 'grove solve'");
+    require_same(session_, "version", version_text());
+    require_same(session_, "options", options_text(app_));
+    together(session_, [&] { loaded_.emplace(a_.instance.load(is_first())); });
+    require_same(session_, "an instance of fingerprint",
+                 fmt::format("{:016x}", fingerprint(loaded_->instance)));
+    set_limits(limits_, a_, start_);
+    const std::string workers = workers_text(session_, a_.threads);
+    together(session_, [&] {
+      if (is_first()) prepare(workers);
+    });
+    if (is_first())
+      solve_and_write();
+    else
+      solve_with(silent_);
+  }
+
+ private:
+  bool is_first() const { return session_.rank() == 0; }
+
+  void prepare(const std::string& workers) {
+    prepare_outputs(a_, *loaded_);
+    if (!a_.start.empty()) options_.start = read_start_plan(a_.start, loaded_->instance);
+    resumed_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
+    sink_ = std::make_unique<LogSink>(!a_.quiet, a_.log);
+    log_head(*sink_, app_, a_, *loaded_, workers);
+    if (resumed_) log_resumed(*sink_, resumed_->header());
+  }
+
+  void solve_and_write() {
+    RunLog log(*sink_, start_, a_.time_limit_s, false);
+    IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
+                            options_.omega, log);
+    Solution solution = *solve_with(observer);
+    add_run_facts(solution, app_, a_, start_);
+    solution.stats.counts["ranks"] = session_.ranks();
+    write_solution(a_.output, loaded_->instance, solution);
+    log.finish(solution, a_.output);
+  }
+
+  // All search or none does: rank 0 then says what there is to say.
+  std::optional<Solution> solve_with(RunObserver& observer) {
+    const Problem problem(loaded_->instance, limits_);
+    const auto answer = answer_without_search(problem, options_, limits_, observer);
+    const auto found = session_.gather(answer ? "an answer" : "");
+    if (std::ranges::count(found, "") == session_.ranks()) {
+      const auto network = session_.connect();
+      return solve_distributed(problem, options_, limits_, *network, observer, [] {});
+    }
+    if (!is_first()) return std::nullopt;
+    return answer ? answer : solve(loaded_->instance, options_, limits_, &observer);
+  }
+
+  const Clock::time_point start_ = Clock::now();
+  const CLI::App& app_;
+  SolveArguments& a_;
+  MpiSession& session_;
+  SolveOptions options_;
+  std::optional<LoadedInstance> loaded_;
+  Limits limits_;
+  RunObserver silent_;
+  std::unique_ptr<CheckpointReader> resumed_;
+  std::unique_ptr<LogSink> sink_;
+};
+
+}  // namespace
+
+void add_mpi_solve_command(CLI::App& root, MpiSession& session) {
+  CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
+  app->footer(kFooter);
+  const auto arguments = std::make_shared<SolveArguments>();
+  arguments->instance.add_to(*app);
+  add_search_options(*app, *arguments);
+  add_checkpoint_options(*app, arguments->checkpoints);
+  add_file_options(*app, *arguments);
+  app->callback([app, arguments, &session] { Run(*app, *arguments, session).run(); });
+}
+
+}  // namespace grove

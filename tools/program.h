@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What the programs have in common: help, complaints, exit codes.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace grove {
+
+// One line on stderr: "grove: error: ...".
+void complain(const CLI::App& app, const std::string& message);
+
+// Gives `app` the layout of help and the version that all programs have. Before its subcommands are
+// added, which take it over.
+void prepare_program(CLI::App& app);
+
+// Parses the command line, which runs the commands, and turns what they throw into an exit code
+// (commands.h). Complaints, help and version are printed only if it `speaks`: of several processes
+// that say the same, one should. Internal failures go through.
+int run_program(CLI::App& app, int argc, char** argv, bool speaks = true);
+
+}  // namespace grove

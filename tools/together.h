@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What all ranks do, each for itself, and which may fail on some of them.
+#pragma once
+
+#include <CLI/Error.hpp>
+#include <functional>
+#include <string>
+
+#include "commands.h"
+#include "grove/io/input_error.h"
+#include "mpi/mpi_session.h"
+
+namespace grove {
+
+// All ranks: calls `what`, and throws InputError on all of them if it threw InputError on any, with
+// the text of the first, and which rank that is unless all say the same. CLI::ValidationError is
+// the same on all, for they have the same command line.
+void together(const MpiSession& session, const std::function<void()>& what);
+
+// All ranks: throws InputError unless all say the same. `what` is, for instance, "version".
+void require_same(const MpiSession& session, const std::string& what, const std::string& mine);
+
+}  // namespace grove
