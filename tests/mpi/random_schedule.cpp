@@ -94,7 +94,7 @@ SimulatedNetwork::Delay random_delays(Dice& dice) {
 
 Solution solve_in_random_order(const Instance& instance, const SolveOptions& options,
                                const Schedule& schedule, RunObserver& observer,
-                               const std::function<void(Cost)>& look, ScheduleCounts& counts) {
+                               const std::function<bool(Cost)>& look, ScheduleCounts& counts) {
   Dice dice(schedule.seed);
   SimulatedNetwork network(schedule.ranks, random_delays(dice));
   const Limits no_limits;
@@ -115,7 +115,7 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
     if (process.frozen_until > counts.steps) continue;
     if (dice() % 500 == 0) process.frozen_until = counts.steps + static_cast<int>(dice() % 1500);
     process.step(dice, network.now());
-    look(coordinator.ledger().lower_bound());
+    if (look(coordinator.ledger().lower_bound())) break;
   }
   counts.ended = all_left();
   for (int rank = 0; rank < schedule.ranks; ++rank) counts.messages += network.at(rank).messages();

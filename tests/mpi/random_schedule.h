@@ -22,14 +22,15 @@ struct Schedule {
 struct ScheduleCounts {
   std::int64_t steps = 0;
   std::int64_t messages = 0;
-  bool ended = false;  // else most_steps were made
+  bool ended = false;  // else it was killed, or most_steps were made
 };
 
 // Solves `instance`: each step is a part of a worker's turn, a look at the messages by one rank, or
 // the passing of time; messages are late by random amounts, and ranks stand still for long. After
-// every step `look` is told the lower bound. Throws what the search throws.
+// every step `look` is told the lower bound; if it says so, all are killed. Throws what the search
+// throws.
 Solution solve_in_random_order(const Instance& instance, const SolveOptions& options,
                                const Schedule& schedule, RunObserver& observer,
-                               const std::function<void(Cost)>& look, ScheduleCounts& counts);
+                               const std::function<bool(Cost)>& look, ScheduleCounts& counts);
 
 }  // namespace grove::testing

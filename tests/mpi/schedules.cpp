@@ -20,10 +20,9 @@ int main(int argc, char** argv) {
       fmt::print("seed {}: {}\n", i, what);
       ++failed;
     }
-  fmt::print(
-      "{} schedules, {} unfinished, {} nodes, {} batches, {} messages, {} new beginnings: {} "
-      "false\n",
-      tally.tried, tally.unfinished, tally.nodes, tally.batches, tally.messages, tally.restarts,
-      failed);
+  fmt::print("{} schedules ({} unfinished, {} resumed, {} new beginnings), {} nodes, {} batches, ",
+             tally.tried, tally.unfinished, tally.resumed, tally.restarts, tally.nodes,
+             tally.batches);
+  fmt::print("{} messages: {} false\n", tally.messages, failed);
   return failed == 0 ? 0 : 1;
 }

@@ -15,6 +15,7 @@ struct ScheduleTally {
   std::int64_t messages = 0;
   std::int64_t batches = 0;
   std::int64_t restarts = 0;
+  std::int64_t resumed = 0;
 };
 
 // What was false; empty: nothing. The same seed makes the same run.
