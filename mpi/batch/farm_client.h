@@ -21,8 +21,8 @@ namespace grove::batch {
 // leader, which is rank 0 of the group. It writes the plan file before it returns. `poll` must be
 // called about every millisecond, from the thread that called; what it throws must be passed on. An
 // exception (std::exception) on any rank makes a row with that error; ranks that wait for one that
-// threw must come to know of it by themselves. No rank begins the next instance before all ranks of
-// its group have ended this one.
+// threw must come to know of it by themselves (gather.h). No rank begins the next instance before
+// all ranks of its group have ended this one.
 using Solve = std::function<Result(const Entry& entry, const std::function<void()>& poll)>;
 
 struct ClientOptions {

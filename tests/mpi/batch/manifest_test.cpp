@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "tests/io/refusal.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove::batch {

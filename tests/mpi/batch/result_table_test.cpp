@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "grove/io/plan_file.h"
-#include "tests/io/refusal.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove::batch {
