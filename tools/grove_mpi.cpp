@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   prepare_program(app);
   add_mpi_solve_command(app, session);
+  add_mpi_batch_command(app, session);
   try {
     return run_program(app, argc, argv, session.rank() == 0);
   } catch (const std::exception& error) {

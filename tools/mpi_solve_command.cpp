@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: MIT
 // grove-mpi solve: as grove solve, by all ranks.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
-#include <thread>
-#include <utility>
-#include <vector>
 
+#include "crew.h"
 #include "grove/engine/run_observer.h"
 #include "grove/io/plan_file.h"
 #include "grove/model/fingerprint.h"
 #include "incumbent_files.h"
-#include "machine.h"
 #include "mpi/solve_distributed.h"
 #include "mpi_commands.h"
 #include "run_log.h"
@@ -44,76 +38,6 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  mpirun -np 2 grove-mpi solve benchmarks/data/first.cts.json\n"
     "  mpirun -np 4 --map-by node --bind-to none grove-mpi solve INSTANCE.cts.json --threads 16";
-
-std::string host() {
-  char name[256] = {};
-  ::gethostname(name, sizeof name - 1);
-  return name;
-}
-
-// Ranks that may use the same cores share them.
-int fair_threads(const MpiSession& session) {
-  const auto all = session.gather(host() + usable_cores_text());
-  const auto sharing = std::ranges::count(all, all[static_cast<std::size_t>(session.rank())]);
-  return std::max(1, usable_cores() / static_cast<int>(sharing));
-}
-
-// What each rank says of itself, by rank.
-struct Crew {
-  std::vector<std::string> hosts;
-  std::vector<int> threads;
-  std::vector<int> cores;     // that it may use
-  std::vector<int> machines;  // all cores of its host
-};
-
-std::vector<int> gather_numbers(const MpiSession& session, int mine) {
-  std::vector<int> all;
-  for (const std::string& text : session.gather(std::to_string(mine)))
-    all.push_back(std::stoi(text));
-  return all;
-}
-
-Crew gather_crew(const MpiSession& session, std::int64_t threads) {
-  return {session.gather(host()), gather_numbers(session, static_cast<int>(threads)),
-          gather_numbers(session, usable_cores()),
-          gather_numbers(session, static_cast<int>(std::thread::hardware_concurrency()))};
-}
-
-std::string workers_text(const Crew& crew) {
-  const bool same = std::set(crew.threads.begin(), crew.threads.end()).size() == 1;
-  const auto hosts = std::set(crew.hosts.begin(), crew.hosts.end()).size();
-  return fmt::format("{}{} on {} rank{}, {} host{}",
-                     same ? fmt::format("{}", crew.threads.front())
-                          : fmt::format("{}", fmt::join(crew.threads, ", ")),
-                     crew.threads.size() > 1 && same ? " each" : "", crew.threads.size(),
-                     crew.threads.size() == 1 ? "" : "s", hosts, hosts == 1 ? "" : "s");
-}
-
-// More threads than cores slow each other down, and cores may be left idle without intent.
-std::vector<std::string> warnings(const Crew& crew) {
-  std::vector<std::string> found;
-  std::map<std::string, std::pair<int, int>> by_host;  // threads, cores
-  for (std::size_t rank = 0; rank < crew.hosts.size(); ++rank) {
-    auto& [threads, cores] = by_host[crew.hosts[rank]];
-    threads += crew.threads[rank];
-    cores = crew.machines[rank];
-    if (crew.threads[rank] > crew.cores[rank])
-      found.push_back(fmt::format(
-          "rank {} has {} threads and may use {} of {} cores; see mpirun's --bind-to none", rank,
-          crew.threads[rank], crew.cores[rank], crew.machines[rank]));
-  }
-  for (const auto& [name, counts] : by_host) {
-    const auto [threads, cores] = counts;
-    if (threads > cores)
-      found.push_back(fmt::format("host {} has {} cores for {} threads", name, cores, threads));
-    else if (threads < cores)
-      found.push_back(fmt::format(
-          "host {} has {} cores and {} will be used; for more see --threads and mpirun's "
-          "--bind-to none",
-          name, cores, threads));
-  }
-  return found;
-}
 
 // What a rank has and does in a run.
 class Run {
