@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """grove-mpi as its users run it, by mpirun."""
+import csv
 import os
 import signal
 import tempfile
@@ -179,6 +180,51 @@ class Faults(Program):
         self.assertEqual(running.returncode, 0, said)
         self.assertEqual(self.plan()["status"], "optimal")
         self.run_well([GROVE, "check", instance, "plan.json"])
+
+
+class Batches(Program):
+    def instances(self, count):
+        folder = self.folder / "instances"
+        folder.mkdir()
+        for seed in range(count):
+            self.run_well([GROVE, "generate", "instance", "--map", DATA / "rooms-32x32.map",
+                           "--agents", 4, "--tasks", 5, "--seed", seed,
+                           "-o", folder / f"i{seed}.cts.json"])
+        return folder
+
+    def rows(self):
+        with open(self.folder / "results/results.csv", encoding="utf-8", newline="") as table:
+            return {row["id"]: row for row in csv.DictReader(table)}
+
+    def batch(self, *more):
+        return ["batch", "instances", "--output", "results", "--omega", 0, "--threads", 1, *more]
+
+    def test_every_instance_once_whoever_solves_it(self):
+        folder = self.instances(5)
+        (folder / "broken.cts.json").write_text("{")
+        said = self.run_well(mpirun(3, *self.batch("--ranks-per-instance", 2)))
+        self.assertIn("6/6", said)
+        rows = self.rows()
+        self.assertEqual(len(rows), 6)
+        self.assertIn("broken.cts.json", rows.pop("broken")["error"])
+        for name, row in rows.items():
+            self.assertEqual(row["status"], "optimal")
+            self.run_well([GROVE, "check", folder / f"{name}.cts.json",
+                           self.folder / "results" / row["plan_file"]])
+
+    def test_the_same_command_goes_on(self):
+        folder = self.instances(3)
+        self.run_well(mpirun(2, *self.batch()))
+        before = self.rows()
+        (folder / "i0.cts.json").rename(folder / "later.cts.json")
+        self.run_well(mpirun(2, *self.batch()))
+        after = self.rows()
+        self.assertEqual(set(after), {"i0", "i1", "i2", "later"})
+        self.assertEqual({name: after[name] for name in before}, before)
+        self.refuses(mpirun(2, *self.batch("--seed", 5)), "seed")
+
+    def test_input_is_complained_about_once(self):
+        self.refuses(mpirun(2, *self.batch()), "instances")
 
 
 if __name__ == "__main__":
