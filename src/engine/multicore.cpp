@@ -140,6 +140,9 @@ void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSea
       for (Lane& lane : lanes)
         if (!lane.turns.empty()) tasks.run([&lane] { lane.perform(); });
       tasks.wait();
+      for (Lane& lane : lanes)
+        if (!lane.turns.empty()) tasks.run([&lane] { lane.worker->publish(); });
+      tasks.wait();
       for (Lane& lane : lanes) lane.commit();
       between_turns();
     }
