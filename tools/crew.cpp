@@ -28,12 +28,18 @@ std::vector<int> gather_numbers(const MpiSession& session, int mine) {
   return all;
 }
 
+// All ranks: how many of them say the same as this one.
+int how_many_say(const MpiSession& session, const std::string& mine) {
+  return static_cast<int>(std::ranges::count(session.gather(mine), mine));
+}
+
 }  // namespace
 
-int fair_threads(const MpiSession& session) {
-  const auto all = session.gather(host() + usable_cores_text());
-  const auto sharing = std::ranges::count(all, all[static_cast<std::size_t>(session.rank())]);
-  return std::max(1, usable_cores() / static_cast<int>(sharing));
+void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session) {
+  const int on_cores = how_many_say(session, host() + usable_cores_text());
+  const int on_host = how_many_say(session, host());
+  if (app.count("--threads") == 0) arguments.threads = std::max(1, usable_cores() / on_cores);
+  if (app.count("--memory-limit") == 0) arguments.memory_limit_gb /= on_host;
 }
 
 Crew gather_crew(const MpiSession& session, std::int64_t threads) {

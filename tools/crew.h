@@ -2,11 +2,13 @@
 // Who takes part in a run of several processes.
 #pragma once
 
+#include <CLI/App.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "mpi/mpi_session.h"
+#include "solve_arguments.h"
 
 namespace grove {
 
@@ -18,8 +20,9 @@ struct Crew {
   std::vector<int> machines;  // all cores of its host
 };
 
-// All ranks: how many threads this one should have. Ranks that may use the same cores share them.
-int fair_threads(const MpiSession& session);
+// All ranks: gives this rank its share of what several have in common, where nothing was said about
+// it: of the cores that they may use, and of the memory of a host.
+void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session);
 
 // All ranks: what there is, this rank with so many threads.
 Crew gather_crew(const MpiSession& session, std::int64_t threads);

@@ -98,7 +98,7 @@ class BatchRun {
 
   void run() {
     stop_on_signals();
-    if (app_.count("--threads") == 0) a_.solve.threads = fair_threads(session_);
+    share_machine(app_, a_.solve, session_);
     options_ = solve_options(a_.solve);
     if (options_.deterministic)
       throw CLI::ValidationError("--deterministic", "is for one process: 'grove solve'");

@@ -47,7 +47,7 @@ class Run {
 
   void run() {
     stop_on_signals();
-    if (app_.count("--threads") == 0) a_.threads = fair_threads(session_);
+    share_machine(app_, a_, session_);
     options_ = solve_options(a_);
     if (a_.deterministic)
       throw CLI::ValidationError("--deterministic", "is for one process: 'grove solve'");
