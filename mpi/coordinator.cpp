@@ -127,7 +127,6 @@ void Coordinator::heard(int from, message::Status status) {
   ledger_.worked();
   if (ending_) return;  // a batch sent after a farewell would be left under way
   ledger_.bring_due_tree();
-  if (!nodes_.any()) ledger_.bring_nodes();
   while (const auto gift = broker_.next())
     transport_.send(gift->from, bytes_of(message::Order{gift->to, gift->nodes}));
 }
@@ -149,6 +148,8 @@ void Coordinator::step() {
   if (ledger_.over()) {
     ending_ = true;
     tell_all(transport_, message::End{});
+  } else if (!nodes_.any()) {
+    ledger_.bring_nodes();  // a tree may bring none: then nobody has anything to say
   } else if (ledger_.claim_preparation()) {
     ledger_.prepare_tree();
   }
