@@ -197,7 +197,9 @@ void Rank::send_found() {
     send(0, message::Found{std::move(found->plan), found->source});
 }
 
+// Limits may strike just when a plan was found.
 void Rank::farewell(const Stats& stats) {
+  send_found();
   Stats all = stats;
   search_.add_counts(all);
   all.counts["messages"] += transport_.messages();
