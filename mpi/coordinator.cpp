@@ -27,8 +27,9 @@
 // anew before it hears of that itself: batches carry their era, and wait. Until a rank's status is
 // of the new era it is not known what it holds.
 //
-// *Leaving.* After End a rank says farewell and sends nothing more; the coordinator then tells each
-// how many batches were sent to it, so that nothing is left under way.
+// *Leaving.* After End, and what it was ordered before, a rank says farewell and sends nothing
+// more; the coordinator then tells each how many batches were sent to it, so that nothing is left
+// under way.
 #include "mpi/coordinator.h"
 
 #include <stdexcept>
@@ -124,8 +125,8 @@ void Coordinator::heard(int from, message::Status status) {
   nodes_.update(from, std::move(status));
   ledger_.nodes_changed();
   ledger_.worked();
+  if (ending_) return;  // a batch sent after a farewell would be left under way
   ledger_.bring_due_tree();
-  if (!nodes_.any()) ledger_.bring_nodes();
   while (const auto gift = broker_.next())
     transport_.send(gift->from, bytes_of(message::Order{gift->to, gift->nodes}));
 }
@@ -147,6 +148,8 @@ void Coordinator::step() {
   if (ledger_.over()) {
     ending_ = true;
     tell_all(transport_, message::End{});
+  } else if (!nodes_.any()) {
+    ledger_.bring_nodes();  // a tree may bring none: then nobody has anything to say
   } else if (ledger_.claim_preparation()) {
     ledger_.prepare_tree();
   }

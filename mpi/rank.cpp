@@ -154,11 +154,13 @@ void Rank::begin_anew(Cost proven) {
   take_over_held();
 }
 
+// Workers go on meanwhile. Where no node is live none is given up any more, so what was is asked
+// for later: a new beginning must know all of it.
 message::Status Rank::status() const {
   message::Status status;
-  status.bound = nodes_.bound();
-  status.evicted_bound = nodes_.evicted_bound();
   status.live = static_cast<std::int64_t>(nodes_.frontier.live());
+  status.evicted_bound = nodes_.evicted_bound();
+  status.bound = nodes_.bound();
   status.idle = status.live == in_custody_;
   status.levels = nodes_.frontier.levels(kLevels);
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
@@ -195,7 +197,9 @@ void Rank::send_found() {
     send(0, message::Found{std::move(found->plan), found->source});
 }
 
+// Limits may strike just when a plan was found.
 void Rank::farewell(const Stats& stats) {
+  send_found();
   Stats all = stats;
   search_.add_counts(all);
   all.counts["messages"] += transport_.messages();

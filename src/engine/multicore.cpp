@@ -5,7 +5,10 @@
 // No work is overlooked: a worker parks under the lock under which it saw that no node was open,
 // and a node is pushed before that lock is taken to look for who is parked. So either the parking
 // worker sees the node or the pushing one sees the worker. And nobody parks while no node is live:
-// then the next tree is due, or the run is over, and somebody must find out.
+// then the next tree is due, or the run is over, and somebody must find out. Nor does the last one
+// who is awake: where ranks share a search, nodes come from elsewhere, and none of those who push
+// them there calls anybody; and a node may be live that nobody here has in hand, for it is in
+// custody.
 #include "grove/engine/multicore.h"
 
 #include <oneapi/tbb/global_control.h>
@@ -23,7 +26,7 @@ namespace grove {
 namespace {
 
 constexpr int kMostTurnsInARound = 4;
-constexpr auto kPause = std::chrono::microseconds(100);  // where no node is live just now
+constexpr auto kPause = std::chrono::microseconds(100);  // of one who may not park
 
 class Crew {
  public:
@@ -31,6 +34,7 @@ class Crew {
       : shared_(shared), limits_(limits), between_turns_(between_turns) {}
 
   void run(std::span<const std::unique_ptr<Worker>> workers) {
+    workers_ = workers.size();
     for (const auto& worker : workers) start(*worker);
     tasks_.wait();
   }
@@ -60,7 +64,8 @@ class Crew {
 
   bool park(Worker& worker) {
     const std::lock_guard lock(mutex_);
-    if (shared_.over() || shared_.may_take()) return false;
+    const bool is_last_awake = parked_.size() + 1 == workers_;
+    if (is_last_awake || shared_.over() || shared_.may_take()) return false;
     parked_.push_back(&worker);
     return true;
   }
@@ -77,6 +82,7 @@ class Crew {
   const Limits& limits_;
   const BetweenTurns& between_turns_;
   Tasks tasks_;
+  std::size_t workers_ = 0;
   std::mutex mutex_;
   std::vector<Worker*> parked_;
 };

@@ -20,9 +20,10 @@ int main(int argc, char** argv) {
       fmt::print("seed {}: {}\n", i, what);
       ++failed;
     }
-  fmt::print("{} schedules ({} unfinished, {} resumed, {} new beginnings), {} nodes, {} batches, ",
-             tally.tried, tally.unfinished, tally.resumed, tally.restarts, tally.nodes,
-             tally.batches);
-  fmt::print("{} messages: {} false\n", tally.messages, failed);
+  fmt::print(
+      "{} schedules ({} unfinished, {} struck, {} resumed, {} reopened, {} new beginnings), ",
+      tally.tried, tally.unfinished, tally.struck, tally.resumed, tally.reopened, tally.restarts);
+  fmt::print("{} nodes, {} batches, {} messages: {} false\n", tally.nodes, tally.batches,
+             tally.messages, failed);
   return failed == 0 ? 0 : 1;
 }
