@@ -5,17 +5,20 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "crew.h"
 #include "grove/engine/run_observer.h"
+#include "grove/io/input_error.h"
 #include "grove/io/plan_file.h"
 #include "grove/model/fingerprint.h"
 #include "incumbent_files.h"
 #include "mpi/solve_distributed.h"
 #include "mpi_commands.h"
+#include "program.h"
 #include "run_log.h"
 #include "signals.h"
 #include "solve_arguments.h"
@@ -97,11 +100,27 @@ class Run {
     const auto answer = answer_without_search(problem, options_, limits_, observer);
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {
-      const auto network = session_.connect();
-      return solve_distributed(problem, options_, limits_, *network, observer, [] {});
+      return solve_by_all(problem, observer);
     }
     if (!is_first()) return std::nullopt;
     return answer ? answer : solve(loaded_->instance, options_, limits_, &observer);
+  }
+
+  // What goes wrong here goes wrong on one rank alone, for which the others would wait for ever: a
+  // checkpoint may turn out to be damaged when rank 0 reads its nodes. Nor can the network be left
+  // while messages are under way.
+  std::optional<Solution> solve_by_all(const Problem& problem, RunObserver& observer) {
+    const auto network = session_.connect();
+    try {
+      return solve_distributed(problem, options_, limits_, *network, observer, [] {});
+    } catch (const InputError& error) {
+      complain(*app_.get_parent(), error.what());
+      session_.abort(kExitBadInput);
+    } catch (const std::exception& error) {
+      complain(*app_.get_parent(),
+               fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
+      session_.abort(kExitInternalFailure);
+    }
   }
 
   const Clock::time_point start_ = Clock::now();

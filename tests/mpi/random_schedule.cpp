@@ -114,6 +114,8 @@ SimulatedNetwork::Delay random_delays(Dice& dice, int ranks) {
   std::vector<double> typical;
   for (int link = 0; link < ranks * ranks; ++link)
     typical.push_back(kTick * (chance(dice, 70) ? usual : paces[dice() % paces.size()]));
+  if (chance(dice, 30))  // one rank is the last to be told
+    typical[dice() % static_cast<std::size_t>(ranks)] = kTick * 1000;
   return [&dice, typical, ranks](int from, int to, std::size_t) {
     const double most = typical[static_cast<std::size_t>(from * ranks + to)];
     const double now_and_then = most < kTick * 1000 && chance(dice, 10) ? 20 : 1;

@@ -152,6 +152,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   options.deterministic = false;
   make_search_poor(options.techniques, dice);
   if (dice.percent(60)) options.omega = Omega();
+  if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);
   const Instance instance =
       is_tiny ? fuzz_case.instance.build()
