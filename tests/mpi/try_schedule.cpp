@@ -78,7 +78,7 @@ class Asker : public RunObserver {
   void on_checkpoint(const CheckpointReport& report) override {
     if (!report.failure.empty()) throw std::runtime_error(report.failure);
     is_there_ = true;
-    if (reopened_ < kMostReopened && dice_.percent(30)) reopen();
+    if (reopened_ < kMostReopened && dice_.percent(60)) reopen();
     if (dice_.percent(50)) kill_in_ = dice_.pick<int>({1, 20, 1000});
   }
 
@@ -106,7 +106,7 @@ class Asker : public RunObserver {
   const std::vector<std::string>& wrong() const { return wrong_; }
 
  private:
-  static constexpr int kMostReopened = 4;
+  static constexpr int kMostReopened = 8;
 
   // Without the primal search: that would find the optimum where its node is missing.
   void reopen() {
@@ -152,6 +152,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   options.deterministic = false;
   make_search_poor(options.techniques, dice);
   if (dice.percent(60)) options.omega = Omega();
+  if (dice.percent(20)) options.policy = Policy::kFixed;
   if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);
   const Instance instance =
