@@ -16,6 +16,7 @@
 namespace grove {
 namespace {
 
+constexpr double kShortestInterval_s = 0.1;  // there should be time for the search
 constexpr double kLongestInterval_s = 1e9;
 
 void make_folder(const std::filesystem::path& folder) {
@@ -45,7 +46,7 @@ void add_checkpoint_options(CLI::App& app, CheckpointArguments& a) {
                  "end, so that a later run can go on from it; and the best plan, before it is "
                  "announced")
       ->type_name("DIR");
-  add_number(app, "--checkpoint-interval", a.interval_s, 0, kLongestInterval_s,
+  add_number(app, "--checkpoint-interval", a.interval_s, kShortestInterval_s, kLongestInterval_s,
              "the time between two checkpoints")
       ->type_name("S");
   app.add_option("--resume", a.resume,

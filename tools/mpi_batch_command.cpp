@@ -97,7 +97,6 @@ class BatchRun {
       : app_(app), a_(arguments), session_(session) {}
 
   void run() {
-    stop_on_signals();
     share_machine(app_, a_.solve, session_);
     options_ = solve_options(a_.solve);
     if (options_.deterministic)

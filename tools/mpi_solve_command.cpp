@@ -20,7 +20,6 @@
 #include "mpi_commands.h"
 #include "program.h"
 #include "run_log.h"
-#include "signals.h"
 #include "solve_arguments.h"
 #include "solve_run.h"
 #include "start_plan.h"
@@ -49,7 +48,6 @@ class Run {
       : app_(app), a_(arguments), session_(session) {}
 
   void run() {
-    stop_on_signals();
     share_machine(app_, a_, session_);
     options_ = solve_options(a_);
     if (a_.deterministic)

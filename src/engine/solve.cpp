@@ -6,6 +6,7 @@
 #include <string>
 
 #include "grove/engine/central_ledger.h"
+#include "grove/engine/checkpoint.h"
 #include "grove/engine/local_nodes.h"
 #include "grove/engine/multicore.h"
 #include "grove/engine/run_observer.h"
@@ -96,18 +97,25 @@ Solution without_search(const SolveOptions& options, Status status, const std::s
   return solution;
 }
 
-// A limit struck before there was a bound: all there may be is the plan that was given.
+// A limit struck before the search: all there may be is the plan that was given, and what an
+// earlier run proved and found.
 Solution stopped_before_search(const Instance& instance, const SolveOptions& options,
                                const Limits& limits, RunObserver& observer) {
   Solution solution =
       without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
-  if (!options.start) return solution;
   Gate gate(instance, options.omega);
-  gate.post(*options.start);
+  if (options.resume) {
+    const CheckpointHeader& before = options.resume->header();
+    gate.update(before.lower_bound, before.lower_bound);
+    if (before.incumbent) gate.post(*before.incumbent);
+  }
+  if (options.start) gate.post(*options.start);
+  solution.lower_bound = gate.lower_bound();
   solution.plan = gate.incumbent();
+  if (!solution.plan) return solution;
   solution.status = status_of(solution.plan->cost, solution.lower_bound, options.omega);
   observer.on_incumbent(*solution.plan, PlanSource::kStart,
-                        Progress{0, 0, 0, 0, solution.plan->cost});
+                        Progress{0, 0, 0, solution.lower_bound, solution.plan->cost});
   return solution;
 }
 

@@ -134,5 +134,20 @@ TEST(Resume, AFinishedRunIsFinishedAtOnceAndGoesOnForASmallerOmega) {
   EXPECT_LE(exact.plan->cost, first.plan->cost);
 }
 
+TEST(Resume, WhatWasProvenIsSaidEvenIfThereIsNoTimeToSearch) {
+  const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, 3);
+  const TemporaryDirectory folder;
+  const Solution first = go_on(instance, plain(), folder.path(), 20);
+  ASSERT_GT(first.lower_bound, 0);
+  CheckpointReader reader(folder.path(), fingerprint(instance), Policy::kFree);
+  SolveOptions options = plain();
+  options.resume = &reader;
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  const Solution none = solve(instance, options, limits);
+  EXPECT_EQ(none.lower_bound, first.lower_bound);
+  EXPECT_EQ(none.plan.has_value(), first.plan.has_value());
+}
+
 }  // namespace
 }  // namespace grove
