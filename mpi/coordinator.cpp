@@ -27,23 +27,33 @@
 // anew before it hears of that itself: batches carry their era, and wait. Until a rank's status is
 // of the new era it is not known what it holds.
 //
-// *Leaving.* After End a rank says farewell and sends nothing more; the coordinator then tells each
-// how many batches were sent to it, so that nothing is left under way.
+// *Leaving.* After End, and what it was ordered before, a rank says farewell and sends nothing
+// more; the coordinator then tells each how many batches were sent to it, so that nothing is left
+// under way.
 #include "mpi/coordinator.h"
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace grove {
+namespace {
+
+constexpr std::size_t kNodesEntrusted = 200;  // at a time
+
+}  // namespace
 
 Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, const Limits& limits,
                          RunObserver& observer, Transport& transport)
-    : limits_(limits),
+    : instance_(problem.instance),
+      options_(options),
+      limits_(limits),
       transport_(transport),
       announcer_(observer, transport),
       nodes_(transport),
       ledger_(problem, options, limits, announcer_, pool_, nodes_),
       broker_(transport.ranks()),
+      timer_(options.checkpoints),
       batches_to_(static_cast<std::size_t>(transport.ranks())) {}
 
 // An observer may have it written to disk: that comes first.
@@ -54,12 +64,39 @@ void Coordinator::Announcer::on_incumbent(const Plan& plan, PlanSource source,
 }
 
 void Coordinator::begin() {
-  ledger_.begin();
+  if (options_.resume)
+    restore(*options_.resume);
+  else
+    ledger_.begin();
+}
+
+// Spread over the ranks as they come.
+void Coordinator::restore(CheckpointReader& checkpoint) {
+  const auto roots = ledger_.restore(checkpoint.header());
+  restored_ = roots.has_value();
+  if (!roots) return;
+  nodes_.entrust(0, {}, checkpoint.header().evicted_bound);
+  std::vector<RankNodes::NumberedNode> nodes;
+  int rank = 0;
+  const auto send = [&] {
+    nodes_.entrust(rank, std::exchange(nodes, {}));
+    rank = (rank + 1) % transport_.ranks();
+  };
+  while (auto next = checkpoint.next()) {
+    const NodePtr& root = roots->at(next->tree);
+    check(next->node, *root, instance_);
+    nodes.emplace_back(nodes_.number(root), std::move(next->node));
+    if (nodes.size() == kNodesEntrusted) send();
+  }
+  if (!nodes.empty()) send();
+  ledger_.restored();
 }
 
 bool Coordinator::is_for_coordinator(const message::Message& message) {
   return std::holds_alternative<message::Status>(message) ||
          std::holds_alternative<message::Found>(message) ||
+         std::holds_alternative<message::Gathered>(message) ||
+         std::holds_alternative<message::Part>(message) ||
          std::holds_alternative<message::Farewell>(message);
 }
 
@@ -68,8 +105,12 @@ void Coordinator::handle(int from, message::Message&& message) {
     heard(from, std::move(*status));
   else if (auto* found = std::get_if<message::Found>(&message))
     ledger_.post(std::move(found->plan), found->source);
+  else if (const auto* gathered = std::get_if<message::Gathered>(&message))
+    gathering_.value().handle(*gathered);
+  else if (auto* part = std::get_if<message::Part>(&message))
+    gathering_.value().handle(std::move(*part));
   else if (auto* farewell = std::get_if<message::Farewell>(&message))
-    part(*farewell);
+    leave(*farewell);
   else
     throw std::invalid_argument("a message for a rank came to the coordinator");
 }
@@ -84,23 +125,37 @@ void Coordinator::heard(int from, message::Status status) {
   nodes_.update(from, std::move(status));
   ledger_.nodes_changed();
   ledger_.worked();
+  if (ending_) return;  // a batch sent after a farewell would be left under way
   ledger_.bring_due_tree();
-  if (!nodes_.any()) ledger_.bring_nodes();
   while (const auto gift = broker_.next())
     transport_.send(gift->from, bytes_of(message::Order{gift->to, gift->nodes}));
 }
 
+// One at a time; the last one when the search is over, before the ranks are told.
+void Coordinator::look_after_checkpoints() {
+  if (gathering_ && gathering_->is_done()) gathering_.reset();
+  if (gathering_ || options_.checkpoints.directory.empty() || !restored_) return;
+  const bool is_last = ledger_.over() && !gathered_at_end_;
+  if (!is_last && (ledger_.over() || !timer_.due())) return;
+  gathered_at_end_ = is_last;
+  gathering_.emplace(options_.checkpoints, ledger_, nodes_, transport_);
+}
+
 void Coordinator::step() {
   if (ending_) return;
+  look_after_checkpoints();
+  if (gathering_) return;
   if (ledger_.over()) {
     ending_ = true;
     tell_all(transport_, message::End{});
+  } else if (!nodes_.any()) {
+    ledger_.bring_nodes();  // a tree may bring none: then nobody has anything to say
   } else if (ledger_.claim_preparation()) {
     ledger_.prepare_tree();
   }
 }
 
-void Coordinator::part(const message::Farewell& farewell) {
+void Coordinator::leave(const message::Farewell& farewell) {
   for (const auto& [to, batches] : farewell.batches)
     batches_to_.at(static_cast<std::size_t>(to)) += batches;
   for (const auto& [key, count] : farewell.counts) counts_[key] += count;

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "grove/engine/central_ledger.h"
 #include "grove/engine/run_observer.h"
 #include "grove/search/node_pool.h"
 #include "mpi/broker.h"
+#include "mpi/gathering.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"
 #include "mpi/transport.h"
@@ -24,7 +26,8 @@ class Coordinator {
   Coordinator(const Problem& problem, const SolveOptions& options, const Limits& limits,
               RunObserver& observer, Transport& transport);
 
-  // Before all else: the plan to start from, and the first tree.
+  // Before all else: the plan to start from, and the first tree; or all that a checkpoint knows.
+  // Throws as reading one does.
   void begin();
   // Is it a message to the coordinator? Then handle() does what it asks for. Throws
   // std::invalid_argument for what no rank can send, and what Gate::post() throws.
@@ -49,6 +52,7 @@ class Coordinator {
     void on_event(RunEvent event, const Progress& progress) override {
       observer_.on_event(event, progress);
     }
+    void on_checkpoint(const CheckpointReport& report) override { observer_.on_checkpoint(report); }
     void on_root(const NodePtr& root) override { observer_.on_root(root); }
 
    private:
@@ -56,9 +60,13 @@ class Coordinator {
     Transport& transport_;
   };
 
+  void restore(CheckpointReader& checkpoint);
   void heard(int from, message::Status status);
-  void part(const message::Farewell& farewell);
+  void look_after_checkpoints();
+  void leave(const message::Farewell& farewell);
 
+  const Instance& instance_;
+  const SolveOptions& options_;
   const Limits& limits_;
   Transport& transport_;
   Announcer announcer_;
@@ -67,6 +75,10 @@ class Coordinator {
   CentralLedger ledger_;
   Broker broker_;
 
+  CheckpointTimer timer_;
+  std::optional<Gathering> gathering_;
+  bool restored_ = true;  // nothing of a checkpoint is missing
+  bool gathered_at_end_ = false;
   bool ending_ = false;
   int farewells_ = 0;
   std::vector<std::int64_t> batches_to_;  // by rank, of those that have said farewell

@@ -28,7 +28,7 @@ namespace message {
 
 template <class Archive>
 void serialize(Archive& archive, Status& s) {
-  archive(s.bound, s.evicted_bound, s.live, s.idle, s.open, s.expanded, s.era, s.roots);
+  archive(s.bound, s.evicted_bound, s.live, s.idle, s.open, s.expanded, s.era, s.entrusted);
   enumerated(archive, s.stopped, StopReason::kInterrupt);
   archive(s.levels, s.batches);
 }
@@ -55,8 +55,24 @@ void serialize(Archive& archive, NewTree& tree) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Root& root) {
-  archive(root.tree);
+void serialize(Archive& archive, Entrust& entrust) {
+  archive(entrust.nodes, entrust.evicted_bound);
+}
+
+template <class Archive>
+void serialize(Archive&, Gather&) {}
+
+template <class Archive>
+void serialize(Archive& archive, Gathered& gathered) {
+  archive(gathered.evicted_bound);
+}
+
+template <class Archive>
+void serialize(Archive&, More&) {}
+
+template <class Archive>
+void serialize(Archive& archive, Part& part) {
+  archive(part.nodes, part.last);
 }
 
 template <class Archive>

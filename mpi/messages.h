@@ -32,7 +32,7 @@ struct Status {
   std::int64_t open = 0;
   std::int64_t expanded = 0;
   std::int32_t era = 0;                    // how many BeginAnew it has obeyed
-  std::int64_t roots = 0;                  // how many Root it has obeyed
+  std::int64_t entrusted = 0;              // how many Entrust it has obeyed
   StopReason stopped = StopReason::kNone;  // a limit that struck there
   std::vector<Frontier::Level> levels;     // of its open nodes, the least ones
   // Of each rank that it has nodes from: how many batches it has taken over.
@@ -65,9 +65,11 @@ struct NewTree {
   TreeRecord tree;
 };
 
-// Coordinator to a rank: the root of this tree is yours.
-struct Root {
-  std::int32_t tree = 0;
+// Coordinator to a rank: these nodes are yours, each with the number of its tree; and others, of
+// this bound at least, were given up.
+struct Entrust {
+  std::vector<std::pair<std::int32_t, NodeRecord>> nodes;
+  Cost evicted_bound = kInfiniteCost;
 };
 
 // Coordinator to a rank: send up to `count` nodes to rank `to`, in one batch.
@@ -94,6 +96,23 @@ struct BeginAnew {
   Cost proven = 0;
 };
 
+// Coordinator to all: look at your nodes, for a checkpoint.
+struct Gather {};
+
+// Rank to coordinator: it has. The plans of nodes that were gone by then have been sent before.
+struct Gathered {
+  Cost evicted_bound = kInfiniteCost;
+};
+
+// Coordinator to a rank: send some of what you saw then.
+struct More {};
+
+// Rank to coordinator: some of it.
+struct Part {
+  std::vector<std::pair<std::int32_t, NodeRecord>> nodes;
+  bool last = false;
+};
+
 // Coordinator to all: it is over; say farewell.
 struct End {};
 
@@ -102,8 +121,10 @@ struct Goodbye {
   std::int64_t batches = 0;
 };
 
-using Message = std::variant<Status, Found, Farewell, Batch, NewTree, Root, Order, Release,
-                             Incumbent, BeginAnew, End, Goodbye>;
+using Message = std::variant<Status, Found, Gathered, Part, Farewell,  // to the coordinator
+                             Batch,                                    // to another rank
+                             NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More,
+                             End, Goodbye>;
 
 // Throws std::invalid_argument for bytes that are no message.
 std::string bytes_of(const Message& message);

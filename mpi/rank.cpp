@@ -10,6 +10,7 @@ namespace grove {
 namespace {
 
 constexpr std::size_t kLevels = 4;
+constexpr std::size_t kNodesInAPart = 500;
 // Between two statuses that nothing hangs on, in seconds. The coordinator hears all ranks.
 constexpr double kPause = 2e-3;
 constexpr double kPausePerRank = 50e-6;
@@ -40,12 +41,7 @@ void Rank::handle(int from, message::Message&& message) {
                           roots_.push_back(trees_.add(tree.tree));
                           take_over_held();
                         },
-                        [&](message::Root& root) {
-                          const NodePtr& node = roots_.at(static_cast<std::size_t>(root.tree));
-                          if (node->bound() < ledger_.cutoff()) nodes_.push(node);
-                          ++roots_taken_;
-                          urgent_ = true;
-                        },
+                        [&](message::Entrust& entrusted) { accept(entrusted); },
                         [&](message::Order& order) { give(order); },
                         [&](message::Release& covered) { release(covered); },
                         [&](message::Incumbent& incumbent) {
@@ -54,6 +50,7 @@ void Rank::handle(int from, message::Message&& message) {
                           nodes_.prune(cost);
                         },
                         [&](message::BeginAnew& anew) { begin_anew(anew.proven); },
+                        [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
                         [&](message::End&) {
                           ended_ = true;
                           ledger_.end();
@@ -76,15 +73,7 @@ void Rank::take_over(int from, message::Batch& batch) {
     held_.push_back({from, std::move(batch)});
     return;
   }
-  std::vector<NodePtr> nodes;  // null: pruned
-  for (const auto& [tree, record] : batch.nodes) {
-    const NodePtr& root = roots_.at(static_cast<std::size_t>(tree));
-    const bool pruned = record.bound >= ledger_.cutoff();
-    nodes.push_back(pruned ? nullptr : node_of(record, root, problem_.instance));
-  }
-  learn(batch.findings, nodes, *search_.memory());
-  for (NodePtr& node : nodes)
-    if (node) nodes_.push(std::move(node));
+  push(batch.nodes, batch.findings);
   Peer& peer = peers_[from];
   ++peer.taken;
   ++batches_taken_;
@@ -101,11 +90,7 @@ void Rank::give(const message::Order& order) {
   const auto nodes = nodes_.frontier.take_spare(static_cast<std::size_t>(order.count));
   message::Batch batch;
   batch.era = era_;
-  for (const NodePtr& node : nodes) {
-    const auto same_tree = [&](const NodePtr& root) { return &root->tree() == &node->tree(); };
-    const auto root = std::ranges::find_if(roots_, same_tree);
-    batch.nodes.emplace_back(static_cast<std::int32_t>(root - roots_.begin()), record_of(*node));
-  }
+  for (const NodePtr& node : nodes) batch.nodes.push_back(record(*node));
   batch.findings = findings_about(nodes, *search_.memory());
   Peer& peer = peers_[order.to];
   peer.custody[peer.sent + 1] = nodes;
@@ -125,6 +110,49 @@ void Rank::release(const message::Release& covered) {
   }
 }
 
+void Rank::accept(const message::Entrust& entrusted) {
+  push(entrusted.nodes, {});
+  nodes_.frontier.note_evicted(entrusted.evicted_bound);
+  ++entrusted_;
+  urgent_ = true;
+}
+
+void Rank::push(const std::vector<NumberedNode>& records, const std::vector<Finding>& findings) {
+  std::vector<NodePtr> nodes;  // null: pruned
+  for (const auto& [tree, record] : records) {
+    const NodePtr& root = roots_.at(static_cast<std::size_t>(tree));
+    const bool pruned = record.bound >= ledger_.cutoff();
+    nodes.push_back(pruned ? nullptr : node_of(record, root, problem_.instance));
+  }
+  learn(findings, nodes, *search_.memory());
+  for (NodePtr& node : nodes)
+    if (node) nodes_.push(std::move(node));
+}
+
+Rank::NumberedNode Rank::record(const Node& node) const {
+  const auto same_tree = [&](const NodePtr& root) { return &root->tree() == &node.tree(); };
+  const auto root = std::ranges::find_if(roots_, same_tree);
+  return {static_cast<std::int32_t>(root - roots_.begin()), record_of(node)};
+}
+
+// A plan was posted before the node that led to it was gone.
+void Rank::gather() {
+  Frontier::Snapshot snapshot = nodes_.frontier.snapshot();
+  send_found();
+  gathered_ = std::move(snapshot.live);
+  send(0, message::Gathered{snapshot.evicted_bound});
+}
+
+void Rank::send_part() {
+  message::Part part;
+  while (!gathered_.empty() && part.nodes.size() < kNodesInAPart) {
+    part.nodes.push_back(record(*gathered_.back()));
+    gathered_.pop_back();
+  }
+  part.last = gathered_.empty();
+  send(0, part);
+}
+
 void Rank::begin_anew(Cost proven) {
   nodes_.restart({}, proven);
   ++era_;
@@ -132,17 +160,19 @@ void Rank::begin_anew(Cost proven) {
   take_over_held();
 }
 
+// Workers go on meanwhile. Where no node is live none is given up any more, so what was is asked
+// for later: a new beginning must know all of it.
 message::Status Rank::status() const {
   message::Status status;
-  status.bound = nodes_.bound();
-  status.evicted_bound = nodes_.evicted_bound();
   status.live = static_cast<std::int64_t>(nodes_.frontier.live());
+  status.evicted_bound = nodes_.evicted_bound();
+  status.bound = nodes_.bound();
   status.idle = status.live == in_custody_;
   status.levels = nodes_.frontier.levels(kLevels);
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
   status.expanded = nodes_.expanded;
   status.era = era_;
-  status.roots = roots_taken_;
+  status.entrusted = entrusted_;
   limits_.stop_requested();  // nobody else may look
   status.stopped = limits_.reason();
   for (const auto& [rank, peer] : peers_)
@@ -155,8 +185,7 @@ message::Status Rank::status() const {
 void Rank::speak(double now) {
   if (ended_) return;
   message::Status status = this->status();
-  if (auto found = ledger_.take_found())
-    send(0, message::Found{std::move(found->plan), found->source});
+  send_found();
   const bool at_once = urgent_ || status.bound != said_.bound || status.stopped != said_.stopped ||
                        status.idle != said_.idle || (status.live == 0) != (said_.live == 0);
   const bool changed = status.expanded != said_.expanded || status.open != said_.open;
@@ -172,7 +201,14 @@ double Rank::pause(int ranks) {
   return kPause + kPausePerRank * ranks;
 }
 
+void Rank::send_found() {
+  if (auto found = ledger_.take_found())
+    send(0, message::Found{std::move(found->plan), found->source});
+}
+
+// Limits may strike just when a plan was found.
 void Rank::farewell(const Stats& stats) {
+  send_found();
   Stats all = stats;
   search_.add_counts(all);
   all.counts["messages"] += transport_.messages();

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "grove/engine/local_nodes.h"
@@ -61,6 +62,13 @@ class Rank {
   bool is_early(const message::Batch& batch) const;
   void give(const message::Order& order);
   void release(const message::Release& release);
+  void accept(const message::Entrust& entrusted);
+  void gather();
+  void send_part();
+  void send_found();
+  using NumberedNode = std::pair<std::int32_t, NodeRecord>;
+  void push(const std::vector<NumberedNode>& records, const std::vector<Finding>& findings);
+  NumberedNode record(const Node& node) const;
   void begin_anew(Cost proven);
   message::Status status() const;
   void send(int to, const message::Message& message);
@@ -76,7 +84,7 @@ class Rank {
   Trees trees_;
   std::vector<NodePtr> roots_;  // by tree
   std::int32_t era_ = 0;
-  std::int64_t roots_taken_ = 0;
+  std::int64_t entrusted_ = 0;
   std::vector<Held> held_;
 
   struct Peer {
@@ -89,6 +97,8 @@ class Rank {
   std::int64_t batches_taken_ = 0;
   std::int64_t in_custody_ = 0;  // nodes
   std::int64_t nodes_sent_ = 0;
+
+  std::vector<NodePtr> gathered_;  // for a checkpoint; not sent yet
 
   message::Status said_;  // last
   double said_at_ = -1;

@@ -22,16 +22,16 @@ RankNodes::RankNodes(Transport& transport)
 void RankNodes::update(int rank, message::Status status) {
   const auto place = static_cast<std::size_t>(rank);
   message::Status& latest = latest_[place];
-  std::deque<Cost>& roots = under_way_[place];
-  const std::int64_t arrived = status.roots - latest.roots;
-  if (arrived < 0 || arrived > std::ssize(roots) || status.era < latest.era || status.era > era_)
+  std::deque<Cost>& sent = under_way_[place];
+  const std::int64_t arrived = status.entrusted - latest.entrusted;
+  if (arrived < 0 || arrived > std::ssize(sent) || status.era < latest.era || status.era > era_)
     throw std::invalid_argument("a status of a rank that does not fit what it was told");
   bounds_.insert(status.bound);
   bounds_.erase(bounds_.find(latest.bound));
   for (std::int64_t i = 0; i < arrived; ++i) {
-    bounds_.erase(bounds_.find(roots.front()));
-    roots.pop_front();
-    --roots_under_way_;
+    bounds_.erase(bounds_.find(sent.front()));
+    sent.pop_front();
+    --entrusted_under_way_;
   }
   add(latest, -1);
   add(status, 1);
@@ -55,18 +55,31 @@ Cost RankNodes::evicted_bound() const {
 
 // What a rank that has yet to hear of a new beginning holds is not known.
 bool RankNodes::any() const {
-  return ranks_with_nodes_ > 0 || roots_under_way_ > 0 || ranks_of_this_era_ < std::ssize(latest_);
+  return ranks_with_nodes_ > 0 || entrusted_under_way_ > 0 ||
+         ranks_of_this_era_ < std::ssize(latest_);
 }
 
 void RankNodes::push(const NodePtr& root) {
-  const auto number = static_cast<std::int32_t>(numbers_.size());
-  const auto [tree, is_new] = numbers_.try_emplace(&root->tree(), number);
-  if (is_new) tell_all(transport_, message::NewTree{record_of(root->tree())});
-  const int rank = idlest();
-  bounds_.insert(root->bound());
-  under_way_[static_cast<std::size_t>(rank)].push_back(root->bound());
-  ++roots_under_way_;
-  transport_.send(rank, bytes_of(message::Root{tree->second}));
+  entrust(idlest(), {{number(root), record_of(*root)}});
+}
+
+void RankNodes::entrust(int rank, std::vector<NumberedNode> nodes, Cost evicted_bound) {
+  Cost bound = evicted_bound;
+  for (const auto& [tree, record] : nodes) bound = std::min(bound, record.bound);
+  bounds_.insert(bound);
+  under_way_[static_cast<std::size_t>(rank)].push_back(bound);
+  ++entrusted_under_way_;
+  transport_.send(rank, bytes_of(message::Entrust{std::move(nodes), evicted_bound}));
+}
+
+std::int32_t RankNodes::number(const NodePtr& root) {
+  const auto next = static_cast<std::int32_t>(trees_.size());
+  const auto [tree, is_new] = numbers_.try_emplace(&root->tree(), next);
+  if (is_new) {
+    trees_.push_back(&root->tree());
+    tell_all(transport_, message::NewTree{record_of(root->tree())});
+  }
+  return tree->second;
 }
 
 int RankNodes::idlest() const {

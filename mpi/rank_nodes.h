@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "grove/engine/ledger.h"
@@ -14,9 +15,9 @@
 
 namespace grove {
 
-// What the coordinator knows of them: the latest status of each rank, and the roots that are on
-// their way to one. Why that bounds all plans is told at the head of coordinator.cpp. Of one
-// thread.
+// What the coordinator knows of them: the latest status of each rank, and what it has
+// entrusted to one and is still under way. Why that bounds all plans is told at the head of
+// coordinator.cpp. Of one thread.
 class RankNodes : public LiveNodes {
  public:
   // `transport` must outlive this.
@@ -34,20 +35,30 @@ class RankNodes : public LiveNodes {
   void prune(Cost /*cost*/) override {}  // each rank does, when it hears of the incumbent
   void restart(std::span<const NodePtr> roots, Cost proven) override;
 
+  using NumberedNode = std::pair<std::int32_t, NodeRecord>;
+  // Nodes for a rank, of trees numbered by number(); the bound also covers what was given up.
+  void entrust(int rank, std::vector<NumberedNode> nodes, Cost evicted_bound = kInfiniteCost);
+  // The number of a root's tree, which all are told if it is new.
+  std::int32_t number(const NodePtr& root);
+  const Tree& tree(std::int32_t number) const {
+    return *trees_.at(static_cast<std::size_t>(number));
+  }
+
  private:
   int idlest() const;
   void add(const message::Status& status, int sign);
 
   Transport& transport_;
   std::vector<message::Status> latest_;      // by rank
-  std::vector<std::deque<Cost>> under_way_;  // by rank: the bounds of roots sent there
+  std::vector<std::deque<Cost>> under_way_;  // by rank: the bounds of what was entrusted
   std::multiset<Cost> bounds_;               // of both
   std::int64_t ranks_with_nodes_ = 0;
-  std::int64_t roots_under_way_ = 0;
+  std::int64_t entrusted_under_way_ = 0;
   std::int32_t era_ = 0;
   std::int64_t ranks_of_this_era_;
   Counts counts_;
-  std::map<const Tree*, std::int32_t> numbers_;  // of the trees told
+  std::vector<const Tree*> trees_;               // that have been told
+  std::map<const Tree*, std::int32_t> numbers_;  // of these
 };
 
 }  // namespace grove

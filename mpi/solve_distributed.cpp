@@ -48,7 +48,7 @@ class Searching {
  private:
   void run() {
     try {
-      solve_together(workers_, shared_, limits_);
+      solve_together(workers_, shared_, limits_, [] {});
     } catch (...) {
       failure_ = std::current_exception();
     }

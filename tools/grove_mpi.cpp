@@ -9,6 +9,7 @@
 #include "mpi/mpi_session.h"
 #include "mpi_commands.h"
 #include "program.h"
+#include "signals.h"
 
 namespace grove {
 namespace {
@@ -26,11 +27,13 @@ constexpr const char* kFooter =
     "'grove-mpi COMMAND --help' explains a command, with examples.";
 
 int main(int argc, char** argv) {
+  stop_on_signals();  // one may come while MPI begins, and would kill the job
   MpiSession session(argc, argv);
   CLI::App app(kDescription, "grove-mpi");
   app.footer(kFooter);
   prepare_program(app);
   add_mpi_solve_command(app, session);
+  add_mpi_batch_command(app, session);
   try {
     return run_program(app, argc, argv, session.rank() == 0);
   } catch (const std::exception& error) {

@@ -43,7 +43,7 @@ bool IncumbentFiles::may_be_file(const std::string& prefix, const std::filesyste
 }
 
 void IncumbentFiles::on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) {
-  if (!prefix_.empty() && !failed_) write(plan, progress);
+  if (!failed_) write(plan, progress);
   next_.on_incumbent(plan, source, progress);
 }
 
@@ -56,8 +56,8 @@ void IncumbentFiles::write(const Plan& plan, const Progress& progress) {
   solution.stats.counts["nodes_expanded"] = progress.nodes_expanded;
   solution.stats.texts["version"] = version_text();
   try {
-    write_solution(file(prefix_, written_ + 1), instance_, solution);
-    ++written_;
+    if (!best_.empty()) write_solution(best_, instance_, solution);
+    if (!prefix_.empty()) write_solution(file(prefix_, ++written_), instance_, solution);
   } catch (const InputError& error) {
     fmt::print(stderr, "grove: warning: {}; no more plans are written before the end\n",
                error.what());

@@ -11,14 +11,19 @@
 
 namespace grove {
 
-// Writes the k-th plan of a run to PREFIX-<k>.plan.json, whole or not at all, and passes everything
-// on to another observer; a plan is on disk before that one hears of it. A file that cannot be
-// written is told on stderr, once; the run goes on.
+// Writes the k-th plan of a run to PREFIX-<k>.plan.json, and the best one to a file of its own,
+// whole or not at all, and passes everything on to another observer; a plan is on disk before that
+// one hears of it. A file that cannot be written is told on stderr, once; the run goes on.
 class IncumbentFiles : public RunObserver {
  public:
-  // `prefix` empty: writes nothing. `instance` and `next` must outlive this.
-  IncumbentFiles(std::string prefix, const Instance& instance, Omega omega, RunObserver& next)
-      : prefix_(std::move(prefix)), instance_(instance), omega_(omega), next_(next) {}
+  // `prefix` or `best` empty: these are not written. `instance` and `next` must outlive this.
+  IncumbentFiles(std::string prefix, std::filesystem::path best, const Instance& instance,
+                 Omega omega, RunObserver& next)
+      : prefix_(std::move(prefix)),
+        best_(std::move(best)),
+        instance_(instance),
+        omega_(omega),
+        next_(next) {}
 
   // The file of the k-th plan, from 1.
   static std::filesystem::path file(const std::string& prefix, int k);
@@ -32,11 +37,13 @@ class IncumbentFiles : public RunObserver {
     next_.on_event(event, progress);
   }
   void on_infeasible(std::string_view reason) override { next_.on_infeasible(reason); }
+  void on_checkpoint(const CheckpointReport& report) override { next_.on_checkpoint(report); }
 
  private:
   void write(const Plan& plan, const Progress& progress);
 
   const std::string prefix_;
+  const std::filesystem::path best_;
   const Instance& instance_;
   const Omega omega_;
   RunObserver& next_;

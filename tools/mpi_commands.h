@@ -10,5 +10,6 @@
 namespace grove {
 
 void add_mpi_solve_command(CLI::App& app, MpiSession& session);
+void add_mpi_batch_command(CLI::App& app, MpiSession& session);
 
 }  // namespace grove

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
 // grove-mpi solve: as grove solve, by all ranks.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
+#include "crew.h"
 #include "grove/engine/run_observer.h"
+#include "grove/io/input_error.h"
 #include "grove/io/plan_file.h"
 #include "grove/model/fingerprint.h"
 #include "incumbent_files.h"
-#include "machine.h"
 #include "mpi/solve_distributed.h"
 #include "mpi_commands.h"
+#include "program.h"
 #include "run_log.h"
-#include "signals.h"
 #include "solve_arguments.h"
 #include "solve_run.h"
 #include "start_plan.h"
@@ -41,30 +41,6 @@ constexpr const char* kFooter =
     "  mpirun -np 2 grove-mpi solve benchmarks/data/first.cts.json\n"
     "  mpirun -np 4 --map-by node --bind-to none grove-mpi solve INSTANCE.cts.json --threads 16";
 
-std::string host() {
-  char name[256] = {};
-  ::gethostname(name, sizeof name - 1);
-  return name;
-}
-
-// Ranks that may use the same cores share them.
-int fair_threads(const MpiSession& session) {
-  const auto all = session.gather(host() + usable_cores_text());
-  const auto sharing = std::ranges::count(all, all[static_cast<std::size_t>(session.rank())]);
-  return std::max(1, usable_cores() / static_cast<int>(sharing));
-}
-
-std::string workers_text(const MpiSession& session, std::int64_t threads) {
-  const auto hosts = session.gather(host());
-  const auto each = session.gather(std::to_string(threads));
-  const bool same = std::set(each.begin(), each.end()).size() == 1;
-  const auto count = std::set(hosts.begin(), hosts.end()).size();
-  return fmt::format("{} on {} rank{}, {} host{}",
-                     same ? each.front() + " each" : fmt::format("{}", fmt::join(each, ", ")),
-                     session.ranks(), session.ranks() == 1 ? "" : "s", count,
-                     count == 1 ? "" : "s");
-}
-
 // What a rank has and does in a run.
 class Run {
  public:
@@ -72,8 +48,7 @@ class Run {
       : app_(app), a_(arguments), session_(session) {}
 
   void run() {
-    stop_on_signals();
-    if (app_.count("--threads") == 0) a_.threads = fair_threads(session_);
+    share_machine(app_, a_, session_);
     options_ = solve_options(a_);
     if (a_.deterministic)
       throw CLI::ValidationError("--deterministic", "is for one process: 'grove solve'");
@@ -83,9 +58,9 @@ class Run {
     require_same(session_, "an instance of fingerprint",
                  fmt::format("{:016x}", fingerprint(loaded_->instance)));
     set_limits(limits_, a_, start_);
-    const std::string workers = workers_text(session_, a_.threads);
+    const Crew crew = gather_crew(session_, a_.threads);
     together(session_, [&] {
-      if (is_first()) prepare(workers);
+      if (is_first()) prepare(crew);
     });
     if (is_first())
       solve_and_write();
@@ -96,16 +71,20 @@ class Run {
  private:
   bool is_first() const { return session_.rank() == 0; }
 
-  void prepare(const std::string& workers) {
+  void prepare(const Crew& crew) {
     prepare_outputs(a_, *loaded_);
     if (!a_.start.empty()) options_.start = read_start_plan(a_.start, loaded_->instance);
-    sink_ = std::make_unique<LogSink>(!a_.quiet, a_.log);
-    log_head(*sink_, app_, a_, *loaded_, workers);
+    resumed_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
+    sink_ = std::make_unique<LogSink>(!a_.quiet, a_.log, false);
+    log_head(*sink_, app_, a_, *loaded_, workers_text(crew));
+    for (const std::string& warning : warnings(crew)) sink_->line("Warning: " + warning);
+    if (resumed_) log_resumed(*sink_, resumed_->header());
   }
 
   void solve_and_write() {
     RunLog log(*sink_, start_, a_.time_limit_s, false);
-    IncumbentFiles observer(a_.incumbents, loaded_->instance, options_.omega, log);
+    IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
+                            options_.omega, log);
     Solution solution = *solve_with(observer);
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
@@ -119,11 +98,27 @@ class Run {
     const auto answer = answer_without_search(problem, options_, limits_, observer);
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {
-      const auto network = session_.connect();
-      return solve_distributed(problem, options_, limits_, *network, observer, [] {});
+      return solve_by_all(problem, observer);
     }
     if (!is_first()) return std::nullopt;
     return answer ? answer : solve(loaded_->instance, options_, limits_, &observer);
+  }
+
+  // What goes wrong here goes wrong on one rank alone, for which the others would wait for ever: a
+  // checkpoint may turn out to be damaged when rank 0 reads its nodes. Nor can the network be left
+  // while messages are under way.
+  std::optional<Solution> solve_by_all(const Problem& problem, RunObserver& observer) {
+    const auto network = session_.connect();
+    try {
+      return solve_distributed(problem, options_, limits_, *network, observer, [] {});
+    } catch (const InputError& error) {
+      complain(*app_.get_parent(), error.what());
+      session_.abort(kExitBadInput);
+    } catch (const std::exception& error) {
+      complain(*app_.get_parent(),
+               fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
+      session_.abort(kExitInternalFailure);
+    }
   }
 
   const Clock::time_point start_ = Clock::now();
@@ -134,6 +129,7 @@ class Run {
   std::optional<LoadedInstance> loaded_;
   Limits limits_;
   RunObserver silent_;
+  std::unique_ptr<CheckpointReader> resumed_;
   std::unique_ptr<LogSink> sink_;
 };
 
@@ -145,6 +141,7 @@ void add_mpi_solve_command(CLI::App& root, MpiSession& session) {
   const auto arguments = std::make_shared<SolveArguments>();
   arguments->instance.add_to(*app);
   add_search_options(*app, *arguments);
+  add_checkpoint_options(*app, arguments->checkpoints);
   add_file_options(*app, *arguments);
   app->callback([app, arguments, &session] { Run(*app, *arguments, session).run(); });
 }

@@ -74,8 +74,9 @@ int telling(char letter) {
 
 }  // namespace
 
-LogSink::LogSink(bool to_stdout, const std::filesystem::path& file)
-    : to_stdout_(to_stdout), shows_progress_(to_stdout && ::isatty(STDOUT_FILENO) == 1) {
+LogSink::LogSink(bool to_stdout, const std::filesystem::path& file, bool may_show_progress)
+    : to_stdout_(to_stdout),
+      shows_progress_(to_stdout && may_show_progress && ::isatty(STDOUT_FILENO) == 1) {
   if (file.empty()) return;
   file_.reset(std::fopen(file.c_str(), "w"));
   if (!file_)
@@ -167,6 +168,14 @@ void RunLog::show_progress(const Progress& p) {
 
 void RunLog::on_infeasible(std::string_view reason) {
   sink_.line(fmt::format("There is no plan: {}.", reason));
+}
+
+void RunLog::on_checkpoint(const CheckpointReport& report) {
+  if (report.failure.empty())
+    sink_.line(fmt::format("  Checkpoint of {} nodes written in {:.2f} s ({:.2f}s)", report.nodes,
+                           report.seconds, seconds()));
+  else
+    sink_.line(fmt::format("  NO checkpoint was written: {}", report.failure));
 }
 
 void RunLog::finish(const Solution& solution, const std::filesystem::path& plan_path) {

@@ -19,8 +19,9 @@ namespace grove {
 // line that the next line overwrites.
 class LogSink {
  public:
-  // `file` empty: no file. Throws InputError when it cannot be opened.
-  LogSink(bool to_stdout, const std::filesystem::path& file);
+  // `file` empty: no file. Throws InputError when it cannot be opened. `may_show_progress`: mpirun
+  // gives its programs a terminal even where there is none.
+  LogSink(bool to_stdout, const std::filesystem::path& file, bool may_show_progress = true);
 
   void line(std::string_view text = "");
   bool shows_progress() const { return shows_progress_; }
@@ -49,6 +50,7 @@ class RunLog : public RunObserver {
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
+  void on_checkpoint(const CheckpointReport& report) override;
 
   // The result, below the table. `plan_path` is where the plan file is.
   void finish(const Solution& solution, const std::filesystem::path& plan_path);

@@ -30,7 +30,20 @@ find_missing_packages() {
 install_missing() {
   local apt=("$@" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=120)
   quietly "${apt[@]}" update &&
-    quietly "${apt[@]}" install -y --no-install-recommends "${missing[@]}"
+    quietly "${apt[@]}" install -y --no-install-recommends "${missing[@]}" &&
+    switch_off_daemons "$@"
+}
+
+# Debian starts the daemons that it installs, at once and at every boot. Those among `missing` are for
+# tests, which start their own; one that was there before is somebody else's and left alone.
+switch_off_daemons() {
+  local package
+  [ -d /run/systemd/system ] || return 0
+  for package in "${missing[@]}"; do
+    case $package in
+      munge | slurmctld | slurmd) quietly "$@" systemctl disable --now "$package" || true ;;
+    esac
+  done
 }
 
 # Installs what is missing if this user may; else says what to do and exits with 2.

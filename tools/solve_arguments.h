@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "checkpoint_arguments.h"
 #include "grove/engine/solve.h"
 #include "grove/model/limits.h"
 #include "instance_arguments.h"
@@ -29,6 +30,7 @@ struct SolveArguments {
   std::vector<std::string> with;
   std::vector<std::string> without;
   bool deterministic = false;
+  CheckpointArguments checkpoints;
   std::filesystem::path start;
   std::string incumbents;
   std::filesystem::path output;

@@ -40,13 +40,16 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   const LoadedInstance loaded = a.instance.load();
   prepare_outputs(a, loaded);
   if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
+  const auto resumed = prepare_checkpoints(a.checkpoints, loaded.instance, options);
   LogSink sink(!a.quiet, a.log);
   log_head(sink, app, a, loaded, std::to_string(a.threads));
+  if (resumed) log_resumed(sink, resumed->header());
 
   Limits limits;
   set_limits(limits, a, start);
   RunLog log(sink, start, a.time_limit_s, a.deterministic);
-  IncumbentFiles observer(a.incumbents, loaded.instance, options.omega, log);
+  IncumbentFiles observer(a.incumbents, a.checkpoints.incumbent_file(), loaded.instance,
+                          options.omega, log);
   Solution solution = solve(loaded.instance, options, limits, &observer);
 
   add_run_facts(solution, app, a, start);
@@ -62,6 +65,7 @@ void add_solve_command(CLI::App& root) {
   const auto arguments = std::make_shared<SolveArguments>();
   arguments->instance.add_to(*app);
   add_search_options(*app, *arguments);
+  add_checkpoint_options(*app, arguments->checkpoints);
   add_file_options(*app, *arguments);
   app->callback([app, arguments] { run_solve(*app, *arguments); });
 }

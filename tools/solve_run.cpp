@@ -89,6 +89,16 @@ void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& a,
   sink.line();
 }
 
+void log_resumed(LogSink& sink, const CheckpointHeader& checkpoint) {
+  const auto expanded = checkpoint.counters.find("nodes_expanded");
+  sink.line(fmt::format(
+      "Resuming from a checkpoint after {:.1f} s and {} nodes: lower bound {}{}",
+      checkpoint.seconds, expanded == checkpoint.counters.end() ? 0 : expanded->second,
+      checkpoint.lower_bound,
+      checkpoint.incumbent ? fmt::format(", incumbent {}", checkpoint.incumbent->cost) : ""));
+  sink.line();
+}
+
 void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments& a,
                    std::chrono::steady_clock::time_point start) {
   solution.stats.measures["wall_s"] =

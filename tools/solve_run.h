@@ -21,6 +21,9 @@ void prepare_outputs(SolveArguments& arguments, const LoadedInstance& loaded);
 void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& arguments,
               const LoadedInstance& loaded, const std::string& workers);
 
+// That the run goes on from there.
+void log_resumed(LogSink& sink, const CheckpointHeader& checkpoint);
+
 // What the plan file is to say of the run that began at `start`.
 void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments& arguments,
                    std::chrono::steady_clock::time_point start);

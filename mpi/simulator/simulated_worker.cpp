@@ -31,6 +31,7 @@ void SimulatedWorker::begin(double now, Expander& expander) {
   expander.turn_to(search_.memory());
   expansion_ = expander.expand(node_, search_.ledger().cutoff(), limits_);
   expander.publish();  // nobody else on this rank asks before this turn has ended
+  expander.memory()->trim();
   const double processor_s = processor_time() - before_s;
   const double work = work_of(expander.counts()) - before;
   const double takes_s =

@@ -19,6 +19,8 @@
 #include <string>
 #include <utility>
 
+#include "grove/io/input_error.h"
+#include "grove/model/fingerprint.h"
 #include "grove/search/sequence_forest.h"
 #include "grove/search/single_tree.h"
 #include "stop_text.h"
@@ -27,6 +29,10 @@ namespace grove {
 namespace {
 
 constexpr Cost kNoTree = -1;
+
+bool same_sequences(const Tree& a, const Tree& b) {
+  return std::ranges::equal(a.orders, b.orders, {}, &AgentOrder::sequences, &AgentOrder::sequences);
+}
 
 std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
                                     const SolveOptions& options, const Limits& limits) {
@@ -44,10 +50,12 @@ CentralLedger::CentralLedger(const Problem& problem, const SolveOptions& options
       limits_(limits),
       observer_(observer),
       nodes_(nodes),
+      instance_(problem.instance),
       omega_(options.omega),
       gate_(problem.instance, options.omega),
       stops_(problem.instance, problem.distances),
       forest_(make_forest(problem, stops_, pool, options, limits)),
+      restored_trees_(problem, stops_, pool),
       next_tree_bound_(forest_->next_bound()),
       last_tree_cost_(kNoTree) {}
 
@@ -58,6 +66,70 @@ void CentralLedger::begin() {
   if (options_.start) post(*options_.start, PlanSource::kStart);
   const std::lock_guard lock(growing_);
   if (!over()) grow();
+}
+
+// Nothing is said of the nodes before they have been pushed: no bound is taken from their absence.
+std::optional<std::vector<NodePtr>> CentralLedger::restore(const CheckpointHeader& header) {
+  resumed_ = true;
+  before_.counters = header.counters;
+  before_.seconds = header.seconds;
+  gate_.update(header.lower_bound, header.lower_bound);
+  announced_bound_ = header.lower_bound;
+  if (header.incumbent) post(*header.incumbent, PlanSource::kStart);
+  if (options_.start) post(*options_.start, PlanSource::kStart);
+  const std::lock_guard lock(growing_);
+  for (const TreeRecord& tree : header.trees) {
+    const NodePtr same = forest_->next_root();
+    if (!same && limits_.stop_requested()) return std::nullopt;
+    const NodePtr root = restored_trees_.add(tree);
+    if (!same || !same_sequences(same->tree(), root->tree()))
+      throw InputError(
+          checkpoint_file(options_.checkpoints.directory).string(), "",
+          "its trees come in another order than they do here; expected the same --rtsp");
+    add_root(root);
+    watch([&] { observer_.on_root(root); });
+    last_tree_cost_ = root->cost();
+    ++trees_;
+  }
+  next_tree_bound_ = forest_->next_bound();
+  return roots_;
+}
+
+void CentralLedger::restored() {
+  nodes_changed();
+  const std::lock_guard lock(growing_);
+  if (roots_.empty() && !over()) grow();
+}
+
+CheckpointHeader CentralLedger::checkpoint_header(std::int64_t trees, Cost evicted_bound) {
+  CheckpointHeader header;
+  header.fingerprint = fingerprint(instance_);
+  header.policy = options_.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
+  header.incumbent = gate_.incumbent();
+  header.lower_bound = gate_.lower_bound();
+  header.evicted_bound = evicted_bound;
+  header.trees_instantiated = trees;
+  header.counters["nodes_expanded"] = nodes_before() + nodes_.counts().expanded;
+  header.seconds = before_.seconds + std::chrono::duration<double>(Clock::now() - started_).count();
+  const std::lock_guard lock(growing_);
+  for (std::int64_t i = 0; i < trees; ++i)
+    header.trees.push_back(record_of(roots_[static_cast<std::size_t>(i)]->tree()));
+  return header;
+}
+
+std::int64_t CentralLedger::number_of(const Tree& tree) const {
+  const std::lock_guard lock(growing_);
+  const auto found = numbers_.find(&tree);
+  return found == numbers_.end() ? trees_.load() : found->second;
+}
+
+std::int64_t CentralLedger::nodes_before() const {
+  const auto found = before_.counters.find("nodes_expanded");
+  return found == before_.counters.end() ? 0 : found->second;
+}
+
+void CentralLedger::checkpointed(const CheckpointReport& report) {
+  watch([&] { observer_.on_checkpoint(report); });
 }
 
 bool CentralLedger::over() const {
@@ -123,13 +195,18 @@ bool CentralLedger::needs_tree() const {
          gate_.needs_new_tree(nodes_.bound(), last == kNoTree ? std::nullopt : std::optional(last));
 }
 
+void CentralLedger::add_root(const NodePtr& root) {
+  numbers_[&root->tree()] = std::ssize(roots_);
+  roots_.push_back(root);
+}
+
 // Instantiates the next tree. Under growing_. If anything throws, the root stays prepared.
 void CentralLedger::grow() {
   if (!prepared_) prepared_ = forest_->next_root();
   const bool has_root = prepared_ != nullptr;
   if (has_root) {
     watch([&] { observer_.on_root(prepared_); });
-    roots_.push_back(prepared_);
+    add_root(prepared_);
     if (!gate_.prunes(prepared_->bound())) nodes_.push(prepared_);
     ++trees_;
     last_tree_cost_ = prepared_->cost();
@@ -206,6 +283,10 @@ Solution CentralLedger::conclude() const {
                            {"trees_prepared", trees_prepared_},
                            {"trees_prepared_in_vain", prepared_ ? 1 : 0},
                            {"rtsp_calls", forest_->rtsp_calls()}};
+  if (resumed_) {
+    solution.stats.counts["nodes_expanded_before"] = nodes_before();
+    solution.stats.measures["seconds_before"] = before_.seconds;
+  }
   // A limit that struck after the search had ended changed nothing.
   if (!gate_.finished()) {
     const std::string stop = stop_text(limits_.reason());

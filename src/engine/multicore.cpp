@@ -5,7 +5,10 @@
 // No work is overlooked: a worker parks under the lock under which it saw that no node was open,
 // and a node is pushed before that lock is taken to look for who is parked. So either the parking
 // worker sees the node or the pushing one sees the worker. And nobody parks while no node is live:
-// then the next tree is due, or the run is over, and somebody must find out.
+// then the next tree is due, or the run is over, and somebody must find out. Nor does the last one
+// who is awake: where ranks share a search, nodes come from elsewhere, and none of those who push
+// them there calls anybody; and a node may be live that nobody here has in hand, for it is in
+// custody.
 #include "grove/engine/multicore.h"
 
 #include <oneapi/tbb/global_control.h>
@@ -23,13 +26,15 @@ namespace grove {
 namespace {
 
 constexpr int kMostTurnsInARound = 4;
-constexpr auto kPause = std::chrono::microseconds(100);  // where no node is live just now
+constexpr auto kPause = std::chrono::microseconds(100);  // of one who may not park
 
 class Crew {
  public:
-  Crew(SharedSearch& shared, const Limits& limits) : shared_(shared), limits_(limits) {}
+  Crew(SharedSearch& shared, const Limits& limits, const BetweenTurns& between_turns)
+      : shared_(shared), limits_(limits), between_turns_(between_turns) {}
 
   void run(std::span<const std::unique_ptr<Worker>> workers) {
+    workers_ = workers.size();
     for (const auto& worker : workers) start(*worker);
     tasks_.wait();
   }
@@ -41,7 +46,7 @@ class Crew {
 
   void work(Worker& worker) {
     try {
-      while (!shared_.over())
+      for (; !shared_.over(); between_turns_())
         if (worker.turn())
           call_another();
         else if (park(worker))
@@ -59,7 +64,8 @@ class Crew {
 
   bool park(Worker& worker) {
     const std::lock_guard lock(mutex_);
-    if (shared_.over() || shared_.may_take()) return false;
+    const bool is_last_awake = parked_.size() + 1 == workers_;
+    if (is_last_awake || shared_.over() || shared_.may_take()) return false;
     parked_.push_back(&worker);
     return true;
   }
@@ -74,7 +80,9 @@ class Crew {
 
   SharedSearch& shared_;
   const Limits& limits_;
+  const BetweenTurns& between_turns_;
   Tasks tasks_;
+  std::size_t workers_ = 0;
   std::mutex mutex_;
   std::vector<Worker*> parked_;
 };
@@ -107,8 +115,12 @@ void choose_turns(std::vector<Lane>& lanes) {
 
 }  // namespace
 
+void solve_alone(Worker& worker, const SharedSearch& shared, const BetweenTurns& between_turns) {
+  for (; !shared.over(); between_turns()) worker.turn();
+}
+
 void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
-                    const Limits& limits) {
+                    const Limits& limits, const BetweenTurns& between_turns) {
   const auto threads = static_cast<int>(workers.size());
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
@@ -117,11 +129,11 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
     ~AllowWork() { limits.allow_work(); }
   } const at_last{limits};
   tbb::task_arena arena(threads);
-  arena.execute([&] { Crew(shared, limits).run(workers); });
+  arena.execute([&] { Crew(shared, limits, between_turns).run(workers); });
 }
 
 void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
-                     int threads) {
+                     int threads, const BetweenTurns& between_turns) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
@@ -134,7 +146,11 @@ void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSea
       for (Lane& lane : lanes)
         if (!lane.turns.empty()) tasks.run([&lane] { lane.perform(); });
       tasks.wait();
+      for (Lane& lane : lanes)
+        if (!lane.turns.empty()) tasks.run([&lane] { lane.worker->publish(); });
+      tasks.wait();
       for (Lane& lane : lanes) lane.commit();
+      between_turns();
     }
   });
 }

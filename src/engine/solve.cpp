@@ -6,6 +6,7 @@
 #include <string>
 
 #include "grove/engine/central_ledger.h"
+#include "grove/engine/checkpoint.h"
 #include "grove/engine/local_nodes.h"
 #include "grove/engine/multicore.h"
 #include "grove/engine/run_observer.h"
@@ -13,39 +14,72 @@
 #include "grove/engine/worker.h"
 #include "grove/search/feasibility.h"
 #include "grove/search/gate.h"
+#include "local_checkpoints.h"
 #include "stop_text.h"
 
 namespace grove {
 namespace {
 
-void solve_alone(Worker& worker, const SharedSearch& shared) {
-  while (!shared.over()) worker.turn();
+// The first tree, or all that a checkpoint knows. False: there is nothing to search.
+bool begin(const Problem& problem, const SolveOptions& options, CentralLedger& ledger,
+           LocalNodes& nodes) {
+  if (options.resume) return restore(*options.resume, problem.instance, ledger, nodes);
+  ledger.begin();
+  return true;
 }
+
+// The workers of a run, whose turns are what happens in it.
+class Workers {
+ public:
+  Workers(const Problem& problem, const SolveOptions& options, const Limits& limits,
+          SharedSearch& shared, const AgentStopsStore& stops)
+      : options_(options), limits_(limits), shared_(shared) {
+    const int lanes = options.deterministic ? kDeterministicLanes : options.threads;
+    for (int number = 0; number < lanes; ++number)
+      workers_.push_back(std::make_unique<Worker>(problem, options, limits, shared, stops, number));
+  }
+
+  void run(const BetweenTurns& between_turns) {
+    if (options_.deterministic)
+      solve_in_rounds(workers_, shared_, options_.threads, between_turns);
+    else if (workers_.size() > 1)
+      solve_together(workers_, shared_, limits_, between_turns);
+    else
+      solve_alone(*workers_.front(), shared_, between_turns);
+  }
+
+  void add_counts(Stats& stats) const {
+    for (const auto& worker : workers_) worker->add_counts(stats);
+  }
+
+ private:
+  const SolveOptions& options_;
+  const Limits& limits_;
+  SharedSearch& shared_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+};
 
 Solution search(const Problem& problem, const SolveOptions& options, const Limits& limits,
                 RunObserver& observer) {
-  const int lanes = options.deterministic ? kDeterministicLanes : options.threads;
   LocalNodes nodes;
   CentralLedger ledger(problem, options, limits, observer, nodes.pool, nodes);
   SharedSearch shared(options, limits, nodes, ledger);
-  std::vector<std::unique_ptr<Worker>> workers;
+  LocalCheckpoints checkpoints(options, ledger, nodes);
+  std::optional<Workers> workers;
+  bool begun = false;
   try {
-    ledger.begin();
-    for (int number = 0; number < lanes; ++number)
-      workers.push_back(
-          std::make_unique<Worker>(problem, options, limits, shared, ledger.stops(), number));
-    if (options.deterministic)
-      solve_in_rounds(workers, shared, options.threads);
-    else if (lanes > 1)
-      solve_together(workers, shared, limits);
-    else
-      solve_alone(*workers.front(), shared);
+    begun = begin(problem, options, ledger, nodes);
+    if (begun) {
+      workers.emplace(problem, options, limits, shared, ledger.stops());
+      workers->run([&] { checkpoints.write_if_due(); });
+    }
   } catch (const std::bad_alloc&) {
     limits.memory_exhausted();
   }
   Stats stats;
-  for (const auto& worker : workers) worker->add_counts(stats);
-  workers.clear();  // their memory may be needed for the answer
+  if (workers) workers->add_counts(stats);
+  workers.reset();  // their memory may be needed for the answer
+  if (begun) checkpoints.write_last();
   ledger.end();
   Solution solution = ledger.conclude();
   shared.add_counts(solution.stats);
@@ -63,18 +97,25 @@ Solution without_search(const SolveOptions& options, Status status, const std::s
   return solution;
 }
 
-// A limit struck before there was a bound: all there may be is the plan that was given.
+// A limit struck before the search: all there may be is the plan that was given, and what an
+// earlier run proved and found.
 Solution stopped_before_search(const Instance& instance, const SolveOptions& options,
                                const Limits& limits, RunObserver& observer) {
   Solution solution =
       without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
-  if (!options.start) return solution;
   Gate gate(instance, options.omega);
-  gate.post(*options.start);
+  if (options.resume) {
+    const CheckpointHeader& before = options.resume->header();
+    gate.update(before.lower_bound, before.lower_bound);
+    if (before.incumbent) gate.post(*before.incumbent);
+  }
+  if (options.start) gate.post(*options.start);
+  solution.lower_bound = gate.lower_bound();
   solution.plan = gate.incumbent();
+  if (!solution.plan) return solution;
   solution.status = status_of(solution.plan->cost, solution.lower_bound, options.omega);
   observer.on_incumbent(*solution.plan, PlanSource::kStart,
-                        Progress{0, 0, 0, 0, solution.plan->cost});
+                        Progress{0, 0, 0, solution.lower_bound, solution.plan->cost});
   return solution;
 }
 

@@ -94,7 +94,8 @@ void Worker::commit(Turn& turn) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
     share_.primal_worked(*primal_, turn.work);
   } else if (turn.job != Turn::Job::kPrepare) {
-    expander_.publish();
+    publish();
+    expander_.memory()->trim();
     expander_.turn_to(shared_.memory());
     if (turn.job == Turn::Job::kExpand) shared_.finish(turn.node, std::move(turn.expansion));
     share_.tree_worked(turn.work);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grove/io/input_error.h"
-#include "text_file.h"
+#include "grove/io/text_file.h"
 
 namespace grove {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "grove/io/input_error.h"
+#include "grove/io/text_file.h"
 #include "json_parser.h"
-#include "text_file.h"
 
 namespace grove {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "grove/io/atomic_file.h"
 #include "grove/io/input_error.h"
-#include "text_file.h"
+#include "grove/io/text_file.h"
 
 namespace grove {
 namespace {

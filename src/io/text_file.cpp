@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "text_file.h"
+#include "grove/io/text_file.h"
 
 #include <fmt/format.h>
 

@@ -31,13 +31,13 @@ void Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
   parts_.with(part_of(first), [&](Part& part) {
     const auto [entry, is_new] = part.known.try_emplace(key(first, second), known);
     if (is_new) bytes_ += kBytesPerPair;
-    entry->second = known;
+    entry->second = join(entry->second, known);
     if (known.excess == 0) return;
     auto& partners = part.partners[first];
     const auto same = [&](const Partner& p) { return p.agent == agent && p.situation == second; };
     const auto listed = std::ranges::find_if(partners, same);
     if (listed != partners.end())
-      listed->excess = known.excess;
+      listed->excess = entry->second.excess;
     else
       partners.push_back({agent, second, known.excess});
   });
@@ -61,7 +61,8 @@ void Excesses::learn_group(const std::vector<AgentIndex>& agents, const std::vec
                            Known known) {
   const std::lock_guard lock(groups_mutex_);
   groups_.insert(agents);
-  known_groups_[situations] = known;
+  Known& entry = known_groups_[situations];
+  entry = join(entry, known);
   bytes_ += kBytesPerGroup;
 }
 

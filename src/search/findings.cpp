@@ -124,12 +124,10 @@ void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes,
     at = node;
     key.clear();
     for (const AgentIndex agent : finding.agents) key.push_back(ids[agent]);
-    if (key.size() > 2) {
-      if (!says_something(memory.excesses.of_group(key)))
-        memory.excesses.learn_group(finding.agents, key, finding.known);
-    } else if (!says_something(memory.excesses.of_pair(key[0], key[1]))) {
+    if (key.size() > 2)
+      memory.excesses.learn_group(finding.agents, key, finding.known);
+    else
       memory.excesses.learn_pair(key[0], key[1], finding.agents[1], finding.known);
-    }
   }
 }
 

@@ -67,6 +67,7 @@ NodePtr Frontier::take_promising(Omega omega, Cost lower_bound, double per_confl
 }
 
 NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) {
+  in_hand_.reserve(in_hand_.size() + 1);
   std::size_t& taken = taken_[best->first];  // nothing has changed if this throws
   std::ranges::pop_heap(best->second, order_in(best->first));
   NodePtr node = std::move(best->second.back().node);
@@ -74,7 +75,7 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
   if (best->second.empty()) open_.erase(best);
   --open_count_;
   ++taken;
-  ++taken_count_;
+  in_hand_.push_back(node);
   return node;
 }
 
@@ -83,16 +84,16 @@ std::vector<NodePtr> Frontier::take_spare(std::size_t count) {
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;
   spare.reserve(std::min(count, open_count_));
+  in_hand_.reserve(in_hand_.size() + std::min(count, open_count_));
   for (auto& [rank, heap] : open_) {
     const bool is_best = rank == open_.begin()->first;
     const std::size_t half = (heap.size() + (is_best ? 0 : 1)) / 2;
     const std::size_t here = std::min(half, count - spare.size());
     if (here == 0) continue;
     taken_[rank] += here;
-    taken_count_ += here;
     open_count_ -= here;
     for (auto it = heap.end() - static_cast<std::ptrdiff_t>(here); it != heap.end(); ++it)
-      spare.push_back(std::move(it->node));
+      in_hand_.push_back(spare.emplace_back(std::move(it->node)));
     heap.erase(heap.end() - static_cast<std::ptrdiff_t>(here), heap.end());
     if (spare.size() == count) break;
   }
@@ -114,7 +115,8 @@ void Frontier::give_back(NodePtr node) {
 void Frontier::release_locked(const NodePtr& node) {
   const auto it = taken_.find(rank(node));
   if (--it->second == 0) taken_.erase(it);
-  --taken_count_;
+  std::swap(*std::ranges::find(in_hand_, node), in_hand_.back());
+  in_hand_.pop_back();
 }
 
 std::size_t Frontier::prune(Cost bound) {
@@ -168,8 +170,24 @@ void Frontier::abandon() {
   const std::lock_guard lock(mutex_);
   for (auto& [bound, nodes] : open_)
     for (Open& open : nodes) open.node.abandon();
+  for (NodePtr& node : in_hand_) node.abandon();
+  in_hand_.clear();
   open_.clear();
   open_count_ = 0;
+}
+
+Frontier::Snapshot Frontier::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  Snapshot snapshot{in_hand_, evicted_};
+  snapshot.live.reserve(in_hand_.size() + open_count_);
+  for (const auto& [bound, heap] : open_)
+    for (const Open& open : heap) snapshot.live.push_back(open.node);
+  return snapshot;
+}
+
+void Frontier::note_evicted(Cost bound) {
+  const std::lock_guard lock(mutex_);
+  evicted_ = std::min(evicted_, bound);
 }
 
 Cost Frontier::bound() const {
@@ -194,7 +212,7 @@ std::vector<Frontier::Level> Frontier::levels(std::size_t most) const {
 
 std::size_t Frontier::live() const {
   const std::lock_guard lock(mutex_);
-  return open_count_ + taken_count_;
+  return open_count_ + in_hand_.size();
 }
 
 }  // namespace grove

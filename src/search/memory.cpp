@@ -10,7 +10,6 @@ void Memory::publish() {
   for (const auto& [id, set] : sets_) common_->path_sets.add(id, set);
   for (const Pair& p : pairs_) common_->excesses.learn_pair(p.first, p.second, p.agent, p.known);
   for (const Group& g : groups_) common_->excesses.learn_group(g.agents, g.situations, g.known);
-  common_->path_sets.trim();
   costs_.clear();
   sets_.clear();
   pairs_.clear();

@@ -12,6 +12,8 @@ void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
+}  // namespace
+
 void check(const NodeRecord& record, const Node& root, const Instance& instance) {
   const auto is_agent = [&](AgentIndex agent) {
     return agent >= 0 && agent < instance.agent_count();
@@ -31,8 +33,6 @@ void check(const NodeRecord& record, const Node& root, const Instance& instance)
   require(record.bound >= root.bound() && record.bound >= record.cost,
           "a node's bound must not be below its root's or its cost");
 }
-
-}  // namespace
 
 NodeRecord record_of(const Node& node) {
   NodeRecord record;

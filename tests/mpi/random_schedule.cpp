@@ -2,6 +2,7 @@
 #include "tests/mpi/random_schedule.h"
 
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <random>
@@ -14,7 +15,8 @@
 namespace grove::testing {
 namespace {
 
-constexpr double kTick = 1e-4;  // about what a step may take
+constexpr double kTick = 1e-4;   // about what a step may take
+constexpr int kLongQuiet = 300;  // steps of a rank; statuses wait for fewer
 
 using Dice = std::mt19937_64;
 
@@ -28,10 +30,12 @@ struct SlowWorker : Worker {
   std::optional<Worker::Turn> turn;
   bool performed = false;
 
-  void step() {
+  // False: there was nothing to do.
+  bool step() {
     if (!turn) {
       turn = choose();
       performed = false;
+      return turn.has_value();
     } else if (!performed) {
       perform(*turn);
       performed = true;
@@ -39,7 +43,26 @@ struct SlowWorker : Worker {
       commit(*turn);
       turn.reset();
     }
+    return true;
   }
+};
+
+// What kind of trouble a schedule is.
+struct Temper {
+  explicit Temper(Dice& dice)
+      : talk(pick(dice, {10, 30, 30, 60})),
+        freeze_once_in(pick(dice, {500, 500, 3000})),
+        freeze_on_news(pick(dice, {0, 0, 1, 5})),
+        longest_freeze(pick(dice, {300, 1500, 5000})) {}
+
+  static int pick(Dice& dice, const std::vector<int>& values) {
+    return values[dice() % values.size()];
+  }
+
+  int talk;            // percent of the steps
+  int freeze_once_in;  // steps
+  int freeze_on_news;  // percent
+  int longest_freeze;  // steps
 };
 
 struct Process {
@@ -52,17 +75,18 @@ struct Process {
                                                      transport.rank() * workers_wanted + i));
   }
 
+  struct Done {
+    bool heard = false;
+    bool worked = false;
+  };
+
   // One thing that this process can do.
-  void step(Dice& dice, double now) {
-    if (said_farewell || chance(dice, 30)) {
-      member.converse(now);
-      return;
-    }
+  Done step(Dice& dice, const Temper& temper, double now) {
+    if (said_farewell || chance(dice, temper.talk)) return {member.converse(now), false};
     SlowWorker& worker = *workers[dice() % workers.size()];
-    if (!member.rank().ended() || worker.turn)
-      worker.step();
-    else
-      say_farewell();
+    if (!member.rank().ended() || worker.turn) return {false, worker.step()};
+    say_farewell();
+    return {false, true};
   }
 
   void say_farewell() {
@@ -82,11 +106,20 @@ struct Process {
   std::int64_t frozen_until = 0;
 };
 
-SimulatedNetwork::Delay random_delays(Dice& dice) {
-  const double typical = std::vector<double>{0, 1, 10, 100}[dice() % 4] * kTick;
-  return [&dice, typical](int, int, std::size_t) {
-    const double most = chance(dice, 10) ? 20 * typical : typical;
-    return std::uniform_real_distribution<double>(0, most + kTick)(dice);
+// Each link has a pace of its own: what one rank says to another may be overtaken for long by what
+// both say to the coordinator.
+SimulatedNetwork::Delay random_delays(Dice& dice, int ranks) {
+  const std::vector<double> paces{0, 1, 10, 100, 3000, 20'000};
+  const double usual = paces[dice() % 4];
+  std::vector<double> typical;
+  for (int link = 0; link < ranks * ranks; ++link)
+    typical.push_back(kTick * (chance(dice, 70) ? usual : paces[dice() % paces.size()]));
+  if (chance(dice, 30))  // one rank is the last to be told
+    typical[dice() % static_cast<std::size_t>(ranks)] = kTick * 1000;
+  return [&dice, typical, ranks](int from, int to, std::size_t) {
+    const double most = typical[static_cast<std::size_t>(from * ranks + to)];
+    const double now_and_then = most < kTick * 1000 && chance(dice, 10) ? 20 : 1;
+    return std::uniform_real_distribution<double>(0, now_and_then * most + kTick)(dice);
   };
 }
 
@@ -94,9 +127,9 @@ SimulatedNetwork::Delay random_delays(Dice& dice) {
 
 Solution solve_in_random_order(const Instance& instance, const SolveOptions& options,
                                const Schedule& schedule, RunObserver& observer,
-                               const std::function<void(Cost)>& look, ScheduleCounts& counts) {
+                               const std::function<bool(Cost)>& look, ScheduleCounts& counts) {
   Dice dice(schedule.seed);
-  SimulatedNetwork network(schedule.ranks, random_delays(dice));
+  SimulatedNetwork network(schedule.ranks, random_delays(dice, schedule.ranks));
   const Limits no_limits;
   const Problem problem(instance, no_limits);
   std::deque<Process> processes;
@@ -108,16 +141,42 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
       if (!process.member.left()) return false;
     return true;
   };
-  while (!all_left() && counts.steps < schedule.most_steps) {
+  const auto under_way = [&] {
+    for (int rank = 0; rank < schedule.ranks; ++rank)
+      if (network.next_arrival(rank) < std::numeric_limits<double>::infinity()) return true;
+    return false;
+  };
+  const auto any_frozen = [&] {
+    for (const Process& process : processes)
+      if (process.frozen_until > counts.steps) return true;
+    return false;
+  };
+  const Temper temper(dice);
+  std::int64_t quiet = 0;  // steps
+  std::int64_t turns = 0;  // parts of them
+  while (!all_left() && counts.steps < schedule.most_steps && turns < schedule.most_turns &&
+         !counts.stuck) {
     ++counts.steps;
     network.advance_to(network.now() + kTick);
     Process& process = processes[dice() % processes.size()];
     if (process.frozen_until > counts.steps) continue;
-    if (dice() % 500 == 0) process.frozen_until = counts.steps + static_cast<int>(dice() % 1500);
-    process.step(dice, network.now());
-    look(coordinator.ledger().lower_bound());
+    const auto done = process.step(dice, temper, network.now());
+    const bool is_calm = counts.steps > schedule.most_steps / 4;  // or few would come to their end
+    if (!is_calm && (static_cast<int>(dice() % static_cast<unsigned>(temper.freeze_once_in)) == 0 ||
+                     (done.heard && chance(dice, temper.freeze_on_news))))
+      process.frozen_until =
+          counts.steps + static_cast<int>(dice() % static_cast<unsigned>(temper.longest_freeze));
+    if (static_cast<int>(dice() % 100'000) < schedule.strikes) {
+      process.limits.stop(chance(dice, 50) ? StopReason::kTime : StopReason::kInterrupt);
+      counts.struck = true;
+    }
+    turns += done.worked;
+    if (look(coordinator.ledger().lower_bound())) break;
+    quiet = done.heard || done.worked || under_way() || any_frozen() ? 0 : quiet + 1;
+    counts.stuck = quiet > kLongQuiet * schedule.ranks;
   }
   counts.ended = all_left();
+  counts.left_messages = counts.ended && under_way();
   for (int rank = 0; rank < schedule.ranks; ++rank) counts.messages += network.at(rank).messages();
   return coordinator.conclude();
 }

@@ -21,9 +21,9 @@ int main(int argc, char** argv) {
       ++failed;
     }
   fmt::print(
-      "{} schedules, {} unfinished, {} nodes, {} batches, {} messages, {} new beginnings: {} "
-      "false\n",
-      tally.tried, tally.unfinished, tally.nodes, tally.batches, tally.messages, tally.restarts,
-      failed);
+      "{} schedules ({} unfinished, {} struck, {} resumed, {} reopened, {} new beginnings), ",
+      tally.tried, tally.unfinished, tally.struck, tally.resumed, tally.reopened, tally.restarts);
+  fmt::print("{} nodes, {} batches, {} messages: {} false\n", tally.nodes, tally.batches,
+             tally.messages, failed);
   return failed == 0 ? 0 : 1;
 }

@@ -4,14 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <utility>
 
+#include "grove/engine/checkpoint.h"
+#include "grove/model/fingerprint.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/fuzz/random.h"
 #include "tests/mpi/random_schedule.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/primal/crowd.h"
+#include "tests/support/temporary_directory.h"
 
 namespace grove::testing {
 namespace {
@@ -32,22 +40,107 @@ Answer truth_by_one_thread(const Instance& instance) {
 }
 
 // Plain CBS makes many nodes, which is what travels. The primal search takes a millisecond a step.
-void make_search_poor(SolveOptions& options, fuzz::Random& dice) {
-  options.threads = 1;
-  options.deterministic = false;
-  if (dice.percent(20)) options.techniques = {};
-  if (dice.percent(70)) options.techniques = {Technique::kTarget, Technique::kStrongBranching};
-  if (dice.percent(95)) options.techniques = options.techniques.without(Technique::kPrimal);
-  if (dice.percent(60)) options.omega = Omega();
+void make_search_poor(Techniques& techniques, fuzz::Random& dice) {
+  if (dice.percent(20)) techniques = {};
+  if (dice.percent(70)) techniques = {Technique::kTarget, Technique::kStrongBranching};
+  if (dice.percent(95)) techniques = techniques.without(Technique::kPrimal);
 }
 
-Schedule random_schedule(std::uint64_t seed, fuzz::Random& dice) {
+Schedule random_schedule(Techniques techniques, fuzz::Random& dice) {
   Schedule schedule;
+  if (techniques.has(Technique::kPrimal)) schedule.most_turns /= 10;  // they take a millisecond
+  if (dice.percent(15)) schedule.strikes = dice.pick<int>({10, 100});
   schedule.ranks = dice.pick<int>({1, 2, 2, 3, 4, 7});
   schedule.workers = dice.between(1, 2);
-  schedule.seed = seed;
+  schedule.seed = static_cast<std::uint64_t>(dice.below(1 << 30));
   return schedule;
 }
+
+Policy policy_of(const SolveOptions& options) {
+  return options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
+}
+
+// Asks for checkpoints now and then, looks whether one process finds the optimum in them, and kills
+// all, so that others, of another number, must go on from the last one.
+class Asker : public RunObserver {
+ public:
+  Asker(const Instance& instance, const Answer& truth, SolveOptions& options, fuzz::Random& dice,
+        const std::filesystem::path& folder)
+      : instance_(instance),
+        truth_(truth),
+        options_(options),
+        dice_(dice),
+        used_(dice.percent(50)),
+        once_in_(dice.pick<int>({30, 300, 1000})) {
+    if (used_) options.checkpoints = {folder, 1e9, &asked_};
+  }
+
+  void on_checkpoint(const CheckpointReport& report) override {
+    if (!report.failure.empty()) throw std::runtime_error(report.failure);
+    is_there_ = true;
+    if (reopened_ < kMostReopened && dice_.percent(60)) reopen();
+    if (dice_.percent(50)) kill_in_ = dice_.pick<int>({1, 20, 1000});
+  }
+
+  bool kills() {
+    if (used_ && asks_left_ > 0 && dice_.below(once_in_) == 0) {
+      asked_ = true;
+      --asks_left_;
+    }
+    killing_ = kills_left_ > 0 && kill_in_ > 0 && --kill_in_ == 0;
+    return killing_;
+  }
+  // Has it killed all since it was last asked?
+  bool has_killed() {
+    if (killing_) --kills_left_;
+    return std::exchange(killing_, false);
+  }
+  std::unique_ptr<CheckpointReader> checkpoint() const {
+    if (!is_there_) return nullptr;
+    return std::make_unique<CheckpointReader>(options_.checkpoints.directory,
+                                              fingerprint(instance_), policy_of(options_));
+  }
+  // A run that has ended has left one.
+  bool misses_one() const { return used_ && !is_there_; }
+  int reopened() const { return reopened_; }
+  const std::vector<std::string>& wrong() const { return wrong_; }
+
+ private:
+  static constexpr int kMostReopened = 8;
+
+  // Without the primal search: that would find the optimum where its node is missing.
+  void reopen() {
+    ++reopened_;
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(30));
+    SolveOptions options;
+    options.omega = Omega();
+    options.policy = options_.policy;
+    options.rtsp = options_.rtsp;
+    options.techniques = Techniques::usual().without(Technique::kPrimal);
+    const auto reader = checkpoint();
+    options.resume = reader.get();
+    const Solution solution = solve(instance_, options, limits);
+    for (const std::string& what :
+         fuzz::false_claims(instance_, truth_, options.omega, solution, true))
+      wrong_.push_back("from a checkpoint: " + what);
+  }
+
+  const Instance& instance_;
+  const Answer& truth_;
+  const SolveOptions& options_;
+  fuzz::Random& dice_;
+  const bool used_;
+  const int once_in_;  // steps
+  std::atomic<bool> asked_{false};
+  bool is_there_ = false;
+  bool killing_ = false;
+  int kill_in_ = 0;  // steps; 0: not
+  int kills_left_ = 3;
+  int asks_left_ = 30;
+  int reopened_ = 0;
+  std::vector<std::string> wrong_;
+};
 
 }  // namespace
 
@@ -55,7 +148,12 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   fuzz::Random dice(seed);
   fuzz::FuzzCase fuzz_case = fuzz::random_case(seed);
   SolveOptions& options = fuzz_case.options;
-  make_search_poor(options, dice);
+  options.threads = 1;
+  options.deterministic = false;
+  make_search_poor(options.techniques, dice);
+  if (dice.percent(60)) options.omega = Omega();
+  if (dice.percent(20)) options.policy = Policy::kFixed;
+  if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);
   const Instance instance =
       is_tiny ? fuzz_case.instance.build()
@@ -65,21 +163,38 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   if (truth.verdict != Verdict::kSolved) return {};
   ++tally.tried;
 
+  const TemporaryDirectory folder;
+  Asker asker(instance, truth, options, dice, folder.path());
   std::vector<std::string> wrong;
   const auto look = [&, optimum = truth.plan->cost](Cost lower_bound) {
     if (lower_bound > optimum && wrong.empty())
       wrong.push_back(fmt::format("lower bound {} above the optimum {}", lower_bound, optimum));
+    return asker.kills();
   };
-  RunObserver observer;
   ScheduleCounts counts;
-  const Solution solution = solve_in_random_order(instance, options, random_schedule(seed, dice),
-                                                  observer, look, counts);
+  Solution solution;
+  do {
+    const auto checkpoint = asker.checkpoint();
+    options.resume = checkpoint.get();
+    tally.resumed += checkpoint != nullptr;
+    counts = {};
+    solution = solve_in_random_order(instance, options, random_schedule(options.techniques, dice),
+                                     asker, look, counts);
+    options.seed = static_cast<std::uint64_t>(dice.below(1000));
+    make_search_poor(options.techniques, dice);
+  } while (asker.has_killed());
   const auto stop = solution.stats.texts.find("stopped_by");
   const bool gave_up = stop != solution.stats.texts.end() && stop->second == "memory limit";
-  std::ranges::copy(
-      fuzz::false_claims(instance, truth, options.omega, solution, !counts.ended || gave_up),
-      std::back_inserter(wrong));
+  const bool stopped = !counts.ended || counts.struck || gave_up;
+  std::ranges::copy(fuzz::false_claims(instance, truth, options.omega, solution, stopped),
+                    std::back_inserter(wrong));
+  std::ranges::copy(asker.wrong(), std::back_inserter(wrong));
+  if (counts.stuck) wrong.emplace_back("all wait for each other");
+  if (counts.left_messages) wrong.emplace_back("messages were left under way");
+  if (counts.ended && !counts.struck && asker.misses_one()) wrong.emplace_back("no checkpoint");
   tally.unfinished += !counts.ended;
+  tally.struck += counts.struck;
+  tally.reopened += asker.reopened();
   tally.messages += counts.messages;
   const auto& stats = solution.stats.counts;
   if (counts.ended) {

@@ -5,8 +5,8 @@
     documents_test.py DOCUMENT BIN_DIR DATA_DIR
 
 Every command in a ```console block (after "$ ") or a ```sh block that begins with `grove` or
-`build/release/bin/grove` must end with exit code 0. They run one after the other in a temporary
-folder that holds a copy of DATA_DIR as benchmarks/data and BIN_DIR as build/release/bin.
+`build/release/bin/grove`, or with mpirun and then one of these, must end with exit code 0. They run
+one after the other in a temporary folder that holds a copy of DATA_DIR as benchmarks/data and BIN_DIR as build/release/bin.
 Exit codes: 0 all ran, 1 one did not, 77 nothing to run (no document or no program yet).
 """
 import contextlib
@@ -22,7 +22,10 @@ from pathlib import Path
 SKIPPED = 77
 SECONDS_PER_COMMAND = 120
 BLOCK = re.compile(r"^```(console|sh)\s*\n(.*?)^```", re.M | re.S)
-OURS = re.compile(r"(?:build/release/bin/)?grove(?:-\w+)?(?:\s|$)")
+OURS = re.compile(r"(?:mpirun (?:\S+ )*)?(?:build/release/bin/)?grove(?:-\w+)?(?:\s|$)")
+# mpirun minds root, and fewer cores than ranks.
+MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+       "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
 
 def commands(document):
@@ -39,7 +42,7 @@ def run(command, folder):
     path = f"{folder}/build/release/bin:{os.environ['PATH']}"
     try:
         done = subprocess.run(["bash", "-c", command], cwd=folder, timeout=SECONDS_PER_COMMAND,
-                              env={**os.environ, "PATH": path}, stdin=subprocess.DEVNULL,
+                              env={**os.environ, **MPI, "PATH": path}, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     except subprocess.TimeoutExpired:
         print(f"FAILED (no end after {SECONDS_PER_COMMAND} s): {command}")
@@ -52,10 +55,11 @@ def run(command, folder):
 
 def self_test():
     document = ("```console\n$ grove solve a \\\n    --quiet\nsome output\n$ ls\n```\n"
-                "```sh\nbuild/release/bin/grove check a b\ncmake --build .\n```\n"
+                "```sh\nbuild/release/bin/grove check a b\nmpirun -np 2 grove-mpi x\ncmake --build .\n```\n"
                 "```\ngrove not this\n```\n")
     assert commands(document) == ["grove solve a      --quiet",
-                                  "build/release/bin/grove check a b"], commands(document)
+                                  "build/release/bin/grove check a b",
+                                  "mpirun -np 2 grove-mpi x"], commands(document)
     with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
         assert run("true", folder) and not run("exit 3", folder)
 

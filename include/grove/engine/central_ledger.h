@@ -3,18 +3,22 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "grove/engine/checkpoint.h"
 #include "grove/engine/ledger.h"
 #include "grove/engine/run_observer.h"
 #include "grove/engine/solve.h"
 #include "grove/planning/agent_stops_store.h"
 #include "grove/search/forest.h"
 #include "grove/search/gate.h"
+#include "grove/search/tree_record.h"
 
 namespace grove {
 
@@ -28,6 +32,19 @@ class CentralLedger : public Ledger {
 
   // Before all else, from one thread: the plan to start from, and the first tree.
   void begin();
+  // In place of begin(): takes over what a checkpoint knows, and makes its trees again; the roots
+  // by their number there. Then push the nodes, and what was given up, and call restored(). None if
+  // a limit struck: the plan and the bound are known, but there is nothing to search. Throws
+  // InputError if the trees that come first here are others.
+  std::optional<std::vector<NodePtr>> restore(const CheckpointHeader& header);
+  void restored();
+  // For a checkpoint, in which so many trees, the first ones, count as instantiated.
+  CheckpointHeader checkpoint_header(std::int64_t trees, Cost evicted_bound);
+  void checkpointed(const CheckpointReport& report);
+  // How many trees are instantiated, and their roots pushed; and which of them, from 0, a tree is
+  // (any greater number for another).
+  std::int64_t trees() const { return trees_; }
+  std::int64_t number_of(const Tree& tree) const;
   // What the first tree found out about the agents' stops, for workers to begin with.
   const AgentStopsStore& stops() const { return stops_; }
 
@@ -52,6 +69,8 @@ class CentralLedger : public Ledger {
 
  private:
   bool needs_tree() const;
+  std::int64_t nodes_before() const;
+  void add_root(const NodePtr& root);
   void grow();
   bool begin_anew();
   // Observers are told one thing at a time.
@@ -63,18 +82,27 @@ class CentralLedger : public Ledger {
   void tell(RunEvent event);
   Progress progress() const;
 
+  using Clock = std::chrono::steady_clock;
+
   const SolveOptions& options_;
   const Limits& limits_;
   RunObserver& observer_;
   LiveNodes& nodes_;
+  const Instance& instance_;
   const Omega omega_;
   Gate gate_;
   AgentStopsStore stops_;  // the forest's
   std::unique_ptr<Forest> forest_;
 
-  std::mutex growing_;  // guards the forest and what follows
+  Trees restored_trees_;
+  const Clock::time_point started_ = Clock::now();
+  bool resumed_ = false;
+  CheckpointHeader before_;  // what earlier runs did: the counters and the time
+
+  mutable std::mutex growing_;  // guards the forest and what follows
   std::vector<NodePtr> roots_;
-  NodePtr prepared_;         // of the next tree, if it has been prepared
+  std::map<const Tree*, std::int64_t> numbers_;  // of their trees
+  NodePtr prepared_;                             // of the next tree, if it has been prepared
   Cost begun_anew_at_ = -1;  // the bound that the last run through the trees proved
   std::int64_t restarts_ = 0;
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "grove/engine/checkpoints.h"
 #include "grove/model/plan.h"
 #include "grove/primal/plan_source.h"
 #include "grove/search/expander.h"
@@ -44,6 +45,9 @@ class RunObserver {
   virtual void on_event(RunEvent /*event*/, const Progress& /*progress*/) {}
   // The instance was seen to have no plan before any search; `reason` is a sentence.
   virtual void on_infeasible(std::string_view /*reason*/) {}
+
+  // A checkpoint was written, or could not be.
+  virtual void on_checkpoint(const CheckpointReport& /*report*/) {}
 
   // For tests of the search's reasoning (planted optimum): every root, every expansion with what it
   // led to, and the bound from which on open nodes were dropped.

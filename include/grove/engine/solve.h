@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "grove/engine/checkpoints.h"
 #include "grove/model/limits.h"
 #include "grove/model/plan.h"
 #include "grove/search/techniques.h"
@@ -14,8 +15,9 @@
 
 namespace grove {
 
-class RunObserver;  // grove/engine/run_observer.h
-struct Problem;     // grove/search/problem.h
+class CheckpointReader;  // grove/engine/checkpoint.h
+class RunObserver;       // grove/engine/run_observer.h
+struct Problem;          // grove/search/problem.h
 
 // What a tree of the forest fixes about the agents' orders of visits.
 enum class Policy : std::uint8_t {
@@ -40,6 +42,10 @@ struct SolveOptions {
   // Technique::kPrimal is not used with kFixed.
   Techniques techniques = Techniques::usual();
   std::optional<Plan> start = std::nullopt;  // the first incumbent, a valid plan
+  Checkpoints checkpoints = {};
+  // Where an earlier run, of the same instance and policy, is to go on from; null: nowhere. Read by
+  // solve(); owned by the caller.
+  CheckpointReader* resume = nullptr;
   // The most that open nodes and their ancestors may hold, in bytes; beyond, the worst are given
   // up. Without a word from here the memory limit of the run decides.
   std::size_t node_memory = kUnlimited;
@@ -47,9 +53,9 @@ struct SolveOptions {
 
 // Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower
 // bound. `observer` (may be null) is told what happens, from any of the threads, one at a time.
-// Throws what the observer throws, and std::logic_error or std::runtime_error when a part of the
-// search turns out to be broken (a plan that the checker refuses, `options.start` included; CBC
-// failing).
+// Throws what the observer throws, what reading the checkpoint throws (InputError), and
+// std::logic_error or std::runtime_error when a part of the search turns out to be broken (a plan
+// that the checker refuses, `options.start` included; CBC failing).
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer = nullptr);
 

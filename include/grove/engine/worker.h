@@ -51,6 +51,9 @@ class Worker {
   std::optional<Turn> choose();
   void perform(Turn& turn);
   void commit(Turn& turn);
+  // What perform() found out becomes common; commit() does so if nobody did before. Workers may do
+  // it at the same time, if none performs.
+  void publish() { expander_.publish(); }
 
   // Adds what this worker counted to the answer's statistics.
   void add_counts(Stats& stats) const;

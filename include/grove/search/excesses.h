@@ -2,6 +2,7 @@
 // What is known about agents that must together cost more than each alone.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,11 @@ class Excesses {
     Id situation;
     Cost excess;
   };
+
+  // What two say together. So it does not matter who says it first.
+  static Known join(Known a, Known b) {
+    return {std::max(a.excess, b.excess), a.exact || b.exact, std::max(a.expansions, b.expansions)};
+  }
 
   Known of_pair(Id first, Id second) const;
   // The agent is the second one.

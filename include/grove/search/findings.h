@@ -26,10 +26,9 @@ struct Finding {
 // it: what combines situations of several earlier nodes is left out.
 std::vector<Finding> findings_about(std::span<const NodePtr> nodes, CommonMemory& memory);
 
-// Adds what others found out about these nodes to what `memory` knows of them; where it knows
-// something already, that stays. Findings about a node that is null are ignored. Throws
-// std::invalid_argument, perhaps after some were added, for what cannot be: a node or an agent that
-// is not there, agents in another order.
+// Adds what others found out about these nodes to what `memory` knows. Findings about a node that
+// is null are ignored. Throws std::invalid_argument, perhaps after some were added, for what cannot
+// be: a node or an agent that is not there, agents in another order.
 void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes, CommonMemory& memory);
 
 }  // namespace grove

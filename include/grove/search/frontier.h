@@ -54,6 +54,15 @@ class Frontier {
   // newest first.
   void restart(std::span<const NodePtr> roots, Cost proven);
 
+  // All that is not settled or pruned, and the least bound of what was given up, at one moment.
+  struct Snapshot {
+    std::vector<NodePtr> live;
+    Cost evicted_bound = kInfiniteCost;
+  };
+  Snapshot snapshot() const;
+  // Something of this bound was given up elsewhere, and is now this frontier's to remember.
+  void note_evicted(Cost bound);
+
   // Empties the frontier without giving its nodes up, for when their pool is about to go: releasing
   // millions of nodes one by one takes seconds.
   void abandon();
@@ -88,10 +97,10 @@ class Frontier {
   mutable std::mutex mutex_;
   std::map<Cost, std::vector<Open>> open_;  // heaps, by rank
   std::map<Cost, std::size_t> taken_;       // how many nodes of each rank are in workers' hands
+  std::vector<NodePtr> in_hand_;            // these; few
   Cost evicted_ = kInfiniteCost;
   Cost proven_ = -1;  // before the restart: no plan costs less; -1: there was none
   std::size_t open_count_ = 0;
-  std::size_t taken_count_ = 0;
   std::uint64_t serial_ = 0;
 };
 

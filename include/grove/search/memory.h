@@ -30,6 +30,8 @@ struct CommonMemory {
   // What is found out may have to be forgotten again before it is of use.
   const bool follows_another = false;
 
+  // Forgets what there is too much of, and can be found again.
+  void trim() { path_sets.trim(); }
   std::size_t bytes() const { return situations.bytes() + path_sets.bytes() + excesses.bytes(); }
 };
 
@@ -45,7 +47,8 @@ class Memory {
   Memory(PathPlanner& planner, std::shared_ptr<CommonMemory> common)
       : planner_(planner), common_(std::move(common)) {}
 
-  // Adds what was found out to the common memory.
+  // Adds what was found out to the common memory. Workers may do so at the same time: it does not
+  // matter who is first.
   void publish();
   // Turns to this common memory. If it is another one, what was not published is forgotten, and so
   // are all numbers.

@@ -30,9 +30,12 @@ struct NodeRecord {
 // O(depth + length of the paths).
 NodeRecord record_of(const Node& node);
 
+// Throws std::invalid_argument for a record that cannot be of this instance: an agent that is not
+// there, a path that is none, a bound below the root's.
+void check(const NodeRecord& record, const Node& root, const Instance& instance);
+
 // The node again, below the root of a tree that fixes the same. Ancestors are made for it that have
-// its constraints and nothing else. Throws std::invalid_argument for a record that cannot be of
-// this instance: an agent that is not there, a path that is none, a bound below the root's.
+// its constraints and nothing else. Throws as check() does.
 NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& instance);
 
 }  // namespace grove

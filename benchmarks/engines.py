@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Do all engines find the same optimum? One process with 1, 2 and 4 threads, and 1, 2, 3, 4 ranks, and 2
+ranks of 2 threads, on tiny instances made here and on the instances named.
+
+    engines.py [--tiny N] [--time-limit S] [--bin BIN_DIR] [INSTANCE...]
+
+Ends with 1 if two engines that both proved an optimum differ. Instances that some engine does not solve
+within the limit are told.
+"""
+import argparse
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+DATA = Path(__file__).resolve().parent / "data"
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+THREADS = [1, 2, 4]
+RANKS = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)]  # and threads of each
+
+
+def run(*command):
+    return subprocess.run([str(word) for word in command], check=True, env=ENVIRONMENT,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+
+
+def make_tiny(grove, folder, count):
+    """Few agents in a little room: many conflicts, few cells."""
+    instances = []
+    for seed in range(count):
+        path = folder / f"tiny-{seed}.cts.json"
+        run(grove, "generate", "instance", "--map", DATA / "first.map", "--agents", 3 + seed % 4,
+            "--tasks", 3 + seed % 5, "--seed", seed, "-o", path)
+        instances.append(path)
+    return instances
+
+
+def by_threads(grove, instances, threads, limit, folder):
+    """The proven optimum of each instance; none where there is no proof."""
+    found = {}
+    plan = folder / "plan.json"
+    for path in instances:
+        run(grove, "solve", path, "--omega", 0, "--threads", threads, "--time-limit", limit,
+            "--quiet", "--output", plan)
+        answer = json.loads(plan.read_text(encoding="utf-8"))
+        found[path.name] = answer["cost"] if answer["status"] == "optimal" else None
+    return found
+
+
+def by_ranks(grove_mpi, instances, ranks, threads, limit, folder):
+    listing = folder / "list.txt"
+    listing.write_text("".join(f"{path}\n" for path in instances), encoding="utf-8")
+    output = folder / f"batch-{ranks}-{threads}"
+    run("mpirun", "--oversubscribe", "--bind-to", "none", "-np", ranks, grove_mpi, "batch", listing,
+        "--ranks-per-instance", ranks, "--threads", threads, "--omega", 0, "--time-limit", limit,
+        "--output", output, "--quiet")
+    found = {}
+    with open(output / "results.csv", encoding="utf-8", newline="") as table:
+        for row in csv.DictReader(table):
+            assert not row["error"], row
+            cost = int(row["cost"]) if row["status"] == "optimal" else None
+            found[Path(row["instance"]).name] = cost
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("instances", nargs="*", type=Path)
+    parser.add_argument("--tiny", type=int, default=500)
+    parser.add_argument("--time-limit", type=float, default=60)
+    parser.add_argument("--bin", type=Path,
+                        default=Path(__file__).resolve().parents[1] / "build/release/bin")
+    a = parser.parse_args()
+    grove, grove_mpi = a.bin.resolve() / "grove", a.bin.resolve() / "grove-mpi"
+    differ = 0
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        instances = make_tiny(grove, folder, a.tiny) + [path.resolve() for path in a.instances]
+        answers = {f"{t} threads": by_threads(grove, instances, t, a.time_limit, folder)
+                   for t in THREADS}
+        for ranks, threads in RANKS:
+            answers[f"{ranks} ranks x {threads}"] = by_ranks(grove_mpi, instances, ranks, threads,
+                                                             a.time_limit, folder)
+        for path in instances:
+            costs = {engine: found[path.name] for engine, found in answers.items()}
+            if len({cost for cost in costs.values() if cost is not None}) > 1:
+                differ += 1
+                print(f"DIFFERENT: {path.name}: {costs}")
+            elif None in costs.values():
+                print(f"not proven by all: {path.name}: {costs}")
+    for engine, found in answers.items():
+        print(f"{engine:12} {sum(cost is not None for cost in found.values())} of "
+              f"{len(instances)} proven")
+    print(f"{differ} of {len(instances)} instances differ")
+    return 1 if differ else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// How far a batch is, and how long it will take.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "mpi/batch/row.h"
+
+namespace grove::batch {
+
+// A batch at one moment. Instances that earlier runs finished count as done.
+struct BatchState {
+  int total = 0;
+  int solved = 0;   // within omega, or proven infeasible
+  int limited = 0;  // a limit struck first
+  int failed = 0;
+  int under_way = 0;
+  int groups = 1;          // of ranks
+  double solving_s = 0;    // what the instances done took, summed
+  double under_way_s = 0;  // for how long those under way have been, summed
+  double elapsed_s = 0;    // since this run began
+  bool ending = false;     // nothing more is handed out, though there is more
+  // Until nothing more is handed out, whatever is left.
+  double closes_in_s = std::numeric_limits<double>::infinity();
+
+  int done() const { return solved + limited + failed; }
+  void count(const Row& row);
+};
+
+// How long until all is done; none before the first instance is. As if the time an instance takes
+// were exponentially distributed: the mean is all time spent, on what is under way too, over the
+// number done. (Without what is under way the easy ones, which are done first, would promise too
+// much.)
+std::optional<double> seconds_left(const BatchState& state);
+
+// "1:02:03", "2:03"; whole seconds.
+std::string duration_text(double seconds);
+
+// "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, about 4:10 left"
+std::string progress_line(const BatchState& state);
+// The same after a bar, in at most `columns` columns.
+std::string progress_bar(const BatchState& state, int columns);
+
+// What is shown where.
+struct ProgressStyle {
+  bool terminal = false;  // a bar that is drawn again and again; else now and then a line
+  int columns = 80;
+  std::function<void(std::string_view)> write;
+};
+// On stderr, as it is now.
+ProgressStyle stderr_style();
+
+// Shows the progress at a decent pace. Of one thread.
+class BatchProgress {
+ public:
+  explicit BatchProgress(ProgressStyle style) : style_(std::move(style)) {}
+
+  // Call it as often as you like.
+  void show(const BatchState& state);
+  // The last word.
+  void finish(const BatchState& state);
+
+ private:
+  void draw(const BatchState& state);
+
+  const ProgressStyle style_;
+  double next_s_ = 0;
+};
+
+}  // namespace grove::batch

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// One instance of a batch.
+#pragma once
+
+#include <string>
+
+namespace grove::batch {
+
+// Where to find an instance, and what to call it. Paths lead there from the working directory.
+struct Entry {
+  // Unique in its batch; names the instance's files. A relative path without a suffix, printable.
+  std::string id;
+  std::string path;         // FILE.cts.json, or FILE.scen with the two below
+  std::string map = {};     // of a .scen file; else empty
+  int agents = 0;           // the first so many rows of a .scen file; else 0
+  std::string digest = {};  // of the content of the files, see instance_digest.h
+
+  friend bool operator==(const Entry&, const Entry&) = default;
+};
+
+}  // namespace grove::batch

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/batch/farm_client.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "grove/io/input_error.h"
+
+namespace grove::batch {
+namespace {
+
+constexpr int kMaster = 0;  // of the world
+constexpr int kLeader = 0;  // of the group
+
+// A text to tell failure by: never empty.
+std::string error_text(const std::exception& error) {
+  const std::string text = one_line(error.what());
+  return text.empty() ? "an unknown error" : text;
+}
+
+}  // namespace
+
+FarmClient::FarmClient(Transport& world, Transport& group, std::atomic<bool>& interrupted,
+                       ClientOptions options, FarmMaster* master)
+    : world_(world),
+      group_(group),
+      interrupted_(interrupted),
+      options_(std::move(options)),
+      master_(master) {}
+
+void FarmClient::run() {
+  if (group_.rank() == kLeader) {
+    lead();
+  } else {
+    follow();
+  }
+}
+
+void FarmClient::lead() {
+  while (const std::optional<Entry> entry = next_entry()) {
+    tell_members(Assignment{*entry});
+    Row row = solve(*entry);
+    wait_for_members(row);
+    if (row.result.interrupted()) {
+      tell_master(GaveUp{});
+    } else {
+      tell_master(Report{std::move(row)});
+    }
+  }
+  tell_members(Dismissal{});
+  while (master_ != nullptr && !master_->done()) {
+    master_->poll();
+    options_.idle();
+  }
+}
+
+// None: dismissed.
+std::optional<Entry> FarmClient::next_entry() {
+  tell_master(AskForWork{});
+  for (;;) {
+    std::optional<FarmMessage> message = receive_from_master();
+    if (!message) {
+      options_.idle();
+    } else if (auto* assignment = std::get_if<Assignment>(&*message)) {
+      return std::move(assignment->entry);
+    } else if (std::holds_alternative<Dismissal>(*message)) {
+      return std::nullopt;
+    } else {
+      interrupted_ = true;  // a Stop that came when all was done
+    }
+  }
+}
+
+Row FarmClient::solve(const Entry& entry) {
+  Row row;
+  row.id = entry.id;
+  row.instance = entry.path;
+  row.digest = entry.digest;
+  row.version = options_.version;
+  row.ranks = group_.ranks();
+  row.threads = options_.threads;
+  row.started_at = options_.clock.utc();
+  const double start = options_.clock.seconds();
+  try {
+    row.result = options_.solve(entry, [this] { poll(); });
+  } catch (const std::exception& error) {
+    row.error = error_text(error);
+  }
+  if (broken_) std::rethrow_exception(broken_);  // no fault of the instance
+  row.wall_s = options_.clock.seconds() - start;
+  return row;
+}
+
+void FarmClient::poll() {
+  try {
+    while (const std::optional<FarmMessage> message = receive_from_master()) {
+      if (!std::holds_alternative<Stop>(*message))
+        throw std::logic_error("a busy leader can only be told to stop");
+      interrupted_ = true;
+    }
+  } catch (...) {
+    broken_ = std::current_exception();
+    throw;
+  }
+}
+
+void FarmClient::wait_for_members(Row& row) {
+  for (int left = group_.ranks() - 1; left > 0;) {
+    const std::optional<FarmMessage> message = receive_from_group();
+    if (!message) {
+      poll();
+      options_.idle();
+      continue;
+    }
+    --left;
+    const std::string& error = std::get<Ended>(*message).error;
+    if (!error.empty() && !row.failed() && !row.result.interrupted()) {
+      row.result = {};
+      row.error = error;
+    }
+  }
+}
+
+void FarmClient::follow() {
+  for (;;) {
+    const std::optional<FarmMessage> message = receive_from_group();
+    if (!message) {
+      options_.idle();
+      continue;
+    }
+    if (std::holds_alternative<Dismissal>(*message)) return;
+    Ended ended;
+    try {
+      options_.solve(std::get<Assignment>(*message).entry, [] {});
+    } catch (const std::exception& error) {
+      ended.error = fmt::format("rank {} of the world: {}", world_.rank(), error_text(error));
+    }
+    group_.send(kLeader, encode(ended));
+  }
+}
+
+void FarmClient::tell_master(const FarmMessage& message) {
+  world_.send(kMaster, encode(message));
+}
+
+void FarmClient::tell_members(const FarmMessage& message) {
+  const std::string bytes = encode(message);
+  for (int rank = 1; rank < group_.ranks(); ++rank) group_.send(rank, bytes);
+}
+
+std::optional<FarmMessage> FarmClient::receive_from_master() {
+  if (master_ != nullptr) {
+    master_->poll();
+    return master_->take_own();
+  }
+  const std::optional<Parcel> parcel = world_.receive();
+  return parcel ? std::optional(decode(parcel->bytes)) : std::nullopt;
+}
+
+std::optional<FarmMessage> FarmClient::receive_from_group() {
+  const std::optional<Parcel> parcel = group_.receive();
+  return parcel ? std::optional(decode(parcel->bytes)) : std::nullopt;
+}
+
+}  // namespace grove::batch

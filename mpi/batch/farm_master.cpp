@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/batch/farm_master.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace grove::batch {
+namespace {
+
+constexpr double kCsvInterval_s = 10;  // the whole file is written each time
+
+}  // namespace
+
+FarmMaster::FarmMaster(Transport& world, Grouping grouping, const std::vector<Entry>& entries,
+                       ResultTable& table, std::atomic<bool>& interrupted, BatchClock clock,
+                       MasterOptions options)
+    : world_(world),
+      grouping_(grouping),
+      table_(table),
+      interrupted_(interrupted),
+      clock_(std::move(clock)),
+      options_(std::move(options)),
+      start_(clock_.seconds()),
+      todo_(table.begin(entries)) {
+  state_.total = static_cast<int>(entries.size());
+  state_.groups = grouping_.groups();
+  for (const Entry& entry : entries)
+    if (const Row* row = table_.find(entry.id)) state_.count(*row);
+}
+
+void FarmMaster::poll() {
+  if (done()) return;
+  while (std::optional<Parcel> parcel = world_.receive()) {
+    FarmMessage message = decode(parcel->bytes);
+    std::visit([&](auto& content) { on(parcel->from, content); }, message);
+  }
+  stop_if_interrupted();
+  record();
+  answer();
+  if (done()) {
+    table_.write_csv();
+    table_.end();
+  }
+  if (options_.watch) options_.watch(state());
+}
+
+void FarmMaster::on(int from, AskForWork&) {
+  asking_.push_back(from);
+}
+
+void FarmMaster::on(int from, Report& report) {
+  end_assignment(from, &report.row.id);
+  finished_.push_back(std::move(report.row));
+}
+
+void FarmMaster::on(int from, GaveUp&) {
+  end_assignment(from, nullptr);
+  interrupted_ = true;
+}
+
+template <typename Other>
+void FarmMaster::on(int, Other&) {
+  throw std::logic_error("the master of a batch is told what is not for it");
+}
+
+void FarmMaster::end_assignment(int leader, const std::string* id) {
+  const auto it = under_way_.find(leader);
+  if (it == under_way_.end() || (id != nullptr && it->second.id != *id))
+    throw std::logic_error("a group reports what it was not told to solve");
+  under_way_.erase(it);
+}
+
+void FarmMaster::tell(int leader, FarmMessage message) {
+  if (leader == world_.rank()) {
+    own_.push_back(std::move(message));
+  } else {
+    world_.send(leader, encode(message));
+  }
+}
+
+// Signals may have reached some ranks only.
+void FarmMaster::stop_if_interrupted() {
+  if (stopping_ || !interrupted_) return;
+  stopping_ = true;
+  for (const auto& [leader, what] : under_way_) tell(leader, Stop{});
+}
+
+void FarmMaster::record() {
+  if (finished_.empty()) return;
+  table_.append(finished_);
+  for (const Row& row : finished_) state_.count(row);
+  finished_.clear();
+  if (seconds() < next_csv_s_) return;
+  table_.write_csv();
+  next_csv_s_ = seconds() + kCsvInterval_s;
+}
+
+bool FarmMaster::has_work() const {
+  return next_ < todo_.size() && !stopping_ && seconds() < options_.total_time_limit_s;
+}
+
+void FarmMaster::answer() {
+  for (; !asking_.empty(); asking_.pop_front()) {
+    if (has_work()) {
+      assign_next(asking_.front());
+    } else {
+      tell(asking_.front(), Dismissal{});
+      ++dismissed_;
+    }
+  }
+}
+
+void FarmMaster::assign_next(int leader) {
+  const Entry& entry = todo_[next_++];
+  table_.note_begun(entry);
+  under_way_[leader] = {entry.id, seconds()};
+  tell(leader, Assignment{entry});
+}
+
+BatchState FarmMaster::state() const {
+  BatchState state = state_;
+  state.elapsed_s = seconds();
+  state.closes_in_s = std::max(0.0, options_.total_time_limit_s - state.elapsed_s);
+  state.under_way = static_cast<int>(under_way_.size());
+  for (const auto& [leader, what] : under_way_) state.under_way_s += state.elapsed_s - what.since;
+  state.ending = next_ < todo_.size() && !has_work();
+  return state;
+}
+
+std::optional<FarmMessage> FarmMaster::take_own() {
+  if (own_.empty()) return std::nullopt;
+  FarmMessage message = std::move(own_.front());
+  own_.pop_front();
+  return message;
+}
+
+}  // namespace grove::batch

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// All that the ranks of a batch tell each other about who solves what.
+//
+//     leader of a group        master (rank 0)
+//       AskForWork   ->
+//                    <-   Assignment   or Dismissal, the last word to this leader
+//                    <-   Stop         perhaps, while the leader has an assignment
+//       Report, or GaveUp ->
+//       AskForWork   -> ...
+//
+//     leader                   each other rank of its group
+//       Assignment   ->        or Dismissal, the last word
+//                    <-   Ended
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "mpi/batch/entry.h"
+#include "mpi/batch/row.h"
+
+namespace grove::batch {
+
+// The group has nothing to do.
+struct AskForWork {
+  friend bool operator==(const AskForWork&, const AskForWork&) = default;
+};
+// The group has solved its assignment, or failed to.
+struct Report {
+  Row row;
+  friend bool operator==(const Report&, const Report&) = default;
+};
+// The group was interrupted; its assignment is to be solved another time.
+struct GaveUp {
+  friend bool operator==(const GaveUp&, const GaveUp&) = default;
+};
+// Solve this.
+struct Assignment {
+  Entry entry;
+  friend bool operator==(const Assignment&, const Assignment&) = default;
+};
+// The run is to end: give up.
+struct Stop {
+  friend bool operator==(const Stop&, const Stop&) = default;
+};
+// There is nothing more to do.
+struct Dismissal {
+  friend bool operator==(const Dismissal&, const Dismissal&) = default;
+};
+// The rank has ended its part of the assignment, with an error or without.
+struct Ended {
+  std::string error;
+  friend bool operator==(const Ended&, const Ended&) = default;
+};
+
+using FarmMessage = std::variant<AskForWork, Report, GaveUp, Assignment, Stop, Dismissal, Ended>;
+
+std::string encode(const FarmMessage& message);
+// Throws std::runtime_error when `bytes` are no message.
+FarmMessage decode(const std::string& bytes);
+
+}  // namespace grove::batch

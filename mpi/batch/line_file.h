@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A file that grows by whole lines.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace grove::batch {
+
+// Appends to a file. A process that is killed leaves at most the last line torn. Of one thread.
+class LineFile {
+ public:
+  // Makes the file if it is missing. Throws InputError when it cannot be written.
+  explicit LineFile(std::filesystem::path path);
+  ~LineFile();
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+
+  // Writes `lines`, each with its end, at once. Throws InputError when that fails.
+  void append(std::string_view lines);
+  // Returns when all that was appended would survive a crash of the machine. Throws InputError.
+  void flush();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  const std::filesystem::path path_;
+  int fd_;
+};
+
+}  // namespace grove::batch

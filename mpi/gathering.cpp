@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The ranks do not look at the same moment, and nodes travel. Yet none is missed. All are told at
+// one moment of the coordinator's, and each hears that in order with the releases from custody. So
+// a node that one rank gave to another is still in its custody when it looks; or the release was
+// sent before Gather was, because a status of the receiver covered the node by then, so that this
+// rank held it, or what it led to, before it heard of Gather. What was entrusted to a rank was so
+// before Gather. A node seen twice does no harm.
+//
+// The rest is as in engine/local_checkpoints.cpp: trees are counted before anybody looks, nodes of
+// later ones left out, and the incumbent is asked for when all have looked and said what plans they
+// had found by then.
+#include "mpi/gathering.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+#include "grove/io/input_error.h"
+
+namespace grove {
+
+Gathering::Gathering(const Checkpoints& checkpoints, CentralLedger& ledger, RankNodes& nodes,
+                     Transport& transport)
+    : checkpoints_(checkpoints),
+      ledger_(ledger),
+      nodes_(nodes),
+      transport_(transport),
+      trees_(ledger.trees()) {
+  tell_all(transport, message::Gather{});
+}
+
+// The one before it stands if this one fails, and the run goes on.
+template <class Write>
+void Gathering::write(Write what) {
+  if (!report_.failure.empty()) return;
+  try {
+    what();
+  } catch (const InputError& error) {
+    report_.failure = error.what();
+  } catch (const std::bad_alloc&) {
+    report_.failure = "there is no memory left to write it";
+  }
+  if (!report_.failure.empty()) writer_.reset();
+}
+
+void Gathering::handle(const message::Gathered& gathered) {
+  evicted_bound_ = std::min(evicted_bound_, gathered.evicted_bound);
+  if (++looked_ < transport_.ranks()) return;
+  write([&] {
+    writer_ = std::make_unique<CheckpointWriter>(checkpoints_.directory,
+                                                 ledger_.checkpoint_header(trees_, evicted_bound_));
+  });
+  ask_next();
+}
+
+void Gathering::handle(message::Part&& part) {
+  write([&] {
+    for (auto& [number, record] : part.nodes) {
+      const std::int64_t tree = ledger_.number_of(nodes_.tree(number));
+      if (tree >= trees_) continue;
+      writer_->add(static_cast<std::uint32_t>(tree), std::move(record));
+      ++report_.nodes;
+    }
+  });
+  if (part.last)
+    ask_next();
+  else
+    transport_.send(asked_, bytes_of(message::More{}));
+}
+
+void Gathering::ask_next() {
+  if (++asked_ < transport_.ranks()) {
+    transport_.send(asked_, bytes_of(message::More{}));
+    return;
+  }
+  write([&] { writer_->finish(); });
+  report_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  ledger_.checkpointed(report_);
+  done_ = true;
+}
+
+}  // namespace grove

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// One checkpoint of a distributed search, while it is being written.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "grove/engine/central_ledger.h"
+#include "grove/engine/checkpoint.h"
+#include "mpi/messages.h"
+#include "mpi/rank_nodes.h"
+#include "mpi/transport.h"
+
+namespace grove {
+
+// All ranks look at their nodes while search goes on; then one after the other sends them. Why no
+// node is missed: gathering.cpp. Of one thread.
+class Gathering {
+ public:
+  // Tells all ranks. All must outlive this.
+  Gathering(const Checkpoints& checkpoints, CentralLedger& ledger, RankNodes& nodes,
+            Transport& transport);
+
+  bool is_done() const { return done_; }
+
+  void handle(const message::Gathered& gathered);
+  void handle(message::Part&& part);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void ask_next();
+  // Calls `what`, which may fail; then nothing more is written.
+  template <class Write>
+  void write(Write what);
+
+  const Checkpoints& checkpoints_;
+  CentralLedger& ledger_;
+  RankNodes& nodes_;
+  Transport& transport_;
+  const Clock::time_point begin_ = Clock::now();
+  const std::int64_t trees_;  // that count as instantiated
+  int looked_ = 0;
+  Cost evicted_bound_ = kInfiniteCost;
+  int asked_ = -1;  // the rank that sends
+  bool done_ = false;
+  std::unique_ptr<CheckpointWriter> writer_;  // null before, and once it has failed
+  CheckpointReport report_;
+};
+
+}  // namespace grove

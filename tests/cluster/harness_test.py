@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""cluster/two_hosts and cluster/local_slurm themselves: what runs in there, and that nothing of it
+stays, however they end. Exit code 77: they cannot run here, and say why."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+import uuid
+from pathlib import Path
+
+from support import CLUSTER, wait_until
+
+TWO_HOSTS = CLUSTER / "two_hosts"
+LOCAL_SLURM = CLUSTER / "local_slurm"
+NOBODY = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups"]
+
+
+def run(*command):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True,
+                          check=False)
+
+
+def programs_with(mark):
+    """The names of the processes, in any namespace, in whose environment `mark` stands."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            if mark.encode() in (process / "environ").read_bytes():
+                found.append((process / "comm").read_text(encoding="utf-8").strip())
+        except OSError:
+            pass  # it has ended meanwhile
+    return found
+
+
+class WhatRuns(unittest.TestCase):
+    def test_exit_code_is_that_of_the_command(self):
+        for script, code in (("exit 0", 0), ("exit 5", 5), ("kill -TERM $$", 128 + 15)):
+            self.assertEqual(run(TWO_HOSTS, "sh", "-c", script).returncode, code)
+        self.assertEqual(run(TWO_HOSTS, "--", "no-such-program").returncode, 127)
+        self.assertEqual(run(TWO_HOSTS).returncode, 2)
+        self.assertEqual(run(LOCAL_SLURM).returncode, 2)
+
+    def test_mpirun_starts_ranks_on_both_hosts(self):
+        done = run(TWO_HOSTS, "mpirun", "--hostfile", CLUSTER / "hostfile.example", "--map-by",
+                   "ppr:1:node", "hostname")
+        self.assertEqual(sorted(done.stdout.split()), ["node1", "node2"], done.stderr)
+
+    def test_slurm_has_as_many_nodes_as_asked_for(self):
+        for nodes, names in (("1", ["node1"]), ("2", ["node1", "node2"])):
+            done = run(LOCAL_SLURM, "--nodes", nodes, "--", "srun", "-N", nodes, "hostname")
+            self.assertEqual(sorted(done.stdout.split()), names, done.stderr)
+
+    def test_without_the_right_to_it_says_so(self):
+        done = run(*NOBODY, sys.executable, LOCAL_SLURM, "true")
+        self.assertEqual(done.returncode, 77)
+        self.assertIn("only root", done.stderr)
+
+
+class WhatStays(unittest.TestCase):
+    """Nothing."""
+
+    def killed_by(self, number):
+        mark = f"GROVE_TEST_MARK={uuid.uuid4()}"
+        with tempfile.TemporaryDirectory() as folder:
+            started = Path(folder) / "started"
+            job = f"srun sleep 1000 & sleep 0.5; touch {started}; wait"
+            harness = subprocess.Popen(["env", mark, LOCAL_SLURM, "--nodes", "2", "sh", "-c", job],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.addCleanup(harness.kill)
+            wait_until("a job in Slurm", started.exists, 20)
+        running = programs_with(mark)
+        for program in ("munged", "slurmctld", "slurmd", "srun", "sleep"):
+            self.assertIn(program, running)
+        harness.send_signal(number)
+        self.assertEqual(harness.wait(timeout=10), -9 if number == signal.SIGKILL else 128 + number)
+        wait_until("all processes gone", lambda: not programs_with(mark), 5)
+
+    def test_after_an_interrupt(self):
+        self.killed_by(signal.SIGINT)
+
+    def test_after_a_termination(self):
+        self.killed_by(signal.SIGTERM)
+
+    def test_after_a_kill(self):
+        self.killed_by(signal.SIGKILL)
+
+    def test_after_the_command_has_ended(self):
+        mark = f"GROVE_TEST_MARK={uuid.uuid4()}"
+        run("env", mark, LOCAL_SLURM, "sh", "-c", "sleep 1000 & srun sleep 1000 & sleep 0.5")
+        self.assertEqual(programs_with(mark), [])
+
+
+def main():
+    for harness in (TWO_HOSTS, LOCAL_SLURM):
+        attempt = run(harness, "true")
+        if attempt.returncode == 77:
+            print(attempt.stderr.strip())
+            sys.exit(77)
+    unittest.main()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""cluster/preempt.sbatch: stopped and started again, the search goes on where it was. Run by
+cluster/local_slurm."""
+import os
+import re
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from support import CLUSTER, checked_plan, hard_instance, run, submit_and_wait, wait_until
+
+RESUMED = re.compile(r"\bresum(ed|es|ing)\b", re.I)
+TIME_LIMIT_S = 8
+
+
+class PreemptScript:
+    """A job of it on an instance that it will not have solved, just started."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.plan = self.folder / "hard.plan.json"
+        self.instance = hard_instance(self.folder)
+        self.job = run("sbatch", "--parsable", "--nodes=1", "--ntasks-per-node=2",
+                       "--cpus-per-task=1", "--mem=1G", "--time=10", "--output=log",
+                       CLUSTER / "preempt.sbatch", self.instance, "--omega", "0",
+                       "--time-limit", TIME_LIMIT_S, cwd=self.folder).strip()
+        self.addCleanup(subprocess.run, ["scancel", self.job], check=False)
+        wait_until("a log", lambda: "Instance" in self.log(), 10)
+
+    def log(self):
+        path = self.folder / "log"
+        return path.read_text(encoding="utf-8") if path.exists() else ""
+
+    def job_is(self, **fields):
+        """Whether Slurm says so of the job: job_is(JobState="RUNNING")."""
+        said = run("scontrol", "--oneliner", "show", "job", self.job)
+        return all(f" {name}={value} " in said for name, value in fields.items())
+
+    def wait_until_job_is(self, seconds, **fields):
+        wait_until(f"{fields} in scontrol show job", lambda: self.job_is(**fields), seconds)
+
+    def checkpoint_files(self):
+        return [path for path in (self.folder / "hard.checkpoint").rglob("*") if path.name == "checkpoint.grove"]
+
+    def second_run(self, bound_before):
+        """The job, which is in the queue once more, runs to the end of its time limit."""
+        before = len(self.log())
+        # Slurm lets a job that it has put back into the queue wait for two minutes; two seconds are
+        # enough, but in the second of its end a node would refuse it ("already killed").
+        time.sleep(2)
+        run("scontrol", "update", f"JobId={self.job}", "StartTime=now")
+        self.wait_until_job_is(TIME_LIMIT_S + 10, JobState="COMPLETED", ExitCode="0:0")
+        self.assertRegex(self.log()[before:], RESUMED)
+        plan = checked_plan(self.instance, self.plan)
+        self.assertEqual(plan["stats"]["stopped_by"], "time limit")
+        self.assertGreaterEqual(plan["lower_bound"], bound_before)
+
+
+class AnUrgentJob(PreemptScript, unittest.TestCase):
+    def test_a_checkpoint_on_demand_then_the_place_is_needed(self):
+        self.assertEqual(self.checkpoint_files(), [])
+        run("scancel", "--signal=USR1", self.job)
+        wait_until("a checkpoint", self.checkpoint_files, 5)
+        self.assertTrue(self.job_is(JobState="RUNNING"))
+        self.assertNotRegex(self.log(), RESUMED)
+        submit_and_wait("--partition=urgent", "--exclusive", "--output=/dev/null", "--wrap=true",
+                        cwd=self.folder)
+        self.wait_until_job_is(10, JobState="PENDING", Restarts="1")
+        self.assertIn("Plan file", self.log())
+        self.second_run(checked_plan(self.instance, self.plan)["lower_bound"])
+
+
+class TimeOfGrace(PreemptScript, unittest.TestCase):
+    def test_the_program_ends_in_time_and_the_script_asks_for_another_run(self):
+        # What a cluster with GraceTime does first: a SIGTERM to the ranks, but not to the script.
+        run("scancel", "--signal=TERM", self.job)
+        self.wait_until_job_is(10, JobState="PENDING", Restarts="1")
+        plan = checked_plan(self.instance, self.plan)
+        self.assertEqual(plan["stats"]["stopped_by"], "interrupt")
+        self.assertNotRegex(self.log(), RESUMED)
+        self.second_run(plan["lower_bound"])
+
+
+class Cancelled(PreemptScript, unittest.TestCase):
+    def test_a_cancelled_job_writes_its_plan_and_does_not_come_back(self):
+        run("scancel", self.job)
+        self.wait_until_job_is(10, JobState="CANCELLED", Restarts="0")
+        self.assertIn("Plan file", self.log())
+        self.assertEqual(checked_plan(self.instance, self.plan)["stats"]["stopped_by"],
+                         "interrupt")
+        self.assertFalse(run("squeue", "--noheader"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Searches that are stopped and go on from their checkpoint: the same optimum in the end.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+
+#include "grove/engine/checkpoint.h"
+#include "grove/engine/run_observer.h"
+#include "grove/engine/solve.h"
+#include "grove/model/check.h"
+#include "grove/model/fingerprint.h"
+#include "tests/primal/crowd.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove {
+namespace {
+
+using testing::random_crowd;
+
+SolveOptions plain() {
+  SolveOptions options;
+  options.omega = Omega();
+  options.techniques = {Technique::kStrongBranching};
+  return options;
+}
+
+// Interrupts the run after so many expansions.
+class Interrupter : public RunObserver {
+ public:
+  explicit Interrupter(std::int64_t after) : left_(after) {}
+
+  void on_expanded(const NodePtr&, const Expansion&) override {
+    if (--left_ == 0) interrupted = true;
+  }
+  void on_checkpoint(const CheckpointReport& report) override {
+    EXPECT_EQ(report.failure, "");
+    ++written;
+  }
+
+  std::atomic<bool> interrupted{false};
+  int written = 0;
+
+ private:
+  std::int64_t left_;
+};
+
+// Goes on from the checkpoint in `folder`, if there is one, for so many expansions.
+Solution go_on(const Instance& instance, SolveOptions options, const std::filesystem::path& folder,
+               std::int64_t expansions) {
+  options.checkpoints = {folder, 0.02, nullptr};
+  std::unique_ptr<CheckpointReader> reader;
+  if (std::filesystem::exists(checkpoint_file(folder))) {
+    const Policy policy = options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
+    reader = std::make_unique<CheckpointReader>(folder, fingerprint(instance), policy);
+    options.resume = reader.get();
+  }
+  Interrupter interrupter(expansions);
+  Limits limits;
+  limits.watch_interrupt(&interrupter.interrupted);
+  limits.set_deadline(Limits::Clock::now() + std::chrono::seconds(20));
+  Solution solution = solve(instance, options, limits, &interrupter);
+  EXPECT_GT(interrupter.written, 0);
+  return solution;
+}
+
+// Stops every so often and goes on, each time with another number of threads; the bound never
+// falls.
+void expect_same_optimum(const Instance& instance, SolveOptions options, int& resumed) {
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(150));
+  const Solution truth = solve(instance, options, limits);
+  if (truth.status != Status::kOptimal) return;
+  const TemporaryDirectory folder;
+  Cost bound = 0;
+  for (int run = 0;; ++run) {
+    ASSERT_LT(run, 1000);
+    options.threads = 1 + run % 3;
+    options.seed = static_cast<std::uint64_t>(run);
+    const Solution solution = go_on(instance, options, folder.path(), 2 << (run / 4));
+    EXPECT_GE(solution.lower_bound, bound);
+    EXPECT_LE(solution.lower_bound, truth.plan->cost);
+    bound = solution.lower_bound;
+    if (solution.status != Status::kOptimal) continue;
+    EXPECT_EQ(solution.plan->cost, truth.plan->cost);
+    EXPECT_TRUE(check(instance, solution).empty());
+    resumed += run;
+    return;
+  }
+}
+
+TEST(Resume, FindsTheSameOptimum) {
+  int resumed = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed)
+    expect_same_optimum(random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, seed),
+                        plain(), resumed);
+  EXPECT_GT(resumed, 10) << "too easy to be a test";
+}
+
+TEST(Resume, KnowsTheTreesOfThePaper) {
+  SolveOptions options = plain();
+  options.policy = Policy::kFixed;
+  int resumed = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed)
+    expect_same_optimum(random_crowd({.size = 7, .obstacles = 20, .agents = 5, .tasks = 8}, seed),
+                        options, resumed);
+  EXPECT_GT(resumed, 5) << "too easy to be a test";
+}
+
+TEST(Resume, RemembersThatNodesWereGivenUp) {
+  SolveOptions options = plain();
+  options.node_memory = 4000;
+  int resumed = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed)
+    expect_same_optimum(random_crowd({.size = 8, .obstacles = 20, .agents = 5, .tasks = 6}, seed),
+                        options, resumed);
+  EXPECT_GT(resumed, 5) << "too easy to be a test";
+}
+
+TEST(Resume, AFinishedRunIsFinishedAtOnceAndGoesOnForASmallerOmega) {
+  const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, 3);
+  const TemporaryDirectory folder;
+  SolveOptions options = plain();
+  options.omega = Omega::parse("0.5");
+  const Solution first = go_on(instance, options, folder.path(), 1 << 30);
+  ASSERT_TRUE(first.plan);
+  const Solution again = go_on(instance, options, folder.path(), 1 << 30);
+  EXPECT_EQ(again.plan->cost, first.plan->cost);
+  EXPECT_EQ(again.stats.counts.at("nodes_expanded"), 0);
+  options.omega = Omega();
+  const Solution exact = go_on(instance, options, folder.path(), 1 << 30);
+  EXPECT_EQ(exact.status, Status::kOptimal);
+  EXPECT_LE(exact.plan->cost, first.plan->cost);
+}
+
+TEST(Resume, WhatWasProvenIsSaidEvenIfThereIsNoTimeToSearch) {
+  const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, 3);
+  const TemporaryDirectory folder;
+  const Solution first = go_on(instance, plain(), folder.path(), 20);
+  ASSERT_GT(first.lower_bound, 0);
+  CheckpointReader reader(folder.path(), fingerprint(instance), Policy::kFree);
+  SolveOptions options = plain();
+  options.resume = &reader;
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  const Solution none = solve(instance, options, limits);
+  EXPECT_EQ(none.lower_bound, first.lower_bound);
+  EXPECT_EQ(none.plan.has_value(), first.plan.has_value());
+}
+
+}  // namespace
+}  // namespace grove

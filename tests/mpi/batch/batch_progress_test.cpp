@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/batch/batch_progress.h"
+
+#include <gtest/gtest.h>
+
+namespace grove::batch {
+namespace {
+
+BatchState some_state() {
+  BatchState state;
+  state.total = 135;
+  state.solved = 36;
+  state.limited = 4;
+  state.failed = 1;
+  state.under_way = 2;
+  state.groups = 2;
+  state.solving_s = 235;
+  state.under_way_s = 11;
+  state.elapsed_s = 125;
+  return state;
+}
+
+TEST(BatchState, CountsRows) {
+  BatchState state;
+  Row row;
+  row.wall_s = 2;
+  for (const Status status : {Status::kOptimal, Status::kBounded, Status::kInfeasible,
+                              Status::kFeasible, Status::kUnknown}) {
+    row.result.status = status;
+    state.count(row);
+  }
+  row.error = "broken";
+  state.count(row);
+  EXPECT_EQ(state.solved, 3);
+  EXPECT_EQ(state.limited, 2);
+  EXPECT_EQ(state.failed, 1);
+  EXPECT_EQ(state.done(), 6);
+  EXPECT_EQ(state.solving_s, 12);
+}
+
+TEST(SecondsLeft, AreWhatTheRestTakesAtThisPace) {
+  const BatchState state = some_state();  // 6 s each, 94 left on 2 groups
+  EXPECT_DOUBLE_EQ(*seconds_left(state), 282);
+  BatchState last = state;  // more groups than instances: one round
+  last.groups = 1000;
+  EXPECT_DOUBLE_EQ(*seconds_left(last), 6);
+  BatchState closing = state;
+  closing.closes_in_s = 10;
+  EXPECT_DOUBLE_EQ(*seconds_left(closing), 16);
+  BatchState ending = state;
+  ending.ending = true;
+  EXPECT_DOUBLE_EQ(*seconds_left(ending), 6);
+}
+
+TEST(SecondsLeft, AreNotKnownBeforeTheFirstIsDone) {
+  BatchState state;
+  state.total = 3;
+  state.under_way = 1;
+  state.under_way_s = 9;
+  EXPECT_EQ(seconds_left(state), std::nullopt);
+  state.solved = 3;
+  EXPECT_EQ(seconds_left(state), 0);
+  EXPECT_EQ(seconds_left({}), 0);
+}
+
+TEST(Durations, AreClocks) {
+  EXPECT_EQ(duration_text(0), "0:00");
+  EXPECT_EQ(duration_text(-1), "0:00");
+  EXPECT_EQ(duration_text(59.6), "1:00");
+  EXPECT_EQ(duration_text(3599), "59:59");
+  EXPECT_EQ(duration_text(3600), "1:00:00");
+  EXPECT_EQ(duration_text(100 * 3600 + 62), "100:01:02");
+}
+
+TEST(ProgressTexts, SayWhatThereIs) {
+  BatchState state = some_state();
+  EXPECT_EQ(progress_line(state),
+            "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, about 4:42 left");
+  state.ending = true;
+  EXPECT_EQ(progress_line(state),
+            "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, ending: 2 under way, about "
+            "0:06 left");
+  state.under_way = 0;
+  EXPECT_EQ(progress_line(state),
+            "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, 94 left for another run");
+  BatchState first;
+  first.total = 2;
+  first.under_way = 1;
+  EXPECT_EQ(progress_line(first), "0/2 done: 0 solved; 0:00 gone");
+}
+
+TEST(ProgressTexts, HaveABarWhereItFits) {
+  BatchState state;
+  state.total = 4;
+  state.solved = 1;
+  const std::string line = "1/4 done: 1 solved; 0:00 gone, about 0:00 left";
+  state.solving_s = 0.1;
+  EXPECT_EQ(progress_line(state), line);
+  EXPECT_EQ(progress_bar(state, 200), "[##########" + std::string(30, '-') + "] " + line);
+  EXPECT_EQ(progress_bar(state, 63), "[###-----------] " + line);
+  EXPECT_EQ(progress_bar(state, 58), line);
+  EXPECT_EQ(progress_bar(state, 20), line.substr(0, 20));
+  EXPECT_EQ(progress_bar(state, 0), "");
+  for (int columns = 0; columns < 150; ++columns)
+    EXPECT_LE(progress_bar(some_state(), columns).size(), static_cast<std::size_t>(columns));
+  state.solved = 4;
+  EXPECT_TRUE(progress_bar(state, 200).starts_with("[" + std::string(40, '#') + "] "));
+  state.solved = 0;
+  EXPECT_TRUE(progress_bar(state, 200).starts_with("[" + std::string(40, '-') + "] "));
+}
+
+std::string shown(bool terminal, const std::vector<double>& times) {
+  std::string text;
+  BatchProgress progress(
+      {.terminal = terminal, .columns = 30, .write = [&](std::string_view t) { text += t; }});
+  BatchState state;
+  state.total = 1;
+  for (const double time : times) {
+    state.elapsed_s = time;
+    progress.show(state);
+  }
+  state.solved = 1;
+  progress.finish(state);
+  return text;
+}
+
+TEST(Progress, OnATerminalIsDrawnAgainAndAgain) {
+  EXPECT_EQ(shown(true, {0, 0.1, 0.15, 5}),
+            "\r0/1 done: 0 solved; 0:00 gone\033[K\r0/1 done: 0 solved; 0:05 gone\033[K"
+            "\r1/1 done: 1 solved; 0:05 gone\033[K\n");
+}
+
+TEST(Progress, ElsewhereIsALineNowAndThen) {
+  EXPECT_EQ(shown(false, {0, 1, 10, 29, 31, 32, 60, 61.5}),
+            "0/1 done: 0 solved; 0:00 gone\n0/1 done: 0 solved; 0:31 gone\n"
+            "0/1 done: 0 solved; 1:02 gone\n1/1 done: 1 solved; 1:02 gone\n");
+}
+
+}  // namespace
+}  // namespace grove::batch

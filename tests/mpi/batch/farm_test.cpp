@@ -1,0 +1,475 @@
+// SPDX-License-Identifier: MIT
+// The farm on simulated ranks, with messages that are late and a solver that only lets time pass.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+#include "grove/io/input_error.h"
+#include "mpi/batch/farm_client.h"
+#include "mpi/batch/farm_master.h"
+#include "mpi/batch/result_table.h"
+#include "mpi/simulated_network.h"
+#include "simulated_ranks.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Ids = std::vector<std::string>;
+
+std::vector<Entry> numbered_entries(int count) {
+  std::vector<Entry> entries;
+  for (int k = 0; k < count; ++k) {
+    const std::string id = "i" + std::to_string(k);
+    entries.push_back({.id = id, .path = id + ".cts.json", .digest = "d" + id});
+  }
+  return entries;
+}
+
+// What a run has to go by, and what one sees of it.
+struct Trial {
+  int ranks = 1;
+  int per_group = 1;
+  std::uint64_t seed = 0;
+  std::vector<Entry> entries = numbered_entries(11);
+  double total_time_limit_s = std::numeric_limits<double>::infinity();
+  double interrupt_at = std::numeric_limits<double>::infinity();
+  int interrupt_rank = -1;  // -1: all
+  double kill_at = std::numeric_limits<double>::infinity();
+  std::function<double(int rank, const Entry&)> duration_s = {};  // by default random, to 50 ms
+  std::function<void(int rank, const Entry&)> work = {};          // may throw
+  std::function<void(const BatchState&)> watch = {};
+
+  std::vector<Ids> begun = {};     // by rank
+  std::vector<Ids> finished = {};  // by rank
+  std::optional<BatchState> end_state = {};
+  bool interrupted = false;
+  int left = 0;
+};
+
+// Another one, that lets someone look before each message is sent.
+class WatchedTransport : public Transport {
+ public:
+  using Look = std::function<void(int to, const std::string& bytes)>;
+  WatchedTransport(Transport& other, Look look) : other_(other), look_(std::move(look)) {}
+  int rank() const override { return other_.rank(); }
+  int ranks() const override { return other_.ranks(); }
+  std::optional<Parcel> receive() override { return other_.receive(); }
+
+ private:
+  void do_send(int to, std::string bytes) override {
+    look_(to, bytes);
+    other_.send(to, std::move(bytes));
+  }
+
+  Transport& other_;
+  const Look look_;
+};
+
+// One run of the program on all ranks.
+class Simulation {
+ public:
+  Simulation(const std::string& folder, Trial& run)
+      : folder_(folder),
+        run_(run),
+        grouping_{run.ranks, run.per_group},
+        random_(run.seed),
+        ranks_(run.ranks, run.seed),
+        world_(run.ranks, delay()),
+        interrupted_(static_cast<std::size_t>(run.ranks)) {
+    for (int group = 0; group < grouping_.groups(); ++group)
+      groups_.push_back(std::make_unique<SimulatedNetwork>(size_of(group), delay()));
+    ranks_.on_time = [this](double now) { on_time(now); };
+    run_.begun.assign(interrupted_.size(), {});
+    run_.finished.assign(interrupted_.size(), {});
+  }
+
+  void run() {
+    ranks_.run([this](int rank) { be(rank); });
+    if (ranks_.killed()) return;
+    for (int rank = 0; rank < run_.ranks; ++rank) {
+      EXPECT_EQ(world_.next_arrival(rank), std::numeric_limits<double>::infinity());
+      EXPECT_EQ(groups_[grouping_.group_of(rank)]->next_arrival(grouping_.rank_in_group(rank)),
+                std::numeric_limits<double>::infinity());
+    }
+  }
+
+ private:
+  int size_of(int group) const {
+    return std::min(run_.per_group, run_.ranks - group * run_.per_group);
+  }
+
+  SimulatedNetwork::Delay delay() {
+    return [this](int, int, std::size_t) {
+      const bool is_late = random_() % 8 == 0;
+      return std::uniform_real_distribution<double>(0, is_late ? 0.03 : 0.002)(random_);
+    };
+  }
+
+  void on_time(double now) {
+    world_.advance_to(now);
+    for (auto& group : groups_) group->advance_to(now);
+    if (now >= run_.interrupt_at)
+      for (int rank = 0; rank < run_.ranks; ++rank)
+        if (run_.interrupt_rank < 0 || run_.interrupt_rank == rank) interrupted_[rank] = true;
+    if (now >= run_.kill_at) ranks_.kill();
+  }
+
+  // main() of a rank.
+  void be(int rank) {
+    std::optional<ResultTable> table;
+    std::optional<FarmMaster> master;
+    const BatchClock clock{[this] { return ranks_.now(); }, [] { return std::string("now"); }};
+    WatchedTransport world(world_.at(rank), [this](int to, const std::string& bytes) {
+      if (std::holds_alternative<Assignment>(decode(bytes))) expect_on_disk(run_.finished[to]);
+    });
+    if (rank == 0) {
+      table.emplace(folder_, Settings{{"omega", "0"}});
+      master.emplace(world, grouping_, run_.entries, *table, interrupted_[0], clock,
+                     MasterOptions{run_.total_time_limit_s, run_.watch});
+    }
+    Transport& group = groups_[grouping_.group_of(rank)]->at(grouping_.rank_in_group(rank));
+    const ClientOptions options{
+        .solve = [this, rank](const Entry& entry,
+                              const auto& poll) { return solve(rank, entry, poll); },
+        .version = "v",
+        .threads = 2,
+        .clock = clock,
+        .idle = [this, rank] { ranks_.pause(rank); }};
+    FarmClient client(world, group, interrupted_[rank], options, master ? &*master : nullptr);
+    client.run();
+    if (!master) return;
+    EXPECT_TRUE(master->done());
+    run_.end_state = master->state();
+    run_.interrupted = master->interrupted();
+    run_.left = master->left();
+  }
+
+  bool group_is_interrupted(int rank) const {
+    for (int other = 0; other < run_.ranks; ++other)
+      if (grouping_.group_of(other) == grouping_.group_of(rank) && interrupted_[other]) return true;
+    return false;
+  }
+
+  double duration_s(int rank, const Entry& entry) const {
+    if (run_.duration_s) return run_.duration_s(rank, entry);
+    std::mt19937_64 random(std::hash<std::string>()(entry.id) + static_cast<unsigned>(rank));
+    return std::uniform_real_distribution<double>(0, 0.05)(random);
+  }
+
+  Result solve(int rank, const Entry& entry, const std::function<void()>& poll) {
+    const bool leads = grouping_.rank_in_group(rank) == 0;
+    if (rank == 0) expect_on_disk(run_.finished[0]);  // its own, which it does not send for
+    run_.begun[rank].push_back(entry.id);
+    const double end = ranks_.now() + duration_s(rank, entry);
+    while (ranks_.now() < end) {
+      poll();
+      ranks_.pause(rank);
+      if (group_is_interrupted(rank)) return {.stopped_by = "interrupt"};
+    }
+    if (run_.work) run_.work(rank, entry);
+    run_.finished[rank].push_back(entry.id);
+    if (leads) std::ofstream(fs::path(folder_) / plan_file(entry)) << entry.id;
+    return {.status = Status::kOptimal, .cost = 3, .lower_bound = 3, .plan_file = plan_file(entry)};
+  }
+
+  // A row is on disk before its group gets the next instance.
+  void expect_on_disk(const Ids& ids) const {
+    const std::string text = file_content(fs::path(folder_) / "results.jsonl");
+    for (const std::string& id : ids)
+      EXPECT_NE(text.find("{\"id\":\"" + id + "\""), std::string::npos) << id;
+  }
+
+  const std::string folder_;
+  Trial& run_;
+  const Grouping grouping_;
+  std::mt19937_64 random_;
+  grove::testing::SimulatedRanks ranks_;
+  SimulatedNetwork world_;
+  std::vector<std::unique_ptr<SimulatedNetwork>> groups_;
+  std::vector<std::atomic<bool>> interrupted_;
+};
+
+class Farms : public ::testing::Test {
+ protected:
+  void simulate(Trial& run) {
+    Simulation(folder_, run).run();
+    expect_groups_together(run);
+  }
+
+  // The rows on disk, each of which must be the only one of its instance.
+  std::vector<Row> rows() const {
+    const ResultTable table(folder_, {{"omega", "0"}});
+    std::vector<Row> rows = table.rows();
+    std::ranges::sort(rows, {}, &Row::id);
+    EXPECT_TRUE(std::ranges::adjacent_find(rows, {}, &Row::id) == rows.end());
+    const std::string text = file_content(fs::path(folder_) / "results.jsonl");
+    EXPECT_EQ(std::ranges::count(text, '\n'), static_cast<int>(rows.size()));
+    return rows;
+  }
+
+  static Ids sorted_ids(const auto& items) {
+    Ids ids;
+    for (const auto& item : items) ids.push_back(item.id);
+    std::ranges::sort(ids);
+    return ids;
+  }
+
+  // Of the leaders, who tell what is finished.
+  static Ids finished_by_leaders(const Trial& run) {
+    Ids ids;
+    for (int rank = 0; rank < run.ranks; rank += run.per_group)
+      ids.insert(ids.end(), run.finished[rank].begin(), run.finished[rank].end());
+    std::ranges::sort(ids);
+    return ids;
+  }
+
+  static void expect_groups_together(const Trial& run) {
+    if (run.kill_at < std::numeric_limits<double>::infinity()) return;
+    for (int rank = 0; rank < run.ranks; ++rank)
+      EXPECT_EQ(run.begun[rank], run.begun[rank / run.per_group * run.per_group]);
+  }
+
+  // Every number of ranks, every size of groups, several seeds.
+  static void for_all(const std::function<void(Trial run)>& test) {
+    for (const int ranks : {1, 2, 3, 7})
+      for (const int per_group : {1, 2, 3})
+        for (const std::uint64_t seed : {1, 2}) {
+          SCOPED_TRACE(::testing::Message()
+                       << ranks << " ranks, groups of " << per_group << ", seed " << seed);
+          test(Trial{.ranks = ranks, .per_group = per_group, .seed = seed});
+        }
+  }
+
+  void begin_anew() { folder_ = directory_ / ("out" + std::to_string(++folders_)); }
+  std::string csv() const { return file_content(fs::path(folder_) / "results.csv"); }
+
+  TemporaryDirectory directory_;
+  int folders_ = 0;
+  std::string folder_ = directory_ / "out";
+};
+
+TEST_F(Farms, SolveEveryInstanceOnce) {
+  for_all([&](Trial run) {
+    begin_anew();
+    simulate(run);
+    EXPECT_EQ(finished_by_leaders(run), sorted_ids(run.entries));
+    const auto table = rows();
+    EXPECT_EQ(sorted_ids(table), sorted_ids(run.entries));
+    for (const Row& row : table) {
+      EXPECT_EQ(row.result.cost, 3);
+      EXPECT_EQ(row.instance, row.id + ".cts.json");
+      EXPECT_EQ(row.digest, "d" + row.id);
+      EXPECT_EQ(row.version, "v");
+      EXPECT_EQ(row.threads, 2);
+      EXPECT_EQ(row.started_at, "now");
+      EXPECT_GE(row.wall_s, 0);
+      EXPECT_LE(row.ranks, std::min(run.ranks, run.per_group));
+    }
+    EXPECT_EQ(std::ranges::count(csv(), '\n'), 12);
+    EXPECT_EQ(run.end_state->solved, 11);
+    EXPECT_FALSE(run.end_state->ending);
+    EXPECT_EQ(run.left, 0);
+    EXPECT_FALSE(run.interrupted);
+    Trial again = run;  // there is nothing left to do
+    simulate(again);
+    EXPECT_EQ(finished_by_leaders(again), Ids{});
+    EXPECT_EQ(again.end_state->solved, 11);
+    EXPECT_EQ(rows(), table);
+  });
+}
+
+// A signal that reaches one rank ends the work of all.
+TEST_F(Farms, StopTogether) {
+  for (const int rank : {-1, 0, 1, 2}) {
+    begin_anew();
+    Trial run{.ranks = 3, .interrupt_at = 0.1, .interrupt_rank = rank};
+    run.duration_s = [](int, const Entry&) { return 100; };
+    simulate(run);
+    EXPECT_TRUE(run.interrupted);
+    EXPECT_LT(run.end_state->elapsed_s, 1);
+    EXPECT_EQ(run.left, 11);
+    EXPECT_TRUE(run.end_state->ending);
+    for (const Ids& begun : run.begun) EXPECT_LE(begun.size(), 1u);
+  }
+}
+
+// Twice the signal comes, to all ranks or to one; what was under way then has no row, and the same
+// command solves it again, and nothing else.
+TEST_F(Farms, GoOnAfterInterrupts) {
+  int interrupted = 0;
+  for_all([&](Trial run) {
+    begin_anew();
+    Ids finished;
+    for (int round = 0; round < 3; ++round) {
+      Trial next = run;
+      next.seed = 10 * run.seed + static_cast<std::uint64_t>(round);
+      if (round < 2) {
+        std::mt19937_64 random(next.seed);
+        next.interrupt_at = std::uniform_real_distribution<double>(0, 0.15)(random);
+        next.interrupt_rank = static_cast<int>(random() % (run.ranks + 1)) - 1;
+      }
+      simulate(next);
+      const Ids more = finished_by_leaders(next);
+      finished.insert(finished.end(), more.begin(), more.end());
+      std::ranges::sort(finished);
+      EXPECT_EQ(sorted_ids(rows()), finished);
+      EXPECT_EQ(next.left, 11 - static_cast<int>(finished.size()));
+      EXPECT_TRUE(next.left == 0 || next.interrupted);
+      if (next.interrupted) ++interrupted;
+    }
+    EXPECT_EQ(finished, sorted_ids(run.entries));
+  });
+  EXPECT_GT(interrupted, 24);  // else this tested nothing
+}
+
+// As SIGKILL does, wherever the ranks are: inside a write too, which the tests of tables try.
+TEST_F(Farms, GoOnAfterBeingKilled) {
+  for_all([&](Trial run) {
+    begin_anew();
+    std::size_t before = 0;
+    for (int round = 0; round < 3; ++round) {
+      Trial next = run;
+      next.seed = 10 * run.seed + static_cast<std::uint64_t>(round);
+      if (round < 2) next.kill_at = 0.02 + 0.05 * round + 0.01 * static_cast<double>(run.seed);
+      simulate(next);
+      const auto table = rows();
+      EXPECT_GE(table.size(), before);
+      before = table.size();
+      for (const Row& row : table) EXPECT_TRUE(fs::exists(folder_ + "/" + row.result.plan_file));
+    }
+    EXPECT_EQ(sorted_ids(rows()), sorted_ids(run.entries));
+  });
+}
+
+TEST_F(Farms, MakeRowsOfFailures) {
+  for_all([&](Trial run) {
+    begin_anew();
+    Trial broken = run;
+    broken.work = [](int, const Entry& entry) {
+      if (entry.id == "i0" || entry.id == "i5") throw std::runtime_error("cannot\ndo " + entry.id);
+    };
+    simulate(broken);
+    for (const Row& row : rows()) {
+      const bool fails = row.id == "i0" || row.id == "i5";
+      EXPECT_EQ(row.error, fails ? "cannot\\ndo " + row.id : "");
+      EXPECT_EQ(row.version, "v");
+    }
+    EXPECT_EQ(broken.end_state->failed, 2);
+    EXPECT_EQ(broken.end_state->solved, 9);
+    simulate(run);
+    EXPECT_EQ(finished_by_leaders(run), (Ids{"i0", "i5"}));
+    EXPECT_EQ(run.end_state->solved, 11);
+    EXPECT_EQ(rows().size(), 11u);
+  });
+}
+
+TEST_F(Farms, TellWhichRankFailed) {
+  Trial run{.ranks = 4, .per_group = 2};
+  run.work = [](int rank, const Entry& entry) {
+    if (rank == 3 || (rank == 1 && entry.id == "i0")) throw std::runtime_error("no memory");
+  };
+  simulate(run);
+  for (const Row& row : rows()) {
+    if (!row.failed()) continue;
+    EXPECT_TRUE(row.error == "rank 3 of the world: no memory" ||
+                (row.id == "i0" && row.error == "rank 1 of the world: no memory"))
+        << row.error;
+    EXPECT_FALSE(row.result.cost);
+  }
+  EXPECT_GT(run.end_state->failed, 0);
+}
+
+TEST_F(Farms, HandOutNothingAfterTheTotalTime) {
+  for_all([&](Trial run) {
+    begin_anew();
+    Trial first = run;
+    first.total_time_limit_s = 0.04;
+    simulate(first);
+    EXPECT_EQ(sorted_ids(rows()), finished_by_leaders(first));
+    EXPECT_FALSE(first.interrupted);
+    EXPECT_EQ(first.end_state->ending, first.left > 0);
+    EXPECT_TRUE(first.left > 0 || run.ranks >= 3);
+    Trial none = run;
+    none.total_time_limit_s = 0;
+    simulate(none);
+    EXPECT_EQ(finished_by_leaders(none), Ids{});
+    simulate(run);
+    EXPECT_EQ(sorted_ids(rows()), sorted_ids(run.entries));
+  });
+}
+
+// Rank 0 has its own work, or waits for a rank of its group: the others must not notice.
+TEST_F(Farms, ServeOthersMeanwhile) {
+  struct Case {
+    int ranks, per_group, slow;
+  };
+  for (const Case& c : {Case{2, 1, 0}, Case{5, 1, 0}, Case{4, 2, 1}}) {
+    begin_anew();
+    Trial run{.ranks = c.ranks, .per_group = c.per_group};
+    run.duration_s = [&](int rank, const Entry&) { return rank == c.slow ? 5 : 0.01; };
+    double last_other = 0;
+    run.watch = [&](const BatchState& state) {
+      if (state.done() < 11) last_other = state.elapsed_s - state.under_way_s;
+    };
+    simulate(run);
+    EXPECT_EQ(run.begun[c.slow].size(), 1u);
+    EXPECT_EQ(run.end_state->solved, 11);
+    EXPECT_LT(last_other, 4);
+  }
+}
+
+TEST_F(Farms, HandOutInOrder) {
+  Trial run;
+  simulate(run);
+  EXPECT_EQ(run.begun[0], (Ids{"i0", "i1", "i2", "i3", "i4", "i5", "i6", "i7", "i8", "i9", "i10"}));
+}
+
+// A table that cannot be written is no fault of the instance under way.
+TEST_F(Farms, EndWhenTheTableBreaks) {
+  for (const int ranks : {1, 3}) {
+    begin_anew();
+    Trial run{.ranks = ranks};
+    bool broken = false;
+    run.watch = [&](const BatchState& state) {
+      if (state.done() < 4 || std::exchange(broken, true)) return;
+      throw InputError("results.csv", "", "cannot be written");
+    };
+    EXPECT_THROW(simulate(run), InputError);
+    for (const Row& row : rows()) EXPECT_FALSE(row.failed());
+    EXPECT_LT(rows().size(), 11u);
+  }
+}
+
+TEST_F(Farms, TellTheirStateAsTheyGo) {
+  Trial run{.ranks = 3};
+  int last = 0;
+  int most_under_way = 0;
+  run.watch = [&](const BatchState& state) {
+    EXPECT_EQ(state.total, 11);
+    EXPECT_EQ(state.groups, 3);
+    EXPECT_GE(state.done(), last);
+    EXPECT_LE(state.done() + state.under_way, state.total);
+    EXPECT_GE(state.under_way_s, 0);
+    last = state.done();
+    most_under_way = std::max(most_under_way, state.under_way);
+  };
+  simulate(run);
+  EXPECT_EQ(last, 11);
+  EXPECT_EQ(most_under_way, 3);
+  EXPECT_GT(run.end_state->solving_s, 0);
+}
+
+}  // namespace
+}  // namespace grove::batch

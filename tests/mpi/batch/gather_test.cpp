@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/batch/gather.h"
+
+#include <gtest/gtest.h>
+
+#include "mpi/simulated_network.h"
+#include "simulated_ranks.h"
+
+namespace grove::batch {
+namespace {
+
+// Round after round: who is quick must not be taken for who is slow.
+TEST(Gathering, TellsAllWhatEachSaid) {
+  for (const int count : {1, 2, 3, 7})
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      std::mt19937_64 random(seed);
+      SimulatedNetwork network(count, [&](int, int, std::size_t) {
+        return std::uniform_real_distribution<double>(0, 0.02)(random);
+      });
+      grove::testing::SimulatedRanks ranks(count, seed);
+      ranks.on_time = [&](double now) { network.advance_to(now); };
+      const auto said = [](int rank, int round) {
+        return rank == round % 3 ? "" : std::to_string(round) + " by " + std::to_string(rank);
+      };
+      int rounds = 0;
+      ranks.run([&](int rank) {
+        for (int round = 0; round < 20; ++round, ++rounds) {
+          const auto all = gather(network.at(rank), said(rank, round), [&] { ranks.pause(rank); });
+          ASSERT_EQ(all.size(), static_cast<std::size_t>(count));
+          for (int other = 0; other < count; ++other) EXPECT_EQ(all[other], said(other, round));
+        }
+      });
+      EXPECT_EQ(rounds, 20 * count);
+    }
+}
+
+}  // namespace
+}  // namespace grove::batch

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/batch/manifest.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/support/refusal.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Manifests : public testing::Test {
+ protected:
+  void add_file(const std::string& name, const std::string& content = "{}") {
+    fs::create_directories(fs::path(directory_ / name).parent_path());
+    directory_.write(name, content);
+  }
+  std::vector<Entry> read(const std::string& manifest) {
+    return read_manifest(directory_.write("list.txt", manifest));
+  }
+  std::string refused(const std::string& manifest) {
+    return refusal([&] { read(manifest); });
+  }
+  static std::vector<std::string> ids(const std::vector<Entry>& entries) {
+    std::vector<std::string> ids;
+    for (const Entry& entry : entries) ids.push_back(entry.id);
+    return ids;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+using Ids = std::vector<std::string>;
+
+TEST_F(Manifests, ListInstancesInOrder) {
+  add_file("b.cts.json");
+  add_file("rooms/a with blanks.cts.json");
+  add_file("c.json");
+  const auto entries =
+      read("# what\nb.cts.json\n\n  rooms/a with blanks.cts.json \r\n\t# so\nc.json\n");
+  EXPECT_EQ(ids(entries), (Ids{"b", "rooms/a with blanks", "c"}));
+  EXPECT_EQ(entries[1].path, directory_ / "rooms/a with blanks.cts.json");
+  EXPECT_EQ(entries[1].agents, 0);
+}
+
+TEST_F(Manifests, ListScenarios) {
+  add_file("maps/r oom.map");
+  add_file("room-1.scen");
+  const auto entries = read(
+      "room-1.scen --map maps/r oom.map --agents 20\n"
+      "room-1.scen  --map maps/r oom.map  --agents 30");
+  EXPECT_EQ(ids(entries), (Ids{"room-1-20", "room-1-30"}));
+  EXPECT_EQ(entries[0].path, directory_ / "room-1.scen");
+  EXPECT_EQ(entries[0].map, directory_ / "maps/r oom.map");
+  EXPECT_EQ(entries[0].agents, 20);
+}
+
+TEST_F(Manifests, OfAFolderAreItsInstancesByName) {
+  for (const char* name : {"s2/a.cts.json", "b.cts.json", "s1/z.cts.json", "s1/z.plan.json",
+                           "m.map", "s1/deep/k.cts.json", "other.json"})
+    add_file(name);
+  const Ids expected{"b", "s1/deep/k", "s1/z", "s2/a"};
+  EXPECT_EQ(ids(read_manifest(directory_.path())), expected);
+  EXPECT_EQ(ids(read_manifest(directory_ / "")), expected);
+}
+
+TEST_F(Manifests, GiveIdsThatDoNotDependOnHowTheyAreNamed) {
+  add_file("set/a.cts.json");
+  add_file("other/b.cts.json");
+  add_file("set/list.txt", "../other/b.cts.json\n" + directory_ / "set/a.cts.json");
+  EXPECT_EQ(ids(read_manifest(directory_ / "set/list.txt")), (Ids{"other/b", "a"}));
+  const fs::path before = fs::current_path();
+  fs::current_path(directory_ / "set");
+  EXPECT_EQ(ids(read_manifest("list.txt")), (Ids{"other/b", "a"}));
+  EXPECT_EQ(ids(read_manifest(".")), Ids{"a"});
+  EXPECT_EQ(read_manifest(".")[0].path, "./a.cts.json");
+  fs::current_path(before);
+}
+
+TEST_F(Manifests, RefuseWithLineAndExpectation) {
+  add_file("a.cts.json");
+  add_file("a.json");
+  add_file("x.scen");
+  add_file("x.map");
+  EXPECT_EQ(refused(""), "list.txt: lists no instance; expected one path per line");
+  EXPECT_EQ(refused("# nothing\n\n"), "list.txt: lists no instance; expected one path per line");
+  EXPECT_EQ(refused("a.cts.json\n\nx.map\n"),
+            "list.txt: line 3: x.map is a map; expected an instance, FILE.cts.json");
+  EXPECT_NE(refused("a.cts.json\nb.cts.json\n").find("list.txt: line 2: there is no file "),
+            std::string::npos);
+  EXPECT_NE(refused(".\n").find("there is no file"), std::string::npos);
+  for (const char* line :
+       {"x.scen", "x.scen --map x.map", "x.scen --agents 3 --map x.map", "x.scen --map --agents 3"})
+    EXPECT_EQ(refused(line), "list.txt: line 1: found '" + std::string(line) +
+                                 "'; expected FILE.scen --map FILE.map --agents K");
+  for (const char* count : {"0", "-1", "3 4", "x", "1000001", "1e3"})
+    EXPECT_EQ(refused("x.scen --map x.map --agents " + std::string(count)),
+              "list.txt: line 1: found '" + std::string(count) +
+                  "'; expected a number of agents from 1 to 1000000");
+}
+
+TEST_F(Manifests, RefuseAnInstanceThatOccursTwice) {
+  add_file("a.cts.json");
+  add_file("a.json");
+  add_file("s/b.cts.json");
+  fs::create_symlink(directory_ / "a.cts.json", directory_ / "link.cts.json");
+  EXPECT_EQ(
+      refused("a.cts.json\ns/../a.cts.json"),
+      "list.txt: line 2: is the same instance as line 1; expected each instance once, under a "
+      "name of its own");
+  EXPECT_NE(refused("a.cts.json\nlink.cts.json").find("is the same instance as line 1"),
+            std::string::npos);
+  EXPECT_EQ(refused("s/b.cts.json\na.cts.json\na.json"),
+            "list.txt: line 3: names its files 'a', as does line 2; expected each instance once, "
+            "under a name of its own");
+}
+
+TEST_F(Manifests, RefuseWhatIsNoManifest) {
+  add_file("a.cts.json");
+  EXPECT_EQ(refusal([&] { read_manifest(directory_ / "a.cts.json"); }),
+            "a.cts.json: is no manifest; expected a folder, or a text file with the path of an "
+            "instance on each line");
+  EXPECT_NE(refusal([&] { read_manifest(directory_ / "none"); }).find("none: cannot be read"),
+            std::string::npos);
+  fs::create_directory(directory_ / "empty");
+  EXPECT_EQ(refusal([&] { read_manifest(directory_ / "empty"); }),
+            "empty: holds no instance; expected *.cts.json files in it or below");
+  add_file("odd/a\xff.cts.json");
+  EXPECT_NE(refusal([&] { read_manifest(directory_ / "odd"); }).find("cannot name files"),
+            std::string::npos);
+}
+
+// A digest changes with the instance and with its map, and with nothing else.
+TEST_F(Manifests, TellWhenAnInstanceHasChanged) {
+  add_file("m.map", "one");
+  add_file("n.map", "one");
+  add_file("a.cts.json", R"({"map": "m.map"})");
+  add_file("x.scen", "rows");
+  const std::string list = "a.cts.json\nx.scen --map m.map --agents 2\n";
+  const auto before = read(list);
+  EXPECT_NE(before[0].digest, before[1].digest);
+  EXPECT_EQ(read(list), before);
+  add_file("m.map", "two");
+  EXPECT_NE(read(list)[0].digest, before[0].digest);
+  EXPECT_NE(read(list)[1].digest, before[1].digest);
+  add_file("m.map", "one");
+  EXPECT_EQ(read(list), before);
+  add_file("a.cts.json", R"({"map": "n.map"})");
+  EXPECT_NE(read(list)[0].digest, before[0].digest);
+  add_file("x.scen", "others");
+  EXPECT_NE(read(list)[1].digest, before[1].digest);
+  for (const char* broken : {"", "{", "[]", "{\"map\": 3}", "{\"map\": \"none.map\"}"}) {
+    add_file("a.cts.json", broken);
+    EXPECT_EQ(read(list)[0].digest.size(), 16u) << broken;
+  }
+}
+
+}  // namespace
+}  // namespace grove::batch

@@ -1,0 +1,231 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""grove-mpi as its users run it, by mpirun."""
+import csv
+import os
+import signal
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import kill_and_resume
+from mpi_program import DATA, GROVE, GROVE_MPI, mpirun, plan_of, processes_of, run, start
+
+EASY = DATA / "rooms-32x32_n10_m30.cts.json"
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def generate(self, agents, tasks, seed):
+        """An instance of the map with rooms."""
+        path = self.folder / "generated.cts.json"
+        self.run_well([GROVE, "generate", "instance", "--map", DATA / "rooms-32x32.map", "--agents",
+                       agents, "--tasks", tasks, "--seed", seed, "-o", path])
+        return path
+
+    def run_well(self, command):
+        code, said = run(command, self.folder)
+        self.assertEqual(code, 0, said)
+        return said
+
+    def refuses(self, command, *texts):
+        """Exit code 2, and one complaint that holds the texts."""
+        code, said = run(command, self.folder)
+        self.assertEqual(code, 2, said)
+        complaints = [line for line in said.splitlines() if line.startswith("grove-mpi: error:")]
+        self.assertEqual(len(complaints), 1, said)
+        for text in texts:
+            self.assertIn(text, complaints[0])
+
+    def plan(self):
+        return plan_of(self.folder / "plan.json")
+
+
+class Answers(Program):
+    def test_any_number_of_ranks_and_threads_finds_the_optimum(self):
+        instance = self.generate(16, 20, 5)  # some thousand nodes
+        self.run_well([GROVE, "solve", instance, "--omega", 0, "--output", "plan.json"])
+        cost = self.plan()["cost"]
+        for ranks, threads in [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)]:
+            self.run_well(mpirun(ranks, "solve", instance, "--omega", 0, "--threads", threads,
+                                 "--output", "plan.json"))
+            plan = self.plan()
+            self.assertEqual((plan["status"], plan["cost"]), ("optimal", cost), ranks)
+            self.assertEqual(plan["stats"]["ranks"], ranks)
+            self.assertEqual(plan["stats"]["batches"] > 0, ranks > 1)
+            self.run_well([GROVE, "check", instance, "plan.json"])
+
+    def test_the_paper_s_policy(self):
+        self.run_well(mpirun(2, "solve", DATA / "rooms-32x32_n5_m10.cts.json", "--policy", "fixed",
+                             "--output", "plan.json"))
+        self.assertIn(self.plan()["status"], ("optimal", "bounded"))
+
+    def test_what_has_no_plan_is_said_to_have_none(self):
+        (self.folder / "two.map").write_text("type octile\nheight 1\nwidth 3\nmap\n.@.\n")
+        (self.folder / "no.cts.json").write_text(
+            '{"map": "two.map", "agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]}],'
+            ' "tasks": []}')
+        self.run_well(mpirun(2, "solve", "no.cts.json", "--output", "plan.json"))
+        self.assertEqual(self.plan()["status"], "infeasible")
+
+    def test_the_log_tells_who_works(self):
+        said = self.run_well(mpirun(3, "solve", EASY, "--threads", 2, "--output", "plan.json"))
+        self.assertIn("Threads       2 each on 3 ranks, 1 host", said)
+        self.assertEqual(said.count("Plan file"), 1)
+        if (os.cpu_count() or 0) < 6:
+            self.assertRegex(said, r"Warning: host \S+ has \d+ cores for 6 threads")
+
+
+class Refusals(Program):
+    def test_input_is_complained_about_once(self):
+        self.refuses(mpirun(2, "solve", "missing.cts.json"), "missing.cts.json")
+        self.refuses(mpirun(2, "solve", EASY, "--omega", "-1"), "--omega")
+        self.refuses(mpirun(2, "solve", EASY, "--deterministic"), "--deterministic")
+        self.refuses(mpirun(2, "solve", EASY, "--output", "no/such/folder/plan.json"), "no/such")
+
+    def test_ranks_that_were_asked_for_different_things(self):
+        one = ["mpirun", "--oversubscribe", "-np", 1, GROVE_MPI, "solve", EASY, "--seed", 1]
+        other = [":", "-np", 1, GROVE_MPI, "solve", EASY, "--seed", 2]
+        self.refuses(one + other, "rank 1", "options", "--seed 2", "--seed 1")
+
+    def test_ranks_with_different_instances(self):
+        other = self.generate(3, 3, 1)
+        self.refuses(["mpirun", "--oversubscribe", "-np", 1, GROVE_MPI, "solve", EASY,
+                      ":", "-np", 1, GROVE_MPI, "solve", other], "rank 1", "instance")
+
+
+class Checkpoints(Program):
+    def kept(self, *more):
+        return ["solve", EASY, "--omega", 0, "--checkpoint", "kept", "--output", "plan.json", *more]
+
+    def test_one_program_goes_on_where_the_other_stopped(self):
+        instance = self.generate(18, 30, 8)  # many seconds
+        arguments = ["solve", instance, "--omega", 0, "--threads", 1, "--checkpoint", "kept",
+                     "--resume", "auto", "--output", "plan.json"]
+        bounds = []
+        for command in ([GROVE, *arguments], mpirun(2, *arguments), [GROVE, *arguments],
+                        mpirun(3, *arguments)):
+            said = self.run_well([*command, "--time-limit", 1])
+            self.assertEqual("Resuming" in said, bool(bounds), said)
+            bounds.append(self.plan()["lower_bound"])
+        self.assertEqual(bounds, sorted(bounds))
+
+    def test_a_finished_search_is_finished_at_once(self):
+        self.run_well(mpirun(2, *self.kept()))
+        before = self.plan()
+        said = self.run_well(mpirun(3, *self.kept("--resume", "auto")))
+        self.assertIn("Resuming", said)
+        after = self.plan()
+        self.assertEqual((after["status"], after["cost"]), ("optimal", before["cost"]))
+
+    def test_nothing_is_thrown_away_unasked(self):
+        self.run_well(mpirun(2, *self.kept()))
+        self.refuses(mpirun(2, *self.kept()), "kept/checkpoint.grove", "--resume")
+        self.run_well(mpirun(2, *self.kept("--resume", "never")))
+
+    def test_damaged_and_foreign_ones_are_refused(self):
+        self.run_well(mpirun(2, *self.kept()))
+        (self.folder / "kept/incumbent.plan.json").unlink()
+        other = self.generate(3, 3, 1)
+        self.refuses(mpirun(2, "solve", other, "--checkpoint", "kept", "--resume", "auto"),
+                     "checkpoint.grove", "instance")
+        file = self.folder / "kept/checkpoint.grove"
+        content = bytearray(file.read_bytes())
+        content[len(content) // 2] ^= 8
+        file.write_bytes(content)
+        self.refuses(mpirun(2, *self.kept("--resume", "auto")), "checkpoint.grove")
+
+    def test_a_folder_that_cannot_be_used(self):
+        (self.folder / "kept").write_text("not a folder")
+        self.refuses(mpirun(2, *self.kept()), "kept", "folder")
+
+    def test_on_request(self):
+        running = start(mpirun(2, "solve", self.generate(18, 30, 8), "--omega", 0, "--threads", 1,
+                               "--checkpoint", "kept", "--time-limit", 5), self.folder)
+        time.sleep(1)
+        self.assertFalse((self.folder / "kept/checkpoint.grove").exists())
+        running.send_signal(signal.SIGUSR1)
+        deadline = time.monotonic() + 4
+        while not (self.folder / "kept/checkpoint.grove").exists():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
+        for pid in processes_of(running).values():
+            os.kill(pid, signal.SIGTERM)  # those who end well: mpirun would call it a failure
+        said, _ = running.communicate()
+        self.assertEqual(running.returncode, 0, said)
+        self.assertIn("stopped by: interrupt", said)
+
+
+class Faults(Program):
+    def test_killed_ranks(self):
+        killed = kill_and_resume.check(self.generate(18, 30, 8), kills=2, seed=1, most_seconds=1.5)
+        self.assertGreater(killed, 0)
+
+    def test_a_rank_that_stands_still(self):
+        instance = self.generate(16, 20, 5)
+        running = start(mpirun(3, "solve", instance, "--omega", 0, "--threads", 1, "--output",
+                               "plan.json"), self.folder)
+        time.sleep(0.5)
+        ranks = processes_of(running)
+        if 2 in ranks:
+            os.kill(ranks[2], signal.SIGSTOP)
+            time.sleep(2)
+            os.kill(ranks[2], signal.SIGCONT)
+        said, _ = running.communicate()
+        self.assertEqual(running.returncode, 0, said)
+        self.assertEqual(self.plan()["status"], "optimal")
+        self.run_well([GROVE, "check", instance, "plan.json"])
+
+
+class Batches(Program):
+    def instances(self, count):
+        folder = self.folder / "instances"
+        folder.mkdir()
+        for seed in range(count):
+            self.run_well([GROVE, "generate", "instance", "--map", DATA / "rooms-32x32.map",
+                           "--agents", 4, "--tasks", 5, "--seed", seed,
+                           "-o", folder / f"i{seed}.cts.json"])
+        return folder
+
+    def rows(self):
+        with open(self.folder / "results/results.csv", encoding="utf-8", newline="") as table:
+            return {row["id"]: row for row in csv.DictReader(table)}
+
+    def batch(self, *more):
+        return ["batch", "instances", "--output", "results", "--omega", 0, "--threads", 1, *more]
+
+    def test_every_instance_once_whoever_solves_it(self):
+        folder = self.instances(5)
+        (folder / "broken.cts.json").write_text("{")
+        said = self.run_well(mpirun(3, *self.batch("--ranks-per-instance", 2)))
+        self.assertIn("6/6", said)
+        rows = self.rows()
+        self.assertEqual(len(rows), 6)
+        self.assertIn("broken.cts.json", rows.pop("broken")["error"])
+        for name, row in rows.items():
+            self.assertEqual(row["status"], "optimal")
+            self.run_well([GROVE, "check", folder / f"{name}.cts.json",
+                           self.folder / "results" / row["plan_file"]])
+
+    def test_the_same_command_goes_on(self):
+        folder = self.instances(3)
+        self.run_well(mpirun(2, *self.batch()))
+        before = self.rows()
+        (folder / "i0.cts.json").rename(folder / "later.cts.json")
+        self.run_well(mpirun(2, *self.batch()))
+        after = self.rows()
+        self.assertEqual(set(after), {"i0", "i1", "i2", "later"})
+        self.assertEqual({name: after[name] for name in before}, before)
+        self.refuses(mpirun(2, *self.batch("--seed", 5)), "seed")
+
+    def test_input_is_complained_about_once(self):
+        self.refuses(mpirun(2, *self.batch()), "instances")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of grove-mpi share. The programs are in the environment: GROVE_MPI and GROVE."""
+import json
+import os
+import subprocess
+from pathlib import Path
+
+DATA = Path(__file__).resolve().parents[2] / "benchmarks/data"
+GROVE = os.environ.get("GROVE", "")
+GROVE_MPI = os.environ.get("GROVE_MPI", "")
+
+# Containers have root only, and tests more ranks than cores.
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+
+def mpirun(ranks, *command):
+    """The command line of grove-mpi by so many ranks."""
+    return ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks), GROVE_MPI,
+            *map(str, command)]
+
+
+def run(command, folder):
+    """What it printed on both streams, and its exit code."""
+    done = subprocess.run([str(word) for word in command], cwd=folder, env=ENVIRONMENT,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return done.returncode, done.stdout
+
+
+def start(command, folder):
+    return subprocess.Popen([str(word) for word in command], cwd=folder, env=ENVIRONMENT,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def plan_of(path):
+    return json.loads(Path(path).read_text(encoding="utf-8"))
+
+
+def processes_of(mpirun_process):
+    """The ranks that an mpirun has started on this machine, by number."""
+    pids = subprocess.run(["pgrep", "--parent", str(mpirun_process.pid)], capture_output=True,
+                          text=True).stdout.split()
+    ranks = {}
+    for pid in pids:
+        try:
+            variables = Path(f"/proc/{pid}/environ").read_text(encoding="utf-8").split("\0")
+        except OSError:
+            continue
+        for variable in variables:
+            if variable.startswith("OMPI_COMM_WORLD_RANK="):
+                ranks[int(variable.split("=")[1])] = int(pid)
+    return ranks

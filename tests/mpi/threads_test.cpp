@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// The distributed engine with real threads, as it runs in processes: ranks that share nothing but a
+// network, on which messages are late by random times.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "grove/engine/run_observer.h"
+#include "grove/engine/solve.h"
+#include "grove/search/problem.h"
+#include "mpi/solve_distributed.h"
+#include "tests/primal/crowd.h"
+
+namespace grove {
+namespace {
+
+using testing::random_crowd;
+
+using Clock = std::chrono::steady_clock;
+
+// Between two ranks messages keep their order.
+class ThreadNetwork {
+ public:
+  ThreadNetwork(int ranks, std::chrono::microseconds latest, std::uint64_t seed)
+      : latest_(latest), dice_(seed), links_(static_cast<std::size_t>(ranks * ranks)) {
+    for (int rank = 0; rank < ranks; ++rank) ends_.emplace_back(*this, rank, ranks);
+  }
+
+  Transport& at(int rank) { return ends_[static_cast<std::size_t>(rank)]; }
+  bool empty() const {
+    for (const auto& link : links_)
+      if (!link.empty()) return false;
+    return true;
+  }
+
+ private:
+  class End : public Transport {
+   public:
+    End(ThreadNetwork& network, int rank, int ranks)
+        : network_(network), rank_(rank), ranks_(ranks) {}
+    int rank() const override { return rank_; }
+    int ranks() const override { return ranks_; }
+    std::optional<Parcel> receive() override {
+      const std::lock_guard lock(network_.mutex_);
+      for (int i = 0; i < ranks_; ++i) {
+        const int from = next_++ % ranks_;
+        auto& link = network_.link(from, rank_);
+        if (link.empty() || link.front().first > Clock::now()) continue;
+        Parcel parcel{from, std::move(link.front().second)};
+        link.pop_front();
+        return parcel;
+      }
+      return std::nullopt;
+    }
+
+   private:
+    void do_send(int to, std::string bytes) override {
+      const std::lock_guard lock(network_.mutex_);
+      const auto late = std::chrono::microseconds(
+          network_.dice_() % static_cast<std::uint64_t>(network_.latest_.count() + 1));
+      network_.link(rank_, to).emplace_back(Clock::now() + late, std::move(bytes));
+    }
+
+    ThreadNetwork& network_;
+    const int rank_;
+    const int ranks_;
+    int next_ = 0;
+  };
+
+  std::deque<std::pair<Clock::time_point, std::string>>& link(int from, int to) {
+    return links_[static_cast<std::size_t>(from) * ends_.size() + static_cast<std::size_t>(to)];
+  }
+
+  std::mutex mutex_;
+  const std::chrono::microseconds latest_;
+  std::mt19937_64 dice_;
+  std::vector<std::deque<std::pair<Clock::time_point, std::string>>> links_;
+  std::deque<End> ends_;
+};
+
+// What rank 0 answers; null limits: none.
+Solution solve_by_ranks(const Instance& instance, const SolveOptions& options, int ranks,
+                        ThreadNetwork& network, Limits& limits) {
+  std::optional<Solution> answer;
+  {
+    std::vector<std::jthread> processes;
+    for (int rank = 0; rank < ranks; ++rank)
+      processes.emplace_back([&, rank] {
+        const Limits own;
+        const Limits& limits_here = rank == 0 ? limits : own;
+        const Problem problem(instance, limits_here);
+        RunObserver silent;
+        auto solution =
+            solve_distributed(problem, options, limits_here, network.at(rank), silent, [] {});
+        if (rank == 0) answer = std::move(solution);
+      });
+  }
+  return std::move(answer).value();
+}
+
+SolveOptions poor(int threads, Policy policy, Techniques techniques) {
+  SolveOptions options;
+  options.omega = Omega();
+  options.threads = threads;
+  options.policy = policy;
+  options.techniques = techniques;
+  return options;
+}
+
+// A limit would hide a run that does not end.
+void expect_optima(Policy policy, Techniques techniques) {
+  std::int64_t batches = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Instance instance =
+        random_crowd({.size = 8, .obstacles = 20, .agents = 5, .tasks = 5}, seed);
+    Limits alone_limits;
+    alone_limits.set_deadline(Clock::now() + std::chrono::seconds(2));
+    const Solution alone =
+        solve(instance, poor(1, Policy::kFree, Techniques::usual()), alone_limits);
+    if (alone.status != Status::kOptimal) continue;
+    for (const int ranks : {2, 3})
+      for (const int threads : {1, 2}) {
+        ThreadNetwork network(ranks, std::chrono::microseconds(seed % 2 == 0 ? 0 : 2000), seed);
+        Limits limits;
+        limits.set_deadline(Clock::now() + std::chrono::seconds(20));
+        const Solution solution =
+            solve_by_ranks(instance, poor(threads, policy, techniques), ranks, network, limits);
+        batches += solution.stats.counts.at("batches");
+        EXPECT_EQ(solution.status, Status::kOptimal)
+            << "seed " << seed << ", " << ranks << " ranks, " << threads << " threads";
+        EXPECT_EQ(solution.lower_bound, alone.lower_bound) << "seed " << seed;
+        EXPECT_TRUE(network.empty());
+      }
+  }
+  EXPECT_GT(batches, 20) << "too few nodes travelled to be a test";
+}
+
+TEST(Threads, FindTheOptimumInOneTree) {
+  expect_optima(Policy::kFree, {Technique::kTarget, Technique::kStrongBranching});
+}
+
+TEST(Threads, FindTheOptimumInManyTrees) {
+  expect_optima(Policy::kFixed, {Technique::kTarget, Technique::kStrongBranching});
+}
+
+}  // namespace
+}  // namespace grove
