@@ -11,6 +11,7 @@
 #include "grove/io/plan_file.h"
 #include "grove/model/check.h"
 #include "instance_arguments.h"
+#include "standard_error.h"
 
 namespace grove {
 namespace {
@@ -45,10 +46,10 @@ void print_verdict(const Solution& solution) {
 
 void print_violations(const std::string& file, const std::vector<Violation>& violations) {
   for (const Violation& violation : violations)
-    fmt::print(stderr, "{}: {}: {}\n", one_line(file), violation.place,
-               one_line(violation.message));
+    say_on_stderr(
+        fmt::format("{}: {}: {}", one_line(file), violation.place, one_line(violation.message)));
   if (violations.size() >= kMostViolations)
-    fmt::print(stderr, "{}: stopped after {} violations\n", one_line(file), kMostViolations);
+    say_on_stderr(fmt::format("{}: stopped after {} violations", one_line(file), kMostViolations));
 }
 
 void run(const CheckArguments& arguments) {

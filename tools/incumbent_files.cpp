@@ -8,6 +8,7 @@
 
 #include "grove/io/input_error.h"
 #include "grove/io/plan_file.h"
+#include "standard_error.h"
 #include "version.h"
 
 namespace grove {
@@ -59,8 +60,8 @@ void IncumbentFiles::write(const Plan& plan, const Progress& progress) {
     if (!best_.empty()) write_solution(best_, instance_, solution);
     if (!prefix_.empty()) write_solution(file(prefix_, ++written_), instance_, solution);
   } catch (const InputError& error) {
-    fmt::print(stderr, "grove: warning: {}; no more plans are written before the end\n",
-               error.what());
+    say_on_stderr(
+        fmt::format("grove: warning: {}; no more plans are written before the end", error.what()));
     failed_ = true;
   }
 }

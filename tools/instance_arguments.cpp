@@ -7,6 +7,7 @@
 
 #include "grove/io/input_error.h"
 #include "options.h"
+#include "standard_error.h"
 
 namespace grove {
 namespace {
@@ -46,7 +47,7 @@ LoadedInstance InstanceArguments::load(bool speaks) const {
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) fmt::print(stderr, "grove: warning: {}\n", warning);
+  for (const std::string& warning : warnings) say_on_stderr("grove: warning: " + warning);
 }
 
 }  // namespace grove

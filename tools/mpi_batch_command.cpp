@@ -29,6 +29,7 @@
 #include "signals.h"
 #include "solve_arguments.h"
 #include "solve_run.h"
+#include "standard_error.h"
 #include "together.h"
 #include "version.h"
 
@@ -145,8 +146,8 @@ class BatchRun {
     const auto other = std::ranges::find_if(
         table_->rows(), [](const auto& row) { return row.version != version_text(); });
     if (other != table_->rows().end())
-      fmt::print(stderr, "grove-mpi: warning: {} holds rows of {}; they stay\n", a_.output,
-                 other->version);
+      say_on_stderr(fmt::format("grove-mpi: warning: {} holds rows of {}; they stay", a_.output,
+                                other->version));
   }
 
   // What each rank of the group says, or throws what the first that fails says.
@@ -234,7 +235,7 @@ void add_mpi_batch_command(CLI::App& root, MpiSession& session) {
   add_number(*app, "--total-time-limit", a->total_time_limit_s, 0, kNoLimit_s,
              "begin no further instance after so many seconds")
       ->type_name("S");
-  app->add_option("--output", a->output, "the folder for plans and the table; made if need be")
+  app->add_option("-o,--output", a->output, "the folder for plans and the table; made if need be")
       ->required()
       ->type_name("DIR");
   app->add_flag("--quiet", a->quiet, "no progress on the screen");

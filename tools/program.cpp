@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "grove/io/input_error.h"
 #include "help_formatter.h"
+#include "standard_error.h"
 #include "version.h"
 
 namespace grove {
@@ -48,7 +49,7 @@ int flush_output(const CLI::App& app) {
 }  // namespace
 
 void complain(const CLI::App& app, const std::string& message) {
-  fmt::print(stderr, "{}: error: {}\n", app.get_name(), one_line(message));
+  say_on_stderr(fmt::format("{}: error: {}", app.get_name(), one_line(message)));
 }
 
 void prepare_program(CLI::App& app) {

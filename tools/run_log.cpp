@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 #include "gap_text.h"
 #include "grove/io/input_error.h"
 #include "grove/model/limits.h"
+#include "standard_error.h"
 
 namespace grove {
 namespace {
@@ -94,10 +96,10 @@ void LogSink::line(std::string_view text) {
 
 // A log that cannot be written is given up with a word on stderr; the run goes on.
 bool LogSink::write(std::FILE* file, std::string_view text, const char* name) {
-  fmt::print(file, "{}\n", text);
-  if (std::fflush(file) == 0) return true;
-  fmt::print(stderr, "grove: warning: {} cannot be written ({}); the log ends here\n", name,
-             std::strerror(errno));
+  std::fprintf(file, "%.*s\n", static_cast<int>(text.size()), text.data());
+  if (std::fflush(file) == 0 && std::ferror(file) == 0) return true;
+  say_on_stderr(fmt::format("grove: warning: {} cannot be written ({}); the log ends here", name,
+                            std::strerror(errno)));
   std::clearerr(file);
   return false;
 }
@@ -105,13 +107,13 @@ bool LogSink::write(std::FILE* file, std::string_view text, const char* name) {
 void LogSink::progress(std::string_view text) {
   if (!shows_progress_) return;
   erase_progress();
-  fmt::print("{}", text);
+  std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
   progress_shown_ = true;
 }
 
 void LogSink::erase_progress() {
-  if (progress_shown_) fmt::print("\r\033[K");
+  if (progress_shown_) std::fputs("\r\033[K", stdout);
   progress_shown_ = false;
 }
 

@@ -145,7 +145,7 @@ void add_file_options(CLI::App& app, SolveArguments& a) {
                  "write every better plan, as soon as it is found, to PREFIX-1.plan.json, "
                  "PREFIX-2.plan.json and so on; those of an earlier run are removed")
       ->type_name("PREFIX");
-  app.add_option("--output", a.output,
+  app.add_option("-o,--output", a.output,
                  "the plan file; by default the instance's name with .plan.json, in this directory")
       ->type_name("PLAN");
   app.add_option("--log", a.log, "write the log to this file too")->type_name("FILE");

@@ -80,6 +80,11 @@ class Answers(Program):
         if (os.cpu_count() or 0) < 6:
             self.assertRegex(said, r"Warning: host \S+ has \d+ cores for 6 threads")
 
+    def test_nothing_can_be_said(self):
+        self.run_well(["sh", "-c", 'exec "$@" >/dev/full 2>/dev/full', "sh", GROVE_MPI, "solve", EASY,
+                       "--omega", "0", "-o", "plan.json"])
+        self.assertEqual(self.plan()["status"], "optimal")
+
 
 class Refusals(Program):
     def test_input_is_complained_about_once(self):

@@ -232,6 +232,13 @@ TEST_F(SolveCommand, KeepsThePlanWhenNobodyReadsTheLog) {
   EXPECT_EQ(plan("p.json")["status"], "optimal");
 }
 
+TEST_F(SolveCommand, GoesOnWhenNothingCanBeSaidAtAll) {
+  const std::string command = std::string(GROVE_PROGRAM) + " solve " + data("first.cts.json") +
+                              " --output p.json >/dev/full 2>/dev/full";
+  EXPECT_EQ(run_program({"/bin/sh", "-c", command}, options_).exit_code, 0);
+  EXPECT_EQ(plan("p.json")["status"], "optimal");
+}
+
 TEST_F(SolveCommand, SaysWhenTheLogFileIsFull) {
   const ProcessResult solved = solve({data("first.cts.json"), "--quiet", "--log", "/dev/full"});
   EXPECT_EQ(solved.exit_code, 0);
