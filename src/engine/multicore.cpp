@@ -14,6 +14,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <new>
@@ -87,30 +89,40 @@ class Crew {
   std::vector<Worker*> parked_;
 };
 
-// A worker of a deterministic run and its turns of a round.
-struct Lane {
+// Of a deterministic run: what a worker does in a round.
+struct Unit {
   Worker* worker;
-  std::vector<Worker::Turn> turns;
+  Worker::Turn turn;
 
-  void perform() {
-    for (Worker::Turn& turn : turns) worker->perform(turn);
-  }
-  void commit() {
-    for (Worker::Turn& turn : turns) worker->commit(turn);
-    turns.clear();
-  }
+  bool is_primal() const { return turn.job == Worker::Turn::Job::kPrimal; }
 };
 
-// The turns of a round: some nodes for each lane, the best ones evenly spread, or one step of its
-// primal search. More nodes would be a poorer choice, fewer would leave threads waiting for each
-// other.
-void choose_turns(std::vector<Lane>& lanes) {
-  for (int round = 0; round < kMostTurnsInARound; ++round)
-    for (Lane& lane : lanes) {
-      if (lane.turns.size() != static_cast<std::size_t>(round)) continue;
-      if (round > 0 && lane.turns.back().job != Worker::Turn::Job::kExpand) continue;
-      if (auto turn = lane.worker->choose()) lane.turns.push_back(std::move(*turn));
+// Some nodes for each worker, or one step of its primal search. More nodes would be a poorer
+// choice, fewer would leave threads waiting for each other.
+std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers) {
+  std::vector<Unit> units;
+  std::vector<bool> goes_on(workers.size(), true);
+  for (int i = 0; i < kMostTurnsInARound; ++i)
+    for (std::size_t w = 0; w < workers.size(); ++w) {
+      if (!goes_on[w]) continue;
+      auto turn = workers[w]->choose();
+      goes_on[w] = turn && turn->job == Worker::Turn::Job::kExpand;
+      if (turn) units.push_back({workers[w].get(), std::move(*turn)});
     }
+  // They take longest. Who performs them is one and the same for all that matters.
+  std::ranges::stable_partition(units, &Unit::is_primal);
+  return units;
+}
+
+// Calls `what` with each unit, on as many threads as the arena has, and waits for all.
+template <class What>
+void for_each_unit(std::vector<Unit>& units, int threads, Tasks& tasks, const What& what) {
+  std::atomic<std::size_t> next{0};
+  for (int i = 0; i < threads; ++i)
+    tasks.run([&] {
+      for (std::size_t u = next++; u < units.size(); u = next++) what(units[u]);
+    });
+  tasks.wait();
 }
 
 }  // namespace
@@ -134,22 +146,23 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
 
 void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                      int threads, const BetweenTurns& between_turns) {
+  threads = std::min(threads, static_cast<int>(workers.size()));
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  std::vector<Lane> lanes;
-  for (const auto& worker : workers) lanes.push_back({worker.get(), {}});
+  // More expanders than threads would compete for the cache.
+  const auto perform = [&](Unit& unit) {
+    const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+    unit.worker->perform(unit.turn, workers[thread]->expander());
+  };
+  const auto publish = [](Unit& unit) { Worker::publish(unit.turn); };
   arena.execute([&] {
     Tasks tasks;
     while (!shared.over()) {
-      choose_turns(lanes);
-      for (Lane& lane : lanes)
-        if (!lane.turns.empty()) tasks.run([&lane] { lane.perform(); });
-      tasks.wait();
-      for (Lane& lane : lanes)
-        if (!lane.turns.empty()) tasks.run([&lane] { lane.worker->publish(); });
-      tasks.wait();
-      for (Lane& lane : lanes) lane.commit();
+      std::vector<Unit> units = choose_round(workers);
+      for_each_unit(units, threads, tasks, perform);
+      for_each_unit(units, threads, tasks, publish);
+      for (Unit& unit : units) unit.worker->commit(unit.turn);
       between_turns();
     }
   });

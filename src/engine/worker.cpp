@@ -22,8 +22,8 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
       limits_(limits),
       shared_(shared),
       number_(number),
-      stops_(stops),
-      expander_(problem, stops_, techniques_of(options), options.seed, shared.memory()),
+      expander_stops_(stops),
+      primal_stops_(stops),
       share_(problem.instance.agent_count()) {
   // To expand the root can take long where there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
@@ -32,8 +32,10 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
 
 std::optional<Worker::Turn> Worker::choose() {
   using Job = Turn::Job;
-  const auto one = [](Job job, NodePtr node = nullptr) {
-    return std::optional<Turn>(std::in_place, job, std::move(node));
+  const auto one = [&](Job job, NodePtr node = nullptr) {
+    std::optional<Turn> turn(std::in_place, job, std::move(node));
+    turn->memory = shared_.memory();
+    return turn;
   };
   shared_.keep_within_memory();
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
@@ -49,19 +51,27 @@ std::optional<Worker::Turn> Worker::choose() {
 // The primal search, which knows the incumbent.
 PrimalSearch& Worker::primal() {
   if (!primal_)
-    primal_ = std::make_unique<PrimalSearch>(
-        problem_, stops_, options_.seed + static_cast<std::uint64_t>(number_), options_.techniques);
+    primal_ = std::make_unique<PrimalSearch>(problem_, primal_stops_,
+                                             options_.seed + static_cast<std::uint64_t>(number_),
+                                             options_.techniques);
   if (const auto plan = shared_.ledger().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
     primal_->adopt(*plan);
   return *primal_;
 }
 
-void Worker::perform(Turn& turn) {
+Expander& Worker::expander() {
+  if (!expander_)
+    expander_ = std::make_unique<Expander>(problem_, expander_stops_, techniques_of(options_),
+                                           options_.seed, shared_.memory());
+  return *expander_;
+}
+
+void Worker::perform(Turn& turn, Expander& by) {
   switch (turn.job) {
     case Turn::Job::kExpand:
-      return expand(turn);
+      return expand(turn, by);
     case Turn::Job::kHelp:
-      return help(turn);
+      return help(turn, by);
     case Turn::Job::kPrimal:
       return step_primal(turn);
     case Turn::Job::kPrepare:
@@ -69,17 +79,21 @@ void Worker::perform(Turn& turn) {
   }
 }
 
-void Worker::expand(Turn& turn) {
-  const std::int64_t before = expander_.work();
-  turn.expansion = expander_.expand(turn.node, shared_.ledger().cutoff(), limits_);
-  turn.work = expander_.work() - before + turn.node->cost() / kStepsPerWork + 1;
+void Worker::expand(Turn& turn, Expander& by) const {
+  by.turn_to(turn.memory);
+  const std::int64_t before = by.work();
+  turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_);
+  turn.work = by.work() - before + turn.node->cost() / kStepsPerWork + 1;
+  turn.found = by.take_found();
 }
 
-void Worker::help(Turn& turn) {
+void Worker::help(Turn& turn, Expander& by) {
+  by.turn_to(turn.memory);
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
-  const std::int64_t before = expander_.work();
-  if (!expander_.help(turn.node, shared_.ledger().cutoff(), share, limits_)) helped_ = turn.node;
-  turn.work = expander_.work() - before + turn.node->cost() / kStepsPerWork + 1;
+  const std::int64_t before = by.work();
+  if (!by.help(turn.node, shared_.ledger().cutoff(), share, limits_)) helped_ = turn.node;
+  turn.work = by.work() - before + turn.node->cost() / kStepsPerWork + 1;
+  turn.found = by.take_found();
   ++helps_;
 }
 
@@ -89,14 +103,16 @@ void Worker::step_primal(Turn& turn) {
   turn.work = primal_->work() - before;
 }
 
+void Worker::publish(Turn& turn) {
+  turn.memory->learn(std::exchange(turn.found, {}));
+}
+
 void Worker::commit(Turn& turn) {
   if (turn.job == Turn::Job::kPrimal) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
     share_.primal_worked(*primal_, turn.work);
   } else if (turn.job != Turn::Job::kPrepare) {
-    publish();
-    expander_.memory()->trim();
-    expander_.turn_to(shared_.memory());
+    turn.memory->trim();
     if (turn.job == Turn::Job::kExpand) shared_.finish(turn.node, std::move(turn.expansion));
     share_.tree_worked(turn.work);
   }
@@ -104,7 +120,7 @@ void Worker::commit(Turn& turn) {
 }
 
 void Worker::add_counts(Stats& stats) const {
-  const ExpansionCounts tree = expander_.counts();
+  const auto tree = expander_ ? expander_->counts() : ExpansionCounts();
   const auto primal = primal_ ? primal_->counts() : PrimalSearch::Counts();
   auto& counts = stats.counts;
   counts["low_level_calls"] += tree.low_level_calls;

@@ -37,9 +37,10 @@ struct SlowWorker : Worker {
       performed = false;
       return turn.has_value();
     } else if (!performed) {
-      perform(*turn);
+      perform(*turn, expander());
       performed = true;
     } else {
+      publish(*turn);
       commit(*turn);
       turn.reset();
     }

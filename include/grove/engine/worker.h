@@ -14,7 +14,8 @@
 
 namespace grove {
 
-// An expander and a primal search with their memories, which take turns. For one thread at a time.
+// An expander and a primal search, which take turns. For one thread at a time, but for what says
+// otherwise.
 class Worker {
  public:
   // All must outlive this, but for `stops`, of which it makes a copy. `number` from 0; each number
@@ -29,7 +30,9 @@ class Worker {
         : job(the_job), node(std::move(the_node)) {}
 
     Job job;
-    NodePtr node;  // to expand or to help with
+    NodePtr node;                          // to expand or to help with
+    std::shared_ptr<CommonMemory> memory;  // to do so with
+    FoundOut found;
     Expansion expansion;
     std::optional<Plan> plan;
     std::int64_t work = 0;
@@ -41,27 +44,30 @@ class Worker {
   bool turn() {
     std::optional<Turn> turn = choose();
     if (!turn) return false;
-    perform(*turn);
+    perform(*turn, expander());
+    publish(*turn);
     commit(*turn);
     return true;
   }
 
-  // A turn in three parts, of which perform() only reads what is shared: settles what to do (none:
-  // there is nothing), does it, and tells.
+  // A turn in four parts: settles what to do (none: there is nothing), does it, makes common what
+  // was found out, and tells. perform() only reads what is shared; several turns that expand nodes
+  // may be performed at the same time, each by another expander. Turns may be published at the
+  // same time.
   std::optional<Turn> choose();
-  void perform(Turn& turn);
+  void perform(Turn& turn, Expander& by);
+  static void publish(Turn& turn);
   void commit(Turn& turn);
-  // What perform() found out becomes common; commit() does so if nobody did before. Workers may do
-  // it at the same time, if none performs.
-  void publish() { expander_.publish(); }
+  // Its own expander, made when first asked for. Of one thread; not necessarily the worker's.
+  Expander& expander();
 
   // Adds what this worker counted to the answer's statistics.
   void add_counts(Stats& stats) const;
 
  private:
   PrimalSearch& primal();
-  void expand(Turn& turn);
-  void help(Turn& turn);
+  void expand(Turn& turn, Expander& by) const;
+  void help(Turn& turn, Expander& by);
   void step_primal(Turn& turn);
 
   const Problem& problem_;
@@ -69,9 +75,12 @@ class Worker {
   const Limits& limits_;
   SharedSearch& shared_;
   const int number_;
-  AgentStopsStore stops_;
-  Expander expander_;
-  std::unique_ptr<PrimalSearch> primal_;  // made when it is first due
+  // Each with what it knows of the agents, for they may be in the hands of different threads. Made
+  // when they are first due.
+  AgentStopsStore expander_stops_;
+  std::unique_ptr<Expander> expander_;
+  AgentStopsStore primal_stops_;
+  std::unique_ptr<PrimalSearch> primal_;
   PrimalShare share_;
   NodePtr helped_;  // the last node that there was nothing left to help with
   std::int64_t helps_ = 0;

@@ -66,8 +66,10 @@ class Expander {
   // All that the low level has done so far, in units of about one label.
   std::int64_t work() const { return planner_.work(); }
 
-  // What was found out since the last publication is known to this expander only.
-  void publish() { memory_.publish(); }
+  // What was found out is known to this expander only, until it is published, or handed over for
+  // others to add to the memory.
+  void publish() { memory()->learn(take_found()); }
+  FoundOut take_found() { return memory_.take_found(); }
   // Goes on with another memory, perhaps an empty one.
   void turn_to(std::shared_ptr<CommonMemory> memory) { memory_.turn_to(std::move(memory)); }
   const std::shared_ptr<CommonMemory>& memory() const { return memory_.common(); }

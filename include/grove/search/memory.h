@@ -16,6 +16,29 @@
 
 namespace grove {
 
+// What one worker found out, until it is common. Values; the numbers are those of one common
+// memory.
+struct FoundOut {
+  using Id = Situations::Id;
+  struct Pair {
+    Id first;
+    Id second;
+    AgentIndex agent;
+    Excesses::Known known;
+  };
+  struct Group {
+    std::vector<AgentIndex> agents;
+    std::vector<Id> situations;
+    Excesses::Known known;
+  };
+
+  std::unordered_map<Id, Situations::Known> costs;
+  std::unordered_map<Id, PathSets::Set> sets;  // all that were asked for
+  // Few at a time.
+  std::vector<Pair> pairs;
+  std::vector<Group> groups;
+};
+
 // What all workers know. Thread-safe; nothing is ever taken back, so whoever wants it forgotten
 // starts another one.
 struct CommonMemory {
@@ -30,12 +53,15 @@ struct CommonMemory {
   // What is found out may have to be forgotten again before it is of use.
   const bool follows_another = false;
 
+  // Adds this. Workers may do so at the same time: it does not matter who is first.
+  void learn(const FoundOut& found);
+
   // Forgets what there is too much of, and can be found again.
   void trim() { path_sets.trim(); }
   std::size_t bytes() const { return situations.bytes() + path_sets.bytes() + excesses.bytes(); }
 };
 
-// What one worker knows: the common memory, and what it has found out since it last published. So
+// What one worker knows: the common memory, and what it has found out that is not common yet. So
 // what others find out at the same time does not reach it before it asks, and a worker that is
 // given the same common memory does the same again, whatever the others do meanwhile. Of one
 // thread.
@@ -47,11 +73,11 @@ class Memory {
   Memory(PathPlanner& planner, std::shared_ptr<CommonMemory> common)
       : planner_(planner), common_(std::move(common)) {}
 
-  // Adds what was found out to the common memory. Workers may do so at the same time: it does not
-  // matter who is first.
-  void publish();
-  // Turns to this common memory. If it is another one, what was not published is forgotten, and so
-  // are all numbers.
+  // Hands over what was found out since the last time; it is not known here any more until it is
+  // common.
+  FoundOut take_found() { return std::exchange(found_, {}); }
+  // Turns to this common memory. If it is another one, what was not handed over is forgotten, and
+  // so are all numbers.
   void turn_to(std::shared_ptr<CommonMemory> common);
   const std::shared_ptr<CommonMemory>& common() const { return common_; }
 
@@ -64,9 +90,9 @@ class Memory {
   std::int64_t asked() const { return asked_; }
   std::int64_t groups_asked() const { return groups_asked_; }
   Situations::Known known(Id id) const;
-  void learn(Id id, Situations::Known known) { costs_[id] = known; }
+  void learn(Id id, Situations::Known known) { found_.costs[id] = known; }
 
-  // As PathSets::find; valid until publish().
+  // As PathSets::find; valid until take_found().
   const OptimalPaths* paths(Id id, AgentIndex agent, const AgentOrder& order,
                             std::span<const Constraint> constraints, Time cost,
                             const Limits& limits);
@@ -81,27 +107,11 @@ class Memory {
   void groups(std::vector<std::vector<AgentIndex>>& groups) const;
 
  private:
-  struct Pair {
-    Id first;
-    Id second;
-    AgentIndex agent;
-    Excesses::Known known;
-  };
-  struct Group {
-    std::vector<AgentIndex> agents;
-    std::vector<Id> situations;
-    Excesses::Known known;
-  };
-
   PathPlanner& planner_;
   std::shared_ptr<CommonMemory> common_;
   std::int64_t asked_ = 0;
   mutable std::int64_t groups_asked_ = 0;
-  // Since the last publication. Of pairs and groups there are few at a time.
-  std::unordered_map<Id, Situations::Known> costs_;
-  std::unordered_map<Id, PathSets::Set> sets_;  // all that were asked for
-  std::vector<Pair> pairs_;
-  std::vector<Group> groups_;
+  FoundOut found_;
 };
 
 }  // namespace grove
