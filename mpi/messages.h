@@ -28,13 +28,13 @@ struct Status {
   Cost bound = kInfiniteCost;
   Cost evicted_bound = kInfiniteCost;
   std::int64_t live = 0;
-  bool idle = true;  // none to expand
+  bool idle = true;  // no node that the end waits for: the incumbent is within w of those it has
   std::int64_t open = 0;
   std::int64_t expanded = 0;
   std::int32_t era = 0;                    // how many BeginAnew it has obeyed
   std::int64_t entrusted = 0;              // how many Entrust it has obeyed
   StopReason stopped = StopReason::kNone;  // a limit that struck there
-  std::vector<Frontier::Level> levels;     // of its open nodes, the least ones
+  std::vector<Frontier::Level> levels;     // the least ones, of open nodes that the end waits for
   // Of each rank that it has nodes from: how many batches it has taken over.
   std::vector<std::pair<std::int32_t, std::int64_t>> batches;
 };

@@ -71,9 +71,11 @@ class Rank {
   NumberedNode record(const Node& node) const;
   void begin_anew(Cost proven);
   message::Status status() const;
+  bool is_wanted(Cost bound) const;
   void send(int to, const message::Message& message);
 
   const Problem& problem_;
+  const Omega omega_;
   const Limits& limits_;
   Transport& transport_;
   LocalNodes nodes_;

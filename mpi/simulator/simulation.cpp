@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Discrete events. A rank has a worker and a talker; an event is that one of them is due, and what
 // it does then makes others due. One thread plays all ranks with the engine's own coordinator,
-// ranks and nodes, and one expander serves them all: only what a rank has found out about agents,
-// pairs and groups is its own, for that is not told to others.
+// ranks and nodes, and one expander serves them all, which turns to the memory of the rank whose
+// node it expands: what a rank has found out about agents, pairs and groups is its own, but for
+// what goes along with a batch about the pairs and groups at its nodes.
 //
 // The talker looks at the network every so often, but that matters only if there is a message or
 // something new to say. So each cause of talk asks for the next look that there would be.

@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""How the distributed search scales: simulated up to 4,096 ranks, and checked with two real ones.
+
+    benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]   three hard instances: simulated.csv
+    benchmarks/scaling.py compare --maps FOLDER               2 ranks simulated and measured: compared.csv
+    benchmarks/scaling.py draw                                scaling.png from simulated.csv; needs matplotlib
+    benchmarks/scaling.py tables                              both tables in Markdown, to stdout
+
+All read and write the folder --output. Everything begins with an optimal plan, which is found first, and
+nobody looks for plans beside the tree: what must be expanded is then nearly the same whatever the number
+of ranks. results/scaling/README.md tells what came out.
+"""
+import argparse
+import concurrent.futures
+import csv
+import json
+import os
+import statistics
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+from harness import tables  # noqa: E402
+from harness.instances import Case, Maps, instance_arguments  # noqa: E402
+from harness.runs import run  # noqa: E402
+
+# Minutes of one core each, by the search without primal: proven optimal after 10^5 nodes and more.
+HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
+        Case("room-32-32-4", 40, None, 4)]
+# Seconds of one core: to be measured here.
+SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
+         Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]
+RANKS = [1, 2, 16, 128, 1024, 4096]
+COST_PER_WORK = 1.3e-7  # seconds; see results/scaling/README.md
+OPTIMAL = ["--omega", 0]
+TREE_ONLY = ["--threads", 1, "--without", "primal,configurations", "--quiet"]
+MPIRUN = ["env", "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "mpirun", "-np", 2]
+
+
+def prepared(case, a, folder):
+    """How a program is told of the case, with an optimal plan to begin with."""
+    make, instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
+    if make:
+        run(make)
+    plan = folder / "start.json"
+    run([a.bin / "grove", "solve", *instance, *OPTIMAL, "--time-limit", a.time_limit, "--quiet",
+         "--output", plan])
+    status = json.loads(plan.read_text(encoding="utf-8"))["status"]
+    if status != "optimal":
+        raise SystemExit(f"scaling.py: {case}: {status} after {a.time_limit} s; expected optimal")
+    return [*instance, *OPTIMAL, "--start", plan]
+
+
+def simulated(case, problem, ranks, a, folder):
+    """A row per number of ranks."""
+    table = folder / "table.csv"
+    run([a.bin / "grove-sim", *problem, "--ranks", ",".join(map(str, ranks)), "--cost-per-work",
+         a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table])
+    with table.open(encoding="utf-8", newline="") as file:
+        return [{"instance": str(case), **row} for row in csv.DictReader(file)]
+
+
+def measured(before, problem, a, folder):
+    """Seconds and nodes of the median run."""
+    runs = []
+    for _ in range(a.repeat):
+        run([*before, "solve", *problem, *TREE_ONLY, "--output", folder / "plan.json"])
+        plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
+        if plan["status"] != "optimal":
+            raise SystemExit(f"scaling.py: {problem[0]}: {plan['status']}; expected optimal")
+        runs.append((plan["stats"]["wall_s"], plan["stats"]["nodes_expanded"]))
+    return sorted(runs)[len(runs) // 2]
+
+
+def write(path, rows):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def read(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def simulate(a):
+    def study(case):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            rows = simulated(case, prepared(case, a, folder), a.ranks, a, folder)
+        print(f"{case}: simulated", flush=True)
+        return rows
+
+    with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
+        rows = sum(pool.map(study, HARD), [])
+    write(a.output / "simulated.csv", rows)
+
+
+def comparison(case, a, folder):
+    problem = prepared(case, a, folder)
+    alone_s, alone_nodes = measured([a.bin / "grove"], problem, a, folder)
+    both_s, both_nodes = measured([*MPIRUN, a.bin / "grove-mpi"], problem, a, folder)
+    one, two = simulated(case, problem, [1, 2], a, folder)
+    return {"instance": str(case), "nodes_1": alone_nodes, "measured_1_s": f"{alone_s:.3f}",
+            "simulated_1_s": f"{float(one['wall_s']):.3f}",
+            "nodes_2": both_nodes, "simulated_nodes_2": two["nodes"],
+            "measured_2_s": f"{both_s:.3f}", "simulated_2_s": f"{float(two['wall_s']):.3f}",
+            "measured_speed_up": f"{alone_s / both_s:.3f}",
+            "simulated_speed_up": f"{float(two['speed_up']):.3f}"}
+
+
+def compare(a):
+    rows = []
+    for case in SHORT:
+        with tempfile.TemporaryDirectory() as name:
+            rows.append(comparison(case, a, Path(name)))
+        print(f"{case}: compared, load {os.getloadavg()[0]:.1f}", flush=True)
+    write(a.output / "compared.csv", rows)
+
+
+def shares(row):
+    """What became of the workers' time in a run: shares that sum to 1."""
+    whole = float(row["wall_s"]) * int(row["ranks"])
+    working = int(row["ranks"]) - int(row["ranks_without_node"])
+    first = (working * float(row["first_node_s"])
+             + int(row["ranks_without_node"]) * float(row["wall_s"])) / whole
+    useful = float(row["efficiency"])
+    idle = float(row["idle_share"])
+    return {"expanding, as one rank would": useful,
+            "expanding more (search overhead)": 1 - idle - useful,
+            "waiting for the first node": min(first, idle),
+            "waiting later, and at the end": max(0.0, idle - first)}
+
+
+def percent(share):
+    return f"{100 * float(share):.1f} %"
+
+
+def simulated_table(rows):
+    head = ["instance", "ranks", "time", "speed-up", "efficiency", "nodes", "search overhead",
+            "before the first node", "waiting later", "messages a node", "rank 0 talks"]
+    lines = []
+    for row in rows:
+        _, _, first, later = shares(row).values()
+        lines.append([row["instance"], f"{int(row['ranks']):,}", f"{float(row['wall_s']):.3g} s",
+                      f"{float(row['speed_up']):.1f}", f"**{percent(row['efficiency'])}**",
+                      f"{int(row['nodes']):,}", f"{100 * float(row['expanding_overhead']):+.1f} %",
+                      percent(first), percent(later), f"{float(row['messages_per_node']):.2f}",
+                      percent(row["coordinator_talking_share"])])
+    return tables.table(head, lines)
+
+
+def compared_table(rows):
+    head = ["instance", "nodes, 1 rank", "measured", "simulated", "nodes, 2 ranks", "measured",
+            "simulated", "speed-up measured", "simulated"]
+    lines = [[row["instance"], row["nodes_1"], f"{row['measured_1_s']} s",
+              f"{row['simulated_1_s']} s", f"{row['nodes_2']} ({row['simulated_nodes_2']})",
+              f"{row['measured_2_s']} s", f"{row['simulated_2_s']} s",
+              f"**{float(row['measured_speed_up']):.2f}**",
+              f"**{float(row['simulated_speed_up']):.2f}**"] for row in rows]
+    medians = [statistics.median(float(row[column]) for row in rows)
+               for column in ("measured_speed_up", "simulated_speed_up")]
+    lines.append(["median", *[""] * 6, *[f"**{median:.2f}**" for median in medians]])
+    return tables.table(head, lines)
+
+
+def print_tables(a):
+    print(simulated_table(read(a.output / "simulated.csv")))
+    print()
+    print(compared_table(read(a.output / "compared.csv")))
+
+
+def draw(a):
+    try:
+        import matplotlib
+    except ImportError:
+        raise SystemExit("scaling.py: draw needs matplotlib (Debian: python3-matplotlib)") from None
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    groups = tables.grouped(read(a.output / "simulated.csv"), "instance")
+    figure, panels = pyplot.subplots(1, 1 + len(groups), figsize=(14, 4.2), sharey=True,
+                                     layout="constrained")
+    draw_efficiency(panels[0], groups)
+    for panel, ((name,), rows) in zip(panels[1:], groups.items()):
+        draw_shares(panel, name, rows)
+    handles, labels = panels[1].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
+    figure.savefig(a.output / "scaling.png", dpi=100)
+
+
+def text_of(ranks):
+    return [f"{int(number):,}" for number in ranks]
+
+
+def draw_efficiency(panel, groups):
+    for ((name,), rows), marker in zip(groups.items(), "osD^v"):
+        ranks = [int(row["ranks"]) for row in rows]
+        panel.plot(ranks, [float(row["efficiency"]) for row in rows], marker=marker,
+                   label=f"{name}\n{float(rows[0]['wall_s']):.0f} s by one rank")
+    panel.set_xscale("log", base=2)
+    panel.set_xticks(ranks, text_of(ranks), rotation=45)
+    panel.minorticks_off()
+    panel.set_ylim(0, 1.15)
+    panel.axhline(1, color="grey", linewidth=0.8, linestyle=":")
+    panel.set_xlabel("ranks")
+    panel.set_ylabel("efficiency: speed-up / ranks")
+    panel.set_title("Efficiency", fontsize=11)
+    panel.grid(alpha=0.3)
+    panel.legend(fontsize=7.5, loc="lower left")
+
+
+def draw_shares(panel, name, rows):
+    ranks = text_of(row["ranks"] for row in rows)
+    bottoms = [0.0] * len(rows)
+    colours = ["#2b7bba", "#e6550d", "#bdbdbd", "#e3e3e3"]
+    all_shares = [shares(row) for row in rows]
+    for label, colour in zip(all_shares[0], colours):
+        heights = [max(0.0, share[label]) for share in all_shares]
+        panel.bar(ranks, heights, bottom=bottoms, label=label, color=colour, width=0.75)
+        bottoms = [bottom + height for bottom, height in zip(bottoms, heights)]
+    panel.plot(ranks, [float(row["coordinator_talking_share"]) for row in rows], "k.--",
+               linewidth=1, label="rank 0 talks (on a processor of its own)")
+    panel.set_xlabel("ranks")
+    panel.set_title(f"Workers' time: {name}", fontsize=9.5)
+    panel.tick_params(axis="x", rotation=45)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=["simulate", "compare", "draw", "tables"])
+    parser.add_argument("--ranks", type=lambda text: [int(word) for word in text.split(",")],
+                        default=RANKS, help="whole numbers with commas; begin with 1")
+    parser.add_argument("--repeat", type=int, default=3, help="measurements of each; the median counts")
+    parser.add_argument("--jobs", type=int, default=1, help="simulations at a time")
+    parser.add_argument("--cost-per-work", type=float, default=COST_PER_WORK)
+    parser.add_argument("--memory-limit", type=float, default=8, help="gigabytes for a simulation")
+    parser.add_argument("--time-limit", type=float, default=600,
+                        help="seconds in which the plan to begin with must be found")
+    parser.add_argument("--maps", type=Path,
+                        default=os.environ.get("GROVE_MOVINGAI", "../shared/movingai"))
+    parser.add_argument("--output", type=Path, default=HERE / "results/scaling")
+    parser.add_argument("--bin", type=Path, default=HERE.parent / "build/release/bin")
+    a = parser.parse_args()
+    {"simulate": simulate, "compare": compare, "draw": draw, "tables": print_tables}[a.what](a)
+
+
+if __name__ == "__main__":
+    main()

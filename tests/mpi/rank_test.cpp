@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// What a rank says of the nodes that it holds, and when.
+#include "mpi/rank.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "grove/engine/run_observer.h"
+#include "grove/engine/techniques_of.h"
+#include "grove/search/expander.h"
+#include "mpi/coordinator.h"
+#include "tests/primal/crowd.h"
+
+namespace grove {
+namespace {
+
+// The only rank, whose messages wait until they are asked for.
+class Waiting : public Transport {
+ public:
+  int rank() const override { return 0; }
+  int ranks() const override { return 1; }
+  std::optional<Parcel> receive() override { return std::nullopt; }
+  std::vector<message::Message> take() { return std::exchange(sent_, {}); }
+
+ private:
+  void do_send(int, std::string bytes) override { sent_.push_back(message::message_of(bytes)); }
+
+  std::vector<message::Message> sent_;
+};
+
+// A rank that has been given the root of a tree, and an incumbent of `excess` over its bound.
+class RankWithRoot {
+ public:
+  RankWithRoot(Omega omega, Cost excess)
+      : instance_(testing::random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, 0)),
+        options_(with(omega)),
+        problem_(instance_, limits_),
+        stops_(instance_, problem_.distances),
+        rank_(problem_, options_, limits_, network_, stops_),
+        expander_(problem_, stops_, techniques_of(options_), options_.seed) {
+    Coordinator(problem_, options_, limits_, observer_, network_).begin();
+    for (message::Message& message : network_.take()) rank_.handle(0, std::move(message));
+    bound_ = rank_.nodes().bound();
+    if (excess < 0) return;
+    Plan plan;
+    plan.cost = bound_ + excess;
+    rank_.handle(0, message::Incumbent{plan});
+  }
+
+  // What it says at that time, if anything.
+  std::optional<message::Status> speak(double now) {
+    rank_.speak(now);
+    std::optional<message::Status> said;
+    for (const message::Message& message : network_.take())
+      if (const auto* status = std::get_if<message::Status>(&message)) said = *status;
+    return said;
+  }
+  // False: there is nothing left.
+  bool expand() {
+    SharedSearch& search = rank_.search();
+    const NodePtr node = search.take();
+    if (!node) return false;
+    expander_.turn_to(search.memory());
+    search.finish(node, expander_.expand(node, search.ledger().cutoff(), limits_));
+    return true;
+  }
+  Cost bound() const { return bound_; }
+  std::int64_t open() const { return static_cast<std::int64_t>(rank_.nodes().frontier.open()); }
+
+ private:
+  static SolveOptions with(Omega omega) {
+    SolveOptions options;
+    options.omega = omega;
+    options.techniques = {};  // many nodes
+    return options;
+  }
+
+  Instance instance_;
+  SolveOptions options_;
+  Limits limits_;
+  Problem problem_;
+  AgentStopsStore stops_;
+  RunObserver observer_;
+  Waiting network_;
+  Rank rank_;
+  Expander expander_;
+  Cost bound_ = 0;
+};
+
+TEST(Rank, OffersNodesThatTheEndWaitsFor) {
+  for (const Cost excess : {-1, 1, 50}) {
+    RankWithRoot rank(Omega(), excess);
+    const auto status = rank.speak(0);
+    ASSERT_TRUE(status);
+    EXPECT_FALSE(status->idle);
+    EXPECT_EQ(status->levels, (std::vector<Frontier::Level>{{rank.bound(), 1}}));
+  }
+}
+
+TEST(Rank, IsIdleWithNodesThatTheIncumbentIsWithinOmegaOf) {
+  RankWithRoot rank(Omega::parse("0.5"), 1);
+  const auto status = rank.speak(0);
+  ASSERT_TRUE(status);
+  EXPECT_TRUE(status->idle);
+  EXPECT_TRUE(status->levels.empty());
+  EXPECT_EQ(status->live, 1) << "it counts all the same";
+  EXPECT_EQ(status->bound, rank.bound());
+  EXPECT_EQ(status->open, 1);
+}
+
+TEST(Rank, SaysAtOnceThatItHasFarMoreToSpare) {
+  RankWithRoot rank(Omega(), -1);
+  const auto first = rank.speak(0);
+  ASSERT_TRUE(first);
+  std::int64_t said = first->open;
+  int statuses = 0;
+  int expansions = 0;
+  while (rank.open() < 200 && expansions < 5000 && rank.expand()) {
+    ++expansions;
+    if (const auto status = rank.speak(0)) {
+      ++statuses;
+      said = status->open;
+    }
+    EXPECT_LE(rank.open() / 2, 2 * (said / 2));
+  }
+  EXPECT_GE(rank.open(), 200) << "too few nodes to be a test";
+  EXPECT_LT(statuses, expansions / 2) << "what changed little can wait";
+}
+
+}  // namespace
+}  // namespace grove
