@@ -10,6 +10,7 @@
 #include "mpi_commands.h"
 #include "program.h"
 #include "signals.h"
+#include "together.h"
 
 namespace grove {
 namespace {
@@ -32,10 +33,12 @@ int main(int argc, char** argv) {
   CLI::App app(kDescription, "grove-mpi");
   app.footer(kFooter);
   prepare_program(app);
-  add_mpi_solve_command(app, session);
-  add_mpi_batch_command(app, session);
+  CommandLines lines(session);
+  add_mpi_solve_command(app, session, lines);
+  add_mpi_batch_command(app, session, lines);
   try {
-    return run_program(app, argc, argv, session.rank() == 0);
+    return run_program(app, argc, argv, session.rank() == 0,
+                       [&](const std::string& why) { lines.refuse(why); });
   } catch (const std::exception& error) {
     complain(app, fmt::format("internal failure of rank {}: {}", session.rank(), error.what()));
     session.abort(kExitInternalFailure);

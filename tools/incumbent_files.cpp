@@ -57,8 +57,9 @@ void IncumbentFiles::write(const Plan& plan, const Progress& progress) {
   solution.stats.counts["nodes_expanded"] = progress.nodes_expanded;
   solution.stats.texts["version"] = version_text();
   try {
-    if (!best_.empty()) write_solution(best_, instance_, solution);
-    if (!prefix_.empty()) write_solution(file(prefix_, ++written_), instance_, solution);
+    if (!best_.empty()) write_solution(best_, instance_, solution, Outlives::kProcess);
+    if (!prefix_.empty())
+      write_solution(file(prefix_, ++written_), instance_, solution, Outlives::kProcess);
   } catch (const InputError& error) {
     say_on_stderr(
         fmt::format("grove: warning: {}; no more plans are written before the end", error.what()));

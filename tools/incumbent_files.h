@@ -12,8 +12,10 @@
 namespace grove {
 
 // Writes the k-th plan of a run to PREFIX-<k>.plan.json, and the best one to a file of its own,
-// whole or not at all, and passes everything on to another observer; a plan is on disk before that
-// one hears of it. A file that cannot be written is told on stderr, once; the run goes on.
+// whole or not at all, and passes everything on to another observer; a plan is in its file before
+// that one hears of it. Nobody waits until the disk has it, for plans come many at a time: it
+// outlives the process, and what must outlive the machine is in a checkpoint. A file that cannot be
+// written is told on stderr, once; the run goes on.
 class IncumbentFiles : public RunObserver {
  public:
   // `prefix` or `best` empty: these are not written. `instance` and `next` must outlive this.

@@ -100,8 +100,6 @@ class BatchRun {
   void run() {
     share_machine(app_, a_.solve, session_);
     options_ = solve_options(a_.solve);
-    if (options_.deterministic)
-      throw CLI::ValidationError("--deterministic", "is for one process: 'grove solve'");
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
     const batch::Grouping grouping{session_.ranks(), static_cast<int>(a_.ranks_per_instance)};
@@ -221,7 +219,7 @@ class BatchRun {
 
 }  // namespace
 
-void add_mpi_batch_command(CLI::App& root, MpiSession& session) {
+void add_mpi_batch_command(CLI::App& root, MpiSession& session, CommandLines& lines) {
   CLI::App* app = root.add_subcommand("batch", "Solve many instances, and tabulate the results");
   app->footer(kFooter);
   const auto a = std::make_shared<BatchArguments>();
@@ -239,7 +237,10 @@ void add_mpi_batch_command(CLI::App& root, MpiSession& session) {
       ->required()
       ->type_name("DIR");
   app->add_flag("--quiet", a->quiet, "no progress on the screen");
-  app->callback([app, a, &session] { BatchRun(*app, *a, session).run(); });
+  app->callback([app, a, &session, &lines] {
+    lines.accept();
+    BatchRun(*app, *a, session).run();
+  });
 }
 
 }  // namespace grove

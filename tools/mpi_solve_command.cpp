@@ -50,8 +50,6 @@ class Run {
   void run() {
     share_machine(app_, a_, session_);
     options_ = solve_options(a_);
-    if (a_.deterministic)
-      throw CLI::ValidationError("--deterministic", "is for one process: 'grove solve'");
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
     together(session_, [&] { loaded_.emplace(a_.instance.load(is_first())); });
@@ -135,7 +133,7 @@ class Run {
 
 }  // namespace
 
-void add_mpi_solve_command(CLI::App& root, MpiSession& session) {
+void add_mpi_solve_command(CLI::App& root, MpiSession& session, CommandLines& lines) {
   CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
   app->footer(kFooter);
   const auto arguments = std::make_shared<SolveArguments>();
@@ -143,7 +141,10 @@ void add_mpi_solve_command(CLI::App& root, MpiSession& session) {
   add_search_options(*app, *arguments);
   add_checkpoint_options(*app, arguments->checkpoints);
   add_file_options(*app, *arguments);
-  app->callback([app, arguments, &session] { Run(*app, *arguments, session).run(); });
+  app->callback([app, arguments, &session, &lines] {
+    lines.accept();
+    Run(*app, *arguments, session).run();
+  });
 }
 
 }  // namespace grove

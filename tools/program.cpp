@@ -59,8 +59,10 @@ void prepare_program(CLI::App& app) {
   app.require_subcommand(1);
 }
 
-int run_program(CLI::App& app, int argc, char** argv, bool speaks) {
+int run_program(CLI::App& app, int argc, char** argv, bool speaks,
+                const std::function<void(const std::string& why)>& refused) {
   const auto say = [&](const std::string& message) {
+    refused(message);
     if (speaks) complain(app, message);
     return kExitBadInput;
   };
@@ -68,6 +70,7 @@ int run_program(CLI::App& app, int argc, char** argv, bool speaks) {
     app.parse(argc, argv);
     return flush_output(app);
   } catch (const CLI::Success& help_or_version) {
+    refused("was asked for help or its version alone");
     if (speaks) app.exit(help_or_version);
     return flush_output(app);
   } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <functional>
 #include <string>
 
 namespace grove {
@@ -16,7 +17,10 @@ void prepare_program(CLI::App& app);
 
 // Parses the command line, which runs the commands, and turns what they throw into an exit code
 // (commands.h). Complaints, help and version are printed only if it `speaks`: of several processes
-// that say the same, one should. Internal failures go through.
-int run_program(CLI::App& app, int argc, char** argv, bool speaks = true);
+// that say the same, one should. `refused` is told first why nothing is done, or no more. Internal
+// failures go through.
+int run_program(
+    CLI::App& app, int argc, char** argv, bool speaks = true,
+    const std::function<void(const std::string& why)>& refused = [](const std::string&) {});
 
 }  // namespace grove

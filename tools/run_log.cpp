@@ -94,6 +94,11 @@ void LogSink::line(std::string_view text) {
   if (file_ && !write(file_.get(), text, "the log file")) file_.reset();
 }
 
+void LogSink::warn(std::string_view text) {
+  line(fmt::format("  {}", text));
+  if (!to_stdout_) say_on_stderr(fmt::format("grove: warning: {}", text));
+}
+
 // A log that cannot be written is given up with a word on stderr; the run goes on.
 bool LogSink::write(std::FILE* file, std::string_view text, const char* name) {
   std::fprintf(file, "%.*s\n", static_cast<int>(text.size()), text.data());
@@ -177,7 +182,7 @@ void RunLog::on_checkpoint(const CheckpointReport& report) {
     sink_.line(fmt::format("  Checkpoint of {} nodes written in {:.2f} s ({:.2f}s)", report.nodes,
                            report.seconds, seconds()));
   else
-    sink_.line(fmt::format("  NO checkpoint was written: {}", report.failure));
+    sink_.warn(fmt::format("NO checkpoint was written: {}", report.failure));
 }
 
 void RunLog::finish(const Solution& solution, const std::filesystem::path& plan_path) {

@@ -24,6 +24,8 @@ class LogSink {
   LogSink(bool to_stdout, const std::filesystem::path& file, bool may_show_progress = true);
 
   void line(std::string_view text = "");
+  // Also told on stderr where standard output tells nothing.
+  void warn(std::string_view text);
   bool shows_progress() const { return shows_progress_; }
   void progress(std::string_view text);
 

@@ -130,11 +130,6 @@ void add_search_options(CLI::App& app, SolveArguments& a) {
               "search on so many threads. By default one for each core that this process may use")
       ->type_name("T");
   add_method_options(app, a);
-  app.add_flag(
-      "--deterministic", a.deterministic,
-      "let what happens depend on the work done alone: runs that come near no time or memory limit "
-      "then find the same plan and log the same, times and memory aside, whatever the number of "
-      "threads, of which it has work for four. (Without it only runs on one thread do.)");
 }
 
 void add_file_options(CLI::App& app, SolveArguments& a) {

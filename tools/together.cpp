@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace grove {
@@ -21,6 +22,18 @@ void together(const MpiSession& session, const std::function<void()>& what) {
   if (failed == all.end()) return;
   if (mine && std::ranges::count(all, mine->what()) == session.ranks()) throw *mine;
   throw InputError(fmt::format("rank {}", failed - all.begin()), "", *failed);
+}
+
+void CommandLines::accept() {
+  agreed_ = true;
+  const std::vector<std::string> all = session_.gather("");
+  const auto refused = std::ranges::find_if(all, [](const auto& why) { return !why.empty(); });
+  if (refused != all.end())
+    throw InputError(fmt::format("rank {}", refused - all.begin()), "", *refused);
+}
+
+void CommandLines::refuse(const std::string& why) {
+  if (!std::exchange(agreed_, true)) session_.gather(why);
 }
 
 void require_same(const MpiSession& session, const std::string& what, const std::string& mine) {

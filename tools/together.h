@@ -17,6 +17,23 @@ namespace grove {
 // the same on all, for they have the same command line.
 void together(const MpiSession& session, const std::function<void()>& what);
 
+// Whether all ranks accept their command lines, which may not be the same, nor the programs that
+// read them. A rank alone would leave the others waiting for it.
+class CommandLines {
+ public:
+  // `session` must outlive this.
+  explicit CommandLines(const MpiSession& session) : session_(session) {}
+
+  // All ranks do one of the two, once. A command that begins accepts: throws InputError if another
+  // rank did not. Whoever has accepted may refuse what all refuse.
+  void accept();
+  void refuse(const std::string& why);
+
+ private:
+  const MpiSession& session_;
+  bool agreed_ = false;
+};
+
 // All ranks: throws InputError unless all say the same. `what` is, for instance, "version".
 void require_same(const MpiSession& session, const std::string& what, const std::string& mine);
 

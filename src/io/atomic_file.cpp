@@ -100,8 +100,11 @@ class TemporaryFile {
     if (!write_all(file_.get(), content)) fail_to_write(name_, errno);
   }
 
+  void flush() {
+    if (::fsync(file_.get()) != 0) fail_to_write(name_, errno);
+  }
   void rename_to(const fs::path& target) {
-    if (::fsync(file_.get()) != 0 || !file_.close()) fail_to_write(name_, errno);
+    if (!file_.close()) fail_to_write(name_, errno);
     if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write(name_, errno);
     renamed_ = true;
   }
@@ -176,16 +179,17 @@ void AtomicFile::write(std::string_view bytes) {
     files_->temporary->write(bytes);
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(Outlives outlives) {
   if (files_->special) return files_->special->close();
+  if (outlives == Outlives::kMachine) files_->temporary->flush();
   files_->temporary->rename_to(files_->target);
-  flush_directory(files_->target.parent_path());
+  if (outlives == Outlives::kMachine) flush_directory(files_->target.parent_path());
 }
 
-void write_file_atomically(const fs::path& path, std::string_view content) {
+void write_file_atomically(const fs::path& path, std::string_view content, Outlives outlives) {
   AtomicFile file(path);
   file.write(content);
-  file.commit();
+  file.commit(outlives);
 }
 
 void require_writable(const fs::path& path) {

@@ -165,8 +165,8 @@ Stats read_stats(const JsonValue& value) {
 }  // namespace
 
 void write_solution(const std::filesystem::path& path, const Instance& instance,
-                    const Solution& solution) {
-  write_file_atomically(path, dump_by_lines(solution_json(instance, solution)));
+                    const Solution& solution, Outlives outlives) {
+  write_file_atomically(path, dump_by_lines(solution_json(instance, solution)), outlives);
 }
 
 Solution read_solution(const std::filesystem::path& path, const Instance& instance,

@@ -98,6 +98,12 @@ class Refusals(Program):
         other = [":", "-np", 1, GROVE_MPI, "solve", EASY, "--seed", 2]
         self.refuses(one + other, "rank 1", "options", "--seed 2", "--seed 1")
 
+    def test_a_rank_that_alone_refuses_its_command_line(self):
+        for first, second in (("0", "x"), ("x", "0")):
+            command = mpirun(1, "solve", EASY, "--omega", first)
+            self.refuses([*command, ":", "-np", "1", GROVE_MPI, "solve", EASY, "--omega", second],
+                         "--omega")
+
     def test_ranks_with_different_instances(self):
         other = self.generate(3, 3, 1)
         self.refuses(["mpirun", "--oversubscribe", "-np", 1, GROVE_MPI, "solve", EASY,

@@ -2,11 +2,16 @@
 // Files that appear whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string_view>
 
 namespace grove {
+
+// What a file that was written outlives: this process, however it ends, or a crash of the machine
+// too. To wait until the disk has it can take seconds, where others keep the machine busy.
+enum class Outlives : std::uint8_t { kProcess, kMachine };
 
 // The file at `path`, replaced piece by piece: written beside it under a temporary name, flushed to
 // disk and renamed by commit(). Without that the old file stands and the temporary one goes with
@@ -20,7 +25,7 @@ class AtomicFile {
 
   void write(std::string_view bytes);
   // To be called once, last.
-  void commit();
+  void commit(Outlives outlives = Outlives::kMachine);
 
  private:
   struct Files;
@@ -31,7 +36,8 @@ class AtomicFile {
 // disk and renamed. On failure the old file stands, the temporary one is gone, and InputError is
 // thrown. Special files (devices, pipes, /dev/stdout) are written to directly. A program
 // that may run under a limit on file sizes must ignore SIGXFSZ, or the signal ends it half-way.
-void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+void write_file_atomically(const std::filesystem::path& path, std::string_view content,
+                           Outlives outlives = Outlives::kMachine);
 
 // Throws InputError when write_file_atomically(path) would fail now (no such folder, no permission,
 // a directory of that name): ask before a long run. Leaves nothing behind.

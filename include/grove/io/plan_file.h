@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "grove/io/atomic_file.h"
 #include "grove/model/plan.h"
 
 namespace grove {
 
 // Writes `solution` whole or not at all. Throws InputError when the file cannot be written.
 void write_solution(const std::filesystem::path& path, const Instance& instance,
-                    const Solution& solution);
+                    const Solution& solution, Outlives outlives = Outlives::kMachine);
 
 // Reads a plan file and translates its ids with `instance`; believes every number it finds, for
 // check() to refute. Agents come back by AgentIndex whatever their order in the file; an agent that
