@@ -89,17 +89,27 @@ def read(path):
         return list(csv.DictReader(file))
 
 
+def chosen(cases, a):
+    return [case for case in cases if a.only in str(case)]
+
+
+def merge(path, rows):
+    """The rows of a file anew, but for those of other instances."""
+    others = read(path) if path.exists() else []
+    new = {row["instance"] for row in rows}
+    write(path, [row for row in others if row["instance"] not in new] + rows)
+
+
 def simulate(a):
     def study(case):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            rows = simulated(case, prepared(case, a, folder), a.ranks, a, folder)
-        print(f"{case}: simulated", flush=True)
-        return rows
+            return simulated(case, prepared(case, a, folder), a.ranks, a, folder)
 
     with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
-        rows = sum(pool.map(study, HARD), [])
-    write(a.output / "simulated.csv", rows)
+        for rows in pool.map(study, chosen(HARD, a)):
+            merge(a.output / "simulated.csv", rows)
+            print(f"{rows[0]['instance']}: simulated", flush=True)
 
 
 def comparison(case, a, folder):
@@ -116,22 +126,24 @@ def comparison(case, a, folder):
 
 
 def compare(a):
-    rows = []
-    for case in SHORT:
+    for case in chosen(SHORT, a):
         with tempfile.TemporaryDirectory() as name:
-            rows.append(comparison(case, a, Path(name)))
+            row = comparison(case, a, Path(name))
+        merge(a.output / "compared.csv", [row])
         print(f"{case}: compared, load {os.getloadavg()[0]:.1f}", flush=True)
-    write(a.output / "compared.csv", rows)
 
 
 def shares(row):
-    """What became of the workers' time in a run: shares that sum to 1."""
+    """What became of the workers' time in a run: shares that sum to 1.
+
+    Where ranks together expand for less time than one would, there is no overhead.
+    """
     whole = float(row["wall_s"]) * int(row["ranks"])
     working = int(row["ranks"]) - int(row["ranks_without_node"])
     first = (working * float(row["first_node_s"])
              + int(row["ranks_without_node"]) * float(row["wall_s"])) / whole
-    useful = float(row["efficiency"])
     idle = float(row["idle_share"])
+    useful = min(float(row["efficiency"]), 1 - idle)
     return {"expanding, as one rank would": useful,
             "expanding more (search overhead)": 1 - idle - useful,
             "waiting for the first node": min(first, idle),
@@ -185,13 +197,13 @@ def draw(a):
     from matplotlib import pyplot
 
     groups = tables.grouped(read(a.output / "simulated.csv"), "instance")
-    figure, panels = pyplot.subplots(1, 1 + len(groups), figsize=(14, 4.2), sharey=True,
-                                     layout="constrained")
+    figure, panels = pyplot.subplots(1, 1 + len(groups), figsize=(15, 4.8), sharey=True)
     draw_efficiency(panels[0], groups)
     for panel, ((name,), rows) in zip(panels[1:], groups.items()):
         draw_shares(panel, name, rows)
     handles, labels = panels[1].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
+    figure.legend(handles, labels, loc="lower center", ncol=len(labels), frameon=False, fontsize=9)
+    figure.tight_layout(rect=(0, 0.07, 1, 1))
     figure.savefig(a.output / "scaling.png", dpi=100)
 
 
@@ -222,7 +234,7 @@ def draw_shares(panel, name, rows):
     colours = ["#2b7bba", "#e6550d", "#bdbdbd", "#e3e3e3"]
     all_shares = [shares(row) for row in rows]
     for label, colour in zip(all_shares[0], colours):
-        heights = [max(0.0, share[label]) for share in all_shares]
+        heights = [share[label] for share in all_shares]
         panel.bar(ranks, heights, bottom=bottoms, label=label, color=colour, width=0.75)
         bottoms = [bottom + height for bottom, height in zip(bottoms, heights)]
     panel.plot(ranks, [float(row["coordinator_talking_share"]) for row in rows], "k.--",
@@ -238,6 +250,7 @@ def main():
     parser.add_argument("what", choices=["simulate", "compare", "draw", "tables"])
     parser.add_argument("--ranks", type=lambda text: [int(word) for word in text.split(",")],
                         default=RANKS, help="whole numbers with commas; begin with 1")
+    parser.add_argument("--only", default="", help="instances whose name contains this")
     parser.add_argument("--repeat", type=int, default=3, help="measurements of each; the median counts")
     parser.add_argument("--jobs", type=int, default=1, help="simulations at a time")
     parser.add_argument("--cost-per-work", type=float, default=COST_PER_WORK)
