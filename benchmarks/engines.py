@@ -68,7 +68,8 @@ def by_ranks(grove_mpi, instances, ranks, threads, limit, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("instances", nargs="*", type=Path)
     parser.add_argument("--tiny", type=int, default=500)
     parser.add_argument("--time-limit", type=float, default=60)

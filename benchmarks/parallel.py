@@ -57,7 +57,8 @@ def solve(mode, instance, a, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--modes", nargs="+", default=["2-threads", "2-ranks"], choices=MODES)
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--first", type=int, default=len(CASES), help="only so many instances")

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/k_best_joint_sequences.h"
 #include "grove/sequencing/k_best_sequences.h"
 #include "grove/sequencing/sequence_dag.h"

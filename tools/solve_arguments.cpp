@@ -134,7 +134,7 @@ void add_search_options(CLI::App& app, SolveArguments& a) {
       "--deterministic", a.deterministic,
       "let what happens depend on the work done alone: runs that come near no time or memory limit "
       "then find the same plan and log the same, times and memory aside, whatever the number of "
-      "threads. (Without it only runs on one thread do.)");
+      "threads, of which it has work for four. (Without it only runs on one thread do.)");
 }
 
 void add_file_options(CLI::App& app, SolveArguments& a) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "grove/planning/free_goals.h"
+#include "grove/sequencing/cost_matrix.h"
 #include "safe_intervals.h"
 
 namespace grove {

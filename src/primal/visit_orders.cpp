@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/rtsp.h"
 
 namespace grove {

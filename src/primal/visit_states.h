@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "grove/search/problem.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/sequencing/sequence.h"
 #include "grove/sequencing/sequence_dag.h"
 
 namespace grove {

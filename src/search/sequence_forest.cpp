@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "grove/sequencing/cost_matrix.h"
+
 namespace grove {
 namespace {
 

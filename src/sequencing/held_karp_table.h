@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grove/model/limits.h"
+#include "grove/sequencing/cost_matrix.h"
 #include "stop_set.h"
 
 namespace grove {

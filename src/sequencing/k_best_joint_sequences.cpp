@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "bucket_queue.h"
+#include "grove/sequencing/cost_matrix.h"
 
 namespace grove {
 

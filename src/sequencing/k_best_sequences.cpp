@@ -24,6 +24,7 @@
 #include <utility>
 
 #include "bucket_queue.h"
+#include "grove/sequencing/cost_matrix.h"
 #include "stop_set.h"
 
 namespace grove {

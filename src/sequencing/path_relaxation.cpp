@@ -30,6 +30,7 @@
 #include <array>
 #include <cmath>
 
+#include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/rtsp.h"
 
 namespace grove {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "grove/model/grid.h"
 #include "stop_set.h"
 
 namespace grove {

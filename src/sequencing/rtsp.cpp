@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "grove/sequencing/cost_matrix.h"
 #include "rtsp_backends.h"
 
 namespace grove {

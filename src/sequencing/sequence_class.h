@@ -3,6 +3,7 @@
 // from the exact costs of completing (the "completion" of a stop, given what is left after it).
 #pragma once
 
+#include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/rtsp.h"
 #include "stop_set.h"
 

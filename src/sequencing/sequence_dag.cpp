@@ -25,6 +25,7 @@
 
 #include <bit>
 
+#include "grove/sequencing/cost_matrix.h"
 #include "path_relaxation.h"
 #include "stop_set.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/sequencing/sequence.h"
 
 namespace grove {
 

@@ -56,9 +56,9 @@ class Recorder : public RunObserver {
 TEST(Multicore, FindsTheOptimumOfOneThread) {
   std::int64_t nodes = 0;
   for (const Instance& instance : instances()) {
-    const Solution alone = solve(instance, plain(1), Within(std::chrono::seconds(5)));
+    const Solution alone = solve(instance, plain(1), Within(std::chrono::seconds(30)));
     for (const int threads : {2, 3, 8}) {
-      const Solution together = solve(instance, plain(threads), Within(std::chrono::seconds(5)));
+      const Solution together = solve(instance, plain(threads), Within(std::chrono::seconds(30)));
       if (alone.status == Status::kUnknown || together.status == Status::kUnknown) continue;
       ASSERT_EQ(together.status, alone.status);
       EXPECT_EQ(together.lower_bound, alone.lower_bound);
@@ -151,7 +151,7 @@ TEST(Multicore, WhatAnObserverThrowsArrives) {
     SolveOptions options = plain(3);
     options.deterministic = deterministic;
     Thrower thrower;
-    EXPECT_THROW(solve(instances()[0], options, Within(std::chrono::seconds(5)), &thrower),
+    EXPECT_THROW(solve(instances()[0], options, Within(std::chrono::seconds(30)), &thrower),
                  std::runtime_error);
   }
 }

@@ -28,9 +28,12 @@ def undisturbed(instance, folder):
     return plan["cost"]
 
 
-def kill_a_rank(running, dice):
-    ranks = processes_of(running)
-    if ranks:
+def kill_a_rank(running, dice, most_seconds):
+    """So long after they have started, at most."""
+    while not (ranks := processes_of(running)) and running.poll() is None:
+        time.sleep(0.02)
+    time.sleep(dice.uniform(0.3, most_seconds))
+    if running.poll() is None:
         os.kill(dice.choice(sorted(ranks.values())), signal.SIGKILL)
 
 
@@ -43,8 +46,7 @@ def disturbed(instance, folder, kills, dice, most_seconds):
                                "--checkpoint", "kept", "--checkpoint-interval", 0.2,
                                "--resume", "auto", "--output", "plan.json"), folder)
         if killed < kills:
-            time.sleep(dice.uniform(0.5, most_seconds))
-            kill_a_rank(running, dice)
+            kill_a_rank(running, dice, most_seconds)
         said, _ = running.communicate()
         if running.returncode == 0:
             return plan_of(Path(folder) / "plan.json"), killed
@@ -66,7 +68,8 @@ def check(instance, kills, seed, most_seconds=2.0):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("instance", type=Path)
     parser.add_argument("--kills", type=int, default=10)
     parser.add_argument("--seed", type=int, default=0)

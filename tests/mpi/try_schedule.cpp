@@ -39,10 +39,13 @@ Answer truth_by_one_thread(const Instance& instance) {
   return {Verdict::kSolved, std::move(solution.plan)};
 }
 
-// Plain CBS makes many nodes, which is what travels. The primal search takes a millisecond a step.
+// Plain CBS makes many nodes, which is what travels; bounds from pairs make fewer, but then what is
+// known of pairs travels too. The primal search takes a millisecond a step.
 void make_search_poor(Techniques& techniques, fuzz::Random& dice) {
   if (dice.percent(20)) techniques = {};
   if (dice.percent(70)) techniques = {Technique::kTarget, Technique::kStrongBranching};
+  if (dice.percent(25))
+    techniques = {Technique::kDependencies, Technique::kJointPaths, Technique::kClusters};
   if (dice.percent(95)) techniques = techniques.without(Technique::kPrimal);
 }
 

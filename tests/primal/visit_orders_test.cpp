@@ -6,6 +6,7 @@
 #include <set>
 
 #include "crowd.h"
+#include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/k_best_sequences.h"
 #include "tests/support/instances.h"
 

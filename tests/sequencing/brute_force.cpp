@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "grove/sequencing/cost_matrix.h"
+
 namespace grove::testing {
 namespace {
 

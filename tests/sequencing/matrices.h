@@ -6,6 +6,8 @@
 #include <random>
 #include <string>
 
+#include "grove/model/instance.h"
+#include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/rtsp.h"
 
 namespace grove::testing {

@@ -33,7 +33,7 @@ class AgentStops {
   Cell cell(int stop) const { return cells_[stop]; }
   // The stop on this cell; kNoStop: none.
   int stop_at(Cell cell) const { return (*stop_at_)[cell]; }
-  StopSet all() const { return completions_.matrix().all(); }
+  StopSet all() const { return all_stops(count()); }
 
   // From a cell to each stop: count() distances in a row.
   const Time* distances_from(Cell cell) const {

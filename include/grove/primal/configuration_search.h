@@ -10,7 +10,7 @@
 #include "grove/model/limits.h"
 #include "grove/model/plan.h"
 #include "grove/search/problem.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/sequencing/sequence.h"
 
 namespace grove {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grove/search/problem.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/sequencing/sequence.h"
 
 namespace grove {
 

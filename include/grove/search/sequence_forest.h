@@ -13,6 +13,7 @@
 #include "grove/planning/conflict_avoidance_table.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/search/forest.h"
+#include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/k_best_joint_sequences.h"
 
 namespace grove {

@@ -4,8 +4,9 @@
 
 #include <memory>
 
+#include "grove/model/grid.h"
 #include "grove/model/limits.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/sequencing/sequence.h"
 
 namespace grove {
 

@@ -3,20 +3,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <vector>
 
 #include "grove/model/distance_field.h"
 #include "grove/model/instance.h"
+#include "grove/sequencing/sequence.h"
 
 namespace grove {
-
-// One of an agent's own tasks, as its position in Agent::tasks: 0 .. n-1.
-using Stop = std::uint8_t;
-// A set of stops: bit s stands for stop s.
-using StopSet = std::uint64_t;
-// Stops in the order of their visits; complete when it holds all n.
-using Sequence = std::vector<Stop>;
 
 // Shortest distances of one agent, in steps, kNever where there is no way. Row-major (n+1) x (n+1):
 // entry (i, j) from stop i to stop j; row n from the agent's start; column n to its destination
@@ -31,7 +23,7 @@ struct CostMatrix {
   Time between(int from, int to) const { return cost(from, to); }
   Time to_end(int stop) const { return cost(stop, stops()); }
   // All stops, as a set.
-  StopSet all() const { return stops() == 64 ? ~StopSet{0} : (StopSet{1} << stops()) - 1; }
+  StopSet all() const { return all_stops(stops()); }
 };
 
 CostMatrix cost_matrix(const Instance& instance, AgentIndex agent, const DistanceFields& distances);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "grove/model/instance.h"
 #include "grove/model/omega.h"
 #include "grove/sequencing/k_best_sequences.h"
 

@@ -10,8 +10,9 @@
 #include <memory>
 #include <string_view>
 
+#include "grove/model/grid.h"
 #include "grove/model/limits.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/sequencing/sequence.h"
 
 namespace grove {
 

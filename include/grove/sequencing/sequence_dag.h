@@ -7,8 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "grove/model/grid.h"
 #include "grove/model/limits.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/sequencing/sequence.h"
 
 namespace grove {
 
