@@ -3,9 +3,10 @@
 """How the distributed search scales: simulated up to 4,096 ranks, and checked with two real ones.
 
     benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]   three hard instances: simulated.csv
+    benchmarks/scaling.py bound --maps FOLDER                 the same if messages cost nothing: bound.csv
     benchmarks/scaling.py compare --maps FOLDER               2 ranks simulated and measured: compared.csv
-    benchmarks/scaling.py draw                                scaling.png from simulated.csv; needs matplotlib
-    benchmarks/scaling.py tables                              both tables in Markdown, to stdout
+    benchmarks/scaling.py draw                                scaling.png from these; needs matplotlib
+    benchmarks/scaling.py tables                              the tables in Markdown, to stdout
 
 All read and write the folder --output. Everything begins with an optimal plan, which is found first, and
 nobody looks for plans beside the tree: what must be expanded is then nearly the same whatever the number
@@ -36,6 +37,7 @@ SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
          Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]
 RANKS = [1, 2, 16, 128, 1024, 4096]
 COST_PER_WORK = 1.3e-7  # seconds; see results/scaling/README.md
+FREE_MESSAGES = ["--latency", 0, "--message-cost", 0, "--bandwidth", 1e15, "--poll", 0]
 OPTIMAL = ["--omega", 0]
 TREE_ONLY = ["--threads", 1, "--without", "primal,configurations", "--quiet"]
 MPIRUN = ["env", "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "mpirun", "-np", 2]
@@ -55,11 +57,11 @@ def prepared(case, a, folder):
     return [*instance, *OPTIMAL, "--start", plan]
 
 
-def simulated(case, problem, ranks, a, folder):
+def simulated(case, problem, ranks, a, folder, machine=()):
     """A row per number of ranks."""
     table = folder / "table.csv"
     run([a.bin / "grove-sim", *problem, "--ranks", ",".join(map(str, ranks)), "--cost-per-work",
-         a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table])
+         a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table, *machine])
     with table.open(encoding="utf-8", newline="") as file:
         return [{"instance": str(case), **row} for row in csv.DictReader(file)]
 
@@ -97,19 +99,29 @@ def merge(path, rows):
     """The rows of a file anew, but for those of other instances."""
     others = read(path) if path.exists() else []
     new = {row["instance"] for row in rows}
-    write(path, [row for row in others if row["instance"] not in new] + rows)
+    rows = [row for row in others if row["instance"] not in new] + rows
+    order = [str(case) for case in HARD + SHORT]
+    write(path, sorted(rows, key=lambda row: order.index(row["instance"])))
+
+
+def study(output, machine, a):
+    def rows_of(case):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            return simulated(case, prepared(case, a, folder), a.ranks, a, folder, machine)
+
+    with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
+        for rows in pool.map(rows_of, chosen(HARD, a)):
+            merge(output, rows)
+            print(f"{rows[0]['instance']}: simulated", flush=True)
 
 
 def simulate(a):
-    def study(case):
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            return simulated(case, prepared(case, a, folder), a.ranks, a, folder)
+    study(a.output / "simulated.csv", (), a)
 
-    with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
-        for rows in pool.map(study, chosen(HARD, a)):
-            merge(a.output / "simulated.csv", rows)
-            print(f"{rows[0]['instance']}: simulated", flush=True)
+
+def bound(a):
+    study(a.output / "bound.csv", FREE_MESSAGES, a)
 
 
 def comparison(case, a, folder):
@@ -154,14 +166,17 @@ def percent(share):
     return f"{100 * float(share):.1f} %"
 
 
-def simulated_table(rows):
-    head = ["instance", "ranks", "time", "speed-up", "efficiency", "nodes", "search overhead",
+def simulated_table(rows, free):
+    efficiency = {(row["instance"], row["ranks"]): row["efficiency"] for row in free}
+    head = ["instance", "ranks", "time", "speed-up", "efficiency", "with free messages", "nodes", "search overhead",
             "before the first node", "waiting later", "messages a node", "rank 0 talks"]
     lines = []
     for row in rows:
         _, _, first, later = shares(row).values()
+        free_one = efficiency.get((row["instance"], row["ranks"]))
         lines.append([row["instance"], f"{int(row['ranks']):,}", f"{float(row['wall_s']):.3g} s",
                       f"{float(row['speed_up']):.1f}", f"**{percent(row['efficiency'])}**",
+                      percent(free_one) if free_one else "",
                       f"{int(row['nodes']):,}", f"{100 * float(row['expanding_overhead']):+.1f} %",
                       percent(first), percent(later), f"{float(row['messages_per_node']):.2f}",
                       percent(row["coordinator_talking_share"])])
@@ -183,7 +198,7 @@ def compared_table(rows):
 
 
 def print_tables(a):
-    print(simulated_table(read(a.output / "simulated.csv")))
+    print(simulated_table(read(a.output / "simulated.csv"), read(a.output / "bound.csv")))
     print()
     print(compared_table(read(a.output / "compared.csv")))
 
@@ -198,7 +213,7 @@ def draw(a):
 
     groups = tables.grouped(read(a.output / "simulated.csv"), "instance")
     figure, panels = pyplot.subplots(1, 1 + len(groups), figsize=(15, 4.8), sharey=True)
-    draw_efficiency(panels[0], groups)
+    draw_efficiency(panels[0], groups, tables.grouped(read(a.output / "bound.csv"), "instance"))
     for panel, ((name,), rows) in zip(panels[1:], groups.items()):
         draw_shares(panel, name, rows)
     handles, labels = panels[1].get_legend_handles_labels()
@@ -211,11 +226,16 @@ def text_of(ranks):
     return [f"{int(number):,}" for number in ranks]
 
 
-def draw_efficiency(panel, groups):
-    for ((name,), rows), marker in zip(groups.items(), "osD^v"):
+def draw_efficiency(panel, groups, free):
+    for (key, rows), marker in zip(groups.items(), "osD"):
         ranks = [int(row["ranks"]) for row in rows]
-        panel.plot(ranks, [float(row["efficiency"]) for row in rows], marker=marker,
-                   label=f"{name}\n{float(rows[0]['wall_s']):.0f} s by one rank")
+        line, = panel.plot(ranks, [float(row["efficiency"]) for row in rows], marker=marker,
+                           label=f"{key[0]}\n({float(rows[0]['wall_s']):.0f} s by one rank)")
+        bounds = free.get(key, [])
+        panel.plot([int(row["ranks"]) for row in bounds],
+                   [float(row["efficiency"]) for row in bounds], "--", color=line.get_color(),
+                   linewidth=1)
+    panel.plot([], [], "--", color="black", linewidth=1, label="if messages cost nothing")
     panel.set_xscale("log", base=2)
     panel.set_xticks(ranks, text_of(ranks), rotation=45)
     panel.minorticks_off()
@@ -247,7 +267,7 @@ def draw_shares(panel, name, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["simulate", "compare", "draw", "tables"])
+    parser.add_argument("what", choices=["simulate", "bound", "compare", "draw", "tables"])
     parser.add_argument("--ranks", type=lambda text: [int(word) for word in text.split(",")],
                         default=RANKS, help="whole numbers with commas; begin with 1")
     parser.add_argument("--only", default="", help="instances whose name contains this")
@@ -262,7 +282,8 @@ def main():
     parser.add_argument("--output", type=Path, default=HERE / "results/scaling")
     parser.add_argument("--bin", type=Path, default=HERE.parent / "build/release/bin")
     a = parser.parse_args()
-    {"simulate": simulate, "compare": compare, "draw": draw, "tables": print_tables}[a.what](a)
+    {"simulate": simulate, "bound": bound, "compare": compare, "draw": draw,
+     "tables": print_tables}[a.what](a)
 
 
 if __name__ == "__main__":
