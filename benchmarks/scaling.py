@@ -3,9 +3,10 @@
 """How the distributed search scales: simulated up to 4,096 ranks, and checked with two real ones.
 
     benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]   three hard instances: simulated.csv
-    benchmarks/scaling.py compare --maps FOLDER               2 ranks simulated and measured: compared.csv
-    benchmarks/scaling.py draw                                scaling.png from simulated.csv; needs matplotlib
-    benchmarks/scaling.py tables                              both tables in Markdown, to stdout
+    benchmarks/scaling.py bound --maps FOLDER                 if messages cost nothing: bound.csv
+    benchmarks/scaling.py compare --maps FOLDER               2 ranks, also measured: compared.csv
+    benchmarks/scaling.py draw                                scaling.png from these; needs matplotlib
+    benchmarks/scaling.py tables                              the tables in Markdown, to stdout
 
 All read and write the folder --output. Everything begins with an optimal plan, which is found first, and
 nobody looks for plans beside the tree: what must be expanded is then nearly the same whatever the number
@@ -28,7 +29,8 @@ from harness import tables  # noqa: E402
 from harness.instances import Case, Maps, instance_arguments  # noqa: E402
 from harness.runs import run  # noqa: E402
 
-# Minutes of one core each, by the search without primal: proven optimal after 10^5 nodes and more.
+# Proven optimal after about 10^5 nodes. A simulation takes as long as one rank needs, and more where
+# ranks expand more; larger ones would take hours.
 HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
         Case("room-32-32-4", 40, None, 4)]
 # Seconds of one core: to be measured here.
@@ -36,6 +38,7 @@ SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
          Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]
 RANKS = [1, 2, 16, 128, 1024, 4096]
 COST_PER_WORK = 1.3e-7  # seconds; see results/scaling/README.md
+FREE_MESSAGES = ["--latency", 0, "--message-cost", 0, "--bandwidth", 1e15, "--poll", 0]
 OPTIMAL = ["--omega", 0]
 TREE_ONLY = ["--threads", 1, "--without", "primal,configurations", "--quiet"]
 MPIRUN = ["env", "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "mpirun", "-np", 2]
@@ -55,11 +58,11 @@ def prepared(case, a, folder):
     return [*instance, *OPTIMAL, "--start", plan]
 
 
-def simulated(case, problem, ranks, a, folder):
+def simulated(case, problem, ranks, a, folder, machine=()):
     """A row per number of ranks."""
     table = folder / "table.csv"
     run([a.bin / "grove-sim", *problem, "--ranks", ",".join(map(str, ranks)), "--cost-per-work",
-         a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table])
+         a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table, *machine])
     with table.open(encoding="utf-8", newline="") as file:
         return [{"instance": str(case), **row} for row in csv.DictReader(file)]
 
@@ -89,17 +92,37 @@ def read(path):
         return list(csv.DictReader(file))
 
 
-def simulate(a):
-    def study(case):
+def chosen(cases, a):
+    return [case for case in cases if a.only in str(case)]
+
+
+def merge(path, rows):
+    """The rows of a file anew, but for those of other instances."""
+    others = read(path) if path.exists() else []
+    new = {row["instance"] for row in rows}
+    rows = [row for row in others if row["instance"] not in new] + rows
+    order = [str(case) for case in HARD + SHORT]
+    write(path, sorted(rows, key=lambda row: order.index(row["instance"])))
+
+
+def study(output, machine, a):
+    def rows_of(case):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            rows = simulated(case, prepared(case, a, folder), a.ranks, a, folder)
-        print(f"{case}: simulated", flush=True)
-        return rows
+            return simulated(case, prepared(case, a, folder), a.ranks, a, folder, machine)
 
     with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
-        rows = sum(pool.map(study, HARD), [])
-    write(a.output / "simulated.csv", rows)
+        for rows in pool.map(rows_of, chosen(HARD, a)):
+            merge(output, rows)
+            print(f"{rows[0]['instance']}: simulated", flush=True)
+
+
+def simulate(a):
+    study(a.output / "simulated.csv", (), a)
+
+
+def bound(a):
+    study(a.output / "bound.csv", FREE_MESSAGES, a)
 
 
 def comparison(case, a, folder):
@@ -116,22 +139,24 @@ def comparison(case, a, folder):
 
 
 def compare(a):
-    rows = []
-    for case in SHORT:
+    for case in chosen(SHORT, a):
         with tempfile.TemporaryDirectory() as name:
-            rows.append(comparison(case, a, Path(name)))
+            row = comparison(case, a, Path(name))
+        merge(a.output / "compared.csv", [row])
         print(f"{case}: compared, load {os.getloadavg()[0]:.1f}", flush=True)
-    write(a.output / "compared.csv", rows)
 
 
 def shares(row):
-    """What became of the workers' time in a run: shares that sum to 1."""
+    """What became of the workers' time in a run: shares that sum to 1.
+
+    Where ranks together expand for less time than one would, there is no overhead.
+    """
     whole = float(row["wall_s"]) * int(row["ranks"])
     working = int(row["ranks"]) - int(row["ranks_without_node"])
     first = (working * float(row["first_node_s"])
              + int(row["ranks_without_node"]) * float(row["wall_s"])) / whole
-    useful = float(row["efficiency"])
     idle = float(row["idle_share"])
+    useful = min(float(row["efficiency"]), 1 - idle)
     return {"expanding, as one rank would": useful,
             "expanding more (search overhead)": 1 - idle - useful,
             "waiting for the first node": min(first, idle),
@@ -142,14 +167,17 @@ def percent(share):
     return f"{100 * float(share):.1f} %"
 
 
-def simulated_table(rows):
-    head = ["instance", "ranks", "time", "speed-up", "efficiency", "nodes", "search overhead",
+def simulated_table(rows, free):
+    efficiency = {(row["instance"], row["ranks"]): row["efficiency"] for row in free}
+    head = ["instance", "ranks", "time", "speed-up", "efficiency", "with free messages", "nodes", "search overhead",
             "before the first node", "waiting later", "messages a node", "rank 0 talks"]
     lines = []
     for row in rows:
         _, _, first, later = shares(row).values()
+        free_one = efficiency.get((row["instance"], row["ranks"]))
         lines.append([row["instance"], f"{int(row['ranks']):,}", f"{float(row['wall_s']):.3g} s",
                       f"{float(row['speed_up']):.1f}", f"**{percent(row['efficiency'])}**",
+                      percent(free_one) if free_one else "",
                       f"{int(row['nodes']):,}", f"{100 * float(row['expanding_overhead']):+.1f} %",
                       percent(first), percent(later), f"{float(row['messages_per_node']):.2f}",
                       percent(row["coordinator_talking_share"])])
@@ -171,7 +199,7 @@ def compared_table(rows):
 
 
 def print_tables(a):
-    print(simulated_table(read(a.output / "simulated.csv")))
+    print(simulated_table(read(a.output / "simulated.csv"), read(a.output / "bound.csv")))
     print()
     print(compared_table(read(a.output / "compared.csv")))
 
@@ -185,13 +213,13 @@ def draw(a):
     from matplotlib import pyplot
 
     groups = tables.grouped(read(a.output / "simulated.csv"), "instance")
-    figure, panels = pyplot.subplots(1, 1 + len(groups), figsize=(14, 4.2), sharey=True,
-                                     layout="constrained")
-    draw_efficiency(panels[0], groups)
+    figure, panels = pyplot.subplots(1, 1 + len(groups), figsize=(15, 4.8), sharey=True)
+    draw_efficiency(panels[0], groups, tables.grouped(read(a.output / "bound.csv"), "instance"))
     for panel, ((name,), rows) in zip(panels[1:], groups.items()):
         draw_shares(panel, name, rows)
     handles, labels = panels[1].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
+    figure.legend(handles, labels, loc="lower center", ncol=len(labels), frameon=False, fontsize=9)
+    figure.tight_layout(rect=(0, 0.07, 1, 1))
     figure.savefig(a.output / "scaling.png", dpi=100)
 
 
@@ -199,15 +227,20 @@ def text_of(ranks):
     return [f"{int(number):,}" for number in ranks]
 
 
-def draw_efficiency(panel, groups):
-    for ((name,), rows), marker in zip(groups.items(), "osD^v"):
+def draw_efficiency(panel, groups, free):
+    for (key, rows), marker in zip(groups.items(), "osD"):
         ranks = [int(row["ranks"]) for row in rows]
-        panel.plot(ranks, [float(row["efficiency"]) for row in rows], marker=marker,
-                   label=f"{name}\n{float(rows[0]['wall_s']):.0f} s by one rank")
+        line, = panel.plot(ranks, [float(row["efficiency"]) for row in rows], marker=marker,
+                           label=f"{key[0]}\n({float(rows[0]['wall_s']):.0f} s by one rank)")
+        bounds = free.get(key, [])
+        panel.plot([int(row["ranks"]) for row in bounds],
+                   [float(row["efficiency"]) for row in bounds], "--", color=line.get_color(),
+                   linewidth=1)
+    panel.plot([], [], "--", color="black", linewidth=1, label="if messages cost nothing")
     panel.set_xscale("log", base=2)
     panel.set_xticks(ranks, text_of(ranks), rotation=45)
     panel.minorticks_off()
-    panel.set_ylim(0, 1.15)
+    panel.set_ylim(0, 1.3)
     panel.axhline(1, color="grey", linewidth=0.8, linestyle=":")
     panel.set_xlabel("ranks")
     panel.set_ylabel("efficiency: speed-up / ranks")
@@ -222,7 +255,7 @@ def draw_shares(panel, name, rows):
     colours = ["#2b7bba", "#e6550d", "#bdbdbd", "#e3e3e3"]
     all_shares = [shares(row) for row in rows]
     for label, colour in zip(all_shares[0], colours):
-        heights = [max(0.0, share[label]) for share in all_shares]
+        heights = [share[label] for share in all_shares]
         panel.bar(ranks, heights, bottom=bottoms, label=label, color=colour, width=0.75)
         bottoms = [bottom + height for bottom, height in zip(bottoms, heights)]
     panel.plot(ranks, [float(row["coordinator_talking_share"]) for row in rows], "k.--",
@@ -235,9 +268,10 @@ def draw_shares(panel, name, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["simulate", "compare", "draw", "tables"])
+    parser.add_argument("what", choices=["simulate", "bound", "compare", "draw", "tables"])
     parser.add_argument("--ranks", type=lambda text: [int(word) for word in text.split(",")],
                         default=RANKS, help="whole numbers with commas; begin with 1")
+    parser.add_argument("--only", default="", help="instances whose name contains this")
     parser.add_argument("--repeat", type=int, default=3, help="measurements of each; the median counts")
     parser.add_argument("--jobs", type=int, default=1, help="simulations at a time")
     parser.add_argument("--cost-per-work", type=float, default=COST_PER_WORK)
@@ -249,7 +283,8 @@ def main():
     parser.add_argument("--output", type=Path, default=HERE / "results/scaling")
     parser.add_argument("--bin", type=Path, default=HERE.parent / "build/release/bin")
     a = parser.parse_args()
-    {"simulate": simulate, "compare": compare, "draw": draw, "tables": print_tables}[a.what](a)
+    {"simulate": simulate, "bound": bound, "compare": compare, "draw": draw,
+     "tables": print_tables}[a.what](a)
 
 
 if __name__ == "__main__":
