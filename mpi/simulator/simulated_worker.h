@@ -27,8 +27,8 @@ class SimulatedWorker {
   SimulatedWorker(SharedSearch& search, const Limits& limits, const Machine& machine)
       : search_(search), limits_(limits), machine_(machine) {}
 
-  // Takes a node if there is one, and expands it: it is busy then. The expander, any one of the
-  // same problem, may keep the node until it expands another.
+  // Takes a node if there is one, and expands it: it is busy then. The expander is any one of the
+  // same problem.
   void begin(double now, Expander& expander);
   bool busy() const { return static_cast<bool>(node_); }
   // Of the present turn, or the last.

@@ -198,7 +198,7 @@ class Simulation {
 
   World& world_;
   std::deque<SimulatedRank> ranks_;
-  Expander expander_;  // goes first, with the node that it holds
+  Expander expander_;
   std::priority_queue<Event, std::vector<Event>, Later> agenda_;
   std::int64_t serial_ = 0;
   double now_ = 0;

@@ -73,7 +73,7 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, Brancher& vi
   look_at(view);
   // What had to be forgotten once may be again: then nothing is left for later.
   give_up_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
-                                        : planner_.work() + kMostWorkAtOnce;
+                                                  : planner_.work() + kMostWorkAtOnce;
   Outcome outcome = solve_conflicting(node, view, slack, 0, limits);
   if (outcome == Outcome::kDone && techniques_.has(Technique::kClusters))
     outcome = solve_groups(node, view, slack, limits);
@@ -214,6 +214,12 @@ bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group,
   known.excess = std::max(known.excess, least == open_.end() ? closed : least->cost - base);
   open_.clear();
   return true;
+}
+
+void Dependencies::leave() {
+  open_.clear();
+  children_.clear();
+  pair_view_.leave();
 }
 
 // Every pair and group that is known to cost more in its present situations, once, in one order

@@ -7,6 +7,15 @@
 #include <numeric>
 
 namespace grove {
+
+struct Expander::Leaving {
+  Expander& expander;
+  ~Leaving() {
+    expander.brancher_.leave();
+    expander.dependencies_.leave();
+  }
+};
+
 Expander::Expander(const Problem& problem, AgentStopsStore& stops, Techniques techniques,
                    std::uint64_t seed, std::shared_ptr<CommonMemory> memory)
     : problem_(problem),
@@ -20,6 +29,7 @@ Expander::Expander(const Problem& problem, AgentStopsStore& stops, Techniques te
 }
 
 Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limits) {
+  const Leaving at_last{*this};
   Expansion expansion;
   const auto stopped = [] {
     Expansion nothing;
@@ -68,6 +78,7 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
 }
 
 bool Expander::help(const NodePtr& node, Cost cutoff, double share, const Limits& limits) {
+  const Leaving at_last{*this};
   brancher_.enter(node, all_);
   return dependencies_.help(node, brancher_, cutoff, share, limits);
 }

@@ -65,6 +65,20 @@ TEST(Expander, MakesOneChildPerAgentUnderTheChildsConstraints) {
   }
 }
 
+// What nodes take must not depend on who expanded which last: memory limits go by it.
+TEST(Expander, HoldsNoNodeBetweenExpansions) {
+  Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
+  const std::size_t before = s.pool.bytes();
+  NodePtr node = s.root;
+  for (int i = 0; i < 3 && node; ++i) {
+    Expansion expansion = s.expander.expand(node, kInfiniteCost, s.limits);
+    node = expansion.children.empty() ? nullptr : expansion.children.front();
+  }
+  ASSERT_GT(s.pool.bytes(), before);
+  node = nullptr;
+  EXPECT_EQ(s.pool.bytes(), before);
+}
+
 TEST(Expander, LeavesOutChildrenWithoutAPath) {
   // The second agent rests on cell 2 for ever; barring it there at the time of the conflict sends
   // it away and back, but the first has no other way: its child waits.

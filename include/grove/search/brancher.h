@@ -39,6 +39,8 @@ class Brancher {
 
   // Turns to a node and to the agents in scope, which are in ascending order.
   void enter(const NodePtr& node, std::span<const AgentIndex> scope);
+  // Lets the node go.
+  void leave() { node_ = nullptr; }
 
   // Of the node entered, and after branch() of what became of it.
   bool conflict_free() const { return conflicts_.empty(); }

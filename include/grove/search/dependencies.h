@@ -44,6 +44,9 @@ class Dependencies {
   // Appended.
   void splits(Brancher& view, std::vector<Split>& splits);
 
+  // Lets all nodes go.
+  void leave();
+
   // Expansions in pairs so far.
   std::int64_t expansions() const { return expansions_; }
   // Pairs of places compared in sets of optimal paths, so far.

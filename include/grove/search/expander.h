@@ -54,6 +54,7 @@ class Expander {
            std::uint64_t seed,
            std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>());
 
+  // Holds no node afterwards: how much memory nodes take would depend on who expanded which last.
   // `cutoff`: plans that cost so much or more are of no interest (the incumbent's cost;
   // kInfiniteCost: all are).
   Expansion expand(const NodePtr& node, Cost cutoff, const Limits& limits);
@@ -75,6 +76,8 @@ class Expander {
   const std::shared_ptr<CommonMemory>& memory() const { return memory_.common(); }
 
  private:
+  struct Leaving;
+
   Plan plan(const Node& node);
 
   const Problem& problem_;
