@@ -5,11 +5,10 @@
 // *The bound.* Every node that may still lead to a plan is covered, at every moment, by the latest
 // status that the coordinator has of some rank, by a root that it has sent and not yet seen
 // covered, or by a tree not yet instantiated:
-// - A rank covers the nodes in its frontier, open or taken. A worker settles a node after what it
-// led
-//   to was pushed, and after a plan that it led to was posted; and a rank sends the plans posted
-//   before a status made no later. So the coordinator knows of the plan when it hears that the node
-//   is gone.
+// - A rank covers the nodes in its frontier, open or taken. A worker settles a node after what
+//   it led to was pushed, and after a plan that it led to was posted; and a rank sends the plans
+//   posted before a status made no later. So the coordinator knows of the plan when it hears that
+//   the node is gone.
 // - A rank that gives nodes away keeps them taken: in custody. The receiver pushes them and then
 //   says so in a status; when the coordinator has processed that one, which covers them, it
 //   releases the sender, whose later statuses do without. (The minimum of the ranks' own bounds,

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The program: subcommands, and what becomes of their failures.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <exception>
 
 #include "commands.h"
 #include "program.h"
@@ -31,12 +28,7 @@ int main(int argc, char** argv) {
   add_solve_command(app);
   add_check_command(app);
   add_generate_command(app);
-  try {
-    return run_program(app, argc, argv);
-  } catch (const std::exception& error) {
-    complain(app, fmt::format("internal failure: {}", error.what()));
-    return kExitInternalFailure;
-  }
+  return run_only_process(app, argc, argv);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -239,12 +238,7 @@ int main(int argc, char** argv) {
     stop_on_signals();
     Study(arguments).run();
   });
-  try {
-    return run_program(app, argc, argv);
-  } catch (const std::exception& error) {
-    complain(app, fmt::format("internal failure: {}", error.what()));
-    return kExitInternalFailure;
-  }
+  return run_only_process(app, argc, argv);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <memory>
 
 #include "commands.h"
@@ -79,6 +80,15 @@ int run_program(CLI::App& app, int argc, char** argv, bool speaks,
     return say(error.what());
   } catch (const CommandFailed& failure) {
     return failure.exit_code();
+  }
+}
+
+int run_only_process(CLI::App& app, int argc, char** argv) {
+  try {
+    return run_program(app, argc, argv);
+  } catch (const std::exception& error) {
+    complain(app, fmt::format("internal failure: {}", error.what()));
+    return kExitInternalFailure;
   }
 }
 

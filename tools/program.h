@@ -23,4 +23,7 @@ int run_program(
     CLI::App& app, int argc, char** argv, bool speaks = true,
     const std::function<void(const std::string& why)>& refused = [](const std::string&) {});
 
+// The whole of a program that is one process: run_program(), and internal failures are told too.
+int run_only_process(CLI::App& app, int argc, char** argv);
+
 }  // namespace grove

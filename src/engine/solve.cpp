@@ -34,8 +34,8 @@ class Workers {
   Workers(const Problem& problem, const SolveOptions& options, const Limits& limits,
           SharedSearch& shared, const AgentStopsStore& stops)
       : options_(options), limits_(limits), shared_(shared) {
-    const int lanes = options.deterministic ? kDeterministicLanes : options.threads;
-    for (int number = 0; number < lanes; ++number)
+    const int count = options.deterministic ? kDeterministicWorkers : options.threads;
+    for (int number = 0; number < count; ++number)
       workers_.push_back(std::make_unique<Worker>(problem, options, limits, shared, stops, number));
   }
 

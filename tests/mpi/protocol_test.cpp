@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <deque>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,41 +12,15 @@
 #include "mpi/coordinator.h"
 #include "mpi/rank.h"
 #include "mpi/rank_nodes.h"
+#include "tests/mpi/outbox.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
 namespace {
 
+using testing::Outbox;
 using testing::random_crowd;
-
-// Keeps what is sent, delivers nothing.
-class Outbox : public Transport {
- public:
-  Outbox(int rank, int ranks) : rank_(rank), ranks_(ranks) {}
-  int rank() const override { return rank_; }
-  int ranks() const override { return ranks_; }
-  std::optional<Parcel> receive() override { return std::nullopt; }
-
-  // Those of one kind that were sent to one rank, so far.
-  template <class Kind>
-  std::vector<Kind> sent(int to) const {
-    std::vector<Kind> all;
-    for (const auto& [receiver, bytes] : sent_) {
-      message::Message message = message::message_of(bytes);
-      auto* wanted = std::get_if<Kind>(&message);
-      if (receiver == to && wanted) all.push_back(std::move(*wanted));
-    }
-    return all;
-  }
-
- private:
-  void do_send(int to, std::string bytes) override { sent_.emplace_back(to, std::move(bytes)); }
-
-  int rank_;
-  int ranks_;
-  std::vector<std::pair<int, std::string>> sent_;
-};
 
 struct Setting {
   Limits limits;

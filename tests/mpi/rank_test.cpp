@@ -14,24 +14,11 @@
 #include "grove/engine/techniques_of.h"
 #include "grove/search/expander.h"
 #include "mpi/coordinator.h"
+#include "tests/mpi/outbox.h"
 #include "tests/primal/crowd.h"
 
 namespace grove {
 namespace {
-
-// The only rank, whose messages wait until they are asked for.
-class Waiting : public Transport {
- public:
-  int rank() const override { return 0; }
-  int ranks() const override { return 1; }
-  std::optional<Parcel> receive() override { return std::nullopt; }
-  std::vector<message::Message> take() { return std::exchange(sent_, {}); }
-
- private:
-  void do_send(int, std::string bytes) override { sent_.push_back(message::message_of(bytes)); }
-
-  std::vector<message::Message> sent_;
-};
 
 // A rank that has been given the root of a tree, and an incumbent of `excess` over its bound.
 class RankWithRoot {
@@ -86,7 +73,7 @@ class RankWithRoot {
   Problem problem_;
   AgentStopsStore stops_;
   RunObserver observer_;
-  Waiting network_;
+  testing::Outbox network_{0, 1};
   Rank rank_;
   Expander expander_;
   Cost bound_ = 0;

@@ -22,7 +22,7 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
                     const Limits& limits, const BetweenTurns& between_turns);
 
 // The workers of a deterministic run, whatever the number of threads.
-inline constexpr int kDeterministicLanes = 4;
+inline constexpr int kDeterministicWorkers = 4;
 
 // In rounds: the workers choose one after the other, perform side by side on so many threads, and
 // commit one after the other. So what happens does not depend on how many threads there are.

@@ -14,10 +14,10 @@ namespace grove {
 enum class Outlives : std::uint8_t { kProcess, kMachine };
 
 // The file at `path`, replaced piece by piece: written beside it under a temporary name, flushed to
-// disk and renamed by commit(). Without that the old file stands and the temporary one goes with
-// this object (a process that is killed leaves it behind: .grove-*.tmp). Special files are written
-// to directly. For one thread. All but the destructor throw InputError; what can be done then is to
-// destroy this. See write_file_atomically on SIGXFSZ.
+// disk if it is to outlive the machine, and renamed by commit(). Without that the old file stands
+// and the temporary one goes with this object (a process that is killed leaves it behind:
+// .grove-*.tmp). Special files are written to directly. For one thread. All but the destructor
+// throw InputError; what can be done then is to destroy this. See write_file_atomically on SIGXFSZ.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);
@@ -33,9 +33,10 @@ class AtomicFile {
 };
 
 // Replaces the file at `path` by `content`: written beside it under a temporary name, flushed to
-// disk and renamed. On failure the old file stands, the temporary one is gone, and InputError is
-// thrown. Special files (devices, pipes, /dev/stdout) are written to directly. A program
-// that may run under a limit on file sizes must ignore SIGXFSZ, or the signal ends it half-way.
+// disk if it is to outlive the machine, and renamed. On failure the old file stands, the temporary
+// one is gone, and InputError is thrown. Special files (devices, pipes, /dev/stdout) are written to
+// directly. A program that may run under a limit on file sizes must ignore SIGXFSZ, or the signal
+// ends it half-way.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            Outlives outlives = Outlives::kMachine);
 
