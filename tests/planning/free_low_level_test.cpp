@@ -10,6 +10,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "grove/planning/baseline_search.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/sequencing/k_best_sequences.h"
@@ -45,7 +46,11 @@ struct Agent {
         stops(instance, distances, 0),
         goals(stops, given.work),
         free(*given.grid),
-        fixed(*given.grid) {}
+        fixed(*given.grid) {
+    for (LowLevel low_level :
+         {LowLevel::kVisitedSets, LowLevel::kSingleLegs, LowLevel::kTimeIntervalForest})
+      baselines.push_back(make_baseline_search(low_level, *given.grid));
+  }
 
   Outcome find(Time cutoff, Path& found, const ConflictAvoidanceTable* others = nullptr) {
     return free.find(goals, problem.constraints, others, cutoff, Limits(), found);
@@ -92,6 +97,7 @@ struct Agent {
   FreeGoals goals;
   FreeLowLevelSearch free;
   LowLevelSearch fixed;
+  std::vector<std::unique_ptr<BaselineSearch>> baselines;
   Path path;
 };
 
@@ -213,6 +219,7 @@ class Fuzzer {
     EXPECT_EQ(agent.cost(), expected);
     EXPECT_TRUE(agent.problem.stops.size() > 4 || agent.fixed_cost_of_class() == expected);
     check_cutoffs(agent, expected);
+    if (!conditional_ && agent.problem.work == SequenceClass{}) check_baselines(agent, expected);
     if (!expected) ++infeasible;
     return expected.has_value() && !::testing::Test::HasFailure();
   }
@@ -224,6 +231,23 @@ class Fuzzer {
       EXPECT_EQ(agent.find(*expected - 1, path), Outcome::kAbove);
     } else {
       EXPECT_NE(agent.find(below(30), path), Outcome::kFound);
+    }
+  }
+
+  void check_baselines(Agent& agent, std::optional<Time> expected) {
+    for (const auto& baseline : agent.baselines) {
+      Path path;
+      const auto find = [&](Time cutoff) {
+        return baseline->find(0, agent.stops, agent.problem.constraints, cutoff, Limits(), path);
+      };
+      if (!expected) {
+        EXPECT_EQ(find(kNever), BaselineSearch::Outcome::kInfeasible);
+        continue;
+      }
+      ASSERT_EQ(find(*expected), BaselineSearch::Outcome::kFound);
+      EXPECT_EQ(static_cast<Time>(path.size()) - 1, *expected);
+      agent.expect_valid(path);
+      EXPECT_EQ(find(*expected - 1), BaselineSearch::Outcome::kAbove);
     }
   }
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A* over (cell, time). From the time on at which nothing changes any more, all times are one, of
+// which the earliest is kept: so the space is finite, and a leg that does not exist is found not
+// to. f = max(time + distance, begin of the target): consistent.
+#include "space_time_legs.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "space_time.h"
+
+namespace grove {
+namespace {
+
+constexpr std::int64_t kExpansionsPerPoll = 512;
+constexpr std::int32_t kNone = -1;
+
+}  // namespace
+
+void SpaceTimeLegs::begin(const AgentStops& stops, const SafeIntervals& intervals,
+                          std::span<const Constraint> constraints) {
+  stops_ = &stops;
+  intervals_ = &intervals;
+  settled_ = settled_from(constraints);
+}
+
+Time SpaceTimeLegs::arrival(Cell from, Time time, Target target, const Limits& limits) {
+  const std::int32_t end = find(from, time, target, limits);
+  return end == kNone ? kNever : labels_[end].time;
+}
+
+void SpaceTimeLegs::append(Cell from, Time time, Target target, Path& path) {
+  std::int32_t id = find(from, time, target, Limits());
+  if (id == kNone) throw std::logic_error("internal error: a leg that was found is lost");
+  const Time end = labels_[id].time;
+  const std::size_t before = path.size();
+  path.resize(before + static_cast<std::size_t>(end - time));
+  for (; id != kNone; id = labels_[id].parent) {
+    if (labels_[id].time > time)
+      path[before + static_cast<std::size_t>(labels_[id].time - time) - 1] = cell_of(id);
+  }
+}
+
+// The label of the first moment in the target; kNone: there is none, or a limit struck.
+std::int32_t SpaceTimeLegs::find(Cell from, Time time, Target target, const Limits& limits) {
+  forget();
+  first_ = std::min(time, settled_);
+  const auto rows = static_cast<std::size_t>(settled_ - first_) + 1;
+  const std::size_t needed = rows * static_cast<std::size_t>(grid_.cell_count());
+  if (labels_.size() < needed) labels_.resize(needed);
+  queue_.reset(time);
+  reach(from, time, kNone, target);
+  const Cell goal = intervals_->cell_of(target.slot);
+  const Time begin = intervals_->begin_of(target.slot);
+  const Time end = intervals_->end_of(target.slot);
+  BucketQueue::Entry entry;
+  while (queue_.pop(entry)) {
+    const std::int32_t id = entry.slot;
+    const Cell cell = cell_of(id);
+    if (labels_[id].time != entry.time) continue;  // improved since
+    if (queue_.layer() > end) return kNone;
+    if (cell == goal && entry.time >= begin) return id;
+    if (++expanded_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return kNone;
+    for_each_step(grid_, *intervals_, cell, entry.time,
+                  [&](Cell next) { reach(next, entry.time + 1, id, target); });
+  }
+  return kNone;
+}
+
+void SpaceTimeLegs::forget() {
+  if (++stamp_ != 0) return;
+  std::ranges::fill(labels_, Label{});
+  stamp_ = 1;
+}
+
+void SpaceTimeLegs::reach(Cell cell, Time time, std::int32_t parent, Target target) {
+  const std::int32_t id = id_of(cell, time);
+  Label& label = labels_[id];
+  if (label.stamp == stamp_ && label.time <= time) return;
+  const Time to_goal = distance(cell, target.goal);
+  if (to_goal >= kNever) return;
+  label = {time, parent, stamp_};
+  const Time f = std::max(time + to_goal, intervals_->begin_of(target.slot));
+  queue_.push(std::max(f, queue_.layer()), {.slot = id, .time = time});
+}
+
+Time SpaceTimeLegs::distance(Cell cell, int goal) const {
+  return goal == stops_->count() ? stops_->to_destination(cell)
+                                 : stops_->distances_from(cell)[goal];
+}
+
+}  // namespace grove

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The bottom of HCBS (Surynek, AAAI 2021): a space-time A* for every single leg.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bucket_queue.h"
+#include "legs.h"
+
+namespace grove {
+
+class SpaceTimeLegs : public Legs {
+ public:
+  // `grid` must outlive this.
+  explicit SpaceTimeLegs(const Grid& grid) : grid_(grid) {}
+
+  void begin(const AgentStops& stops, const SafeIntervals& intervals,
+             std::span<const Constraint> constraints) override;
+  Time arrival(Cell from, Time time, Target target, const Limits& limits) override;
+  void append(Cell from, Time time, Target target, Path& path) override;
+  std::int64_t expanded() const override { return expanded_; }
+
+ private:
+  struct Label {
+    Time time = 0;
+    std::int32_t parent = -1;
+    std::uint32_t stamp = 0;
+  };
+
+  std::int32_t find(Cell from, Time time, Target target, const Limits& limits);
+  void reach(Cell cell, Time time, std::int32_t parent, Target target);
+  void forget();
+  Time distance(Cell cell, int goal) const;
+  std::int32_t id_of(Cell cell, Time time) const {
+    return (std::min(time, settled_) - first_) * grid_.cell_count() + cell;
+  }
+  Cell cell_of(std::int32_t id) const { return id % grid_.cell_count(); }
+
+  const Grid& grid_;
+  BucketQueue queue_;
+  std::int64_t expanded_ = 0;
+
+  // Of begin().
+  const AgentStops* stops_ = nullptr;
+  const SafeIntervals* intervals_ = nullptr;
+  Time settled_ = 0;
+
+  // Of the leg under way.
+  Time first_ = 0;             // of the first row
+  std::vector<Label> labels_;  // by time - first_, then cell; the last row is all times from
+                               // settled_ on
+  std::uint32_t stamp_ = 0;
+};
+
+}  // namespace grove

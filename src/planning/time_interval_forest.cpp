@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// The time-interval space forest of MGCBS. For one safe interval of a goal, how many steps does it
+// take at least to be there, from each cell at each time? A breadth-first search backwards, in
+// pieces (cell, an interval of times) of equal answers: from a piece of k steps at times [b, e],
+// every neighbor - and the cell itself, by waiting - takes k + 1 steps at the times of [b - 1, e -
+// 1] at which it is safe and the move not barred, where nothing shorter is known. So each piece is
+// settled when it is made, pieces come in order of their steps, and where no constraint is near a
+// cell is one piece. A tree does not depend on when the leg begins nor on what was visited before:
+// all legs of one low-level call to the same target share it.
+//
+// Waiting for an interval that begins late makes a piece for every time step before, as in the
+// published code: on each cell one for each step up to that begin.
+#include "time_interval_forest.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
+namespace grove {
+namespace {
+
+constexpr std::size_t kPiecesPerPoll = 512;
+
+// One step earlier.
+Time before(Time time) {
+  return time == kNever ? kNever : time - 1;
+}
+
+}  // namespace
+
+void TimeIntervalForest::begin(const AgentStops&, const SafeIntervals& intervals,
+                               std::span<const Constraint> constraints) {
+  intervals_ = &intervals;
+  used_ = 0;
+  tree_of_.assign(static_cast<std::size_t>(intervals.slot_count()), kNone);
+  barred_moves_.clear();
+  for (const Constraint& c : constraints)
+    if (c.is_move()) barred_moves_.push_back({c.cell, c.from, c.begin, c.end});
+  std::ranges::sort(barred_moves_, {},
+                    [](const BarredMove& m) { return std::tuple(m.to, m.from, m.begin); });
+}
+
+Time TimeIntervalForest::arrival(Cell from, Time time, Target target, const Limits& limits) {
+  const Tree* tree = tree_to(target, limits);
+  const Piece* piece = tree ? find(*tree, from, time) : nullptr;
+  return piece ? time + piece->steps : kNever;
+}
+
+void TimeIntervalForest::append(Cell from, Time time, Target target, Path& path) {
+  const Tree* tree = tree_to(target, Limits());
+  const Piece* piece = find(*tree, from, time);
+  if (!piece) throw std::logic_error("internal error: a leg that was found is lost");
+  while (piece->next != kNone) {
+    piece = &tree->pieces[piece->next];
+    path.push_back(piece->cell);
+  }
+}
+
+// Null: a limit struck.
+const TimeIntervalForest::Tree* TimeIntervalForest::tree_to(Target target, const Limits& limits) {
+  std::int32_t& number = tree_of_[target.slot];
+  if (number == kNone) {
+    if (used_ == trees_.size()) trees_.emplace_back();
+    if (!grow(trees_[used_], target.slot, limits)) return nullptr;
+    number = static_cast<std::int32_t>(used_++);
+  }
+  return &trees_[number];
+}
+
+bool TimeIntervalForest::grow(Tree& tree, int slot, const Limits& limits) {
+  tree.pieces.clear();
+  gaps_.clear();
+  first_gap_.assign(static_cast<std::size_t>(grid_.cell_count()), kUnseen);
+  cover(tree, intervals_->cell_of(slot), intervals_->begin_of(slot), intervals_->end_of(slot),
+        kNone);
+  for (std::size_t i = 0; i < tree.pieces.size(); ++i) {
+    if (i % kPiecesPerPoll == 0 && limits.stop_requested()) return false;
+    const Piece piece = tree.pieces[i];
+    const auto number = static_cast<std::int32_t>(i);
+    cover(tree, piece.cell, std::max(0, piece.begin - 1), before(piece.end), number);
+    for (Cell from : grid_.neighbors(piece.cell)) reach_by_move(tree, from, number);
+  }
+  expanded_ += static_cast<std::int64_t>(tree.pieces.size());
+  sort_pieces(tree);
+  return true;
+}
+
+// From a neighbor, when the move is not barred.
+void TimeIntervalForest::reach_by_move(Tree& tree, Cell from, std::int32_t next) {
+  const Piece piece = tree.pieces[next];
+  const Time end = before(piece.end);
+  Time begin = std::max(0, piece.begin - 1);
+  const auto move = [](const BarredMove& m) { return std::pair(m.to, m.from); };
+  for (const BarredMove& m :
+       std::ranges::equal_range(barred_moves_, std::pair(piece.cell, from), {}, move)) {
+    if (m.end - 1 < begin) continue;
+    if (m.begin - 1 > end) break;
+    cover(tree, from, begin, m.begin - 2, next);
+    if (m.end >= kNever) return;
+    begin = m.end;
+  }
+  cover(tree, from, begin, end, next);
+}
+
+// Makes pieces of what is still open in these times.
+void TimeIntervalForest::cover(Tree& tree, Cell cell, Time begin, Time end, std::int32_t next) {
+  if (begin > end) return;
+  if (first_gap_[cell] == kUnseen) open_gaps(cell);
+  const Time steps = next == kNone ? 0 : tree.pieces[next].steps + 1;
+  std::int32_t previous = kNone;
+  const auto link = [&](std::int32_t gap) -> std::int32_t& {
+    return gap == kNone ? first_gap_[cell] : gaps_[gap].next;
+  };
+  for (std::int32_t gap = first_gap_[cell]; gap != kNone; gap = link(previous)) {
+    const Gap g = gaps_[gap];
+    if (g.begin > end) return;
+    if (g.end < begin) {
+      previous = gap;
+      continue;
+    }
+    tree.pieces.push_back({cell, std::max(begin, g.begin), std::min(end, g.end), steps, next});
+    if (g.begin < begin) {  // what is left in front
+      gaps_[gap].end = begin - 1;
+      previous = gap;
+      if (g.end > end) {
+        gaps_.push_back({end + 1, g.end, g.next});
+        gaps_[gap].next = static_cast<std::int32_t>(gaps_.size()) - 1;
+        return;
+      }
+    } else if (g.end > end) {  // behind
+      gaps_[gap].begin = end + 1;
+      return;
+    } else {
+      link(previous) = g.next;
+    }
+  }
+}
+
+void TimeIntervalForest::open_gaps(Cell cell) {
+  std::int32_t next = kNone;
+  for (int slot = intervals_->end_slot(cell) - 1; slot >= intervals_->first_slot(cell); --slot) {
+    gaps_.push_back({intervals_->begin_of(slot), intervals_->end_of(slot), next});
+    next = static_cast<std::int32_t>(gaps_.size()) - 1;
+  }
+  first_gap_[cell] = next;
+}
+
+void TimeIntervalForest::sort_pieces(Tree& tree) const {
+  const auto count = static_cast<std::int32_t>(tree.pieces.size());
+  tree.first_of.assign(static_cast<std::size_t>(grid_.cell_count()) + 1, 0);
+  for (const Piece& piece : tree.pieces) ++tree.first_of[piece.cell + 1];
+  for (Cell cell = 0; cell < grid_.cell_count(); ++cell)
+    tree.first_of[cell + 1] += tree.first_of[cell];
+  tree.by_cell.resize(tree.pieces.size());
+  std::vector<std::int32_t> free = tree.first_of;
+  for (std::int32_t i = 0; i < count; ++i) tree.by_cell[free[tree.pieces[i].cell]++] = i;
+  for (Cell cell = 0; cell < grid_.cell_count(); ++cell)
+    std::sort(tree.by_cell.begin() + tree.first_of[cell],
+              tree.by_cell.begin() + tree.first_of[cell + 1], [&](std::int32_t a, std::int32_t b) {
+                return tree.pieces[a].begin < tree.pieces[b].begin;
+              });
+}
+
+// The piece that holds this time; null: the target cannot be reached from there.
+const TimeIntervalForest::Piece* TimeIntervalForest::find(const Tree& tree, Cell cell,
+                                                          Time time) const {
+  const auto first = tree.by_cell.begin() + tree.first_of[cell];
+  const auto end = tree.by_cell.begin() + tree.first_of[cell + 1];
+  const auto after = std::upper_bound(
+      first, end, time, [&](Time t, std::int32_t piece) { return t < tree.pieces[piece].begin; });
+  if (after == first) return nullptr;
+  const Piece& piece = tree.pieces[*(after - 1)];
+  return time <= piece.end ? &piece : nullptr;
+}
+
+}  // namespace grove

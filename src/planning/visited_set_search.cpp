@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Optimal-CBS (the first baseline of the paper, section V; "CBS + A*" in Tang et al. 2024): the low
+// level is one A* over (cell, time, tasks left). A task is visited as soon as the agent is on it:
+// that is free and takes away no continuation. The search is exact for that alone; all there is to
+// show is
+//
+// - *The heuristic.* The way to the nearest task left, and from there a path through all that is
+//   left (and the destination): at least the least spanning tree of these. A step changes the
+//   distance by one at most, and visiting task i, where the distance is 0, replaces the tree by
+//   the one without i, to which an edge from i to the nearest one left adds i: consistent. When
+//   nothing is left: the way to the destination, or to any own task.
+// - *The end.* On the destination, or without one on any own task, where nothing bars the agent
+//   later.
+// - *Finitely many states.* From the time on at which no constraint changes any more, all times are
+//   one, of which the earliest is kept. So an agent without a path is found to have none.
+#include "visited_set_search.h"
+
+#include <algorithm>
+
+#include "space_time.h"
+
+namespace grove {
+namespace {
+
+constexpr std::int64_t kExpansionsPerPoll = 512;
+constexpr std::int32_t kNone = -1;
+
+}  // namespace
+
+BaselineSearch::Outcome VisitedSetSearch::search(AgentIndex agent, const AgentStops& stops,
+                                                 std::span<const Constraint> constraints,
+                                                 Time cutoff, const Limits& limits, Path& path) {
+  prepare(agent, stops, constraints);
+  if (slot_at(intervals_, stops.start(), 0) < 0) return Outcome::kInfeasible;
+  reach(stops.start(), 0, stops.all(), kNone);
+  return run(cutoff, limits, path);
+}
+
+void VisitedSetSearch::prepare(AgentIndex agent, const AgentStops& stops,
+                               std::span<const Constraint> constraints) {
+  if (bounds_.size() <= static_cast<std::size_t>(agent)) bounds_.resize(agent + 1);
+  if (!bounds_[agent]) bounds_[agent] = std::make_unique<SpanningTreeBound>(stops);
+  stops_ = &stops;
+  bound_ = bounds_[agent].get();
+  intervals_.assign(constraints);
+  settled_ = settled_from(constraints);
+  sets_ = {};
+  index_ = {};
+  labels_.clear();
+  queue_.reset(0);
+}
+
+BaselineSearch::Outcome VisitedSetSearch::run(Time cutoff, const Limits& limits, Path& path) {
+  BucketQueue::Entry entry;
+  while (queue_.pop(entry)) {
+    const Label label = labels_[entry.slot];
+    if (label.time != entry.time) continue;  // improved since
+    if (queue_.layer() > cutoff) return Outcome::kAbove;
+    if (is_finish(label)) {
+      write_path(entry.slot, path);
+      return Outcome::kFound;
+    }
+    if (++expanded_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
+    for_each_step(grid_, intervals_, label.cell, label.time,
+                  [&](Cell next) { reach(next, label.time + 1, label.left, entry.slot); });
+  }
+  return Outcome::kInfeasible;
+}
+
+void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t parent) {
+  if (const int stop = stops_->stop_at(cell); stop != AgentStops::kNoStop)
+    left &= ~(StopSet{1} << stop);
+  const std::uint64_t set = sets_.insert(left, static_cast<std::uint32_t>(labels_.size()));
+  const auto row = static_cast<std::uint64_t>(std::min(time, settled_));
+  const auto rows = static_cast<std::uint64_t>(settled_) + 1;
+  const std::uint64_t key = (set * rows + row) * static_cast<std::uint64_t>(grid_.cell_count()) +
+                            static_cast<std::uint64_t>(cell);
+  const auto next = static_cast<std::uint32_t>(labels_.size());
+  const std::uint32_t id = index_.insert(key, next);
+  if (id != next) {
+    if (labels_[id].time <= time) return;
+    labels_[id].time = time;
+    labels_[id].parent = parent;
+  } else {
+    labels_.push_back({left, time, cell, parent});
+  }
+  const Time onward = least_cost(cell, left);
+  if (onward >= kNever) return;
+  queue_.push(std::max(queue_.layer(), time + onward),
+              {.slot = static_cast<std::int32_t>(id), .time = time});
+}
+
+// From there on, at least.
+Time VisitedSetSearch::least_cost(Cell cell, StopSet left) {
+  if (left == 0 && stops_->destination()) return stops_->to_destination(cell);
+  const Time* to_stop = stops_->distances_from(cell);
+  Time nearest = kNever;
+  for (int stop = 0; stop < stops_->count(); ++stop)
+    if (left == 0 || (left >> stop & 1) != 0) nearest = std::min(nearest, to_stop[stop]);
+  const Time tree = left == 0 ? 0 : (*bound_)(left, SpanningTreeBound::kNowhere);
+  return std::min(kNever, nearest + tree);
+}
+
+bool VisitedSetSearch::is_finish(const Label& label) const {
+  if (label.left != 0) return false;
+  const bool on_goal = stops_->destination() ? label.cell == *stops_->destination()
+                                             : stops_->stop_at(label.cell) != AgentStops::kNoStop;
+  const int slot = slot_at(intervals_, label.cell, label.time);
+  return on_goal && intervals_.may_rest(slot);
+}
+
+void VisitedSetSearch::write_path(std::int32_t finish, Path& path) const {
+  path.resize(static_cast<std::size_t>(labels_[finish].time) + 1);
+  for (std::int32_t id = finish; id != kNone; id = labels_[id].parent)
+    path[labels_[id].time] = labels_[id].cell;
+}
+
+}  // namespace grove

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The low level of Optimal-CBS: A* over (cell, time, tasks visited).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bucket_queue.h"
+#include "grove/planning/baseline_search.h"
+#include "grove/sequencing/sequence_dag.h"
+#include "safe_intervals.h"
+#include "spanning_tree_bound.h"
+
+namespace grove {
+
+// The essay is at the head of visited_set_search.cpp.
+class VisitedSetSearch : public BaselineSearch {
+ public:
+  // `grid` must outlive this.
+  explicit VisitedSetSearch(const Grid& grid) : grid_(grid), intervals_(grid) {}
+
+  std::int64_t expanded() const override { return expanded_; }
+
+ private:
+  Outcome search(AgentIndex agent, const AgentStops& stops, std::span<const Constraint> constraints,
+                 Time cutoff, const Limits& limits, Path& path) override;
+
+  struct Label {
+    StopSet left;
+    Time time;
+    Cell cell;
+    std::int32_t parent;
+  };
+
+  void prepare(AgentIndex agent, const AgentStops& stops, std::span<const Constraint> constraints);
+  Outcome run(Time cutoff, const Limits& limits, Path& path);
+  void reach(Cell cell, Time time, StopSet left, std::int32_t parent);
+  Time least_cost(Cell cell, StopSet left);
+  bool is_finish(const Label& label) const;
+  void write_path(std::int32_t finish, Path& path) const;
+
+  const Grid& grid_;
+  SafeIntervals intervals_;
+  std::vector<std::unique_ptr<SpanningTreeBound>> bounds_;  // by AgentIndex
+  BucketQueue queue_;
+  std::int64_t expanded_ = 0;
+
+  // Of the call under way.
+  const AgentStops* stops_ = nullptr;
+  SpanningTreeBound* bound_ = nullptr;
+  Time settled_ = 0;
+  StopSetIndex sets_;   // numbers the sets met
+  StopSetIndex index_;  // (number of the set, time, cell) as one key: into labels_
+  std::vector<Label> labels_;
+};
+
+}  // namespace grove

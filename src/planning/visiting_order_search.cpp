@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// In which order does one agent visit its goals? An A* whose labels are (goals left, the goal that
+// it stands on, the safe interval in which it does), each with the earliest time known; an edge is
+// a leg, whose time the lower level tells (legs.h). The heuristic is the least spanning tree of
+// what is left.
+//
+// As published, the middle level of HCBS (Surynek, AAAI 2021) has one label for (goals left, goal)
+// and takes each leg's earliest arrival. That is neither optimal nor complete: whoever arrives
+// early may be caught in front of a bar that a later arrival waits out elsewhere. Tang et al.
+// (2024) see this and make the goal's safe interval part of the label: their MGCBS. Both are exact
+// here, with the labels of MGCBS, and differ in how legs are found.
+//
+// Why one time per label is enough: inside a safe interval the agent may wait, so whatever a later
+// arrival does, an earlier one does after waiting. Why all legs may start from a goal: cut a path
+// where it is on its goals, once on each, in any order that these moments allow; each piece is a
+// leg between two of them. A leg may pass other goals, which are then visited once more, or are
+// counted there by another order. So the agent's best path is a chain of legs; and every chain is a
+// path.
+//
+// The end. With a destination, the leg to it comes when no stop is left. Without, the agent rests
+// on a stop of its own; let it be counted last. So the last goal must be reached in an interval in
+// which it may stay for ever, and all that matters of others is that they are reached.
+#include "visiting_order_search.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace grove {
+
+VisitingOrderSearch::VisitingOrderSearch(const Grid& grid, std::unique_ptr<Legs> legs)
+    : intervals_(grid), legs_(std::move(legs)) {}
+
+BaselineSearch::Outcome VisitingOrderSearch::search(AgentIndex agent, const AgentStops& stops,
+                                                    std::span<const Constraint> constraints,
+                                                    Time cutoff, const Limits& limits, Path& path) {
+  if (!prepare(agent, stops, constraints)) return Outcome::kInfeasible;
+  start();
+  return run(cutoff, limits, path);
+}
+
+// False when there is plainly no path.
+bool VisitingOrderSearch::prepare(AgentIndex agent, const AgentStops& stops,
+                                  std::span<const Constraint> constraints) {
+  agent_ = agent;
+  stops_ = &stops;
+  if (bounds_.size() <= static_cast<std::size_t>(agent)) bounds_.resize(agent + 1);
+  if (!bounds_[agent]) bounds_[agent] = std::make_unique<SpanningTreeBound>(stops);
+  intervals_.assign(constraints);
+  const int start_slot = intervals_.start_slot(stops.start());
+  if (start_slot < 0) return false;
+  targets_.assign(1, {-1, start_slot});
+  first_target_.clear();
+  for (int stop = 0; stop < stops.count(); ++stop) add_targets(stop, stops.cell(stop));
+  if (stops.destination()) add_targets(stops.count(), *stops.destination());
+  first_target_.push_back(columns());
+  legs_->begin(stops, intervals_, constraints);
+  return true;
+}
+
+void VisitingOrderSearch::add_targets(int goal, Cell cell) {
+  first_target_.push_back(columns());
+  for (int slot = intervals_.first_slot(cell); slot < intervals_.end_slot(cell); ++slot)
+    targets_.push_back({goal, slot});
+}
+
+void VisitingOrderSearch::start() {
+  rows_ = {};
+  lefts_.clear();
+  labels_.clear();
+  const Time least = bound()(stops_->all(), SpanningTreeBound::kNowhere);
+  queue_.reset(0);
+  if (least >= kNever) return;
+  const std::int32_t first = row_of(stops_->all());
+  labels_[first * columns()].time = 0;
+  queue_.push(0, {.slot = first * columns(), .time = 0});
+}
+
+std::int32_t VisitingOrderSearch::row_of(StopSet left) {
+  const auto next = static_cast<std::uint32_t>(lefts_.size());
+  const std::uint32_t row = rows_.insert(left, next);
+  if (row == next) {
+    lefts_.push_back(left);
+    labels_.resize(labels_.size() + targets_.size());
+  }
+  return static_cast<std::int32_t>(row);
+}
+
+BaselineSearch::Outcome VisitingOrderSearch::run(Time cutoff, const Limits& limits, Path& path) {
+  Entry entry;
+  while (queue_.pop(entry)) {
+    if (labels_[entry.slot].time != entry.time) continue;  // improved since
+    if (queue_.layer() > cutoff) return Outcome::kAbove;
+    if (is_finish(entry.slot)) {
+      write_path(entry.slot, path);
+      return Outcome::kFound;
+    }
+    ++expanded_;
+    expand(entry.slot, limits);
+    if (limits.stop_requested()) return Outcome::kStopped;
+  }
+  return Outcome::kInfeasible;
+}
+
+bool VisitingOrderSearch::is_finish(std::int32_t id) const {
+  const int goal = targets_[column_of(id)].goal;
+  return left_of(id) == 0 && (stops_->destination() ? goal == stops_->count() : goal >= 0);
+}
+
+void VisitingOrderSearch::expand(std::int32_t id, const Limits& limits) {
+  const StopSet left = left_of(id);
+  const bool ends_anywhere = !stops_->destination();
+  for (StopSet rest = left; rest != 0; rest &= rest - 1) {
+    const int stop = std::countr_zero(rest);
+    const StopSet then = left & ~(StopSet{1} << stop);
+    go_to(stop, then, id, then == 0 && ends_anywhere, limits);
+  }
+  if (left == 0 && !ends_anywhere) go_to(stops_->count(), 0, id, true, limits);
+}
+
+// The legs to one goal. `to_rest`: it is the last.
+void VisitingOrderSearch::go_to(int goal, StopSet left, std::int32_t from, bool to_rest,
+                                const Limits& limits) {
+  const std::int32_t row = row_of(left);
+  const Time time = labels_[from].time;
+  const Cell cell = cell_of(column_of(from));
+  const Time onward = bound()(left, goal == stops_->count() ? SpanningTreeBound::kNowhere : goal);
+  for (int column = first_target_[goal]; column < first_target_[goal + 1]; ++column) {
+    const Legs::Target target = targets_[column];
+    if (to_rest && !intervals_.may_rest(target.slot)) continue;
+    const std::int32_t id = row * columns() + column;
+    if (labels_[id].time <= time) continue;
+    const Time arrival = legs_->arrival(cell, time, target, limits);
+    if (arrival >= labels_[id].time) continue;
+    labels_[id] = {arrival, from};
+    queue_.push(std::max(queue_.layer(), arrival + onward), {.slot = id, .time = arrival});
+  }
+}
+
+void VisitingOrderSearch::write_path(std::int32_t finish, Path& path) {
+  std::vector<std::int32_t> chain;
+  for (std::int32_t id = finish; id != kNoLabel; id = labels_[id].parent) chain.push_back(id);
+  std::ranges::reverse(chain);
+  path.assign(1, stops_->start());
+  for (std::size_t i = 1; i < chain.size(); ++i)
+    legs_->append(path.back(), labels_[chain[i - 1]].time, targets_[column_of(chain[i])], path);
+}
+
+}  // namespace grove

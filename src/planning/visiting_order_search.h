@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// A* over visiting orders: the middle level of HCBS and MGCBS.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bucket_queue.h"
+#include "grove/planning/baseline_search.h"
+#include "grove/sequencing/sequence_dag.h"
+#include "legs.h"
+#include "safe_intervals.h"
+#include "spanning_tree_bound.h"
+
+namespace grove {
+
+// The essay is at the head of visiting_order_search.cpp.
+class VisitingOrderSearch : public BaselineSearch {
+ public:
+  // `grid` must outlive this.
+  VisitingOrderSearch(const Grid& grid, std::unique_ptr<Legs> legs);
+
+  std::int64_t expanded() const override { return expanded_ + legs_->expanded(); }
+
+ private:
+  Outcome search(AgentIndex agent, const AgentStops& stops, std::span<const Constraint> constraints,
+                 Time cutoff, const Limits& limits, Path& path) override;
+
+  struct Label {
+    Time time = kNever;
+    std::int32_t parent = kNoLabel;
+  };
+  using Entry = BucketQueue::Entry;
+  static constexpr std::int32_t kNoLabel = -1;
+
+  bool prepare(AgentIndex agent, const AgentStops& stops, std::span<const Constraint> constraints);
+  void add_targets(int goal, Cell cell);
+  void start();
+  Outcome run(Time cutoff, const Limits& limits, Path& path);
+  void expand(std::int32_t id, const Limits& limits);
+  void go_to(int goal, StopSet left, std::int32_t from, bool to_rest, const Limits& limits);
+  bool is_finish(std::int32_t id) const;
+  void write_path(std::int32_t finish, Path& path);
+
+  // A label is a row, what is left to visit, and a column, the target it stands on; column 0 is the
+  // start.
+  std::int32_t row_of(StopSet left);
+  StopSet left_of(std::int32_t id) const { return lefts_[id / columns()]; }
+  int column_of(std::int32_t id) const { return id % columns(); }
+  int columns() const { return static_cast<int>(targets_.size()); }
+  Cell cell_of(int column) const {
+    return column == 0 ? stops_->start() : intervals_.cell_of(targets_[column].slot);
+  }
+  SpanningTreeBound& bound() { return *bounds_[agent_]; }
+
+  SafeIntervals intervals_;
+  std::unique_ptr<Legs> legs_;
+  std::vector<std::unique_ptr<SpanningTreeBound>> bounds_;  // by AgentIndex
+  BucketQueue queue_;
+  std::int64_t expanded_ = 0;
+
+  // Of the call under way.
+  AgentIndex agent_ = -1;
+  const AgentStops* stops_ = nullptr;
+  std::vector<Legs::Target> targets_;  // by column
+  std::vector<int> first_target_;      // by goal: its targets are [first, next goal's first)
+  StopSetIndex rows_;
+  std::vector<StopSet> lefts_;  // by row
+  std::vector<Label> labels_;   // row by row
+};
+
+}  // namespace grove

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// The low levels of published methods where they are easily wrong, and on problems too large for a
+// reference: there they must agree with Grove's own. (free_low_level_test.cpp holds them against
+// the definition.)
+#include "grove/planning/baseline_search.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+#include "grove/planning/free_low_level_search.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace {
+
+using testing::instance_of;
+using Outcome = BaselineSearch::Outcome;
+
+class Baselines : public ::testing::TestWithParam<LowLevel> {
+ protected:
+  // kNever: proven that there is no path.
+  Time cost(const Instance& instance, const std::vector<Constraint>& constraints,
+            const Limits& limits = Limits()) {
+    const DistanceFields distances(instance);
+    const AgentStops stops(instance, distances, 0);
+    const auto search = make_baseline_search(GetParam(), instance.grid());
+    const Outcome outcome = search->find(0, stops, constraints, kNever, limits, path_);
+    if (outcome == Outcome::kInfeasible) return kNever;
+    EXPECT_EQ(outcome, Outcome::kFound);
+    return static_cast<Time>(path_.size()) - 1;
+  }
+
+  Path path_;
+};
+
+// On the first task at time 2 the agent would be caught: the earliest arrival leads nowhere.
+TEST_P(Baselines, ArriveLateWhereArrivingEarlyIsATrap) {
+  const Instance instance = instance_of({"....."}, {{{0, 0}, std::nullopt, {{2, 0}, {4, 0}}}});
+  EXPECT_EQ(cost(instance, {{1, kNoCell, 3, 4}, {2, kNoCell, 3, 4}, {3, kNoCell, 3, 9}}), 11);
+}
+
+// The nearer end is barred later on.
+TEST_P(Baselines, DoNotRestWhereTheyWillBeBarred) {
+  const Instance instance = instance_of({"......"}, {{{1, 0}, std::nullopt, {{0, 0}, {5, 0}}}});
+  EXPECT_EQ(cost(instance, {}), 6);
+  EXPECT_EQ(cost(instance, {{5, kNoCell, 9, 9}}), 9);  // the other way round
+  EXPECT_EQ(cost(instance, {{5, kNoCell, 9, 9}, {0, kNoCell, 20, 20}}), 10);
+  EXPECT_EQ(cost(instance, {{5, kNoCell, 9, kNever}, {0, kNoCell, 20, kNever}}), kNever);
+}
+
+TEST_P(Baselines, EndOnTheDestinationAlone) {
+  const Instance instance = instance_of({"...."}, {{{0, 0}, Position{1, 0}, {{3, 0}}}});
+  EXPECT_EQ(cost(instance, {}), 5);
+  EXPECT_EQ(cost(instance, {{1, kNoCell, 7, 7}}), 8);
+  EXPECT_EQ(cost(instance, {{0, kNoCell, 0, 0}}), kNever);
+}
+
+TEST_P(Baselines, GoNowhereWithoutTasks) {
+  EXPECT_EQ(cost(instance_of({".."}, {{{0, 0}, Position{0, 0}, {}}}), {}), 0);
+  EXPECT_EQ(cost(instance_of({".."}, {{{0, 0}, std::nullopt, {{0, 0}}}}), {}), 0);
+}
+
+TEST_P(Baselines, RefuseWhatTheyDoNotKnow) {
+  const Instance instance = instance_of({".."}, {{{0, 0}, Position{1, 0}, {}}});
+  EXPECT_THROW(cost(instance, {{1, kNoCell, 0, 5, ConstraintKind::kNoRestBy}}),
+               std::invalid_argument);
+}
+
+TEST_P(Baselines, SayNothingWhenStopped) {
+  const Instance instance = instance_of({".."}, {{{0, 0}, Position{1, 0}, {}}});
+  const DistanceFields distances(instance);
+  const AgentStops stops(instance, distances, 0);
+  const Limits limits;
+  limits.stop(StopReason::kTime);
+  EXPECT_EQ(
+      make_baseline_search(GetParam(), instance.grid())->find(0, stops, {}, kNever, limits, path_),
+      Outcome::kStopped);
+}
+
+// Many goals on a larger map, under constraints on the path time and again.
+TEST_P(Baselines, AgreeWithGrovesOwn) {
+  std::mt19937 random(7);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int round = 0; round < 12; ++round) {
+    constexpr int kSide = 14;
+    std::vector<std::string> rows(kSide, std::string(kSide, '.'));
+    for (int y = 1; y < kSide; y += 2)
+      for (int x = 0; x < kSide; ++x)
+        if (below(3) > 0) rows[y][x] = '@';
+    for (std::string& row : rows) row[below(kSide)] = '.';
+    std::vector<Position> tasks;
+    for (int i = 0; i < 7; ++i) tasks.push_back({2 * i, 2 * below(kSide / 2)});
+    const auto goal = below(2) == 0 ? std::optional(Position{13, 12}) : std::nullopt;
+    const Instance instance = instance_of(rows, {{{0, 6}, goal, tasks}});
+    const DistanceFields distances(instance);
+    AgentStops stops(instance, distances, 0);
+    FreeGoals goals(stops, {});
+    FreeLowLevelSearch own(instance.grid());
+    const auto search = make_baseline_search(GetParam(), instance.grid());
+    std::vector<Constraint> constraints;
+    for (int n = 0; n < 30; ++n) {
+      SCOPED_TRACE(std::to_string(round) + ", " + std::to_string(n));
+      Path path;
+      const auto expected = own.find(goals, constraints, nullptr, kNever, Limits(), path);
+      const Outcome outcome = search->find(0, stops, constraints, kNever, Limits(), path_);
+      if (expected != FreeLowLevelSearch::Outcome::kFound) {
+        EXPECT_EQ(outcome, Outcome::kInfeasible);
+        break;
+      }
+      ASSERT_EQ(outcome, Outcome::kFound);
+      ASSERT_EQ(path_.size(), path.size());
+      const int t = 1 + below(static_cast<int>(path_.size()) - 1);
+      Constraint more{path_[t], kNoCell, t, t};
+      if (below(3) == 0) more.end += below(20);
+      if (path_[t - 1] != path_[t] && below(3) == 0) more.from = path_[t - 1];
+      constraints.push_back(more);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Baselines,
+                         ::testing::Values(LowLevel::kVisitedSets, LowLevel::kSingleLegs,
+                                           LowLevel::kTimeIntervalForest),
+                         [](const auto& all) {
+                           switch (all.param) {
+                             case LowLevel::kVisitedSets:
+                               return "VisitedSets";
+                             case LowLevel::kSingleLegs:
+                               return "SingleLegs";
+                             default:
+                               return "TimeIntervalForest";
+                           }
+                         });
+
+}  // namespace
+}  // namespace grove
