@@ -132,7 +132,7 @@ double seconds_since(Clock::time_point start) {
 class Study {
  public:
   explicit Study(SimArguments& arguments)
-      : a_(arguments), options_(solve_options(a_.solve)), loaded_(a_.solve.instance.load()) {
+      : a_(arguments), options_(options_of_one_search(a_.solve)), loaded_(a_.solve.instance.load()) {
     for (const auto& file : {a_.solve.output, a_.profile}) {
       if (file.empty()) continue;
       require_distinct_files(file, a_.solve.instance.path(), "the instance");
@@ -145,7 +145,7 @@ class Study {
 
   void run() {
     const Limits unlimited;
-    const Problem problem(loaded_.instance, unlimited);
+    const Problem problem(loaded_.instance, unlimited, options_.low_level);
     RunObserver silent;
     if (answer_without_search(problem, options_, unlimited, silent))
       throw InputError(a_.solve.instance.path(), "",

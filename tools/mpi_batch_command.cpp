@@ -99,7 +99,7 @@ class BatchRun {
 
   void run() {
     share_machine(app_, a_.solve, session_);
-    options_ = solve_options(a_.solve);
+    options_ = options_of_one_search(a_.solve);
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
     const batch::Grouping grouping{session_.ranks(), static_cast<int>(a_.ranks_per_instance)};
@@ -190,7 +190,7 @@ class BatchRun {
 
   std::optional<Solution> solve_with(const Instance& instance, const Limits& limits,
                                      RunObserver& observer, const Poll& poll) {
-    const Problem problem(instance, limits);
+    const Problem problem(instance, limits, options_.low_level);
     auto answer = answer_without_search(problem, options_, limits, observer);
     const auto found = batch::gather(*agreement_, answer ? "an answer" : "", poll);
     if (std::ranges::count(found, "") < farm_->ranks()) {

@@ -49,7 +49,7 @@ class Run {
 
   void run() {
     share_machine(app_, a_, session_);
-    options_ = solve_options(a_);
+    options_ = options_of_one_search(a_);
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
     together(session_, [&] { loaded_.emplace(a_.instance.load(is_first())); });
@@ -92,7 +92,7 @@ class Run {
 
   // All search or none does: rank 0 then says what there is to say.
   std::optional<Solution> solve_with(RunObserver& observer) {
-    const Problem problem(loaded_->instance, limits_);
+    const Problem problem(loaded_->instance, limits_, options_.low_level);
     const auto answer = answer_without_search(problem, options_, limits_, observer);
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {

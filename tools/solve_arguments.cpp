@@ -27,6 +27,14 @@ std::string check_omega(const std::string& text) {
   }
 }
 
+std::string check_method(const std::string& text) {
+  if (parse_method(text)) return {};
+  std::string names;
+  for (Method method : all_methods())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(method));
+  return fmt::format("found '{}'; expected one of {}", text, names);
+}
+
 // A value must be one of the table's keys.
 template <typename Value>
 CLI::Validator one_of(const std::map<std::string, Value>& table) {
@@ -82,6 +90,17 @@ void add_omega_option(CLI::App& app, SolveArguments& a) {
 }
 
 void add_method_options(CLI::App& app, SolveArguments& a) {
+  app.add_option(
+         "--method", a.method,
+         "auto: Grove's search, as the other options say. To compare with: plain CBS with the low "
+         "level of optimal-cbs, hcbs or mgcbs; s-cbs, CTS-CBS with omega inf and policy fixed. For "
+         "agents without a goal, with either policy (fixed is the paper's): cts-cbs-a, which is "
+         "auto; cts-cbs-b, one task of each agent is made its goal; cts-cbs-c, two thirds of the "
+         "time for a, then b")
+      ->type_name("METHOD")
+      ->check(CLI::Validator(check_method, ""))
+      ->capture_default_str();
+  app.add_flag("--anytime", a.anytime, "with cts-cbs-c: b first, then a from its plan");
   app.add_option(
          "--policy", a.policy,
          "what a tree of the forest fixes: a complete task sequence for every agent (fixed: the "
@@ -158,10 +177,13 @@ std::string options_text(const CLI::App& app) {
   return text;
 }
 
+Method method_of(const SolveArguments& a) {
+  return *parse_method(a.method);
+}
+
 SolveOptions solve_options(const SolveArguments& a) {
-  if (a.policy == "fixed" && !(a.with.empty() && a.without.empty()))
-    throw CLI::ValidationError("--policy fixed",
-                               "uses no techniques; expected neither --with nor --without");
+  if (a.anytime && method_of(a) != Method::kCtsCbsC)
+    throw CLI::ValidationError("--anytime", "expected --method cts-cbs-c to go with it");
   SolveOptions options;
   options.omega = Omega::parse(a.omega);
   options.policy = kPolicies.at(a.policy);
@@ -170,7 +192,26 @@ SolveOptions solve_options(const SolveArguments& a) {
   options.threads = static_cast<int>(a.threads);
   options.deterministic = a.deterministic;
   options.techniques = techniques_of(a);
+  options.checkpoints.directory = a.checkpoints.directory;
+  try {
+    options = options_of(method_of(a), options);
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError("--method", error.what());
+  }
+  const bool is_plain = options.policy == Policy::kFixed || options.low_level != LowLevel::kOwn;
+  if (is_plain && !(a.with.empty() && a.without.empty()))
+    throw CLI::ValidationError(
+        options.policy == Policy::kFixed ? "--policy fixed" : "--method " + a.method,
+        "uses no techniques; expected neither --with nor --without");
   return options;
+}
+
+SolveOptions options_of_one_search(const SolveArguments& a) {
+  if (is_adaptation(method_of(a)))
+    throw CLI::ValidationError("--method " + a.method,
+                               "is for 'grove solve' alone; expected another method (cts-cbs-a is "
+                               "what auto does)");
+  return solve_options(a);
 }
 
 void set_limits(Limits& limits, const SolveArguments& a,

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "checkpoint_arguments.h"
-#include "grove/engine/solve.h"
+#include "grove/engine/method.h"
 #include "grove/model/limits.h"
 #include "instance_arguments.h"
 #include "machine.h"
@@ -24,6 +24,8 @@ struct SolveArguments {
   double time_limit_s = 180;
   double memory_limit_gb = std::floor(8 * physical_memory_gb()) / 10;
   std::int64_t threads = usable_cores();
+  std::string method = "auto";
+  bool anytime = false;
   std::string policy = "auto";
   std::string rtsp = "auto";
   std::int64_t seed = 0;
@@ -49,9 +51,12 @@ void add_file_options(CLI::App& app, SolveArguments& arguments);
 // What was asked for that is not the default, as one types it.
 std::string options_text(const CLI::App& app);
 
+Method method_of(const SolveArguments& arguments);
 // For the engine, but for the start plan. Throws CLI::ValidationError when they do not fit
 // together.
 SolveOptions solve_options(const SolveArguments& arguments);
+// The same for programs that run solve()'s search themselves: not for all methods.
+SolveOptions options_of_one_search(const SolveArguments& arguments);
 // The limits of a run that began at `start`.
 void set_limits(Limits& limits, const SolveArguments& arguments,
                 std::chrono::steady_clock::time_point start);

@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "commands.h"
-#include "grove/engine/solve.h"
+#include "grove/engine/method.h"
+#include "grove/io/input_error.h"
 #include "grove/io/plan_file.h"
 #include "incumbent_files.h"
 #include "run_log.h"
@@ -33,6 +35,15 @@ constexpr const char* kFooter =
     "  grove solve INSTANCE.cts.json --omega 0 --time-limit 60 --output plan.json\n"
     "  grove solve room-32-32-4-random-1.scen --map room-32-32-4.map --agents 20";
 
+void expect_fit(Method method, const Instance& instance, const SolveOptions& options,
+                const std::string& path) {
+  try {
+    require_fit(method, instance, options);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(path, "", error.what());
+  }
+}
+
 void run_solve(const CLI::App& app, SolveArguments& a) {
   const Clock::time_point start = Clock::now();
   stop_on_signals();
@@ -40,6 +51,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   const LoadedInstance loaded = a.instance.load();
   prepare_outputs(a, loaded);
   if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
+  expect_fit(method_of(a), loaded.instance, options, a.instance.path());
   const auto resumed = prepare_checkpoints(a.checkpoints, loaded.instance, options);
   LogSink sink(!a.quiet, a.log);
   log_head(sink, app, a, loaded, std::to_string(a.threads));
@@ -50,7 +62,8 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   RunLog log(sink, start, a.time_limit_s, a.deterministic);
   IncumbentFiles observer(a.incumbents, a.checkpoints.incumbent_file(), loaded.instance,
                           options.omega, log);
-  Solution solution = solve(loaded.instance, options, limits, &observer);
+  Solution solution =
+      solve_by(method_of(a), a.anytime, loaded.instance, options, limits, &observer);
 
   add_run_facts(solution, app, a, start);
   write_solution(a.output, loaded.instance, solution);

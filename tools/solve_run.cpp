@@ -108,7 +108,8 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
   solution.stats.counts["threads"] = a.threads;
   solution.stats.texts["instance"] = a.instance.path();
   solution.stats.texts["options"] = options_text(app);
-  solution.stats.texts["policy"] = a.policy == "fixed" ? "fixed" : "free";
+  solution.stats.texts["method"] = a.method;
+  solution.stats.texts["policy"] = solve_options(a).policy == Policy::kFixed ? "fixed" : "free";
   solution.stats.texts["version"] = version_text();
 }
 

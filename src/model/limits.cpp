@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <limits>
@@ -13,6 +14,7 @@ namespace grove {
 namespace {
 
 constexpr Limits::Clock::duration kMemoryLookInterval = std::chrono::milliseconds(5);
+constexpr double kForEver = 4e9;  // seconds; the clock counts no further
 
 }  // namespace
 
@@ -33,8 +35,15 @@ std::size_t peak_resident_bytes() {
   return 0;
 }
 
+Limits::Limits(const Limits& whole, double seconds) : whole_(&whole) {
+  if (seconds < kForEver)
+    deadline_ = Clock::now() +
+                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 bool Limits::stop_requested() const {
   if (reason() != StopReason::kNone || finished_.load(std::memory_order_relaxed)) return true;
+  if (whole_ && whole_->stop_requested()) stop(whole_->reason());
   if (interrupt_ && interrupt_->load(std::memory_order_relaxed)) stop(StopReason::kInterrupt);
   const Clock::time_point now = Clock::now();
   if (deadline_ && now >= *deadline_) stop(StopReason::kTime);
@@ -47,12 +56,15 @@ bool Limits::stop_requested() const {
 }
 
 double Limits::seconds_left() const {
-  if (!deadline_) return std::numeric_limits<double>::infinity();
-  return std::chrono::duration<double>(*deadline_ - Clock::now()).count();
+  const double left =
+      deadline_ ? std::chrono::duration<double>(*deadline_ - Clock::now()).count()
+                : std::numeric_limits<double>::infinity();
+  return whole_ ? std::min(left, whole_->seconds_left()) : left;
 }
 
 bool Limits::memory_allows(std::size_t bytes) const {
-  return !memory_limit_ || resident_bytes() + bytes <= *memory_limit_;
+  const auto limit = memory_limit();
+  return !limit || resident_bytes() + bytes <= *limit;
 }
 
 void Limits::stop(StopReason reason) const {

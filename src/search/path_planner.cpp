@@ -18,6 +18,7 @@ constexpr std::size_t kMostClassesKept = 4;  // of an agent, with their states
 PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops)
     : fixed_(problem.instance.grid()),
       free_(problem.instance.grid()),
+      baseline_(make_baseline_search(problem.low_level, problem.instance.grid())),
       optimal_(problem.instance.grid()),
       stops_(stops),
       free_goals_(problem.instance.agent_count()) {}
@@ -28,6 +29,7 @@ PathPlanner::Outcome PathPlanner::find(AgentIndex agent, const AgentOrder& order
                                        const Limits& limits, Path& path, std::int64_t most_labels) {
   ++calls_;
   if (order.goals) return find_fixed(*order.goals, constraints, others, cutoff, limits, path);
+  if (baseline_) return find_as_others_do(agent, constraints, cutoff, limits, path);
   return free_.find(free_goals(agent, order, constraints), on_path(constraints), others, cutoff,
                     limits, path, most_labels);
 }
@@ -42,6 +44,21 @@ PathPlanner::Outcome PathPlanner::find_fixed(const GoalSequence& goals,
     case LowLevelSearch::Outcome::kInfeasible:
       return Outcome::kInfeasible;
     case LowLevelSearch::Outcome::kStopped:
+      break;
+  }
+  return Outcome::kStopped;
+}
+
+PathPlanner::Outcome PathPlanner::find_as_others_do(AgentIndex agent, Constraints constraints,
+                                                    Time cutoff, const Limits& limits, Path& path) {
+  switch (baseline_->find(agent, stops_.of(agent), constraints, cutoff, limits, path)) {
+    case BaselineSearch::Outcome::kFound:
+      return Outcome::kFound;
+    case BaselineSearch::Outcome::kAbove:
+      return Outcome::kAbove;
+    case BaselineSearch::Outcome::kInfeasible:
+      return Outcome::kInfeasible;
+    case BaselineSearch::Outcome::kStopped:
       break;
   }
   return Outcome::kStopped;

@@ -6,9 +6,10 @@
 
 namespace grove {
 
-// The paper's policy is the cross-check: plain CBS.
+// The paper's policy is the cross-check, and what others published is for comparison: plain CBS.
 inline Techniques techniques_of(const SolveOptions& options) {
-  return options.policy == Policy::kFixed ? Techniques() : options.techniques;
+  const bool plain = options.policy == Policy::kFixed || options.low_level != LowLevel::kOwn;
+  return plain ? Techniques() : options.techniques;
 }
 
 }  // namespace grove

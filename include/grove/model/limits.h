@@ -26,6 +26,9 @@ class Limits {
 
   // No limit at all.
   Limits() = default;
+  // Of a part of a run that may take so many seconds from now on: stops then, and when `whole`
+  // does, which must outlive this. Not limited further.
+  Limits(const Limits& whole, double seconds);
 
   void set_deadline(Clock::time_point deadline) { deadline_ = deadline; }
   void set_memory_limit(std::size_t bytes) { memory_limit_ = bytes; }
@@ -42,9 +45,13 @@ class Limits {
   // May `bytes` more be allocated? Ask before large tables. Does not stop the run.
   bool memory_allows(std::size_t bytes) const;
   // None: memory is not limited.
-  std::optional<std::size_t> memory_limit() const { return memory_limit_; }
+  std::optional<std::size_t> memory_limit() const {
+    return whole_ ? whole_->memory_limit() : memory_limit_;
+  }
   // The resident set when stop_requested() last looked at it; 0 before that, or without a limit.
-  std::size_t last_resident() const { return last_resident_.load(std::memory_order_relaxed); }
+  std::size_t last_resident() const {
+    return whole_ ? whole_->last_resident() : last_resident_.load(std::memory_order_relaxed);
+  }
   // Ends all work of the run, which has reached its end: stop_requested() is true from now on, and
   // reason() what it was.
   void end_work() const { finished_.store(true, std::memory_order_relaxed); }
@@ -56,7 +63,7 @@ class Limits {
   void memory_exhausted() const { stop(StopReason::kMemory); }
 
  private:
-
+  const Limits* whole_ = nullptr;
   std::optional<Clock::time_point> deadline_;
   std::optional<std::size_t> memory_limit_;
   const std::atomic<bool>* interrupt_ = nullptr;

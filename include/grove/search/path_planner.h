@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grove/planning/agent_stops_store.h"
+#include "grove/planning/baseline_search.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/planning/optimal_paths.h"
@@ -17,13 +18,15 @@
 namespace grove {
 
 // Plans one agent under an AgentOrder: through its goals where the order is fixed, else choosing
-// the order. Workspace of one thread: reuse it, do not share it.
+// the order, by the low level that the problem names. Workspace of one thread: reuse it, do not
+// share it.
 class PathPlanner {
  public:
   // Both must outlive this; `stops` may be shared with others of the same thread.
   PathPlanner(const Problem& problem, AgentStopsStore& stops);
 
-  // As FreeLowLevelSearch::find; a fixed order does not heed `most_labels`.
+  // As FreeLowLevelSearch::find; a fixed order and the low levels of other methods do not heed
+  // `most_labels`, and the latter neither `others`.
   using Outcome = FreeLowLevelSearch::Outcome;
   Outcome find(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints,
                const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path,
@@ -47,7 +50,9 @@ class PathPlanner {
 
   // Calls of find(), and labels expanded by them, so far.
   std::int64_t calls() const { return calls_; }
-  std::int64_t expanded() const { return fixed_.expanded() + free_.expanded(); }
+  std::int64_t expanded() const {
+    return fixed_.expanded() + free_.expanded() + (baseline_ ? baseline_->expanded() : 0);
+  }
   // Nodes of sets of optimal paths, so far.
   std::int64_t optimal_nodes() const { return optimal_.nodes(); }
   // Calls and labels, in units of about one label.
@@ -64,10 +69,13 @@ class PathPlanner {
   Outcome find_fixed(const GoalSequence& goals, std::span<const Constraint> constraints,
                      const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits,
                      Path& path);
+  Outcome find_as_others_do(AgentIndex agent, Constraints constraints, Time cutoff,
+                            const Limits& limits, Path& path);
 
   std::int64_t calls_ = 0;
   LowLevelSearch fixed_;
   FreeLowLevelSearch free_;
+  std::unique_ptr<BaselineSearch> baseline_;  // in place of free_; null: none
   OptimalPathsBuilder optimal_;
   AgentStopsStore& stops_;
   std::vector<std::vector<std::unique_ptr<FreeGoals>>>

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// CTS-CBS-B and CTS-CBS-C for MG-MAPF (paper, section V-B). All solve as solve() does; the instance
+// must have an agent without a destination.
+#pragma once
+
+#include "grove/engine/run_observer.h"
+#include "grove/engine/solve.h"
+
+namespace grove {
+
+// B: one task of each agent is made its destination.
+Solution solve_with_destinations(const Instance& instance, const SolveOptions& options,
+                                 const Limits& limits, RunObserver& observer);
+
+// C: A, and if it does not end in two thirds of the time, B in the rest.
+Solution solve_with_destinations_last(const Instance& instance, const SolveOptions& options,
+                                      const Limits& limits, RunObserver& observer);
+
+// C as the paper's alternative: B, at most as long, then A with B's plan as its first incumbent.
+Solution solve_with_destinations_first(const Instance& instance, const SolveOptions& options,
+                                       const Limits& limits, RunObserver& observer);
+
+}  // namespace grove

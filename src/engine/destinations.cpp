@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Which task should an agent end on? The cheapest choice of all agents together: an assignment of
+// agents to tasks, where agent and task cost what the agent's best sequence that ends on the task
+// costs. If nothing stands against it, which is most often so, the choice costs no more than the
+// instance without destinations: the best plan may still end there.
+//
+// *All ends at once.* A sequence from the start that ends on e, read backwards, begins on e and
+// ends at the start; distances are symmetric. So the completions of a matrix whose destination is
+// the start tell for every stop e what the rest, through all other stops, takes. They are exact for
+// the ends that are within reach of the best one, which are widened until no other end can matter:
+// an end outside costs beyond() or more, and an assignment that uses it that and the best of all
+// others.
+//
+// *Among equals*, the fewest inner cells of corridors, where an agent at rest is in everybody's
+// way, then the fewest cells that other agents must still visit.
+#include "grove/engine/destinations.h"
+
+#include <algorithm>
+
+#include "grove/sequencing/assignment.h"
+#include "grove/sequencing/completions.h"
+#include "grove/sequencing/cost_matrix.h"
+#include "grove/sequencing/rtsp.h"
+
+namespace grove {
+namespace {
+
+constexpr Time kFirstReach = 8;  // beyond the best end, in steps
+
+// One agent without a destination and the costs of its ends.
+class Ends {
+ public:
+  Ends(const Problem& problem, AgentIndex agent)
+      : agent_(agent), tasks_(problem.instance.agent(agent).tasks), ends_(backwards(problem)) {}
+
+  AgentIndex agent() const { return agent_; }
+  const std::vector<TaskIndex>& tasks() const { return tasks_; }
+
+  // Learns all ends that cost at most `reach` more than the best. False: a limit struck.
+  bool widen(Time reach, const Limits& limits) {
+    if (best_ == kNever && !find_best(limits)) return false;
+    return all_known() || ends_.widen(std::min(best_ + reach, kNever - 1), limits);
+  }
+  Time best() const { return best_; }
+  // Of the sequences that end on a task; kNever: beyond().
+  Time cost(int stop) const {
+    return ends_.completion(ends_.matrix().all() & ~(StopSet{1} << stop), stop);
+  }
+  Time beyond() const { return ends_.beyond(); }
+  bool all_known() const { return ends_.beyond() >= kNever; }
+
+ private:
+  CostMatrix backwards(const Problem& problem) const {
+    CostMatrix matrix = cost_matrix(problem.instance, agent_, problem.distances);
+    const int n = matrix.stops();
+    matrix.cost.col(n).head(n) = matrix.cost.row(n).head(n);
+    matrix.cost.row(n).setZero();
+    return matrix;
+  }
+
+  bool find_best(const Limits& limits) {
+    for (Time reach = relaxation_bound(ends_.matrix()); best_ == kNever; ++reach) {
+      reach = std::max(reach, std::min(ends_.beyond(), kNever - 1));
+      if (!ends_.widen(reach, limits)) return false;
+      for (int stop = 0; stop < ends_.matrix().stops(); ++stop) best_ = std::min(best_, cost(stop));
+      if (best_ > ends_.beyond()) best_ = kNever;  // one that is not known may be better
+      if (best_ == kNever && all_known()) return false;
+    }
+    return true;
+  }
+
+  AgentIndex agent_;
+  std::vector<TaskIndex> tasks_;
+  Completions ends_;
+  Time best_ = kNever;
+};
+
+class Chooser {
+ public:
+  Chooser(const Problem& problem, const Limits& limits) : problem_(problem), limits_(limits) {
+    const Instance& instance = problem.instance;
+    for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
+      if (!instance.agent(agent).goal) ends_.emplace_back(problem, agent);
+  }
+
+  std::optional<Destinations> choose() {
+    Destinations chosen;
+    if (!add_bound_of_others(chosen.bound)) return std::nullopt;
+    for (Time reach = kFirstReach;; reach *= 2) {
+      for (Ends& ends : ends_)
+        if (!ends.widen(reach, limits_)) return std::nullopt;
+      const auto assignment = least_cost_assignment(costs());
+      if (is_best(assignment)) return assignment ? finish(chosen, *assignment) : std::nullopt;
+    }
+  }
+
+ private:
+  // The sequences of those who have a destination.
+  bool add_bound_of_others(Cost& bound) const {
+    const Instance& instance = problem_.instance;
+    for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+      if (!instance.agent(agent).goal) continue;
+      const CostMatrix matrix = cost_matrix(instance, agent, problem_.distances);
+      const auto solver = make_rtsp_solver(RtspBackend::kAuto, matrix, limits_);
+      const RtspAnswer answer = solver->best({}, kNever);
+      if (answer.kind != RtspAnswer::Kind::kExact) return false;
+      bound += answer.cost;
+    }
+    return true;
+  }
+
+  // By position in ends_, then task; lexicographic: steps, then how much in the way.
+  std::vector<std::vector<std::int64_t>> costs() const {
+    const auto tasks = static_cast<std::size_t>(problem_.instance.task_count());
+    std::vector<std::vector<std::int64_t>> costs(ends_.size(),
+                                                 std::vector<std::int64_t>(tasks, kForbidden));
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      for (std::size_t stop = 0; stop < ends_[i].tasks().size(); ++stop) {
+        const TaskIndex task = ends_[i].tasks()[stop];
+        const Time cost = ends_[i].cost(static_cast<int>(stop));
+        if (cost < kNever && !is_destination(task))
+          costs[i][task] = cost * step_weight() + in_the_way(task);
+      }
+    return costs;
+  }
+  // More than all that is in the way can add up to.
+  std::int64_t step_weight() const {
+    const std::int64_t agents = problem_.instance.agent_count();
+    return (agents + 1) * (2 * agents + 1);
+  }
+  std::int64_t in_the_way(TaskIndex task) const {
+    const Task& t = problem_.instance.task(task);
+    const bool in_corridor = problem_.chains.chain_of(t.cell) != Chains::kNoChain;
+    return (in_corridor ? problem_.instance.agent_count() : 0) + std::ssize(t.agents) - 1;
+  }
+  bool is_destination(TaskIndex task) const {
+    return std::ranges::any_of(problem_.instance.agents(), [&](const Agent& agent) {
+      return agent.goal == problem_.instance.task(task).cell;
+    });
+  }
+
+  // No assignment that uses an end that is not known is better.
+  bool is_best(const std::optional<std::vector<int>>& assignment) const {
+    if (std::ranges::all_of(ends_, &Ends::all_known)) return true;
+    if (!assignment) return false;
+    Cost excess = 0;
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      excess += cost_of(ends_[i], (*assignment)[i]) - ends_[i].best();
+    return std::ranges::all_of(ends_, [&](const Ends& ends) {
+      return ends.all_known() || excess < ends.beyond() - ends.best();
+    });
+  }
+  static Time cost_of(const Ends& ends, TaskIndex task) {
+    return ends.cost(
+        static_cast<int>(std::ranges::find(ends.tasks(), task) - ends.tasks().begin()));
+  }
+
+  std::optional<Destinations> finish(Destinations chosen,
+                                     const std::vector<int>& assignment) const {
+    chosen.tasks.assign(static_cast<std::size_t>(problem_.instance.agent_count()), kNoTask);
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      chosen.tasks[ends_[i].agent()] = assignment[i];
+      chosen.bound += ends_[i].best();
+    }
+    return chosen;
+  }
+
+  const Problem& problem_;
+  const Limits& limits_;
+  std::vector<Ends> ends_;
+};
+
+}  // namespace
+
+std::optional<Destinations> choose_destinations(const Problem& problem, const Limits& limits) {
+  return Chooser(problem, limits).choose();
+}
+
+Instance with_destinations(const Instance& instance, const Destinations& destinations) {
+  const Grid& grid = instance.grid();
+  InstanceBuilder builder(grid);
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    const Agent& agent = instance.agent(i);
+    const TaskIndex end = destinations.tasks[i];
+    const auto goal = end == kNoTask ? agent.goal : std::optional(instance.task(end).cell);
+    builder.add_agent(agent.id, grid.position(agent.start),
+                      goal ? std::optional(grid.position(*goal)) : std::nullopt);
+  }
+  for (TaskIndex t = 0; t < instance.task_count(); ++t) {
+    std::vector<std::string> ids;
+    for (AgentIndex agent : instance.task(t).agents)
+      if (destinations.tasks[agent] != t) ids.push_back(instance.agent(agent).id);
+    if (!ids.empty())
+      builder.add_task(instance.task(t).id, grid.position(instance.task(t).cell), ids);
+  }
+  return std::move(builder).build();
+}
+
+Plan without_destinations(const Instance& instance, const Destinations& destinations, Plan plan) {
+  std::vector<TaskIndex> kept;  // by TaskIndex of with_destinations()
+  for (TaskIndex t = 0; t < instance.task_count(); ++t)
+    if (std::ranges::any_of(instance.task(t).agents,
+                            [&](AgentIndex agent) { return destinations.tasks[agent] != t; }))
+      kept.push_back(t);
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    for (TaskIndex& task : plan.agents[i].sequence) task = kept[task];
+    if (destinations.tasks[i] != kNoTask) plan.agents[i].sequence.push_back(destinations.tasks[i]);
+  }
+  return plan;
+}
+
+}  // namespace grove

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "grove/engine/method.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "adaptations.h"
+
+namespace grove {
+namespace {
+
+constexpr std::array kMethods{Method::kAuto,    Method::kCtsCbsA,    Method::kCtsCbsB,
+                              Method::kCtsCbsC, Method::kOptimalCbs, Method::kHcbs,
+                              Method::kMgcbs,   Method::kSCbs};
+
+LowLevel low_level_of(Method method) {
+  switch (method) {
+    case Method::kOptimalCbs:
+      return LowLevel::kVisitedSets;
+    case Method::kHcbs:
+      return LowLevel::kSingleLegs;
+    case Method::kMgcbs:
+      return LowLevel::kTimeIntervalForest;
+    default:
+      return LowLevel::kOwn;
+  }
+}
+
+[[noreturn]] void refuse(Method method, std::string_view why) {
+  throw std::invalid_argument(fmt::format("method {} {}", name_of(method), why));
+}
+
+bool is_composed(Method method) {
+  return method == Method::kCtsCbsB || method == Method::kCtsCbsC;
+}
+
+}  // namespace
+
+std::span<const Method> all_methods() {
+  return kMethods;
+}
+
+std::string_view name_of(Method method) {
+  switch (method) {
+    case Method::kAuto:
+      return "auto";
+    case Method::kCtsCbsA:
+      return "cts-cbs-a";
+    case Method::kCtsCbsB:
+      return "cts-cbs-b";
+    case Method::kCtsCbsC:
+      return "cts-cbs-c";
+    case Method::kOptimalCbs:
+      return "optimal-cbs";
+    case Method::kHcbs:
+      return "hcbs";
+    case Method::kMgcbs:
+      return "mgcbs";
+    case Method::kSCbs:
+      return "s-cbs";
+  }
+  return "";
+}
+
+std::optional<Method> parse_method(std::string_view name) {
+  const auto method = std::ranges::find(kMethods, name, [](Method m) { return name_of(m); });
+  return method == kMethods.end() ? std::nullopt : std::optional(*method);
+}
+
+bool is_adaptation(Method method) {
+  return method == Method::kCtsCbsA || method == Method::kCtsCbsB || method == Method::kCtsCbsC;
+}
+
+SolveOptions options_of(Method method, SolveOptions options) {
+  options.low_level = low_level_of(method);
+  const bool is_other = options.low_level != LowLevel::kOwn;
+  if (is_other && options.policy == Policy::kFixed)
+    refuse(method, "has one tree for all sequences; expected no policy fixed");
+  if (method == Method::kSCbs) {
+    if (options.policy == Policy::kFree)
+      refuse(method, "searches the tree of one joint sequence; expected no policy free");
+    options.policy = Policy::kFixed;
+    options.omega = Omega::infinite();
+  }
+  const bool keeps_state = !options.checkpoints.directory.empty() || options.resume != nullptr;
+  if (keeps_state && (is_other || is_composed(method)))
+    refuse(method, "keeps no checkpoints; expected none to be asked for");
+  return options;
+}
+
+void require_fit(Method method, const Instance& instance, const SolveOptions& options) {
+  const auto ends_at_a_goal = [](const Agent& agent) { return agent.goal.has_value(); };
+  if (is_adaptation(method) && std::ranges::all_of(instance.agents(), ends_at_a_goal))
+    refuse(method,
+           "is for agents without a goal (MG-MAPF), and here every agent has one; expected another "
+           "method: CTS-CBS itself is auto with policy fixed");
+  if (options.start && is_composed(method))
+    refuse(method, "finds its own first plan; expected no plan to start from");
+}
+
+Solution solve_by(Method method, bool anytime, const Instance& instance,
+                  const SolveOptions& options, const Limits& limits, RunObserver* observer) {
+  require_fit(method, instance, options);
+  RunObserver silent;
+  RunObserver& watcher = observer ? *observer : silent;
+  switch (method) {
+    case Method::kCtsCbsB:
+      return solve_with_destinations(instance, options, limits, watcher);
+    case Method::kCtsCbsC:
+      return anytime ? solve_with_destinations_first(instance, options, limits, watcher)
+                     : solve_with_destinations_last(instance, options, limits, watcher);
+    default:
+      return solve(instance, options, limits, observer);
+  }
+}
+
+}  // namespace grove

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// The Hungarian method in the form of shortest augmenting paths (Kuhn 1955; Jonker and Volgenant
+// 1987): rows enter one by one, each by a shortest path in reduced costs, which prices of rows and
+// columns keep from being negative.
+#include "grove/sequencing/assignment.h"
+
+#include <algorithm>
+
+namespace grove {
+namespace {
+
+constexpr int kNone = -1;
+
+class Assignment {
+ public:
+  explicit Assignment(const std::vector<std::vector<std::int64_t>>& cost)
+      : cost_(cost),
+        columns_(cost.empty() ? 0 : static_cast<int>(cost.front().size())),
+        row_price_(cost.size()),
+        column_price_(columns_),
+        row_of_(columns_, kNone) {}
+
+  // False: there is no column for this row, whatever the others take.
+  bool enter(int row) {
+    distance_.assign(columns_, kForbidden);
+    before_.assign(columns_, kNone);
+    done_.assign(columns_, false);
+    std::int64_t reached = 0;
+    int column = kNone;
+    for (int from = row; from != kNone; from = row_of_[column]) {
+      relax(from, column, reached);
+      column = nearest();
+      if (column == kNone) return false;
+      done_[column] = true;
+      reached = distance_[column];
+    }
+    update_prices(row, reached);
+    augment(row, column);
+    return true;
+  }
+
+  std::vector<int> columns_of_rows() const {
+    std::vector<int> result(cost_.size());
+    for (int column = 0; column < columns_; ++column)
+      if (row_of_[column] != kNone) result[row_of_[column]] = column;
+    return result;
+  }
+
+ private:
+  void relax(int from, int via, std::int64_t reached) {
+    for (int column = 0; column < columns_; ++column) {
+      if (done_[column] || cost_[from][column] == kForbidden) continue;
+      const std::int64_t through =
+          reached + cost_[from][column] - row_price_[from] - column_price_[column];
+      if (through >= distance_[column]) continue;
+      distance_[column] = through;
+      before_[column] = via;
+    }
+  }
+
+  int nearest() const {
+    int best = kNone;
+    for (int column = 0; column < columns_; ++column)
+      if (!done_[column] && distance_[column] < kForbidden &&
+          (best == kNone || distance_[column] < distance_[best]))
+        best = column;
+    return best;
+  }
+
+  void update_prices(int row, std::int64_t reached) {
+    row_price_[row] += reached;
+    for (int column = 0; column < columns_; ++column) {
+      if (!done_[column]) continue;
+      column_price_[column] -= reached - distance_[column];
+      if (row_of_[column] != kNone) row_price_[row_of_[column]] += reached - distance_[column];
+    }
+  }
+
+  void augment(int row, int column) {
+    for (; before_[column] != kNone; column = before_[column])
+      row_of_[column] = row_of_[before_[column]];
+    row_of_[column] = row;
+  }
+
+  const std::vector<std::vector<std::int64_t>>& cost_;
+  const int columns_;
+  std::vector<std::int64_t> row_price_;
+  std::vector<std::int64_t> column_price_;
+  std::vector<int> row_of_;  // by column
+  std::vector<std::int64_t> distance_;
+  std::vector<int> before_;  // by column: the one before it on the path; kNone: the entering row
+  std::vector<bool> done_;
+};
+
+}  // namespace
+
+std::optional<std::vector<int>> least_cost_assignment(
+    const std::vector<std::vector<std::int64_t>>& cost) {
+  Assignment assignment(cost);
+  for (int row = 0; row < static_cast<int>(cost.size()); ++row)
+    if (!assignment.enter(row)) return std::nullopt;
+  return assignment.columns_of_rows();
+}
+
+}  // namespace grove

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "grove/sequencing/assignment.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace grove {
+namespace {
+
+using Costs = std::vector<std::vector<std::int64_t>>;
+
+std::optional<std::int64_t> best_by_trying_all(const Costs& cost) {
+  std::vector<int> columns(cost.empty() ? 0 : cost.front().size());
+  std::iota(columns.begin(), columns.end(), 0);
+  std::optional<std::int64_t> best;
+  do {
+    std::int64_t total = 0;
+    for (std::size_t row = 0; row < cost.size() && total < kForbidden; ++row)
+      total = std::min(kForbidden, total + cost[row][columns[row]]);
+    if (total < kForbidden && (!best || total < *best)) best = total;
+  } while (std::ranges::next_permutation(columns).found);
+  return best;
+}
+
+TEST(Assignment, IsTheBestOfAll) {
+  std::mt19937 random(3);
+  int impossible = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const std::size_t rows = random() % 5;
+    const std::size_t columns = rows + random() % 3;
+    Costs cost(rows, std::vector<std::int64_t>(columns));
+    for (auto& row : cost)
+      for (auto& entry : row) entry = random() % 3 == 0 ? kForbidden : random() % 8;
+    const auto assignment = least_cost_assignment(cost);
+    const auto best = best_by_trying_all(cost);
+    ASSERT_EQ(assignment.has_value(), best.has_value());
+    if (!best) {
+      ++impossible;
+      continue;
+    }
+    std::int64_t total = 0;
+    for (std::size_t row = 0; row < rows; ++row) total += cost[row][(*assignment)[row]];
+    EXPECT_EQ(total, *best);
+    EXPECT_EQ(std::set(assignment->begin(), assignment->end()).size(), rows);
+  }
+  EXPECT_GT(impossible, 200);
+}
+
+}  // namespace
+}  // namespace grove
