@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
-#include <string>
+#include <string_view>
 #include <utility>
 
 #include "grove/engine/destinations.h"
@@ -23,59 +23,75 @@ namespace {
 
 constexpr double kShareOfFirst = 2.0 / 3;  // of the time, paper, section V-B
 
-// What earlier searches of the same instance did and found.
-struct Before {
-  std::int64_t nodes_expanded = 0;
-  std::int64_t trees = 0;
-  Cost lower_bound = 0;
-  std::optional<Cost> cost;
-};
-
-// Tells an observer of one search among several, as if they were one.
-class Stage : public RunObserver {
+// Tells an observer of several searches, one after the other, as if they were one.
+class Told {
  public:
-  Stage(RunObserver& next, Before before, bool is_last)
-      : next_(next), before_(before), is_last_(is_last) {}
+  explicit Told(RunObserver& next) : next_(next) {}
 
-  void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {
-    is_better_ = !before_.cost || plan.cost < *before_.cost;
+  void begin_search() { before_ = last_; }
+  void incumbent(const Plan& plan, PlanSource source, const Progress& progress) {
+    is_better_ = !last_.incumbent || plan.cost < *last_.incumbent;
     if (!is_better_) return;
-    before_.cost = plan.cost;
-    next_.on_incumbent(of_whole(plan), source, of_whole(progress));
+    last_.incumbent = plan.cost;
+    next_.on_incumbent(plan, source, of_whole(progress));
   }
-  void on_event(RunEvent event, const Progress& progress) override {
-    if (event == RunEvent::kEnd && !is_last_) return;
+  void event(RunEvent event, const Progress& progress) {
+    searched_ = true;
+    last_ = of_whole(progress);
     if (event == RunEvent::kIncumbent && !is_better_) event = RunEvent::kProgress;
-    next_.on_event(event, of_whole(progress));
+    if (event != RunEvent::kEnd) next_.on_event(event, last_);
   }
-
- protected:
-  virtual Plan of_whole(const Plan& plan) const { return plan; }
-  // What a bound of this search proves of the instance.
-  virtual Cost proven_by(Cost bound) const { return bound; }
+  void infeasible(std::string_view reason) { next_.on_infeasible(reason); }
+  void end() {
+    if (searched_) next_.on_event(RunEvent::kEnd, last_);
+  }
 
  private:
   Progress of_whole(Progress progress) const {
     progress.nodes_expanded += before_.nodes_expanded;
     progress.trees += before_.trees;
-    progress.lower_bound = std::max(before_.lower_bound, proven_by(progress.lower_bound));
-    if (before_.cost)
-      progress.incumbent = std::min(*before_.cost, progress.incumbent.value_or(kInfiniteCost));
+    progress.lower_bound = std::max(last_.lower_bound, progress.lower_bound);
+    progress.incumbent = last_.incumbent;
     return progress;
   }
 
   RunObserver& next_;
-  Before before_;
-  const bool is_last_;
+  Progress before_;  // when the search began
+  Progress last_;
   bool is_better_ = false;
+  bool searched_ = false;
 };
 
-// The search of an instance with destinations.
+// A search of the instance itself.
+class Stage : public RunObserver {
+ public:
+  explicit Stage(Told& told) : told_(told) { told.begin_search(); }
+
+  void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {
+    told_.incumbent(of_whole(plan), source, progress);
+  }
+  void on_event(RunEvent event, const Progress& progress) override {
+    Progress proven = progress;
+    proven.lower_bound = proven_by(progress.lower_bound);
+    told_.event(event, proven);
+  }
+  void on_infeasible(std::string_view reason) override { told_.infeasible(reason); }
+
+ private:
+  virtual Plan of_whole(const Plan& plan) const { return plan; }
+  // What a bound of this search proves of the instance.
+  virtual Cost proven_by(Cost bound) const { return bound; }
+
+  Told& told_;
+};
+
+// A search of the instance with destinations.
 class StageOfB : public Stage {
  public:
-  StageOfB(RunObserver& next, Before before, bool is_last, const Instance& instance,
-           const Destinations& destinations)
-      : Stage(next, before, is_last), instance_(instance), destinations_(destinations) {}
+  StageOfB(Told& told, const Instance& instance, const Destinations& destinations)
+      : Stage(told), instance_(instance), destinations_(destinations) {}
+
+  void on_infeasible(std::string_view) override {}  // with these destinations
 
  private:
   Plan of_whole(const Plan& plan) const override {
@@ -95,7 +111,7 @@ Solution stopped(const SolveOptions& options, const Limits& limits) {
 }
 
 Solution solve_b(const Instance& instance, const SolveOptions& options, const Limits& limits,
-                 RunObserver& observer, const Before& before, bool is_last) {
+                 RunObserver& observer, Told& told) {
   const Problem problem(instance, limits);
   if (auto answer = answer_without_search(problem, options, limits, observer))
     return std::move(*answer);
@@ -104,7 +120,7 @@ Solution solve_b(const Instance& instance, const SolveOptions& options, const Li
   if (!destinations)
     throw std::logic_error("internal error: agents that can rest have nowhere to do so");
 
-  StageOfB stage(observer, before, is_last, instance, *destinations);
+  StageOfB stage(told, instance, *destinations);
   Solution solution = solve(with_destinations(instance, *destinations), options, limits, &stage);
   if (solution.plan)
     solution.plan = without_destinations(instance, *destinations, std::move(*solution.plan));
@@ -117,28 +133,13 @@ Solution solve_b(const Instance& instance, const SolveOptions& options, const Li
 }
 
 Solution solve_a(const Instance& instance, const SolveOptions& options, const Limits& limits,
-                 RunObserver& observer, const Before& before, bool is_last) {
-  Stage stage(observer, before, is_last);
+                 Told& told) {
+  Stage stage(told);
   return solve(instance, options, limits, &stage);
 }
 
-Before summary(const Solution& solution) {
-  const auto count = [&](const char* name) {
-    const auto found = solution.stats.counts.find(name);
-    return found == solution.stats.counts.end() ? 0 : found->second;
-  };
-  Before before;
-  before.nodes_expanded = count("nodes_expanded");
-  before.trees = count("roots_generated");
-  before.lower_bound = solution.lower_bound;
-  if (solution.plan) before.cost = solution.plan->cost;
-  return before;
-}
-
-// Nothing is left for another search.
-bool is_over(const Solution& solution, const Limits& limits) {
-  return solution.status == Status::kOptimal || solution.status == Status::kBounded ||
-         solution.status == Status::kInfeasible || limits.stop_requested();
+bool was_stopped(const Solution& solution) {
+  return solution.stats.texts.contains("stopped_by");
 }
 
 // How the run ended is how the second search did.
@@ -157,25 +158,38 @@ Solution both(const Solution& first, Solution second) {
 
 Solution solve_with_destinations(const Instance& instance, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer) {
-  return solve_b(instance, options, limits, observer, {}, true);
+  Told told(observer);
+  Solution solution = solve_b(instance, options, limits, observer, told);
+  told.end();
+  return solution;
 }
 
 Solution solve_with_destinations_last(const Instance& instance, const SolveOptions& options,
                                       const Limits& limits, RunObserver& observer) {
+  Told told(observer);
   const Limits part(limits, kShareOfFirst * limits.seconds_left());
-  const Solution first = solve_a(instance, options, part, observer, {}, false);
-  if (first.stats.texts.count("stopped_by") == 0 || is_over(first, limits)) return first;
-  return both(first, solve_b(instance, options, limits, observer, summary(first), true));
+  Solution solution = solve_a(instance, options, part, told);
+  if (was_stopped(solution) && !limits.stop_requested())
+    solution = both(solution, solve_b(instance, options, limits, observer, told));
+  told.end();
+  return solution;
 }
 
 Solution solve_with_destinations_first(const Instance& instance, const SolveOptions& options,
                                        const Limits& limits, RunObserver& observer) {
+  Told told(observer);
   const Limits part(limits, kShareOfFirst * limits.seconds_left());
-  const Solution first = solve_b(instance, options, part, observer, {}, false);
-  if (is_over(first, limits)) return first;
-  SolveOptions from_there = options;
-  from_there.start = first.plan;
-  return both(first, solve_a(instance, from_there, limits, observer, summary(first), true));
+  Solution solution = solve_b(instance, options, part, observer, told);
+  const bool is_settled = solution.status == Status::kOptimal ||
+                          solution.status == Status::kBounded ||
+                          solution.status == Status::kInfeasible;
+  if (!is_settled && !limits.stop_requested()) {
+    SolveOptions from_there = options;
+    from_there.start = solution.plan;
+    solution = both(solution, solve_a(instance, from_there, limits, told));
+  }
+  told.end();
+  return solution;
 }
 
 }  // namespace grove

@@ -25,6 +25,10 @@ constexpr Names<RtspBackend, 4> kBackends{{{RtspBackend::kAuto, "auto"},
                                            {RtspBackend::kCbc, "cbc"}}};
 constexpr Names<Policy, 3> kPolicies{
     {{Policy::kAuto, "auto"}, {Policy::kFixed, "fixed"}, {Policy::kFree, "free"}}};
+constexpr Names<LowLevel, 4> kLowLevels{{{LowLevel::kOwn, "own"},
+                                         {LowLevel::kVisitedSets, "visited-sets"},
+                                         {LowLevel::kSingleLegs, "single-legs"},
+                                         {LowLevel::kTimeIntervalForest, "forest"}}};
 constexpr Names<Strike, 5> kStrikes{{{Strike::kNothing, "nothing"},
                                      {Strike::kExpired, "expired"},
                                      {Strike::kSoon, "soon"},
@@ -67,6 +71,8 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     fuzz_case.options.omega = Omega::parse(value);
   else if (key == "policy")
     fuzz_case.options.policy = value_of(kPolicies, value);
+  else if (key == "low-level")
+    fuzz_case.options.low_level = value_of(kLowLevels, value);
   else if (key == "rtsp")
     fuzz_case.options.rtsp = value_of(kBackends, value);
   else if (key == "seed")
@@ -137,6 +143,8 @@ std::string FuzzCase::to_text() const {
       fmt::format("{}options\nomega {}\npolicy {}\nrtsp {}\nseed {}\nstrike {}\n",
                   instance.to_text(), options.omega.to_string(), name_of(kPolicies, options.policy),
                   name_of(kBackends, options.rtsp), options.seed, name_of(kStrikes, strike));
+  if (options.low_level != LowLevel::kOwn)
+    text += fmt::format("low-level {}\n", name_of(kLowLevels, options.low_level));
   if (options.threads != 1) text += fmt::format("threads {}\n", options.threads);
   if (options.deterministic) text += "deterministic yes\n";
   for (Technique t : all_techniques())
@@ -175,6 +183,9 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.options.node_memory = random_node_memory(random);
   fuzz_case.options.threads = random.pick<int>({1, 1, 1, 1, 1, 2, 2, 3, 4});
   fuzz_case.options.deterministic = random.below(8) == 0;
+  if (fuzz_case.options.policy != Policy::kFixed && random.below(6) == 0)
+    fuzz_case.options.low_level = random.pick<LowLevel>(
+        {LowLevel::kVisitedSets, LowLevel::kSingleLegs, LowLevel::kTimeIntervalForest});
   return fuzz_case;
 }
 

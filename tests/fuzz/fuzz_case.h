@@ -26,6 +26,7 @@ enum class Strike : std::uint8_t {
 //     omega 0.01
 //     policy free          (auto, fixed, free)
 //     rtsp held-karp       (auto, held-karp, bounded-dp, cbc)
+//     low-level forest     (own, visited-sets, single-legs, forest)
 //     seed 7
 //     threads 2
 //     deterministic yes

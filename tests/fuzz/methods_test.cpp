@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+// Methods on tiny instances against the truth: those that are exact must all find the optimum, and
+// the adaptations must not claim more than they prove. GROVE_FUZZ_FACTOR multiplies the instances.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+
+#include "grove/engine/destinations.h"
+#include "grove/engine/method.h"
+#include "grove/engine/run_observer.h"
+#include "tests/fuzz/claims.h"
+#include "tests/fuzz/random_instance.h"
+
+namespace grove::fuzz {
+namespace {
+
+std::uint64_t count(std::uint64_t seeds) {
+  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
+  return factor ? seeds * std::strtoull(factor, nullptr, 10) : seeds;
+}
+
+// With agents that may end on any of their tasks, if they have one.
+Instance mg_instance(std::uint64_t seed) {
+  TinyInstance tiny = random_instance(seed);
+  for (std::size_t agent = 0; agent < tiny.agents.size(); ++agent)
+    if (std::ranges::any_of(tiny.tasks, [&](const TinyInstance::Task& task) {
+          return std::ranges::count(task.agents, static_cast<int>(agent)) > 0;
+        }))
+      tiny.agents[agent].goal = std::nullopt;
+  return tiny.build();
+}
+
+bool has_free_end(const Instance& instance) {
+  return std::ranges::any_of(instance.agents(), [](const Agent& agent) { return !agent.goal; });
+}
+
+struct Ended {
+  Solution solution;
+  bool stopped = false;
+};
+
+Ended run(Method method, const Instance& instance, SolveOptions options, bool anytime = false,
+          RunObserver* observer = nullptr) {
+  options = options_of(method, options);
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(1500));
+  Ended ended{solve_by(method, anytime, instance, options, limits, observer)};
+  ended.stopped = ended.solution.stats.texts.count("stopped_by") > 0;
+  return ended;
+}
+
+class ExactMethods : public ::testing::TestWithParam<Method> {};
+
+TEST_P(ExactMethods, FindTheOptimumOfMgInstances) {
+  int solvable = 0;
+  int ended = 0;
+  for (std::uint64_t seed = 0; seed < count(80); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = mg_instance(seed);
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (!truth.plan || !has_free_end(instance)) continue;
+    ++solvable;
+    const auto [solution, stopped] = run(GetParam(), instance, {});
+    EXPECT_EQ(false_claims(instance, truth, {}, solution, stopped), std::vector<std::string>());
+    if (stopped) continue;
+    ++ended;
+    EXPECT_EQ(solution.status, Status::kOptimal);
+  }
+  EXPECT_GT(solvable, 25);
+  EXPECT_GT(ended, solvable * 9 / 10);
+  RecordProperty("solvable", solvable);
+  RecordProperty("ended", ended);
+}
+
+INSTANTIATE_TEST_SUITE_P(, ExactMethods,
+                         ::testing::Values(Method::kAuto, Method::kOptimalCbs, Method::kHcbs,
+                                           Method::kMgcbs, Method::kCtsCbsA),
+                         [](const auto& all) {
+                           std::string name(name_of(all.param));
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+// The cost of one agent on its own.
+Cost alone(const Instance& instance, AgentIndex agent, std::optional<Cell> goal, TaskIndex end) {
+  const Grid& grid = instance.grid();
+  InstanceBuilder builder(grid);
+  const Agent& a = instance.agent(agent);
+  builder.add_agent(a.id, grid.position(a.start),
+                    goal ? std::optional(grid.position(*goal)) : std::nullopt);
+  const std::string ids[] = {a.id};
+  for (TaskIndex task : a.tasks)
+    if (task != end)
+      builder.add_task(instance.task(task).id, grid.position(instance.task(task).cell), ids);
+  const auto answer = oracle::solve_jointly(std::move(builder).build());
+  return answer.plan ? answer.plan->cost : kInfiniteCost;
+}
+
+// All choices of distinct destinations from `agent` on.
+Cost best_choice(const Instance& instance, AgentIndex agent, std::vector<Cell>& taken) {
+  if (agent == instance.agent_count()) return 0;
+  if (const auto goal = instance.agent(agent).goal)
+    return alone(instance, agent, goal, kNoTask) + best_choice(instance, agent + 1, taken);
+  Cost best = kInfiniteCost;
+  for (TaskIndex task : instance.agent(agent).tasks) {
+    const Cell cell = instance.task(task).cell;
+    if (std::ranges::count(taken, cell) > 0) continue;
+    taken.push_back(cell);
+    best = std::min(best,
+                    alone(instance, agent, cell, task) + best_choice(instance, agent + 1, taken));
+    taken.pop_back();
+  }
+  return best;
+}
+
+TEST(Destinations, AreTheCheapestDistinctOnes) {
+  int chosen = 0;
+  int dearer = 0;  // than without the demand that they be distinct
+  for (std::uint64_t seed = 0; seed < count(80); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = mg_instance(seed);
+    const Problem problem(instance, Limits());
+    RunObserver silent;
+    if (!has_free_end(instance) || answer_without_search(problem, {}, Limits(), silent)) continue;
+    const auto destinations = choose_destinations(problem, Limits());
+    ASSERT_TRUE(destinations);
+    ++chosen;
+    Cost bound = 0;
+    Cost cost = 0;
+    std::vector<Cell> taken;
+    const Instance with = with_destinations(instance, *destinations);
+    for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+      bound += alone(instance, agent, instance.agent(agent).goal, kNoTask);
+      cost += alone(with, agent, with.agent(agent).goal, kNoTask);
+      if (const auto goal = instance.agent(agent).goal) taken.push_back(*goal);
+    }
+    EXPECT_EQ(destinations->bound, bound);
+    EXPECT_EQ(cost, best_choice(instance, 0, taken));
+    if (cost > bound) ++dearer;
+  }
+  EXPECT_GT(chosen, 30);
+  EXPECT_GT(dearer, 1);
+}
+
+// What is announced on the way, held against the truth.
+class Announced : public RunObserver {
+ public:
+  Announced(const Instance& instance, const oracle::Answer& truth)
+      : instance_(instance), truth_(truth) {}
+
+  void on_incumbent(const Plan& plan, PlanSource, const Progress&) override {
+    Solution solution;
+    solution.plan = plan;
+    solution.status = status_of(plan.cost, 0, Omega::infinite());
+    solution.omega = Omega::infinite();
+    EXPECT_EQ(false_claims(instance_, truth_, Omega::infinite(), solution, true),
+              std::vector<std::string>());
+    EXPECT_LT(plan.cost, best_);
+    best_ = plan.cost;
+  }
+  void on_event(RunEvent event, const Progress& progress) override {
+    EXPECT_FALSE(ended_);
+    ended_ = event == RunEvent::kEnd;
+    EXPECT_LE(progress.lower_bound, truth_.plan->cost);
+    EXPECT_GE(progress.lower_bound, bound_);
+    EXPECT_GE(progress.nodes_expanded, nodes_);
+    bound_ = progress.lower_bound;
+    nodes_ = progress.nodes_expanded;
+    if (event == RunEvent::kIncumbent) {
+      EXPECT_EQ(progress.incumbent, best_);
+    }
+  }
+  bool ended() const { return ended_; }
+
+ private:
+  const Instance& instance_;
+  const oracle::Answer& truth_;
+  Cost best_ = kInfiniteCost;
+  Cost bound_ = 0;
+  std::int64_t nodes_ = 0;
+  bool ended_ = false;
+};
+
+struct Adaptation {
+  const char* name;
+  Method method;
+  bool anytime;
+};
+
+class Adaptations : public ::testing::TestWithParam<Adaptation> {};
+
+TEST_P(Adaptations, ClaimNoMoreThanTheyProve) {
+  int plans = 0;
+  int feasible = 0;
+  for (std::uint64_t seed = 0; seed < count(60); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = mg_instance(seed);
+    if (!has_free_end(instance)) continue;
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (!truth.plan) continue;
+    SolveOptions options;
+    options.omega = Omega::parse(seed % 3 == 0 ? "0" : seed % 3 == 1 ? "0.1" : "inf");
+    options.policy = seed % 2 == 0 ? Policy::kFixed : Policy::kFree;
+    Announced announced(instance, truth);
+    const auto [solution, stopped] =
+        run(GetParam().method, instance, options, GetParam().anytime, &announced);
+    EXPECT_EQ(false_claims(instance, truth, options.omega, solution, true),
+              std::vector<std::string>());
+    EXPECT_TRUE(announced.ended() || !solution.plan);
+    plans += solution.plan ? 1 : 0;
+    feasible += solution.status == Status::kFeasible ? 1 : 0;
+    if (!solution.plan && !stopped) {
+      EXPECT_GT(solution.stats.texts.count("reason"), 0u);
+    }
+  }
+  EXPECT_GT(plans, 20);
+  EXPECT_GT(feasible, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Adaptations,
+                         ::testing::Values(Adaptation{"B", Method::kCtsCbsB, false},
+                                           Adaptation{"C", Method::kCtsCbsC, false},
+                                           Adaptation{"Anytime", Method::kCtsCbsC, true}),
+                         [](const auto& all) { return std::string(all.param.name); });
+
+// B's plan is the best that ends there, no more and no less.
+TEST(AdaptationB, IsOptimalForItsDestinations) {
+  int compared = 0;
+  for (std::uint64_t seed = 0; seed < count(60); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = mg_instance(seed);
+    const Problem problem(instance, Limits());
+    RunObserver silent;
+    if (!has_free_end(instance) || answer_without_search(problem, {}, Limits(), silent)) continue;
+    const auto [solution, stopped] = run(Method::kCtsCbsB, instance, {});
+    if (stopped) continue;
+    const auto destinations = choose_destinations(problem, Limits());
+    const auto truth = oracle::solve_jointly(with_destinations(instance, *destinations));
+    ASSERT_EQ(solution.plan.has_value(), truth.plan.has_value());
+    if (!truth.plan) continue;
+    EXPECT_EQ(solution.plan->cost, truth.plan->cost);
+    ++compared;
+  }
+  EXPECT_GT(compared, 20);
+}
+
+TEST(Method, NamesAreReadBack) {
+  for (Method method : all_methods()) EXPECT_EQ(parse_method(name_of(method)), method);
+  EXPECT_EQ(parse_method("cbs"), std::nullopt);
+}
+
+TEST(Method, RefusesOptionsThatDoNotGoWithIt) {
+  SolveOptions fixed;
+  fixed.policy = Policy::kFixed;
+  EXPECT_THROW(options_of(Method::kHcbs, fixed), std::invalid_argument);
+  SolveOptions free;
+  free.policy = Policy::kFree;
+  EXPECT_THROW(options_of(Method::kSCbs, free), std::invalid_argument);
+  SolveOptions kept;
+  kept.checkpoints.directory = "somewhere";
+  EXPECT_THROW(options_of(Method::kMgcbs, kept), std::invalid_argument);
+  EXPECT_THROW(options_of(Method::kCtsCbsB, kept), std::invalid_argument);
+  EXPECT_NO_THROW(options_of(Method::kSCbs, kept));
+  EXPECT_TRUE(options_of(Method::kSCbs, {}).omega.is_infinite());
+}
+
+TEST(Method, RefusesInstancesItIsNotFor) {
+  const Instance all_end =
+      TinyInstance::parse("map\n...\nagents\n0,0 -> 2,0\ntasks\n1,0: 0\n").build();
+  for (Method method : {Method::kCtsCbsA, Method::kCtsCbsB, Method::kCtsCbsC})
+    EXPECT_THROW(require_fit(method, all_end, {}), std::invalid_argument);
+  EXPECT_NO_THROW(require_fit(Method::kMgcbs, all_end, {}));
+}
+
+}  // namespace
+}  // namespace grove::fuzz
