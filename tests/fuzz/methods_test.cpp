@@ -108,8 +108,9 @@ Cost best_choice(const Instance& instance, AgentIndex agent, std::vector<Cell>& 
     const Cell cell = instance.task(task).cell;
     if (std::ranges::count(taken, cell) > 0) continue;
     taken.push_back(cell);
-    best = std::min(best,
-                    alone(instance, agent, cell, task) + best_choice(instance, agent + 1, taken));
+    const Cost visitors = std::ssize(instance.task(task).agents) - 1;
+    best = std::min(best, alone(instance, agent, cell, task) + kStepsPerVisitor * visitors +
+                              best_choice(instance, agent + 1, taken));
     taken.pop_back();
   }
   return best;
@@ -134,6 +135,8 @@ TEST(Destinations, AreTheCheapestDistinctOnes) {
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
       bound += alone(instance, agent, instance.agent(agent).goal, kNoTask);
       cost += alone(with, agent, with.agent(agent).goal, kNoTask);
+      if (const TaskIndex end = destinations->tasks[agent]; end != kNoTask)
+        cost += kStepsPerVisitor * (std::ssize(instance.task(end).agents) - 1);
       if (const auto goal = instance.agent(agent).goal) taken.push_back(*goal);
     }
     EXPECT_EQ(destinations->bound, bound);

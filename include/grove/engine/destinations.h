@@ -21,9 +21,13 @@ struct Destinations {
   Cost bound = 0;
 };
 
+// What it counts for, in steps, that another agent must visit a destination too: it must do so
+// before, or be in time to go round.
+inline constexpr Time kStepsPerVisitor = 12;
+
 // Distinct ones, each among its agent's tasks and no other's destination, such that the agents'
-// best sequences that end there cost least in sum; how that is found, and what decides between
-// equals, is at the head of destinations.cpp. None if a limit struck or there is no such choice.
+// best sequences that end there and kStepsPerVisitor for every visitor are least in sum; how that
+// is found is at the head of destinations.cpp. None if a limit struck or there is no such choice.
 std::optional<Destinations> choose_destinations(const Problem& problem, const Limits& limits);
 
 // The instance in which they are destinations, and no longer tasks of these agents.
