@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The command line of grove report."""
 import argparse
+import contextlib
+import io
 import os
 import sys
 from pathlib import Path
@@ -114,10 +116,10 @@ def _write_report(a, results):
     return report
 
 
-def _flush_output():
+def _print(text):
     """A full disk or a closed pipe must not pass for success."""
     try:
-        sys.stdout.flush()
+        print(text, end="", flush=True)
         return 0
     except OSError:
         _complain("standard output: cannot be written")
@@ -142,10 +144,11 @@ def _run(arguments):
 
 def main(arguments):
     try:
-        _run(arguments)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            _run(arguments)
     except BadInput as error:
         _complain(str(error))
         return BAD_INPUT
     except SystemExit:  # of --help
         pass
-    return _flush_output()
+    return _print(said.getvalue())

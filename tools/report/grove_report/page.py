@@ -157,7 +157,7 @@ def _matrix(problem, lines, value, show, better):
     rows = []
     for cell, found in problem.cells.items():
         values = {line: value(measured) for line, measured in found.items()}
-        best = _best(values.values(), better) if better and len(values) > 1 else None
+        best = _best(values.values(), better) if better and len(set(values.values())) > 1 else None
         row = [word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks))]
         for line in problem.lines:
             if line not in found:
@@ -236,10 +236,10 @@ def _problem(problem, lines):
                         "instances that no other method solves. Solved by no baseline: that it solves "
                         "and no baseline that tried does. "
                         f"As a file: summary_{name}.csv.")]
-    parts += [_figure(figure, "A column for each map and number of agents N (only for each map where the "
-                      "number of tasks does not vary), a row for each metric. Runtime is on a log axis; a "
-                      "failure counts as the time limit (dotted). Points of one place are drawn a little "
-                      "side by side, so that none hides another.") for figure in problem.comparison]
+    parts += [_figure(figure, "A column for each map and number of agents N (where the number of tasks "
+                      "M does not vary: for each map, with N along the axis), a row for each metric. "
+                      "Runtime is on a log axis; a failure counts as the time limit (dotted). Points of "
+                      "one place are drawn a little side by side, so that none hides another.") for figure in problem.comparison]
     for title, value, show, better in (
             ("Success rate", lambda found: found.success, percent, max),
             ("Mean runtime (s)", lambda found: found.mean_runtime_s, seconds, min),
