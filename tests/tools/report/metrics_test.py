@@ -70,6 +70,11 @@ class Reading(Folder):
         self.file("results.jsonl", NEEDED, NEEDED | {"instance": "j"})
         self.assertEqual(read_results([self.folder]).files, [(f"{self.folder}/results.jsonl", 2)])
 
+    def test_a_byte_order_mark_is_no_letter(self):
+        path = self.file("a.csv", NEEDED)
+        path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+        self.assertEqual(len(read_results([path]).rows), 1)
+
     def test_absent_values(self):
         for path in (self.file("a.csv", NEEDED), self.file("a.jsonl", NEEDED)):
             read = read_results([path]).rows[0]
@@ -206,9 +211,11 @@ class Measures(unittest.TestCase):
     def test_only_solvers(self):
         runs = metrics.median_runs([
             row(), failed(method="b"), row(instance="j"), row(instance="j", method="b"),
-            row(instance="k"), failed(instance="l"), failed(instance="l", method="b")])
-        self.assertEqual({line.method: [found.instance for found in rows]
-                          for line, rows in metrics.only_solver(runs).items()}, {"a": ["i"]})
+            row(instance="k"), failed(instance="l"), failed(instance="l", method="b"),
+            row(instance="n"), row(instance="n", omega="0"), failed(instance="n", method="b")])
+        self.assertEqual({(line.method, line.omega): [found.instance for found in rows]
+                          for line, rows in metrics.only_solver(runs).items()},
+                         {("a", ""): ["i", "n"], ("a", "0"): ["n"]})
 
     def test_beyond_the_baselines(self):
         runs = metrics.median_runs([
@@ -325,6 +332,11 @@ class TheLines(unittest.TestCase):
                           for family in families(found)],
                          [("x", ["0", "0.01", "inf"]), ("cts-cbs", ["0", "0.1"])])
         self.assertEqual(families([row(omega="0"), row(method="b", omega="0.1")]), [])
+
+    def test_families_need_two_omegas_and_one_time_limit(self):
+        same = {"options": "--method x --omega 0", "omega": "0"}
+        self.assertEqual(families([row(**same), row(method="b", **same)]), [])
+        self.assertEqual(families([row(omega="0"), row(omega="1", time_limit_s=7)]), [])
 
 
 class Tables(unittest.TestCase):

@@ -236,6 +236,10 @@ class Usage(Folder):
                          "--problem: nothing in the results is called 'mapf'; expected one of cts, mg")
         self.assertIn("--baseline: nothing in the results is called 'frob'; expected one of auto, ",
                       self.complaint(path, *out, "--baseline", "frob"))
+        for study in (("--study", "auto"), ("--study-agents", "20")):
+            self.assertIn("--study, --study-map, --study-agents: no rows with several omegas are left",
+                          self.complaint(path, *out, *study))
+        shutil.rmtree(self.folder / "out")
         # Names of commands are names of files here.
         self.assertEqual(self.complaint("solve", "check", *out), "solve: there is no such file or folder")
         self.assertFalse((self.folder / "out").exists())

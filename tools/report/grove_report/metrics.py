@@ -80,12 +80,14 @@ def solved_over_time(rows):
 
 
 def only_solver(runs):
-    """{line: [rows of instances that it alone solves though others tried]}; `runs`: median_runs()."""
+    """{line: [rows of instances that its method alone solves though others tried]}; `runs`:
+    median_runs()."""
     found = defaultdict(list)
     for lines in runs.values():
-        solvers = [row for row in lines.values() if row.solved]
-        if len(solvers) == 1 and len({line.method for line in lines}) > 1:
-            found[line_of(solvers[0])].append(solvers[0])
+        solvers = [line for line, row in lines.items() if row.solved]
+        if len({line.method for line in solvers}) == 1 and len({line.method for line in lines}) > 1:
+            for line in solvers:
+                found[line].append(lines[line])
     return dict(found)
 
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from . import figures, metrics, proofs
 from .lines import Lines, families, line_of, seconds_text
-from .rows import PROBLEMS
+from .rows import PROBLEMS, BadInput
 from .speedup import ALL_MAPS, hard_instances, speedups
 from .style import style_of
 from .tables import write_csv
@@ -188,10 +188,15 @@ def _studies(output, rows_of, lines, looks, options):
     for name in ("cts", *PROBLEMS):
         rows = rows_of.get(name, [])
         found = families(rows, options.study_methods)
-        if found:
-            return [study for number, family in enumerate(found, 1) if (study := _study(
-                output, name, family, rows, looks, options,
-                f"omega_study_{number}" if len(found) > 1 else "omega_study"))]
+        stems = [f"omega_study_{number}" if len(found) > 1 else "omega_study"
+                 for number in range(1, len(found) + 1)]
+        studies = [_study(output, name, family, rows, looks, options, stem)
+                   for family, stem in zip(found, stems)]
+        if any(studies):
+            return [study for study in studies if study]
+    if (options.study_methods, options.study_map, options.study_agents) != (None, None, None):
+        raise BadInput("--study, --study-map, --study-agents: no rows with several omegas are left; "
+                       "expected methods, a map and a number of agents that have some")
     return []
 
 

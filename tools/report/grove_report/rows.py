@@ -241,7 +241,7 @@ def _files(argument):
 
 def _read_file(path):
     try:
-        with path.open(encoding="utf-8", newline="" if path.suffix == ".csv" else None) as file:
+        with path.open(encoding="utf-8-sig", newline="" if path.suffix == ".csv" else None) as file:
             return list(READERS[path.suffix](path, file))
     except UnicodeDecodeError as error:
         raise BadInput(f"{path}: byte {error.start}: not UTF-8 text") from None
