@@ -70,6 +70,15 @@ class Reading(Folder):
         self.file("results.jsonl", NEEDED, NEEDED | {"instance": "j"})
         self.assertEqual(read_results([self.folder]).files, [(f"{self.folder}/results.jsonl", 2)])
 
+    def test_a_last_line_that_is_cut_off_is_left_out(self):
+        good = json.dumps(NEEDED)
+        results = read_results([self.text("a.jsonl", good + "\n" + good[:20])])
+        self.assertEqual((len(results.rows), results.cut_off), (1, [f"{self.folder}/a.jsonl"]))
+        self.assertEqual(self.complaint(self.text("a.jsonl", good[:20])),
+                         "a.jsonl: no rows; expected at least one")
+        whole = read_results([self.text("a.jsonl", good)])  # only the line's end is missing
+        self.assertEqual((len(whole.rows), whole.cut_off), (1, []))
+
     def test_a_byte_order_mark_is_no_letter(self):
         path = self.file("a.csv", NEEDED)
         path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
@@ -135,9 +144,8 @@ class Refusals(Folder):
 
     def test_json(self):
         good = json.dumps(NEEDED)
-        self.assertEqual(self.complaint(self.text("a.jsonl", good + "\n" + good[:20])),
-                         "a.jsonl: row 2: not JSON (the file seems to be cut off there); "
-                         "expected one object a line")
+        self.assertEqual(self.complaint(self.text("a.jsonl", good + "\n" + good[:20] + "\n" + good)),
+                         "a.jsonl: row 2: not JSON; expected one object a line")
         self.assertEqual(self.complaint(self.text("a.jsonl", "[1]\n")),
                          "a.jsonl: row 1: found '[1]'; expected a JSON object")
 

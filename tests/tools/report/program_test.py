@@ -161,9 +161,13 @@ class Reports(Folder):
         self.assertNotIn("Before you compare", page)
         self.assertNotIn("The influence", page)  # nothing to study
         more = [row | {"time_limit_s": 999} for row in found if row["method"] == "auto"]
-        more += [row | {"seed": 7, "version": "grove 9"} for row in found if row["method"] == "hcbs"]
-        page, _ = self.report(self.results(found + more))
-        for told in ("several time limits (180 s, 999 s)", "several seeds (0, 7)", "several versions",
+        more += [row | {"seed": 7, "version": "grove 9", "instance_digest": "f00"} for row in found
+                 if row["method"] == "hcbs"]
+        path = self.results(found + more)
+        with path.open("a", encoding="utf-8") as file:
+            file.write('{"instance": "room')
+        page, _ = self.report(path)
+        for told in ("the last line is cut off", "Under one name stand several instances","several time limits (180 s, 999 s)", "several seeds (0, 7)", "several versions",
                      "auto, limit 999 s"):
             self.assertIn(told, page)
 

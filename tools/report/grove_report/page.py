@@ -103,6 +103,7 @@ def _provenance(report):
         ("Runs ended", f"{ended[0]} to {ended[-1]}" if ended else "not told"),
         ("Machines", _span({row.machine for row in rows} - {""}) or "not told"),
         ("Versions", _span({row.version for row in rows} - {""}) or "not told"),
+        ("Threads", _span({row.threads for row in rows if row.threads is not None}) or "not told"),
         ("Time limits", _span({row.time_limit_s for row in rows}, seconds_text)),
         ("Seeds", _span({row.seed for row in rows if row.seed is not None}) or "not told"),
         ("Maps", _span({row.map for row in rows})),

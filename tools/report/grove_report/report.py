@@ -246,10 +246,23 @@ def _notes(results, rows, lines, problems):
                "all their runs; where instances are counted or compared one by one, the median run "
                "stands for its instance.")
     for what, values in (("versions", {row.version for row in rows} - {""}),
-                         ("machines", {row.machine for row in rows} - {""})):
+                         ("machines", {row.machine for row in rows} - {""}),
+                         ("numbers of threads", {str(row.threads) for row in rows
+                                                 if row.threads is not None})):
         if len(values) > 1:
-            yield (f"The rows come from several {what} ({_listed(sorted(values))}): "
+            yield (f"The rows come from runs with several {what} ({_listed(sorted(values))}): "
                    "times compare only so far.")
+    digests = defaultdict(set)
+    for row in rows:
+        if row.instance_digest:
+            digests[row.problem, row.instance].add(row.instance_digest)
+    ambiguous = sorted(instance for (_, instance), found in digests.items() if len(found) > 1)
+    if ambiguous:
+        yield (f"Under one name stand several instances, or an instance has changed between runs: "
+               f"{_listed(ambiguous)}. Rows of these do not compare.")
+    for path in results.cut_off:
+        yield (f"{path}: the last line is cut off and was left out; the bench was killed, or still "
+               "runs.")
     if results.repeated:
         yield (f"{results.repeated} rows were left out: a later row repeats the run (the same instance, "
                "method, ω, time limit and seed).")

@@ -47,6 +47,8 @@ class Row(NamedTuple):
     machine: str
     ended_at: str
     error: str
+    threads: Optional[int]
+    instance_digest: str  # of the files of the instance: the same id may mean two
 
 
 def printable(text):
@@ -134,7 +136,8 @@ COLUMNS = {
     "sqr": (_number, None), "runtime_s": (_number, NEEDED), "wall_s": (_number, None),
     "roots": (_integer, None), "rtsp_calls": (_integer, None), "nodes": (_integer, None),
     "low_level_calls": (_integer, None), "peak_memory_mb": (_number, None), "version": (_text, ""),
-    "machine": (_text, ""), "ended_at": (_text, ""), "error": (_text, ""),
+    "machine": (_text, ""), "ended_at": (_text, ""), "error": (_text, ""), "threads": (_integer, None),
+    "instance_digest": (_text, ""),
 }
 assert tuple(COLUMNS) == Row._fields
 _NAMES = tuple(COLUMNS)
@@ -207,6 +210,7 @@ def _read_csv(path, file):
 
 
 def _read_json_lines(path, file):
+    """Yields None for a last line that is cut off: of a bench that was killed, or that still runs."""
     for number, line in enumerate(file, 1):
         place = f"{path}: row {number}"
         if not line.strip():
@@ -214,8 +218,10 @@ def _read_json_lines(path, file):
         try:
             found = json.loads(line)
         except (ValueError, RecursionError):
-            cut = "" if line.endswith("\n") else " (the file seems to be cut off there)"
-            raise BadInput(f"{place}: not JSON{cut}; expected one object a line") from None
+            if not line.endswith("\n"):
+                yield None
+                return
+            raise BadInput(f"{place}: not JSON; expected one object a line") from None
         if not isinstance(found, dict):
             raise BadInput(f"{place}: found {_shown(found)}; expected a JSON object")
         yield _row([found.get(name) for name in _NAMES], place)
@@ -263,15 +269,18 @@ def _without_repeats(rows):
 class Results(NamedTuple):
     rows: list
     files: list     # (path as text, rows in it)
+    cut_off: list   # paths of files whose last line was, and was left out
     repeated: int   # rows left out because a later one repeats their run
 
 
 def read_results(arguments):
     files = list(dict.fromkeys(_files(argument) for argument in arguments))
-    rows, counts = [], []
+    rows, counts, cut_off = [], [], []
     for path in files:
-        found = _read_file(path)
+        read = _read_file(path)
+        found = [row for row in read if row]
         counts.append((printable(str(path)), len(found)))
+        cut_off += [counts[-1][0]] if len(found) < len(read) else []
         rows += found
     if not rows:
         raise BadInput(f"{', '.join(path for path, _ in counts)}: no rows; expected at least one")
@@ -280,4 +289,4 @@ def read_results(arguments):
     kept.sort(key=lambda row: (row.problem, row.map, row.agents, row.tasks, row.scenario or 0,
                                row.instance, row.method, row.omega, row.time_limit_s,
                                -1 if row.seed is None else row.seed))
-    return Results(kept, counts, repeated)
+    return Results(kept, counts, cut_off, repeated)
