@@ -167,7 +167,8 @@ class Reports(Folder):
         with path.open("a", encoding="utf-8") as file:
             file.write('{"instance": "room')
         page, _ = self.report(path)
-        for told in ("the last line is cut off", "Under one name stand several instances","several time limits (180 s, 999 s)", "several seeds (0, 7)", "several versions",
+        for told in ("the last line is cut off", "Under one name stand several instances",
+                     "several time limits (180 s, 999 s)", "several seeds (0, 7)", "several versions",
                      "auto, limit 999 s"):
             self.assertIn(told, page)
 

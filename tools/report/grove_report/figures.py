@@ -69,6 +69,13 @@ def _number(value, _=None):
     return f"{value:g}"
 
 
+def _set_log_range(ax, lowest, highest):
+    """With ticks between the powers of ten where there are few of these."""
+    ax.set_ylim(lowest, highest)
+    ax.yaxis.set_major_locator(LogLocator(
+        subs=(1, 2, 5) if highest / lowest < 100 else (1,), numticks=12))
+
+
 def _set_axis(ax, metric, values, limits):
     """The scale and the ticks of the y axis, for all `values` that it will show."""
     if metric.axis == "percent":
@@ -76,9 +83,7 @@ def _set_axis(ax, metric, values, limits):
         ax.yaxis.set_major_locator(FixedLocator([0, 25, 50, 75, 100]))
     elif metric.axis == "seconds":
         ax.set_yscale("log")
-        lowest = min(values, default=1)
-        ax.set_ylim(min(lowest / 1.7, max(limits) / 10), max(limits) * 2.6)
-        ax.yaxis.set_major_locator(LogLocator(numticks=12))
+        _set_log_range(ax, min(min(values, default=1) / 1.7, max(limits) / 10), max(limits) * 2.6)
     elif metric.axis == "ratio":
         lowest = min(values, default=0.95)
         step = 0.01 if lowest > 0.97 else 0.02 if lowest > 0.93 else 0.05 if lowest > 0.8 else 0.1
@@ -86,14 +91,15 @@ def _set_axis(ax, metric, values, limits):
         ax.set_ylim(bottom, 1 + 0.06 * (1 - bottom))
         ax.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
     elif metric.axis == "count":
-        if min(values, default=1) > 0:
+        lowest, highest = min(values, default=1), max(values, default=1)
+        if lowest > 0:
             ax.set_yscale("log")
-            top = max(values, default=1)
-            ax.set_ylim(min(values, default=1) / 1.5, max(top * 1.6, 12))
-            ax.yaxis.set_major_locator(LogLocator(numticks=12))
-        else:
+            _set_log_range(ax, lowest / 1.5, max(highest * 1.6, lowest * 12))
+        elif highest > 30:
             ax.set_yscale("symlog", linthresh=1)
-            ax.set_ylim(bottom=-0.2)
+            ax.set_ylim(-0.2, highest * 1.6)
+        else:
+            ax.set_ylim(-0.05 * max(highest, 1), 1.1 * max(highest, 1))
     ax.yaxis.set_minor_locator(NullLocator())
     ax.yaxis.set_major_formatter(FuncFormatter(_number))
 
@@ -110,10 +116,9 @@ def _show_limits(ax, limits, named):
 
 def _dodged(x_values, lines):
     """{line: what to add to x}, so that points on each other can be seen."""
-    gaps = [b - a for a, b in zip(x_values, x_values[1:])]
-    spread = 0.32 * min(gaps, default=0)
-    between = spread / max(len(lines) - 1, 1)
-    return {line: between * index - spread / 2 for index, line in enumerate(lines)}
+    gap = min((b - a for a, b in zip(x_values, x_values[1:])), default=0)
+    between = gap * min(0.05, 0.32 / max(len(lines) - 1, 1))
+    return {line: between * (index - (len(lines) - 1) / 2) for index, line in enumerate(lines)}
 
 
 def _x_ticks(x_values):
