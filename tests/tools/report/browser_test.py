@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Opens a report in a real browser: it asks for nothing, complains of nothing, and shows its figures.
+
+    browser_test.py GROVE
+
+Exit codes: 0 passed, 1 failed, 77 there is no Chromium here.
+"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from typing import NamedTuple
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import synthetic  # noqa: E402
+
+GROVE = Path("build/release/bin/grove")
+SKIPPED = 77
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium"))), None)
+WIDTH, HEIGHT = 1280, 2400
+LINE_COLOUR = (0x00, 0x72, 0xB2)  # of the first method, in every figure
+
+
+class Visit(NamedTuple):
+    console: list     # what the browser said of the page
+    requests: set     # URLs that went to the network, or would have
+    picture: object   # what is seen
+
+
+def visit(page):
+    from PIL import Image
+    with tempfile.TemporaryDirectory() as folder:
+        command = [CHROMIUM, "--headless", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
+                   f"--user-data-dir={folder}/profile", f"--window-size={WIDTH},{HEIGHT}",
+                   "--enable-logging=stderr", f"--log-net-log={folder}/net.json",
+                   "--host-resolver-rules=MAP * ~NOTFOUND", f"--screenshot={folder}/shot.png",
+                   *(["--no-sandbox"] if os.getuid() == 0 else []), page.as_uri()]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+        if not Path(f"{folder}/shot.png").exists():
+            raise AssertionError(f"no picture: {done.stderr}")
+        log = json.loads(Path(f"{folder}/net.json").read_text(encoding="utf-8"))
+        requests = {event["params"]["url"] for event in log["events"]
+                    if "url" in event.get("params", {})}
+        return Visit(re.findall(r"CONSOLE[:(]\d+\)?\] (.*)", done.stderr),
+                     {url for url in requests if not url.startswith(("file:", "data:"))},
+                     Image.open(f"{folder}/shot.png").convert("RGB").copy())
+
+
+def rows(scenarios):
+    return synthetic.rows(scenarios, maps=("room-32-32-4",), tasks=(10, 30, 50))
+
+
+def shares(picture):
+    """{colour: share of the picture}"""
+    return {colour: count / (picture.width * picture.height)
+            for count, colour in picture.getcolors(1 << 24)}
+
+
+def is_blank(picture):
+    return max(shares(picture).values()) > 0.999
+
+
+class Browser(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def page(self, text):
+        path = self.folder / "page.html"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def report(self, found):
+        synthetic.write_jsonl(self.folder / "results.jsonl", found)
+        subprocess.run([str(GROVE), "report", str(self.folder), "-o", str(self.folder / "out")], check=True)
+        return self.folder / "out/report.html"
+
+    def test_a_report(self):
+        seen = visit(self.report(rows(3)))
+        self.assertEqual(seen.console, [])
+        self.assertEqual(seen.requests, set())
+        self.assertFalse(is_blank(seen.picture))
+        self.assertGreater(shares(seen.picture).get(LINE_COLOUR, 0), 2e-4, "no figure is seen")
+        # Dark on light.
+        self.assertGreater(shares(seen.picture)[255, 255, 255], 0.5)
+
+    def test_a_report_of_contradictions_is_red(self):
+        def red(picture):
+            return shares(picture).get((0xC0, 0, 0), 0)
+        made = list(rows(1))
+        self.assertEqual(red(visit(self.report(made)).picture), 0)
+        made += [row | {"method": "x", "status": "optimal", "cost": 1} for row in made if row["solved"]]
+        self.assertGreater(red(visit(self.report(made)).picture), 0.05)
+
+    def test_this_test_hears_the_console(self):
+        for script in ("console.error('boo')", "noSuchFunction()"):
+            self.assertEqual(len(visit(self.page(f"<p>x</p><script>{script}</script>")).console), 1)
+        refused = "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'\">"
+        self.assertTrue(visit(self.page(refused + "<img src='http://example.invalid/x.png'>")).console)
+
+    def test_this_test_sees_requests(self):
+        self.assertEqual(visit(self.page("<img src='http://example.invalid/x.png'>")).requests,
+                         {"http://example.invalid/x.png"})
+
+    def test_this_test_sees_that_nothing_is_there(self):
+        self.assertTrue(is_blank(visit(self.page("")).picture))
+        self.assertFalse(is_blank(visit(self.page("<p>Some words are not nothing.</p>" * 9)).picture))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
+        GROVE = Path(sys.argv.pop(1)).resolve()
+    if CHROMIUM is None:
+        print("skipped: there is no chromium-headless-shell and no chromium")
+        sys.exit(SKIPPED)
+    unittest.main()

@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`grove report` as its user meets it: files, messages, exit codes, time.
+
+    program_test.py GROVE
+"""
+import csv
+import os
+import random
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+from html.parser import HTMLParser
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import synthetic  # noqa: E402
+
+GROVE = Path("build/release/bin/grove")
+FIGURES = ["cactus_cts", "cactus_mg", "comparison_cts", "comparison_mg", "omega_study"]
+TABLES = ["comparison_cts", "comparison_mg", "contradictions", "omega_study", "only_solver_cts",
+          "only_solver_mg", "speedup_cts", "speedup_mg", "summary_cts", "summary_mg"]
+MOST_SECONDS = 10
+
+
+def few(scenarios, **options):
+    """Rows of few cells: every cell is a panel to draw."""
+    return synthetic.rows(scenarios, **({"maps": ("room-32-32-4",), "agents": (5, 20),
+                                         "tasks": (10, 30, 50)} | options))
+
+
+def run(*arguments, program=None, **options):
+    return subprocess.run([str(program or GROVE), "report", *map(str, arguments)], capture_output=True,
+                          text=True, check=False, **options)
+
+
+class Elements(HTMLParser):
+    """What a page refers to, and whether every element that must end does."""
+
+    EMPTY = {"meta", "link", "img", "br"}
+
+    def __init__(self, text):
+        super().__init__()
+        self.references, self.open, self.balanced = [], [], True
+        self.feed(text)
+        self.balanced &= not self.open
+
+    def handle_starttag(self, tag, attributes):
+        self.references += [value for name, value in attributes if name in ("src", "href", "srcset")]
+        if tag not in self.EMPTY:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        self.balanced &= bool(self.open) and self.open.pop() == tag
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def results(self, found, name="results.jsonl"):
+        path = self.folder / name
+        (synthetic.write_csv if name.endswith(".csv") else synthetic.write_jsonl)(path, found)
+        return path
+
+    def report(self, *arguments, **options):
+        """Its page and its stderr."""
+        done = run(*arguments, "-o", self.folder / "out", **options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return (self.folder / "out/report.html").read_text(encoding="utf-8"), done.stderr
+
+    def table(self, name):
+        with (self.folder / f"out/{name}.csv").open(encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def complaint(self, *arguments, **options):
+        done = run(*arguments, **options)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        start = "grove: error: "
+        self.assertTrue(done.stderr.startswith(start) and done.stderr.count("\n") == 1, done.stderr)
+        return done.stderr[len(start):-1].replace(f"{self.folder}/", "")
+
+
+class Reports(Folder):
+    def test_all_files_are_there_and_the_page_needs_no_other(self):
+        page, stderr = self.report(self.results(few(3)))
+        self.assertEqual(stderr, "")
+        expected = [f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")]
+        expected += [f"{name}.csv" for name in TABLES] + ["report.html"]
+        self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()), sorted(expected))
+        for name in FIGURES:
+            xml.etree.ElementTree.parse(self.folder / f"out/{name}.svg")
+            self.assertEqual((self.folder / f"out/{name}.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        elements = Elements(page)
+        self.assertTrue(elements.balanced)
+        self.assertEqual(sum(each.startswith("data:image/svg") for each in elements.references), len(FIGURES))
+        for reference in elements.references:
+            self.assertTrue(reference.startswith(("data:", "#")), reference[:80])
+        self.assertNotIn("<script", page)
+        self.assertNotIn("url(", page)
+
+    def test_tables_say_what_the_rows_do(self):
+        found = list(few(4))
+        self.report(self.results(found))
+        cell = [row for row in found if (row["problem"], row["method"], row["map"], row["agents"],
+                                         row["tasks"]) == ("mg", "hcbs", "room-32-32-4", 20, 30)]
+        entry, = [row for row in self.table("comparison_mg")
+                  if (row["method"], row["map"], row["agents"], row["tasks"])
+                  == ("hcbs", "room-32-32-4", "20", "30")]
+        self.assertEqual(int(entry["solved"]), sum(row["solved"] for row in cell))
+        self.assertAlmostEqual(float(entry["mean_runtime_s"]),
+                               sum(row["runtime_s"] for row in cell) / len(cell), places=2)
+        self.assertEqual({row["omega"] for row in self.table("omega_study")}, {"0", "0.01", "0.1", "inf"})
+
+    def test_the_same_rows_give_the_same_bytes(self):
+        found = list(few(2))
+        path = self.results(found)
+        reports = []
+        for seed in (1, 2):
+            self.report(path, env={**os.environ, "PYTHONHASHSEED": str(seed)})
+            out = self.folder / "out"
+            reports.append({each.name: each.read_bytes() for each in out.iterdir()})
+            shutil.rmtree(out)
+            random.Random(seed).shuffle(found)
+            self.results(found)
+        self.assertEqual(reports[0].keys(), reports[1].keys())
+        for name, content in reports[0].items():
+            self.assertTrue(content == reports[1][name], name)
+
+    def test_csv_gives_the_same_as_json(self):
+        found = list(few(2))
+        tables = []
+        for name in ("results.jsonl", "results.csv"):
+            self.report(self.results(found, name))
+            tables.append({table: self.table(table) for table in TABLES})
+        self.assertEqual(*tables)
+
+    def test_a_contradiction_is_loud(self):
+        found = list(few(2))
+        page, _ = self.report(self.results(found))
+        self.assertNotIn("CONTRADICT", page)
+        self.assertIn("No claims contradict each other", page)
+        first = next(row for row in found if row["method"] == "hcbs" and row["solved"])
+        found.append(first | {"method": "other", "cost": first["cost"] + 1, "lower_bound": first["cost"] + 1})
+        page, stderr = self.report(self.results(found))
+        self.assertIn("PROOFS CONTRADICT EACH OTHER on 1 instance<", page)
+        self.assertIn(f"optimal costs differ: {first['cost']} (", page)
+        self.assertTrue(stderr.startswith("grove: warning: proofs contradict each other"), stderr)
+        self.assertEqual({row["instance"] for row in self.table("contradictions")}, {first["instance"]})
+
+    def test_several_limits_and_seeds_are_told(self):
+        found = list(few(1, study=False))
+        page, _ = self.report(self.results(found))
+        self.assertNotIn("Before you compare", page)
+        self.assertNotIn("The influence", page)  # nothing to study
+        more = [row | {"time_limit_s": 999} for row in found if row["method"] == "auto"]
+        more += [row | {"seed": 7, "version": "grove 9", "instance_digest": "f00"} for row in found
+                 if row["method"] == "hcbs"]
+        path = self.results(found + more)
+        with path.open("a", encoding="utf-8") as file:
+            file.write('{"instance": "room')
+        page, _ = self.report(path)
+        for told in ("the last line is cut off", "Under one name stand several instances",
+                     "several time limits (180 s, 999 s)", "several seeds (0, 7)", "several versions",
+                     "auto, limit 999 s"):
+            self.assertIn(told, page)
+
+    def test_gaps(self):
+        found = [row for row in few(1) if row["method"] != "hcbs" or row["tasks"] != 30]
+        page, _ = self.report(self.results(found))
+        self.assertIn("not every method was run on all 6 instances (hcbs 4)", page)
+        self.assertNotIn(("hcbs", "30"), {(row["method"], row["tasks"])
+                                          for row in self.table("comparison_mg")})
+
+    def test_names_are_only_text(self):
+        name = "<b>$\\alpha$</b>_&\"'"
+        found = [row | {"method": name, "map": "<i>", "error": "<u>", "status": "error", "solved": False,
+                        "cost": None, "sqr": None} for row in few(1, study=False)]
+        page, stderr = self.report(self.results(found))
+        self.assertEqual(stderr, "")
+        for tag in ("<i>", "<u>", "<b>$"):
+            self.assertNotIn(tag, page)
+        self.assertTrue(Elements(page).balanced)
+
+    def test_little_is_enough(self):
+        row = next(few(1))
+        needed = ["instance", "method", "map", "agents", "tasks", "problem", "time_limit_s", "solved", "status",
+                  "cost", "runtime_s"]
+        for found in (row, row | {"solved": False, "cost": None, "status": "unknown"},
+                      row | {"problem": "mapf", "tasks": 0, "runtime_s": 0},
+                      row | {"time_limit_s": 0.001, "runtime_s": 0.002}):
+            path = self.results([{name: found[name] for name in needed}])
+            self.assertEqual(self.report(path)[1], "")
+
+    def test_baselines_by_name(self):
+        path = self.results(few(3, study=False))
+        self.report(path, "--baseline", "cts-cbs-a, hcbs")
+        self.assertEqual({row["baseline"] for row in self.table("speedup_mg")},
+                         {"best baseline", "cts-cbs-a", "hcbs"})
+
+    def test_20000_rows(self):
+        path = self.results(synthetic.rows(53), "results.csv")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.report(path)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        # Not by the clock: the machine may be busy. It is one thread.
+        spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        print(f"{path.read_text().count(chr(10)) - 1} rows: {spent:.1f} s", file=sys.stderr)
+        self.assertLess(spent, MOST_SECONDS)
+
+
+class Usage(Folder):
+    def test_help(self):
+        for argument in ("--help", "-h"):
+            done = run(argument)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            for expected in ("usage: grove report", "--baseline NAMES", "Exit codes:", "Examples:"):
+                self.assertIn(expected, done.stdout)
+        self.assertIn("report", subprocess.run([str(GROVE), "--help"], capture_output=True, text=True,
+                                               check=True).stdout)
+
+    def test_wrong_usage(self):
+        path = self.results(few(1))
+        hint = " (see 'grove report --help')"
+        out = ("-o", self.folder / "out")
+        self.assertEqual(self.complaint(), "the following arguments are required: -o/--output" + hint)
+        self.assertEqual(self.complaint(*out), "the following arguments are required: RESULTS" + hint)
+        self.assertEqual(self.complaint(path, *out, "--bogus"), "unrecognized arguments: --bogus" + hint)
+        self.assertEqual(self.complaint(path, *out, "--baseline", "a,,b"),
+                         "--baseline: found 'a,,b'; expected names with commas between" + hint)
+        self.assertEqual(self.complaint(path, *out, "--study-agents", "x"),
+                         "--study-agents: found 'x'; expected an integer of at least 0" + hint)
+        self.assertEqual(self.complaint(path, *out, "--problem=mapf"),
+                         "--problem: nothing in the results is called 'mapf'; expected one of cts, mg")
+        self.assertIn("--baseline: nothing in the results is called 'frob'; expected one of auto, ",
+                      self.complaint(path, *out, "--baseline", "frob"))
+        for study in (("--study", "auto"), ("--study-agents", "20")):
+            self.assertIn("--study, --study-map, --study-agents: no rows with several omegas are left",
+                          self.complaint(path, *out, *study))
+        shutil.rmtree(self.folder / "out")
+        # Names of commands are names of files here.
+        self.assertEqual(self.complaint("solve", "check", *out), "solve: there is no such file or folder")
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_wrong_rows(self):
+        path = self.results([next(few(1)) | {"agents": "many"}])
+        self.assertEqual(self.complaint(path, "-o", self.folder / "out"), "results.jsonl: row 1, column "
+                         "agents: found 'many'; expected an integer of at least 0")
+
+    def test_output_that_cannot_be_written(self):
+        path = self.results(few(1))
+        self.assertEqual(self.complaint(path, "-o", path), "results.jsonl: cannot be written: File exists")
+        (self.folder / "out/report.html").mkdir(parents=True)
+        self.assertEqual(self.complaint(path, "-o", self.folder / "out"),
+                         "out/report.html: cannot be written: Is a directory")
+        done = subprocess.run(["/bin/sh", "-c", 'exec "$0" report --help >/dev/full', str(GROVE)],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "grove: error: standard output: cannot be written\n"))
+
+    def test_found_by_a_link_from_elsewhere(self):
+        link = self.folder / "g"
+        link.symlink_to(GROVE.resolve())
+        self.assertEqual(run("--help", program=link, cwd="/").returncode, 0)
+
+    def copy(self):
+        """A folder with grove alone."""
+        (self.folder / "bin").mkdir()
+        return shutil.copy(GROVE, self.folder / "bin")
+
+    def test_without_its_other_half(self):
+        program = self.copy()
+        self.assertEqual(self.complaint(program=program), "bin/grove-report: there is no such file; "
+                         "expected it beside grove (build the target grove)")
+
+    def test_without_python(self):
+        program = self.copy()
+        (self.folder / "bin/grove-report").write_text("#!/no/such/python3\n")
+        (self.folder / "bin/grove-report").chmod(0o755)
+        self.assertEqual(self.complaint(program=program), "bin/grove-report: there is no /usr/bin/python3; "
+                         "expected the Debian package python3")
+
+    def test_without_matplotlib(self):
+        (self.folder / "matplotlib.py").write_text(
+            "raise ModuleNotFoundError(\"No module named 'matplotlib'\", name='matplotlib')\n")
+        path = self.results(few(1))
+        environment = {**os.environ, "PYTHONPATH": str(self.folder)}
+        self.assertEqual(self.complaint(path, "-o", self.folder / "out", env=environment),
+                         "/usr/bin/python3 has no matplotlib, which draws the figures; "
+                         "expected the Debian package python3-matplotlib")
+        self.assertEqual(run("--help", env=environment).returncode, 0)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and Path(sys.argv[1]).exists():
+        GROVE = Path(sys.argv.pop(1)).resolve()
+    unittest.main()

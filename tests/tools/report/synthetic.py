@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Made-up results that look like those of `grove bench`: for tests of the report, and to look at one.
+
+    synthetic.py FILE.jsonl|FILE.csv [--scenarios 15]
+"""
+import argparse
+import csv
+import json
+import math
+import random
+from pathlib import Path
+
+COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks", "problem", "omega",
+           "seed", "time_limit_s", "solved", "status", "cost", "lower_bound", "gap", "root_cost", "sqr",
+           "runtime_s", "wall_s", "roots", "rtsp_calls", "nodes", "low_level_calls", "peak_memory_mb",
+           "version", "machine", "ended_at", "error",
+           "threads", "memory_limit_gb", "instance_digest"]
+MAPS = {"empty-32-32": 0.5, "random-32-32-20": 1.5, "room-32-32-4": 2.6}  # how hard
+AGENTS = (5, 10, 20)
+TASKS = (10, 20, 30, 40, 50)
+# Name: (ln of seconds on the easiest instance, growth with difficulty, share of the optimum lost)
+MG_METHODS = {"auto": (-6.5, 0.85, 0.002), "cts-cbs-a": (-4.5, 1.25, 0.004),
+              "cts-cbs-b": (-5.0, 0.95, 0.10), "cts-cbs-c": (-4.3, 1.05, 0.04),
+              "optimal-cbs": (-3.0, 1.45, 0.0), "hcbs": (-2.5, 1.45, 0.0),
+              "mgcbs": (-3.5, 1.40, 0.0), "s-cbs": (-4.0, 1.25, 0.02)}
+OMEGAS = {"0": (-3.5, 1.45, 0.0), "0.01": (-4.0, 1.2, 0.003), "0.1": (-4.3, 1.1, 0.015),
+          "inf": (-4.3, 1.1, 0.016)}
+LIMIT_S = 180.0
+
+
+def difficulty(hardness, agents, tasks):
+    return hardness * 0.7 + 1.2 * math.log2(agents / 5) + tasks / 12
+
+
+def _optimum(hardness, agents, tasks, scenario):
+    root = 30 * agents + 12 * tasks + scenario
+    return root, root + round(root * 0.004 * hardness * math.log2(agents))
+
+
+def _row(dice, instance, method, options, omega, shape):
+    name, hardness, scenario, agents, tasks, problem = instance
+    start, growth, lost = shape
+    root, optimum = _optimum(hardness, agents, tasks, scenario)
+    seconds = math.exp(start + growth * difficulty(hardness, agents, tasks) + dice.gauss(0, 0.9))
+    solved = seconds < LIMIT_S
+    proves = omega == "0" and solved
+    cost = optimum + round(optimum * lost * dice.random() * 2) if solved else None
+    spent = min(seconds, LIMIT_S)
+    return {
+        "instance": f"{name}_s{scenario}_n{agents}_m{tasks}_{problem}", "method": method,
+        "options": options, "map": name, "scenario": scenario, "agents": agents, "tasks": tasks,
+        "problem": problem, "omega": omega, "seed": 0, "time_limit_s": LIMIT_S, "solved": solved,
+        "status": "unknown" if not solved else "optimal" if proves else "bounded"
+                  if omega not in ("inf", "0") else "feasible",
+        "cost": cost, "lower_bound": optimum if proves else root,
+        "gap": None if cost is None else (cost - root) / root, "root_cost": root,
+        "sqr": root / cost if solved else None, "runtime_s": round(spent, 4),
+        "wall_s": round(spent + 0.02, 4),
+        "roots": max(1, int(spent * 20 * (0.3 if omega == "0.01" else 1))) if omega in ("0", "0.01")
+                 else 1,
+        "rtsp_calls": agents + (int(spent * 90 * (0.3 if omega == "0.01" else 1))
+                                if omega in ("0", "0.01") else 0),
+        "nodes": int(spent * 900), "low_level_calls": int(spent * 1800),
+        "peak_memory_mb": round(20 + spent, 1), "version": "grove 0.1.0 (git 0123456789ab)",
+        "machine": "Example processor, 2 cores", "ended_at": "2026-01-02T03:04:05Z",
+        "error": None if solved else "time limit", "threads": 1, "memory_limit_gb": None,
+        "instance_digest": f"{scenario:02x}{agents:02x}{tasks:02x}{problem}"}
+
+
+def rows(scenarios=15, maps=tuple(MAPS), agents=AGENTS, tasks=TASKS, seed=1, study=True):
+    """MG-MAPF rows of eight methods; with `study` CTS-MAPF rows of one with four omegas."""
+    dice = random.Random(seed)
+    for name in maps:
+        for number in agents:
+            for amount in tasks:
+                for scenario in range(1, scenarios + 1):
+                    instance = (name, MAPS[name], scenario, number, amount, "mg")
+                    for method, shape in MG_METHODS.items():
+                        omega = ("inf" if method == "s-cbs" else
+                                 "0" if shape[2] == 0 else "0.01")
+                        yield _row(dice, instance, method,
+                                   f"--method {method} --omega {omega}", omega, shape)
+                    if study and name == maps[-1] and number == agents[0]:
+                        for omega, shape in OMEGAS.items():
+                            yield _row(dice, (*instance[:5], "cts"), f"cts-cbs-w{omega}",
+                                       f"--method cts-cbs --omega {omega}", omega, shape)
+
+
+def write_jsonl(path, found):
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines(json.dumps(row) + "\n" for row in found)
+
+
+def write_csv(path, found, columns=COLUMNS):
+    def shown(value):
+        return "" if value is None else str(value).lower() if isinstance(value, bool) else value
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows([shown(row.get(column)) for column in columns] for row in found)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--scenarios", type=int, default=15)
+    a = parser.parse_args()
+    (write_csv if a.file.suffix == ".csv" else write_jsonl)(a.file, rows(a.scenarios))
+
+
+if __name__ == "__main__":
+    main()

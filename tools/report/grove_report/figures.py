@@ -1,0 +1,359 @@
+# SPDX-License-Identifier: MIT
+"""The plots. Every function returns a matplotlib Figure; save() writes one as SVG and PNG.
+
+No pyplot: it keeps figures and settings for the whole process.
+"""
+import io
+import math
+import textwrap
+import warnings
+from typing import NamedTuple
+
+import matplotlib
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
+
+from .lines import omega_text
+from .metrics import solved_over_time
+from .style import plot_arguments
+
+SETTINGS = {
+    "svg.hashsalt": "grove report", "svg.fonttype": "path", "font.family": "DejaVu Sans",
+    "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8, "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5, "legend.fontsize": 8, "axes.linewidth": 0.6, "axes.grid": True,
+    "grid.color": "#E3E3E3", "grid.linewidth": 0.5, "axes.axisbelow": True,
+    "axes.spines.top": False, "axes.spines.right": False, "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6, "savefig.facecolor": "white", "axes.unicode_minus": False,
+    "text.parse_math": False, "text.color": "#222222", "axes.labelcolor": "#222222", "xtick.color": "#222222",
+    "ytick.color": "#222222", "axes.edgecolor": "#555555"}
+PNG_DPI = 150
+FAINT = "#767676"
+# Shorter times are drawn as this: a logarithm needs something, and clocks tell no less.
+SHORTEST_S = 0.001
+
+
+class Metric(NamedTuple):
+    label: str
+    value: object        # of Measures
+    axis: str = "plain"  # "percent", "seconds", "ratio", "count"
+
+
+SUCCESS = Metric("success rate (%)", lambda m: 100 * m.success, "percent")
+RUNTIME = Metric("mean runtime (s)", lambda m: max(m.mean_runtime_s, SHORTEST_S), "seconds")
+SQR = Metric("mean SQR", lambda m: m.mean_sqr, "ratio")
+ROOTS = Metric("mean number of roots", lambda m: m.mean_roots, "count")
+RTSP_CALLS = Metric("mean number of rTSP calls", lambda m: m.mean_rtsp_calls, "count")
+
+
+def save(figure, stem):
+    """`stem`: a path without suffix. Returns the SVG as text; the same bytes for the same figure."""
+    with matplotlib.rc_context(SETTINGS), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing")  # of a name; a box is drawn for it
+        FigureCanvasAgg(figure)
+        figure.savefig(f"{stem}.png", dpi=PNG_DPI, metadata={"Software": None})
+        text = io.StringIO()
+        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
+    svg = text.getvalue()
+    with open(f"{stem}.svg", "w", encoding="utf-8") as file:
+        file.write(svg)
+    return svg
+
+
+def _new_figure(width, height):
+    return Figure(figsize=(width, height), facecolor="white")
+
+
+def _number(value, _=None):
+    return f"{value:g}"
+
+
+def _set_log_range(ax, lowest, highest):
+    """With ticks between the powers of ten where there are few of these."""
+    ax.set_ylim(lowest, highest)
+    ax.yaxis.set_major_locator(LogLocator(
+        subs=(1, 2, 5) if highest / lowest < 100 else (1,), numticks=12))
+
+
+def _set_axis(ax, metric, values, limits):
+    """The scale and the ticks of the y axis, for all `values` that it will show."""
+    if metric.axis == "percent":
+        ax.set_ylim(-6, 106)
+        ax.yaxis.set_major_locator(FixedLocator([0, 25, 50, 75, 100]))
+    elif metric.axis == "seconds":
+        ax.set_yscale("log")
+        _set_log_range(ax, min(min(values, default=1) / 1.7, max(limits) / 10), max(limits) * 2.6)
+    elif metric.axis == "ratio":
+        lowest = min(values, default=0.95)
+        step = 0.01 if lowest > 0.97 else 0.02 if lowest > 0.93 else 0.05 if lowest > 0.8 else 0.1
+        bottom = math.floor(lowest / step - 0.1) * step
+        ax.set_ylim(bottom, 1 + 0.06 * (1 - bottom))
+        ax.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+    elif metric.axis == "count":
+        lowest, highest = min(values, default=1), max(values, default=1)
+        if lowest > 0:
+            ax.set_yscale("log")
+            _set_log_range(ax, lowest / 1.5, max(highest * 1.6, lowest * 12))
+        elif highest > 30:
+            ax.set_yscale("symlog", linthresh=1)
+            ax.set_ylim(-0.2, highest * 1.6)
+        else:
+            ax.set_ylim(-0.05 * max(highest, 1), 1.1 * max(highest, 1))
+    ax.yaxis.set_minor_locator(NullLocator())
+    ax.yaxis.set_major_formatter(FuncFormatter(_number))
+
+
+def _show_limits(ax, limits, named):
+    if len(limits) > 3:
+        return
+    for limit in limits:
+        ax.axhline(limit, color=FAINT, linewidth=0.7, linestyle=(0, (1, 1.5)), zorder=1)
+    if named:
+        ax.annotate("limit", (0, max(limits)), xycoords=("axes fraction", "data"), fontsize=6.5,
+                    xytext=(2, 1.5), textcoords="offset points", color=FAINT)
+
+
+def _dodged(x_values, lines):
+    """{line: what to add to x}, so that points on each other can be seen."""
+    gap = min((b - a for a, b in zip(x_values, x_values[1:])), default=0)
+    between = gap * min(0.05, 0.32 / max(len(lines) - 1, 1))
+    return {line: between * (index - (len(lines) - 1) / 2) for index, line in enumerate(lines)}
+
+
+def _x_ticks(x_values):
+    if len(x_values) <= 6:
+        return x_values
+    return [*x_values[::math.ceil(len(x_values) / 5)]]
+
+
+def _set_x(ax, x_values, name):
+    ax.xaxis.set_major_locator(FixedLocator(_x_ticks(x_values)))
+    ax.xaxis.set_major_formatter(FuncFormatter(_number))
+    gap = min((b - a for a, b in zip(x_values, x_values[1:])), default=max(x_values[0], 2) / 2)
+    ax.set_xlim(x_values[0] - 0.5 * gap, x_values[-1] + 0.5 * gap)
+    if name:
+        ax.set_xlabel(name)
+
+
+def _plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
+    """`cells`: {cell: {line: Measures}} of one panel. A cell without the line is a gap."""
+    drawn = False
+    for line in lines:
+        points = [(x_of(cell) + offsets[line], metric.value(found[line]) if line in found else None)
+                  for cell, found in sorted(cells.items(), key=lambda item: x_of(item[0]))]
+        drawn |= any(y is not None for _, y in points)
+        ax.plot([x for x, _ in points], [math.nan if y is None else y for _, y in points],
+                **plot_arguments(looks.style(line)))
+    if not drawn:
+        ax.text(0.5, 0.5, "no data" if cells else "no runs", transform=ax.transAxes, ha="center",
+                va="center", color=FAINT)
+
+
+def _legend_columns(labels, width):
+    """How many entries fit side by side into `width` inches."""
+    entry = 0.62 + 0.068 * max(map(len, labels))
+    fitting = max(1, int(width / entry))
+    lines = math.ceil(len(labels) / fitting)
+    return math.ceil(len(labels) / lines)  # equally long lines
+
+
+def _handles(lines, labels, looks):
+    # matplotlib leaves out labels that begin with _.
+    return [Line2D([], [], label=" " * label.startswith("_") + label, **plot_arguments(looks.style(line)))
+            for line, label in zip(lines, labels)]
+
+
+def _legend_height(lines, looks, width):
+    labels = [looks.label(line) for line in lines]
+    return 0.17 * math.ceil(len(labels) / _legend_columns(labels, width)) + 0.05
+
+
+def _add_legend(figure, lines, looks):
+    """On top, as wide as the figure."""
+    labels = [looks.label(line) for line in lines]
+    figure.legend(handles=_handles(lines, labels, looks), loc="upper center", frameon=False,
+                  ncol=_legend_columns(labels, figure.get_figwidth() - 0.4), handlelength=2.6,
+                  columnspacing=1.6, borderaxespad=0.2)
+
+
+def _values(cells, lines, metric):
+    values = [metric.value(found[line]) for found in cells.values() for line in lines
+              if line in found]
+    return [value for value in values if value is not None]
+
+
+class Columns(NamedTuple):
+    """What the columns and the x axis of a comparison are."""
+    keys: list        # of the columns, by map; key[0] is the map
+    key_of: object    # cell -> key
+    x_of: object      # cell -> x
+    x_name: str
+    title_of: object  # key -> title of the column
+
+
+def columns_of(cells):
+    """Columns map x N and M along x, as in the paper; where M does not vary, columns map and N along
+    x."""
+    if len({cell.tasks for cell in cells}) > 1:
+        keys = sorted({(cell.map, cell.agents) for cell in cells})
+        return Columns(keys, lambda cell: (cell.map, cell.agents), lambda cell: cell.tasks,
+                       "M (tasks)", lambda key: f"N = {key[1]}")
+    keys = sorted({(cell.map, cell.tasks) for cell in cells})
+    return Columns(keys, lambda cell: (cell.map, cell.tasks), lambda cell: cell.agents,
+                   "N (agents)", lambda key: f"M = {key[1]}")
+
+
+def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR)):
+    """Laid out like the paper's Fig. 5: a row for each metric. `cells`: {cell: {line: Measures}}."""
+    with matplotlib.rc_context(SETTINGS):
+        columns = columns_of(cells)
+        metrics = [metric for metric in metrics if _values(cells, lines, metric)]
+        count = len(columns.keys)
+        left, right, bottom = 0.72, 0.12, 0.45
+        width = max(6.5, left + right + 1.42 * count)
+        legend = _legend_height(lines, looks, width - 0.4)
+        top = legend + 0.5
+        height = top + bottom + 1.55 * len(metrics)
+        figure = _new_figure(width, height)
+        axes = figure.subplots(len(metrics), count, sharey="row", sharex="col", squeeze=False,
+                               gridspec_kw={"left": left / width, "right": 1 - right / width,
+                                            "bottom": bottom / height, "top": 1 - top / height,
+                                            "wspace": 0.1, "hspace": 0.14})
+        limits = sorted({line.time_limit_s for line in lines})
+        for column, key in enumerate(columns.keys):
+            here = {cell: found for cell, found in cells.items() if columns.key_of(cell) == key}
+            x_values = sorted({columns.x_of(cell) for cell in here})
+            offsets = _dodged(x_values, lines)
+            for row, metric in enumerate(metrics):
+                ax = axes[row][column]
+                _plot_metric(ax, here, columns.x_of, lines, metric, looks, offsets)
+                if metric.axis == "seconds":
+                    _show_limits(ax, limits, named=column == 0)
+                if column == 0:
+                    _set_axis(ax, metric, _values(cells, lines, metric), limits)
+                    ax.set_ylabel(metric.label)
+                else:
+                    ax.tick_params(axis="y", length=0)
+            _set_x(axes[-1][column], x_values, columns.x_name)
+            axes[0][column].set_title(columns.title_of(key), pad=4)
+        figure.align_ylabels(axes[:, 0])
+        _name_maps(figure, columns, axes, (height - legend - 0.17) / height)
+        _add_legend(figure, lines, looks)
+        return figure
+
+
+def _name_maps(figure, columns, axes, y):
+    """Each map's name over its columns, with a rule below it."""
+    for name in sorted({key[0] for key in columns.keys}):
+        group = [index for index, key in enumerate(columns.keys) if key[0] == name]
+        left = axes[0][group[0]].get_position().x0
+        right = axes[0][group[-1]].get_position().x1
+        figure.text((left + right) / 2, y, name, ha="center", va="center", fontsize=9,
+                    fontweight="bold")
+        rule = y - 0.1 / figure.get_figheight()
+        figure.add_artist(Line2D([left, right], [rule, rule], color="#555555", linewidth=0.6))
+
+
+def _thinned(times, first, last, bins=300):
+    """[(time, number solved by then)]: of many close together on the log axis only the last."""
+    scale = bins / math.log(last / first)
+    points = {}
+    for count, time in enumerate(times, 1):
+        time = max(time, first)
+        points[int(scale * math.log(time / first))] = (time, count)
+    return list(points.values())
+
+
+def _plot_solved(ax, rows, first, last, line, looks, phase):
+    """A step function from `first` to the time limit, with markers where `phase` puts them."""
+    points = _thinned(solved_over_time(rows), first, last)
+    xs = [first, *[x for x, _ in points], last]
+    ys = [0, *[y for _, y in points], points[-1][1] if points else 0]
+    arguments = plot_arguments(looks.style(line))
+    marker = {key: arguments.pop(key) for key in list(arguments) if key.startswith("marker")}
+    ax.plot(xs, ys, drawstyle="steps-post", **arguments)
+    spots = [first * (last / first) ** ((index + 0.15 + 0.7 * phase) / 5) for index in range(5)]
+    heights = [max(y for x, y in zip(xs, ys) if x <= spot) for spot in spots]
+    ax.plot(spots, heights, linestyle="", color=arguments["color"], **marker)
+
+
+def cactus(groups, lines, looks, per_row=4):
+    """Number solved against time. `groups`: {title: {line: rows}}, one panel each."""
+    with matplotlib.rc_context(SETTINGS):
+        limits = [line.time_limit_s for line in lines]
+        shortest = min([row.runtime_s for group in groups.values() for rows in group.values()
+                        for row in rows if row.solved], default=1)
+        first = 10 ** math.floor(math.log10(max(min(shortest, 1), 0.01)))
+        across = min(len(groups), per_row)
+        down = math.ceil(len(groups) / across)
+        width = max(6.5, 2.75 * across + 0.3)
+        legend = _legend_height(lines, looks, width - 0.4)
+        height = legend + 0.27 + 2.75 * down
+        figure = _new_figure(width, height)
+        axes = figure.subplots(down, across, squeeze=False, gridspec_kw={
+            "left": 0.55 / width, "right": 1 - 0.15 / width, "bottom": 0.45 / height,
+            "top": 1 - (legend + 0.27) / height, "wspace": 0.22, "hspace": 0.35})
+        for ax, (title, group) in zip(axes.flat, groups.items()):
+            for place, line in enumerate(lines):
+                if line in group:
+                    _plot_solved(ax, group[line], first, max(line.time_limit_s, first * 10), line,
+                                 looks, place / max(len(lines) - 1, 1))
+            most = max(len(rows) for rows in group.values())
+            ax.axhline(most, color=FAINT, linewidth=0.7, linestyle=(0, (1, 1.5)), zorder=1)
+            ax.annotate("all", (0, most), xycoords=("axes fraction", "data"), fontsize=6.5,
+                        xytext=(2, 1.5), textcoords="offset points", color=FAINT)
+            ax.set_xscale("log")
+            ax.set_xlim(first, max(max(limits), first * 10) * 1.05)
+            ax.set_ylim(0, most * 1.09)
+            ax.yaxis.set_major_locator(MaxNLocator(6, integer=True))
+            ax.xaxis.set_major_locator(LogLocator(numticks=9))
+            ax.xaxis.set_minor_locator(NullLocator())
+            ax.xaxis.set_major_formatter(FuncFormatter(_number))
+            ax.set_title(title, pad=5, fontweight="bold")
+            ax.set_xlabel("time (s)")
+        for ax in list(axes.flat)[len(groups):]:
+            ax.set_axis_off()
+        for row in axes:
+            row[0].set_ylabel("instances solved")
+        _add_legend(figure, lines, looks)
+        return figure
+
+
+def _omega_labels(lines, looks):
+    """Omega alone if that tells them apart and the methods' names do not fit."""
+    labels = [omega_text(line.omega) for line in lines]
+    longer = [f"{label}: {looks.label(line)}" for label, line in zip(labels, lines)]
+    distinct = len(set(labels)) == len(labels)
+    if distinct and (len({line.method for line in lines}) == 1 or max(map(len, longer)) > 32):
+        return labels
+    return [label if len(label) <= 32 else label[:30] + "..." for label in longer]
+
+
+def omega_study(cells, lines, looks, setting):
+    """Laid out like the paper's Fig. 6, (a) being the legend and the setting: lines of text. `cells`:
+    those of one map and N."""
+    with matplotlib.rc_context(SETTINGS):
+        figure = _new_figure(8.4, 4.7)
+        axes = figure.subplots(2, 3, gridspec_kw={"left": 0.07, "right": 0.985, "bottom": 0.1,
+                                                  "top": 0.94, "wspace": 0.27, "hspace": 0.42})
+        axes[0][0].set_axis_off()
+        axes[0][0].set_title("(a) setting", loc="left", fontweight="bold")
+        axes[0][0].text(0, 0.97, "\n".join(textwrap.fill(text, 40) for text in setting), va="top", linespacing=1.45,
+                        transform=axes[0][0].transAxes)
+        labels = _omega_labels(lines, looks)
+        axes[0][0].legend(handles=_handles(lines, labels, looks), frameon=False, handlelength=2.6,
+                          loc="lower left", borderaxespad=0, borderpad=0,
+                          ncol=1 if len(lines) <= 5 else 2)
+        limits = sorted({line.time_limit_s for line in lines})
+        x_values = sorted({cell.tasks for cell in cells})
+        offsets = _dodged(x_values, lines)
+        panels = zip("bcdef", list(axes.flat)[1:], (SUCCESS, RUNTIME, SQR, ROOTS, RTSP_CALLS))
+        for letter, ax, metric in panels:
+            _plot_metric(ax, cells, lambda cell: cell.tasks, lines, metric, looks, offsets)
+            if metric.axis == "seconds":
+                _show_limits(ax, limits, named=True)
+            _set_axis(ax, metric, _values(cells, lines, metric), limits)
+            _set_x(ax, x_values, "M (tasks)")
+            ax.set_title(f"({letter}) {metric.label}", loc="left", fontweight="bold")
+        return figure

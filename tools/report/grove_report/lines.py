@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT
+"""What gets a line of its own: a method with one omega and one time limit, never a mixture."""
+import re
+import shlex
+from collections import defaultdict
+from typing import NamedTuple
+
+
+class Line(NamedTuple):
+    method: str
+    omega: str
+    time_limit_s: float
+
+
+def line_of(row):
+    return Line(row.method, row.omega, row.time_limit_s)
+
+
+def omega_value(omega):
+    return float(omega) if omega else -1.0
+
+
+def omega_text(omega):
+    return "ω = ∞" if omega == "inf" else f"ω = {omega}" if omega else "no ω"
+
+
+def seconds_text(seconds):
+    return f"{seconds:g} s"
+
+
+class Lines:
+    """The lines of all rows: their order, the same everywhere, and how they are called."""
+
+    def __init__(self, rows, baselines):
+        self.baselines = frozenset(baselines)
+        # First those that the comparison shows, which then get the colours easiest to tell apart.
+        # The others follow method by method.
+        shown_first = {line_of(row) for row in rows if row.problem == "mg"}
+        found = {line_of(row) for row in rows}
+        self.all = sorted(found, key=lambda line: (
+            line not in shown_first, self.is_baseline(line), line.method, omega_value(line.omega),
+            line.time_limit_s))
+        self._omegas, self._limits = defaultdict(set), defaultdict(set)
+        for line in found:
+            self._omegas[line.method].add(line.omega)
+            self._limits[line.method, line.omega].add(line.time_limit_s)
+        self._index = {line: index for index, line in enumerate(self.all)}
+
+    def is_baseline(self, line):
+        return line.method in self.baselines
+
+    def index(self, line):
+        return self._index[line]
+
+    def label(self, line):
+        """The method, and omega and time limit where the method alone does not tell."""
+        parts = [line.method]
+        if len(self._omegas[line.method]) > 1:
+            parts.append(omega_text(line.omega))
+        if len(self._limits[line.method, line.omega]) > 1:
+            parts.append(f"limit {seconds_text(line.time_limit_s)}")
+        return ", ".join(parts)
+
+
+class Family(NamedTuple):
+    """Lines that differ in omega alone."""
+    name: str
+    lines: list  # by omega
+
+
+def _without_omega(options):
+    """The options but for --omega, as a tuple of words."""
+    try:
+        words = shlex.split(options)
+    except ValueError:
+        words = options.split()
+    kept, skip = [], False
+    for word in words:
+        if skip:
+            skip = False
+        elif word == "--omega":
+            skip = True
+        elif not word.startswith("--omega="):
+            kept.append(word)
+    return tuple(kept)
+
+
+def _bare(method, omega):
+    """A method's name without its omega at the end: cts-cbs of cts-cbs-w0.01."""
+    end = re.search(r"[\s,_-]+(?:w|ω|omega)?\s*=?\s*" + re.escape(omega) + "$", method)
+    return method[:end.start()] if omega and end and end.start() else method
+
+
+def _name(lines):
+    bare = sorted({_bare(line.method, line.omega) for line in lines})
+    return bare[0] if len(bare) == 1 else " / ".join(bare[:3]) + (" / ..." if bare[3:] else "")
+
+
+def families(rows, methods=None):
+    """Groups of lines with at least two omegas: those whose options (without options: whose names)
+    differ in omega alone; or the lines of `methods`, if given, as one."""
+    groups = defaultdict(set)
+    for row in rows:
+        if methods is None:
+            key = _without_omega(row.options) if row.options else (None, _bare(row.method, row.omega))
+            groups[key, row.time_limit_s].add(line_of(row))
+        elif row.method in methods:
+            groups["named", row.time_limit_s].add(line_of(row))
+    found = []
+    for lines in groups.values():
+        if len({line.omega for line in lines} - {""}) > 1:
+            ordered = sorted(lines, key=lambda line: (omega_value(line.omega), line.method))
+            found.append(Family(_name(ordered), ordered))
+    return sorted(found, key=lambda family: (-len(family.lines), family.name, family.lines))

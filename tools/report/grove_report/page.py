@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: MIT
+"""The HTML page: one file, no script, nothing loaded from anywhere."""
+import base64
+import html
+from pathlib import Path
+
+from .lines import omega_text, seconds_text
+from .report import PROBLEM_NAMES
+from .speedup import ALL_MAPS, BEST
+from .tables import NOTHING, Entry, count, html_table, percent, ratio, seconds, word
+
+# Refuses whatever is not in the file, should something ever ask for it.
+POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+MOST_LISTED = 100
+
+GLOSSARY = [
+    ("CTS-MAPF", "Agents on a grid, each with a start, cells to visit in any order (its tasks) and a "
+     "destination, must not collide. The sum of their finish times, the cost, is to be small."),
+    ("MG-MAPF", "The same without destinations: an agent may end on any of its own tasks."),
+    ("N, M", "The number of agents; the number of tasks (one task may belong to several agents)."),
+    ("ω", "How far from optimal a plan may be: its cost is at most (1 + ω) times a proven lower bound. "
+     "0: optimal; ∞: no promise."),
+    ("Solved", "The run ended by itself with a plan that was re-checked. A run that a limit ended is a "
+     "failure, even with a plan."),
+    ("Success rate", "Solved runs / all runs. Higher is better."),
+    ("Runtime", "Wall time of a run in seconds; a failure counts as the time limit. So the mean of a "
+     "method with many failures says little but that. Lower is better."),
+    ("SQR, solution quality ratio", "Root cost / cost of the plan, of solved runs. The root cost is what the "
+     "agents' best sequences cost together when nobody minds the others: a lower bound on the optimum. 1 "
+     "is thus the best there can be, and the optimum may lie below 1. Each method is averaged over the runs "
+     "that it solved: one that solves only easy instances looks better."),
+    ("PAR-2", "Mean runtime where a failure counts as twice the time limit. Lower is better."),
+    ("Roots, rTSP calls", "Constraint trees that the search began, and sequencing problems that it solved to "
+     "find them; means over all runs that tell, failures included."),
+    ("Gap, lower bound", "No plan costs less than the lower bound; gap = (cost - lower bound) / lower bound."),
+    ("Baseline", "A method that others are measured by: dashed lines, hollow markers."),
+]
+
+
+def _text(text):
+    return html.escape(str(text))
+
+
+def _paragraph(text):
+    return f"<p>{_text(text)}</p>"
+
+
+def _figure(figure, caption):
+    data = base64.b64encode(figure.svg.encode("utf-8")).decode("ascii")
+    return (f'<figure><img alt="{_text(figure.title)}" src="data:image/svg+xml;base64,{data}">'
+            f"<figcaption><b>{_text(figure.title)}.</b> {_text(caption)} "
+            f"Files: {_text(figure.stem)}.svg, {_text(figure.stem)}.png.</figcaption></figure>")
+
+
+def _box(kind, parts):
+    return f'<div class="box {kind}">' + "\n".join(parts) + "</div>"
+
+
+def _list(texts):
+    return "<ul>" + "".join(f"<li>{_text(text)}</li>" for text in texts) + "</ul>"
+
+
+def _alarm(report):
+    found = report.contradictions
+    if not found:
+        return _box("good", [_paragraph(
+            "No claims contradict each other: costs called optimal agree wherever several methods found "
+            f"one ({report.agreements} instances), and no plan is cheaper than a proven lower bound.")])
+    instances = len({(each.problem, each.instance) for each in found})
+    shown = [f"{each.problem}: {each.instance}: {each.what}" for each in found[:MOST_LISTED]]
+    if len(found) > MOST_LISTED:
+        shown.append(f"and {len(found) - MOST_LISTED} more")
+    return _box("alarm", [
+        f"<h2>PROOFS CONTRADICT EACH OTHER on {instances} instance{'s' if instances > 1 else ''}</h2>",
+        _paragraph("Not all of these claims can be true. Some solver is wrong, or rows of different "
+                   "instances have one name. No figure below is to be trusted before this is explained. "
+                   "All of them: contradictions.csv."), _list(shown)])
+
+
+def _errors(report):
+    if not report.errors:
+        return ""
+    rows = [[word(report.lines.label(line)), Entry(str(number)), word(message or "(no message)")]
+            for line, number, message in report.errors]
+    return _box("note", ["<b>Runs that failed with an error</b>",
+                         _paragraph("They crashed or gave a wrong plan; they count as failures."),
+                         html_table(["method", "runs", "most frequent message"], rows)])
+
+
+def _span(values, show=str):
+    values = sorted(values)
+    return ", ".join(map(show, values)) if len(values) <= 12 else \
+        f"{show(values[0])} to {show(values[-1])} ({len(values)} values)"
+
+
+def _provenance(report):
+    rows = report.results.rows
+    ended = sorted(row.ended_at for row in rows if row.ended_at)
+    entries = [
+        ("Rows", f"{len(rows)} runs of {len({(row.problem, row.instance) for row in rows})} instances "
+         f"by {len(report.lines.all)} lines of {len({row.method for row in rows})} methods"),
+        ("Files", "; ".join(f"{path} ({number} rows)" for path, number in report.results.files)),
+        ("Runs ended", f"{ended[0]} to {ended[-1]}" if ended else "not told"),
+        ("Machines", _span({row.machine for row in rows} - {""}) or "not told"),
+        ("Versions", _span({row.version for row in rows} - {""}) or "not told"),
+        ("Threads", _span({row.threads for row in rows if row.threads is not None}) or "not told"),
+        ("Time limits", _span({row.time_limit_s for row in rows}, seconds_text)),
+        ("Seeds", _span({row.seed for row in rows if row.seed is not None}) or "not told"),
+        ("Maps", _span({row.map for row in rows})),
+        ("N (agents)", _span({row.agents for row in rows})),
+        ("M (tasks)", _span({row.tasks for row in rows}))]
+    return html_table(["what", ""], [[word(name), word(text)] for name, text in entries])
+
+
+def _methods(report):
+    options = {}
+    for row in report.results.rows:
+        options.setdefault((row.method, row.omega, row.time_limit_s), set()).add(row.options)
+    rows = [[word(report.lines.label(line)), word(omega_text(line.omega)),
+             Entry(seconds_text(line.time_limit_s)),
+             word("yes" if report.lines.is_baseline(line) else ""),
+             word("; ".join(sorted(options[line])))] for line in report.lines.all]
+    return html_table(["method", "ω", "time limit", "baseline", "options"], rows)
+
+
+def _best(values, better):
+    values = [value for value in values if value is not None]
+    return better(values) if values else None
+
+
+def _summary(problem, lines):
+    measured = problem.by_line.values()
+    comparable = len({found.runs for found in measured}) == 1
+    best_solved = max(found.solved for found in measured) if comparable else None
+    best_par2 = min(found.par2_s for found in measured) if comparable else None
+    has_baselines = any(lines.is_baseline(line) for line in problem.lines)
+    header = ["method", "runs", "solved", "success rate", "PAR-2 (s)", "median time (s)",
+              "mean runtime (s)", "mean SQR", "solved by it alone",
+              *(["solved by no baseline"] if has_baselines else [])]
+    rows = []
+    for line in problem.lines:
+        found = problem.by_line[line]
+        rows.append([
+            word(lines.label(line)), Entry(str(found.runs)),
+            Entry(str(found.solved), strong=found.solved == best_solved),
+            Entry(percent(found.success)),
+            Entry(seconds(found.par2_s), strong=found.par2_s == best_par2),
+            Entry(seconds(found.median_runtime_s)), Entry(seconds(found.mean_runtime_s)),
+            Entry(ratio(found.mean_sqr)), Entry(str(len(problem.only.get(line, ()))))])
+        if has_baselines:
+            rows[-1].append(Entry("" if lines.is_baseline(line) else
+                                  str(problem.beyond.get(line, 0))))
+    return html_table(header, rows)
+
+
+def _matrix(problem, lines, value, show, better):
+    """Rows map, N, M; a column for each line; the best of each row is strong."""
+    rows = []
+    for cell, found in problem.cells.items():
+        values = {line: value(measured) for line, measured in found.items()}
+        best = _best(values.values(), better) if better and len(set(values.values())) > 1 else None
+        row = [word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks))]
+        for line in problem.lines:
+            if line not in found:
+                row.append(NOTHING)
+                continue
+            row.append(Entry(show(values[line]), f"{found[line].solved} of {found[line].runs} solved",
+                             strong=best is not None and values[line] == best))
+        rows.append(row)
+    header = ["map", Entry("N"), Entry("M"), *(Entry(lines.label(line)) for line in problem.lines)]
+    return html_table(header, rows)
+
+
+def _speedup_entry(found):
+    if found is None:
+        return NOTHING
+    sign = {"exactly": "", "at least": "≥ ", "at most": "≤ ", "about": "~ "}[found.sure]
+    hint = (f"{found.instances} instances; median time {seconds(found.baseline_median_s)} s of the "
+            f"baseline, {seconds(found.line_median_s)} s of this method; failures: "
+            f"{found.baseline_failed} of the baseline, {found.line_failed} of this method")
+    digits = 0 if found.median_ratio >= 100 else 1 if found.median_ratio >= 10 else 2
+    return Entry(f"{sign}{found.median_ratio:.{digits}f}", hint)
+
+
+def _speedups(problem, lines):
+    if not any(lines.is_baseline(line) for line in problem.lines):
+        return [_paragraph("None of the methods here is a baseline (--baseline names them), so there is "
+                           "nothing to compare with.")]
+    if not problem.speedups:
+        return [_paragraph("The baselines solve no instance, or only in less than a second, so there is "
+                           "nothing to compare.")]
+    return [_paragraph(
+        f"On the {problem.hard} instances that the best baseline (on each instance whichever is the "
+        "fastest) solves, but only after more than a second: the median of the baseline's time / the "
+        "method's time. Above 1 the method is faster. A failure counts as the time limit: where the median "
+        "depends on that, ≥ says that the true ratio may be larger, ≤ smaller, ~ either. Times below a "
+        "millisecond count as one. Hold the pointer over a number for times and failures."),
+        _speedup_table(problem, lines)]
+
+
+def _speedup_table(problem, lines):
+    found = {(each.map, each.baseline, each.line): each for each in problem.speedups}
+    order = {line: index for index, line in enumerate([BEST, *lines.all])}
+    keys = sorted({(each.map, each.baseline) for each in problem.speedups},
+                  key=lambda key: (key[0], order[key[1]]))
+    rows = []
+    for name, baseline in keys:
+        here = [each.instances for each in problem.speedups
+                if (each.map, each.baseline) == (name, baseline)]
+        rows.append([word("all maps" if name == ALL_MAPS else name),
+                     word(BEST.method if baseline == BEST else lines.label(baseline)),
+                     Entry(str(max(here))),
+                     *(_speedup_entry(found.get((name, baseline, line)))
+                       for line in problem.lines)])
+    header = ["map", "baseline", Entry("instances"),
+              *(Entry(lines.label(line)) for line in problem.lines)]
+    return html_table(header, rows)
+
+
+def _only(problem, lines):
+    if not problem.only:
+        return _paragraph("Every instance that is solved at all is solved by several methods.")
+    maps = sorted({cell.map for cell in problem.cells})
+    rows = [[word(lines.label(line)), Entry(str(len(problem.only[line]))),
+             *(Entry(str(sum(row.map == name for row in problem.only[line]))) for name in maps)]
+            for line in problem.lines if line in problem.only]
+    return html_table(["method", Entry("all maps"), *map(Entry, maps)], rows)
+
+
+def _problem(problem, lines):
+    name = problem.name
+    parts = [f'<h2 id="{name}">{_text(PROBLEM_NAMES[name])}: comparison</h2>',
+             _paragraph(f"{len(problem.rows)} runs of {problem.instances} instances. Every figure and table "
+                        "has one line or column for each method with one ω and one time limit."),
+             "<h3>All instances together</h3>", _summary(problem, lines),
+             _paragraph("Bold: the best, where all have as many runs. Median time: a failure counts as the limit. Solved by it alone: "
+                        "instances that no other method solves. Solved by no baseline: that it solves "
+                        "and no baseline that tried does. "
+                        f"As a file: summary_{name}.csv.")]
+    parts += [_figure(figure, "A column for each map and number of agents N (where the number of tasks "
+                      "M does not vary: for each map, with N along the axis), a row for each metric. "
+                      "Runtime is on a log axis; a failure counts as the time limit (dotted). Points of "
+                      "one place are drawn a little side by side, so that none hides another.") for figure in problem.comparison]
+    for title, value, show, better in (
+            ("Success rate", lambda found: found.success, percent, max),
+            ("Mean runtime (s)", lambda found: found.mean_runtime_s, seconds, min),
+            ("Mean SQR", lambda found: found.mean_sqr, ratio, None)):
+        parts += [f"<details><summary>Table: {title}</summary>",
+                  _matrix(problem, lines, value, show, better), "</details>"]
+    parts += [_paragraph(f"All of it as a file: comparison_{name}.csv."),
+              "<h3>Solved by a given time</h3>",
+              _figure(problem.cactus, "How many instances each method has solved when a given time per "
+                      "instance has passed (cactus plot). Further up and further left is better; dotted: "
+                      "all there are."),
+              "<h3>Speed-up over the baselines</h3>",
+              *_speedups(problem, lines), _paragraph(f"As a file: speedup_{name}.csv."),
+              "<h3>Instances that a single method solves</h3>", _only(problem, lines),
+              _paragraph(f"The instances: only_solver_{name}.csv.")]
+    return "\n".join(parts)
+
+
+def _study_table(study, lines):
+    rows = []
+    for cell, found in study.cells.items():
+        rows += [[word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks)),
+                  word(omega_text(line.omega), lines.label(line)), Entry(str(found[line].runs)),
+                  Entry(percent(found[line].success)), Entry(seconds(found[line].mean_runtime_s)),
+                  Entry(ratio(found[line].mean_sqr)), Entry(count(found[line].mean_roots)),
+                  Entry(count(found[line].mean_rtsp_calls))]
+                 for line in study.family.lines if line in found]
+    return html_table(["map", "N", "M", "ω", "runs", "success rate", "mean runtime (s)", "mean SQR",
+                       "mean roots", "mean rTSP calls"], rows)
+
+
+def _studies(report):
+    parts = ['<h2 id="omega">The influence of ω</h2>',
+             _paragraph("The same method with several ω. The larger ω, the longer the search keeps to the trees "
+                        "it has before it begins another: fewer roots, fewer sequencing problems (rTSP "
+                        "calls), sooner a plan, and perhaps a worse one.")]
+    for study in report.studies:
+        parts += [_figure(study.figure, f"{PROBLEM_NAMES[study.problem]}, map {study.map}, "
+                          f"N = {study.agents}. (b) to (f) by number of tasks M; runtime and numbers on log "
+                          "axes."),
+                  "<details><summary>Table: all maps and numbers of agents</summary>",
+                  _study_table(study, report.lines), "</details>",
+                  _paragraph(f"As a file: {study.figure.stem}.csv.")]
+    return "\n".join(parts)
+
+
+def _glossary():
+    return ("<h2 id=\"words\">What the words mean</h2><dl>" + "".join(
+        f"<dt>{_text(name)}</dt><dd>{_text(text)}</dd>" for name, text in GLOSSARY) + "</dl>")
+
+
+def page(report):
+    """The whole page as text."""
+    css = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
+    links = [(problem.name, PROBLEM_NAMES[problem.name].split(" (")[0])
+             for problem in report.problems]
+    if report.studies:
+        links.append(("omega", "The influence of ω"))
+    links += [("words", "What the words mean"), ("origin", "Where the rows come from")]
+    parts = [
+        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">',
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        f'<link rel="icon" href="data:,"><title>Grove report</title><style>{css}</style></head><body>',
+        "<h1>Grove report</h1>",
+        _paragraph("Methods for multi-agent path finding with tasks, compared on the same instances: how "
+                   "many they solve, how fast, and how good the plans are."),
+        "<nav>" + "".join(f'<a href="#{name}">{_text(text)}</a>' for name, text in links) + "</nav>",
+        _alarm(report)]
+    if report.notes:
+        parts.append(_box("note", ["<b>Before you compare</b>", _list(report.notes)]))
+    parts.append(_errors(report))
+    parts += [_problem(problem, report.lines) for problem in report.problems]
+    if report.studies:
+        parts.append(_studies(report))
+    parts += [_glossary(), '<h2 id="origin">Where the rows come from</h2>', _provenance(report),
+              "<h3>Methods</h3>", _methods(report), "</body></html>\n"]
+    return "\n".join(part for part in parts if part)

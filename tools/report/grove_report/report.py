@@ -1,0 +1,311 @@
+# SPDX-License-Identifier: MIT
+"""What a report holds: for each problem its tables and figures, and the study of omega."""
+from collections import Counter, defaultdict
+from pathlib import Path
+from typing import NamedTuple
+
+from . import figures, metrics, proofs
+from .lines import Lines, families, line_of, seconds_text
+from .rows import PROBLEMS, BadInput
+from .speedup import ALL_MAPS, hard_instances, speedups
+from .style import style_of
+from .tables import write_csv
+
+PROBLEM_NAMES = {"mg": "MG-MAPF (agents without destinations)",
+                 "cts": "CTS-MAPF (agents with tasks and destinations)",
+                 "mixed": "mixed (some agents with a destination, some without)",
+                 "mapf": "classical MAPF (destinations, no tasks)"}
+# So many columns of a comparison fit a page.
+WIDEST = 9
+
+
+class Figure(NamedTuple):
+    stem: str     # of its files
+    title: str
+    svg: str
+
+
+class Problem(NamedTuple):
+    """All about the rows of one problem."""
+    name: str
+    lines: list
+    rows: list
+    by_line: dict       # {line: Measures}
+    cells: dict         # {cell: {line: Measures}}
+    instances: int
+    only: dict          # {line: [row]}: what it alone solves
+    beyond: dict        # {line: number}: solved by it and by no baseline
+    speedups: list
+    hard: int           # instances that the best baseline solves, in more than a second
+    comparison: list    # Figures
+    cactus: Figure
+
+
+class Study(NamedTuple):
+    """Of one family of lines that differ in omega."""
+    problem: str
+    family: object
+    map: str            # of the figure
+    agents: int
+    cells: dict         # of all maps and numbers of agents
+    figure: Figure
+
+
+class Report(NamedTuple):
+    results: object
+    lines: Lines
+    problems: list
+    studies: list
+    contradictions: list
+    agreements: int     # instances with an optimal cost from several methods
+    errors: list        # (line, number, a message)
+    notes: list         # texts
+
+
+class Looks:
+    """Labels and styles of lines, for figures."""
+
+    def __init__(self, lines):
+        self.label = lines.label
+        self._lines = lines
+
+    def style(self, line):
+        return style_of(self._lines.index(line), self._lines.is_baseline(line))
+
+
+class Output:
+    """The folder that a report is written to."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+
+    def figure(self, stem, title, figure):
+        return Figure(stem, title, figures.save(figure, self.folder / stem))
+
+    def table(self, stem, header, rows):
+        write_csv(self.folder / f"{stem}.csv", header, rows)
+
+
+def _parts(cells):
+    """The cells in groups of maps whose columns fit side by side."""
+    columns = figures.columns_of(cells)
+    widths = Counter(key[0] for key in columns.keys)
+    parts, width = [[]], 0
+    for name in sorted(widths):
+        if parts[-1] and width + widths[name] > WIDEST:
+            parts.append([])
+            width = 0
+        parts[-1].append(name)
+        width += widths[name]
+    return [{cell: found for cell, found in cells.items() if cell.map in names}
+            for names in parts]
+
+
+def _comparison_figures(output, problem, cells, lines, looks):
+    parts = _parts(cells)
+    for number, part in enumerate(parts, 1):
+        stem = f"comparison_{problem}" + (f"_{number}" if len(parts) > 1 else "")
+        maps = ", ".join(sorted({cell.map for cell in part}))
+        yield output.figure(stem, f"Success rate, mean runtime and mean SQR on {maps}",
+                            figures.comparison(part, lines, looks))
+
+
+def _cactus_figure(output, problem, runs, lines, looks):
+    rows = [row for by_line in runs.values() for row in by_line.values()]
+    maps = sorted({row.map for row in rows})
+    groups = {"all maps" if len(maps) > 1 else maps[0]: metrics.by_line(rows)}
+    if 1 < len(maps) <= 11:
+        groups |= {name: metrics.by_line([row for row in rows if row.map == name])
+                   for name in maps}
+    return output.figure(f"cactus_{problem}", "Instances solved by a given time",
+                         figures.cactus(groups, lines, looks))
+
+
+LINE_COLUMNS = ["method", "omega", "time_limit_s"]
+MEASURE_COLUMNS = ["runs", "solved", "success_rate", "mean_runtime_s", "median_runtime_s", "par2_s",
+                   "mean_sqr", "mean_roots", "mean_rtsp_calls"]
+
+
+def _problem(output, name, rows, lines, looks):
+    here = metrics.by_line(rows)
+    ordered = [line for line in lines.all if line in here]
+    cells = metrics.by_cell(rows)
+    runs = metrics.median_runs(rows)
+    problem = Problem(
+        name, ordered, rows, {line: metrics.measures(here[line]) for line in ordered}, cells,
+        len(runs), metrics.only_solver(runs), metrics.beyond_baselines(runs, lines.is_baseline),
+        speedups(runs, lines.is_baseline), len(hard_instances(runs, lines.is_baseline)),
+        list(_comparison_figures(output, name, cells, ordered, looks)),
+        _cactus_figure(output, name, runs, ordered, looks))
+    _write_tables(output, problem, lines)
+    return problem
+
+
+def _write_tables(output, problem, lines):
+    name, ordered = problem.name, problem.lines
+    output.table(f"summary_{name}",
+                 [*LINE_COLUMNS, "baseline", *MEASURE_COLUMNS, "solved_by_it_alone",
+                  "solved_by_no_baseline"],
+                 [[*line, str(lines.is_baseline(line)).lower(), *problem.by_line[line],
+                   len(problem.only.get(line, ())), problem.beyond.get(line, 0)]
+                  for line in ordered])
+    output.table(f"comparison_{name}",
+                 ["map", "agents", "tasks", *LINE_COLUMNS, *MEASURE_COLUMNS],
+                 [[*cell, *line, *found[line]] for cell, found in problem.cells.items()
+                  for line in ordered if line in found])
+    output.table(f"speedup_{name}",
+                 ["map", "baseline", "baseline_omega", "method", "omega", "time_limit_s",
+                  "instances", "median_ratio", "ratio_is", "baseline_median_s", "method_median_s",
+                  "baseline_failed", "method_failed"],
+                 [["all" if found.map == ALL_MAPS else found.map, found.baseline.method,
+                   found.baseline.omega, *found.line, *found[3:]] for found in problem.speedups])
+    output.table(f"only_solver_{name}",
+                 [*LINE_COLUMNS, "map", "agents", "tasks", "instance", "runtime_s"],
+                 [[*line, row.map, row.agents, row.tasks, row.instance, row.runtime_s]
+                  for line in ordered for row in problem.only.get(line, ())])
+
+
+def _shown_cell(cells, wanted_map, wanted_agents):
+    """Map and N of the figure: the paper's room map and N = 5 where the data has them."""
+    maps = sorted({cell.map for cell in cells})
+    name = wanted_map or next((name for name in maps if name.startswith("room")), maps[0])
+    sizes = sorted({cell.agents for cell in cells if cell.map == name})
+    if wanted_agents is not None:
+        return name, wanted_agents
+    return name, 5 if 5 in sizes else sizes[0] if sizes else None
+
+
+def _setting(problem, family, map_name, agents, rows):
+    scenarios = len({row.instance for row in rows})
+    limits = sorted({line.time_limit_s for line in family.lines})
+    return [family.name, PROBLEM_NAMES[problem].split(" (")[0], f"map {map_name}, N = {agents}",
+            f"{scenarios} instances",
+            "time limit " + ", ".join(map(seconds_text, limits))]
+
+
+def _studies(output, rows_of, lines, looks, options):
+    """Of the first problem, CTS-MAPF first as in the paper, where lines differ in omega alone."""
+    for name in ("cts", *PROBLEMS):
+        rows = rows_of.get(name, [])
+        found = families(rows, options.study_methods)
+        stems = [f"omega_study_{number}" if len(found) > 1 else "omega_study"
+                 for number in range(1, len(found) + 1)]
+        studies = [_study(output, name, family, rows, looks, options, stem)
+                   for family, stem in zip(found, stems)]
+        if any(studies):
+            return [study for study in studies if study]
+    if (options.study_methods, options.study_map, options.study_agents) != (None, None, None):
+        raise BadInput("--study, --study-map, --study-agents: no rows with several omegas are left; "
+                       "expected methods, a map and a number of agents that have some")
+    return []
+
+
+def _study(output, problem, family, rows, looks, options, stem):
+    members = set(family.lines)
+    rows = [row for row in rows if line_of(row) in members]
+    cells = metrics.by_cell(rows)
+    map_name, agents = _shown_cell(cells, options.study_map, options.study_agents)
+    shown = {cell: found for cell, found in cells.items()
+             if (cell.map, cell.agents) == (map_name, agents)}
+    if not shown:
+        return None
+    setting = _setting(problem, family, map_name, agents,
+                       [row for row in rows if (row.map, row.agents) == (map_name, agents)])
+    figure = output.figure(stem, f"The influence of ω: {family.name}",
+                           figures.omega_study(shown, family.lines, looks, setting))
+    output.table(stem, ["map", "agents", "tasks", *LINE_COLUMNS, *MEASURE_COLUMNS],
+                 [[*cell, *line, *found[line]] for cell, found in cells.items()
+                  for line in family.lines if line in found])
+    return Study(problem, family, map_name, agents, cells, figure)
+
+
+def _errors(rows, lines):
+    found = defaultdict(list)
+    for row in rows:
+        if row.status == "error":
+            found[line_of(row)].append(row)
+    return [(line, len(found[line]), Counter(row.error for row in found[line]).most_common(1)[0][0])
+            for line in lines.all if line in found]
+
+
+def _listed(values, most=6):
+    values = list(values)
+    return ", ".join(values[:most]) + (f" and {len(values) - most} more" if values[most:] else "")
+
+
+def _notes(results, rows, lines, problems):
+    """What a reader must know before comparing figures."""
+    limits = sorted({row.time_limit_s for row in rows})
+    if len(limits) > 1:
+        yield (f"The rows have several time limits ({_listed(map(seconds_text, limits))}). No figure "
+               "mixes them: a method with several has a line for each. Between different limits, mean "
+               "runtimes and PAR-2 do not compare.")
+    seeds = sorted({row.seed for row in rows if row.seed is not None})
+    if len(seeds) > 1:
+        yield (f"The rows have several seeds ({_listed(map(str, seeds))}). Rates and means are over "
+               "all their runs; where instances are counted or compared one by one, the median run "
+               "stands for its instance.")
+    for what, values in (("versions", {row.version for row in rows} - {""}),
+                         ("machines", {row.machine for row in rows} - {""}),
+                         ("numbers of threads", {str(row.threads) for row in rows
+                                                 if row.threads is not None})):
+        if len(values) > 1:
+            yield (f"The rows come from runs with several {what} ({_listed(sorted(values))}): "
+                   "times compare only so far.")
+    digests = defaultdict(set)
+    for row in rows:
+        if row.instance_digest:
+            digests[row.problem, row.instance].add(row.instance_digest)
+    ambiguous = sorted(instance for (_, instance), found in digests.items() if len(found) > 1)
+    if ambiguous:
+        yield (f"Under one name stand several instances, or an instance has changed between runs: "
+               f"{_listed(ambiguous)}. Rows of these do not compare.")
+    for path in results.cut_off:
+        yield (f"{path}: the last line is cut off and was left out; the bench was killed, or still "
+               "runs.")
+    if results.repeated:
+        yield (f"{results.repeated} rows were left out: a later row repeats the run (the same instance, "
+               "method, ω, time limit and seed).")
+    options = defaultdict(set)
+    for row in rows:
+        options[line_of(row)].add(row.options)
+    for line in lines.all:
+        if len(options[line]) > 1:
+            yield (f"{lines.label(line)} was run with different options: "
+                   f"{_listed(sorted(options[line]), 3)}.")
+    for problem in problems:
+        tried = defaultdict(set)
+        for row in problem.rows:
+            tried[line_of(row)].add(row.instance)
+        partial = [f"{lines.label(line)} {len(tried[line])}" for line in problem.lines
+                   if len(tried[line]) < problem.instances]
+        if partial:
+            yield (f"{PROBLEM_NAMES[problem.name].split(' (')[0]}: not every method was run on all "
+                   f"{problem.instances} instances ({_listed(partial, 12)}). Cells without runs are "
+                   "gaps; totals compare only between methods with as many runs.")
+
+
+class Options(NamedTuple):
+    baselines: tuple
+    problems: tuple           # to be told of; empty: those there are
+    study_methods: object     # None: found by their options
+    study_map: object         # None: a room map
+    study_agents: object      # None: 5
+
+
+def make_report(results, options, folder):
+    """Writes all figures and tables into `folder`."""
+    rows = [row for row in results.rows if not options.problems or row.problem in options.problems]
+    lines = Lines(rows, options.baselines)
+    looks, output = Looks(lines), Output(folder)
+    rows_of = defaultdict(list)
+    for row in rows:
+        rows_of[row.problem].append(row)
+    problems = [_problem(output, name, rows_of[name], lines, looks)
+                for name in PROBLEMS if name in rows_of]
+    contradictions = proofs.contradictions(rows)
+    output.table("contradictions", proofs.Contradiction._fields, contradictions)
+    return Report(results._replace(rows=rows), lines, problems,
+                  _studies(output, rows_of, lines, looks, options), contradictions,
+                  proofs.optimal_agreements(rows), _errors(rows, lines),
+                  list(_notes(results, rows, lines, problems)))

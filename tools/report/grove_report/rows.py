@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: MIT
+"""Reading results: CSV or JSON lines of `grove bench`, or folders that hold them."""
+import csv
+import json
+import math
+import re
+from pathlib import Path
+from typing import NamedTuple, Optional
+
+PROBLEMS = ("mg", "cts", "mixed", "mapf")
+STATUSES = ("optimal", "bounded", "feasible", "infeasible", "unknown", "error")
+STATUSES_WITH_PLAN = ("optimal", "bounded", "feasible")
+
+
+class BadInput(Exception):
+    """What is wrong with the input: file, place, what was expected. One line."""
+
+
+class Row(NamedTuple):
+    """One run of one method on one instance. Seconds, steps, MB; None: absent."""
+    instance: str
+    method: str
+    options: str
+    map: str
+    scenario: Optional[int]
+    agents: int
+    tasks: int
+    problem: str
+    omega: str  # canonical: "0", "0.01", "inf"; "" if the method has none
+    seed: Optional[int]
+    time_limit_s: float
+    solved: bool
+    status: str
+    cost: Optional[int]
+    lower_bound: Optional[int]
+    gap: Optional[float]
+    root_cost: Optional[int]
+    sqr: Optional[float]
+    runtime_s: float  # the time limit if not solved
+    wall_s: Optional[float]
+    roots: Optional[int]
+    rtsp_calls: Optional[int]
+    nodes: Optional[int]
+    low_level_calls: Optional[int]
+    peak_memory_mb: Optional[float]
+    version: str
+    machine: str
+    ended_at: str
+    error: str
+    threads: Optional[int]
+    instance_digest: str  # of the files of the instance: the same id may mean two
+
+
+def printable(text):
+    """File names may be any bytes, and JSON may spell what is no character."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def _text(value):
+    if not isinstance(value, str):
+        raise ValueError("a text")
+    if value.isascii() and value.isprintable():
+        return value
+    return "".join(letter if letter.isprintable() else letter.encode("unicode_escape").decode()
+                   for letter in value)
+
+
+def _integer(value):
+    """Of at least 0."""
+    if isinstance(value, str) and re.fullmatch(r"[0-9]{1,18}", value):
+        return int(value)
+    if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
+        return value
+    raise ValueError("an integer of at least 0")
+
+
+def _number(value):
+    """Of at least 0, finite."""
+    try:
+        if isinstance(value, (str, int, float)) and not isinstance(value, bool):
+            number = float(value)
+            if math.isfinite(number) and number >= 0:
+                return number
+    except (ValueError, OverflowError):
+        pass
+    raise ValueError("a number of at least 0")
+
+
+def _positive(value):
+    try:
+        number = _number(value)
+    except ValueError:
+        number = 0
+    if number <= 0:
+        raise ValueError("a number above 0")
+    return number
+
+
+def _omega(value):
+    if value == "":
+        return ""
+    try:
+        if isinstance(value, (str, int, float)) and not isinstance(value, bool):
+            number = float(value)
+            if number >= 0:  # not so: nan
+                return f"{number:g}"
+    except (ValueError, OverflowError):
+        pass
+    raise ValueError("a number of at least 0, or inf")
+
+
+def _boolean(value):
+    known = {True: True, False: False, "true": True, "false": False}
+    if not isinstance(value, (bool, str)) or value not in known:
+        raise ValueError("true or false")
+    return known[value]
+
+
+def _one_of(words):
+    def read(value):
+        if value not in words:
+            raise ValueError("one of " + ", ".join(words))
+        return value
+    return read
+
+
+# Column: how it is read, and what it is when absent; the columns without the latter are needed.
+NEEDED = object()
+COLUMNS = {
+    "instance": (_text, NEEDED), "method": (_text, NEEDED), "options": (_text, ""),
+    "map": (_text, NEEDED), "scenario": (_integer, None), "agents": (_integer, NEEDED),
+    "tasks": (_integer, NEEDED), "problem": (_one_of(PROBLEMS), NEEDED), "omega": (_omega, ""),
+    "seed": (_integer, None), "time_limit_s": (_positive, NEEDED), "solved": (_boolean, NEEDED),
+    "status": (_one_of(STATUSES), NEEDED), "cost": (_integer, None),
+    "lower_bound": (_integer, None), "gap": (_number, None), "root_cost": (_integer, None),
+    "sqr": (_number, None), "runtime_s": (_number, NEEDED), "wall_s": (_number, None),
+    "roots": (_integer, None), "rtsp_calls": (_integer, None), "nodes": (_integer, None),
+    "low_level_calls": (_integer, None), "peak_memory_mb": (_number, None), "version": (_text, ""),
+    "machine": (_text, ""), "ended_at": (_text, ""), "error": (_text, ""), "threads": (_integer, None),
+    "instance_digest": (_text, ""),
+}
+assert tuple(COLUMNS) == Row._fields
+_NAMES = tuple(COLUMNS)
+_READERS = tuple(reader for reader, _ in COLUMNS.values())
+_ABSENT = tuple(absent for _, absent in COLUMNS.values())
+
+
+def _shown(value):
+    text = value if isinstance(value, str) else json.dumps(value)
+    text = text if len(text) <= 60 else text[:57] + "..."
+    return "'" + text.encode("unicode_escape").decode("ascii") + "'"
+
+
+def _row(values, place):
+    """`values`: one for each column, in their order; None or "": absent."""
+    read = []
+    for name, reader, absent, value in zip(_NAMES, _READERS, _ABSENT, values):
+        if value is None or value == "":
+            if absent is NEEDED:
+                raise BadInput(f"{place}, column {name}: nothing there; expected a value")
+            read.append(absent)
+            continue
+        try:
+            read.append(reader(value))
+        except ValueError as expected:
+            raise BadInput(f"{place}, column {name}: found {_shown(value)}; expected {expected}") \
+                from None
+    row = Row._make(read)
+    if row.solved and row.status not in STATUSES_WITH_PLAN:
+        raise BadInput(f"{place}, column status: found '{row.status}' in a solved row; "
+                       f"expected one of {', '.join(STATUSES_WITH_PLAN)}")
+    if row.solved and row.cost is None:
+        raise BadInput(f"{place}, column cost: nothing there in a solved row; expected an integer")
+    sqr = row.sqr
+    if row.solved and sqr is None and row.root_cost is not None:
+        sqr = row.root_cost / row.cost if row.cost else 1.0  # a cost of 0: its bound is 0 too
+    return row._replace(runtime_s=row.runtime_s if row.solved else row.time_limit_s,
+                        sqr=sqr if row.solved else None)
+
+
+def _check_columns(found, place):
+    missing = [name for name, (_, absent) in COLUMNS.items()
+               if absent is NEEDED and name not in found]
+    if missing:
+        raise BadInput(f"{place}: no column {', '.join(missing)}; "
+                       "expected the columns that grove bench writes")
+    twice = sorted({name for name in found if found.count(name) > 1})
+    if twice:
+        raise BadInput(f"{place}: column {twice[0]} is there twice")
+
+
+def _read_csv(path, file):
+    reader = csv.reader(file, strict=True)
+    try:
+        header = next(reader, None)
+        if header is None:
+            raise BadInput(f"{path}: empty; expected a line with the columns' names")
+        _check_columns(header, f"{path}: line 1")
+        at = [header.index(name) if name in header else None for name in COLUMNS]
+        for number, fields in enumerate(reader, 1):
+            place = f"{path}: row {number} (line {reader.line_num})"
+            if not fields:
+                continue
+            if len(fields) != len(header):
+                raise BadInput(f"{place}: {len(fields)} columns; "
+                               f"expected {len(header)} as in the first line")
+            yield _row([None if index is None else fields[index] for index in at], place)
+    except csv.Error as error:
+        raise BadInput(f"{path}: line {reader.line_num}: not CSV: {error}") from None
+
+
+def _read_json_lines(path, file):
+    """Yields None for a last line that is cut off: of a bench that was killed, or that still runs."""
+    for number, line in enumerate(file, 1):
+        place = f"{path}: row {number}"
+        if not line.strip():
+            continue
+        try:
+            found = json.loads(line)
+        except (ValueError, RecursionError):
+            if not line.endswith("\n"):
+                yield None
+                return
+            raise BadInput(f"{place}: not JSON; expected one object a line") from None
+        if not isinstance(found, dict):
+            raise BadInput(f"{place}: found {_shown(found)}; expected a JSON object")
+        yield _row([found.get(name) for name in _NAMES], place)
+
+
+READERS = {".csv": _read_csv, ".jsonl": _read_json_lines}
+
+
+def _files(argument):
+    path = Path(argument)
+    if not path.exists():
+        raise BadInput(f"{path}: there is no such file or folder")
+    if not path.is_dir():
+        if path.suffix not in READERS:
+            raise BadInput(f"{path}: unknown kind of file; expected .csv, .jsonl or a folder")
+        return path
+    for name in ("results.jsonl", "results.csv"):  # they hold the same; the first is never behind
+        if (path / name).exists():
+            return path / name
+    raise BadInput(f"{path}: no results.jsonl and no results.csv in this folder; "
+                   "expected what grove bench writes")
+
+
+def _read_file(path):
+    try:
+        with path.open(encoding="utf-8-sig", newline="" if path.suffix == ".csv" else None) as file:
+            return list(READERS[path.suffix](path, file))
+    except UnicodeDecodeError as error:
+        raise BadInput(f"{path}: byte {error.start}: not UTF-8 text") from None
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def _without_repeats(rows):
+    """Of runs of the same method on the same instance, with the same omega, limit and seed, the one
+    that ended last. Returns them, and how many others there were."""
+    kept = {}
+    for row in rows:
+        key = (row.problem, row.instance, row.method, row.omega, row.time_limit_s, row.seed)
+        if key not in kept or row.ended_at >= kept[key].ended_at:
+            kept[key] = row
+    return list(kept.values()), len(rows) - len(kept)
+
+
+class Results(NamedTuple):
+    rows: list
+    files: list     # (path as text, rows in it)
+    cut_off: list   # paths of files whose last line was, and was left out
+    repeated: int   # rows left out because a later one repeats their run
+
+
+def read_results(arguments):
+    files = list(dict.fromkeys(_files(argument) for argument in arguments))
+    rows, counts, cut_off = [], [], []
+    for path in files:
+        read = _read_file(path)
+        found = [row for row in read if row]
+        counts.append((printable(str(path)), len(found)))
+        cut_off += [counts[-1][0]] if len(found) < len(read) else []
+        rows += found
+    if not rows:
+        raise BadInput(f"{', '.join(path for path, _ in counts)}: no rows; expected at least one")
+    kept, repeated = _without_repeats(rows)
+    # The order of the runs must not matter: they end as they like.
+    kept.sort(key=lambda row: (row.problem, row.map, row.agents, row.tasks, row.scenario or 0,
+                               row.instance, row.method, row.omega, row.time_limit_s,
+                               -1 if row.seed is None else row.seed))
+    return Results(kept, counts, cut_off, repeated)

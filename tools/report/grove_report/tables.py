@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""A table as CSV, and as HTML."""
+import csv
+import html
+import math
+from typing import NamedTuple
+
+
+def csv_value(value):
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return str(value)
+
+
+def write_csv(path, header, rows):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows([csv_value(value) for value in row] for row in rows)
+
+
+class Entry(NamedTuple):
+    """What stands in a place of an HTML table."""
+    text: str
+    hint: str = ""        # shown when the pointer is over it
+    strong: bool = False
+    number: bool = True   # to the right
+
+
+def word(text, hint=""):
+    return Entry(str(text), hint, number=False)
+
+
+NOTHING = Entry("–", "no rows")
+
+
+def seconds(value):
+    """Three digits that matter, and never more."""
+    if value is None:
+        return "–"
+    if value < 0.001:
+        return "<0.001"
+    digits = max(0, 2 - math.floor(math.log10(value)))
+    return f"{value:.{digits}f}"
+
+
+def percent(value):
+    return f"{100 * value:.0f} %"
+
+
+def ratio(value):
+    return "–" if value is None else f"{value:.3f}"
+
+
+def count(value):
+    if value is None:
+        return "–"
+    return f"{value:.0f}" if value >= 100 or value == int(value) else f"{value:.1f}"
+
+
+def _cell(tag, entry):
+    hint = f' title="{html.escape(entry.hint)}"' if entry.hint else ""
+    kind = ' class="number"' if entry.number else ""
+    text = html.escape(entry.text)
+    return f"<{tag}{kind}{hint}>{f'<b>{text}</b>' if entry.strong else text}</{tag}>"
+
+
+def html_table(header, rows, caption=""):
+    """`header`: texts, or Entries; `rows`: lists of Entries. The header stays in sight."""
+    numbers = rows[0] if rows else [Entry("")] * len(header)
+    heads = [entry if isinstance(entry, Entry) else Entry(entry, number=first.number)
+             for entry, first in zip(header, numbers)]
+    lines = ['<div class="scroll"><table>']
+    if caption:
+        lines.append(f"<caption>{html.escape(caption)}</caption>")
+    lines.append("<thead><tr>" + "".join(_cell("th", head) for head in heads) + "</tr></thead>")
+    lines.append("<tbody>")
+    lines += ["<tr>" + "".join(_cell("td", entry) for entry in row) + "</tr>" for row in rows]
+    lines.append("</tbody></table></div>")
+    return "\n".join(lines)
