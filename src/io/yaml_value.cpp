@@ -2,12 +2,14 @@
 #include "yaml_value.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "grove/io/input_error.h"
 #include "grove/io/text_file.h"
@@ -48,6 +50,35 @@ std::optional<int> decimal(const std::string& text) {
   const bool is_padded = digits.size() > 1 && digits.front() == '0';
   if (error != std::errc() || parsed_to != end || is_padded) return std::nullopt;
   return value;
+}
+
+// Hears all that a document holds, and keeps nothing.
+class Deaf : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// Load() would ignore all but the first; LoadAll() never comes back from a stray comma, before
+// which it finds empty documents for ever.
+void require_one_document(const std::string& file, const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Deaf deaf;
+  if (!parser.HandleNextDocument(deaf))
+    throw InputError(file, "", "holds nothing; expected a YAML map");
+  if (parser.HandleNextDocument(deaf))
+    throw InputError(file, "", "holds more than one YAML document; expected one");
 }
 
 }  // namespace
@@ -118,17 +149,13 @@ YamlDocument::YamlDocument(const std::filesystem::path& path) : file_(path.strin
   const std::string text = read_text(path);
   if (text.size() > kLargestYaml)
     throw InputError(file_, "", "is too large; expected at most 64 MiB of YAML");
-  std::vector<YAML::Node> documents;
   try {
-    documents = YAML::LoadAll(text);
+    require_one_document(file_, text);
+    root_ = YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw InputError(file_, place_of(error.mark),
                      fmt::format("malformed YAML: {}; expected a YAML map", error.msg));
   }
-  if (documents.size() != 1)
-    throw InputError(file_, "",
-                     fmt::format("holds {} YAML documents; expected one", documents.size()));
-  root_ = documents.front();
   if (!root_.IsMap()) root().fail_expected("a map with the keys 'map' and 'agents'");
 }
 

@@ -27,8 +27,8 @@ namespace grove {
 // Reads either. `goal` is a destination, and so is a list `potentialGoals` of one; `goals` are
 // tasks of an agent without a destination, and one task for all agents that list the same cell.
 // Throws InputError with line and column on anything malformed, on a choice of potentialGoals,
-// which is a problem that Grove does not solve, and on roadmaps. Appends to `warnings` about
-// unknown keys.
+// which is a problem that Grove does not solve, on roadmaps, and on more than 2^24 cells, which a
+// few bytes could ask for. Appends to `warnings` about unknown keys.
 Instance read_libmrp_instance(const std::filesystem::path& path,
                               std::vector<std::string>* warnings = nullptr);
 
