@@ -254,6 +254,7 @@ void convert_instance(const ConvertArguments& arguments, InstanceFormat from, In
 // --- plans out ---
 
 TrackerScenario tracker_scenario(const ConvertArguments& arguments, const LoadedInstance& loaded) {
+  require_tracker_instance(loaded.instance);
   if (loaded.map_path.empty())
     throw CLI::ValidationError(
         "--to",
@@ -336,7 +337,7 @@ void run(const ConvertArguments& arguments) {
   if (is_plan) {
     const PlanFormat to = plan_format("--to", arguments.to, arguments.output);
     const bool is_tracker = to == PlanFormat::kTracker || to == PlanFormat::kTrackerCsv;
-    require_use(!arguments.map.empty(), is_scen, "--map", "a .scen INSTANCE, or an OUT with a map");
+    require_use(!arguments.map.empty(), is_scen, "--map", "a .scen INSTANCE");
     require_use(!arguments.scenario.empty(), is_tracker, "--scenario", "--to tracker");
     require_use(arguments.flip_up_down, is_tracker, "--flip-up-down", "--to tracker");
     return convert_plan(arguments, from, to);

@@ -89,21 +89,27 @@ std::optional<TrackerScenario> parse_tracker_scenario(const std::string& map,
   return std::nullopt;
 }
 
-void write_tracker_row(const std::filesystem::path& path, const Instance& instance,
-                       const Solution& solution, const TrackerScenario& scenario,
-                       TrackerLayout layout, TrackerUp up) {
+void require_tracker_instance(const Instance& instance) {
   constexpr std::string_view kFormat = "a row of MAPF Tracker";
   require_goals(instance, kFormat);
   if (instance.task_count() > 0)
     throw NotExpressible("tasks/0",
-                         fmt::format("task '{}' cannot be said in {}, nor would bound and cost "
-                                     "without it be right; expected no tasks",
+                         fmt::format("task '{}' cannot be said in {}, nor would bound and cost be "
+                                     "right without it; expected no tasks",
                                      instance.task(0).id, kFormat),
                          Loss::kNothing);
+}
+
+void write_tracker_row(const std::filesystem::path& path, const Instance& instance,
+                       const Solution& solution, const TrackerScenario& scenario,
+                       TrackerLayout layout, TrackerUp up) {
+  require_tracker_instance(instance);
   std::string motions;
+  std::string_view separator;
   for (const AgentPlan& agent : solution.plan->agents) {
-    if (&agent != &solution.plan->agents.front()) motions += '\n';
+    motions += separator;
     motions += motion_string(instance.grid(), agent.path, up);
+    separator = "\n";
   }
   const OrderedJson row{{"map_name", scenario.map},
                         {"scen_type", scenario.type},

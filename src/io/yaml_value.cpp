@@ -17,8 +17,9 @@
 namespace grove {
 namespace {
 
-// The parser's nodes take some fifty times the bytes of the text.
-constexpr std::size_t kLargestYaml = std::size_t{64} << 20;
+// The parser's nodes take some 150 times the bytes of the text. This is a million obstacles and
+// more.
+constexpr std::size_t kLargestYaml = std::size_t{32} << 20;
 
 std::string place_of(const YAML::Mark& mark) {
   if (mark.is_null()) return "";
@@ -148,7 +149,7 @@ Position YamlValue::position() const {
 YamlDocument::YamlDocument(const std::filesystem::path& path) : file_(path.string()) {
   const std::string text = read_text(path);
   if (text.size() > kLargestYaml)
-    throw InputError(file_, "", "is too large; expected at most 64 MiB of YAML");
+    throw InputError(file_, "", "is too large; expected at most 32 MiB of YAML");
   try {
     require_one_document(file_, text);
     root_ = YAML::Load(text);

@@ -30,11 +30,14 @@ enum class TrackerLayout : std::uint8_t { kJson, kCsv };
 // is y - 1; what it offers for download has y + 1 there, and flip_up_down: true says so.
 enum class TrackerUp : std::uint8_t { kTowardsRowZero, kAwayFromRowZero };
 
+// Throws NotExpressible for tasks and for agents without a destination: the tracker's instances are
+// classical MAPF.
+void require_tracker_instance(const Instance& instance);
+
 // Writes `solution` as one row, whole or not at all; it must hold a valid plan of `instance` (ask
 // check() first). Per agent one motion string over u d l r w, run-length encoded, without the waits
-// at its end, which the tracker would charge. lower_cost is the proven lower bound. Throws
-// NotExpressible for tasks and for agents without a destination: the tracker's instances are
-// classical MAPF. InputError when the file cannot be written.
+// at its end, which the tracker would charge. lower_cost is the proven lower bound. Throws as
+// require_tracker_instance() does, and InputError when the file cannot be written.
 void write_tracker_row(const std::filesystem::path& path, const Instance& instance,
                        const Solution& solution, const TrackerScenario& scenario,
                        TrackerLayout layout, TrackerUp up);
