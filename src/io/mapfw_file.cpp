@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <limits>
-
 #include "grove/io/atomic_file.h"
 #include "grove/io/expressible.h"
 #include "grove/io/input_error.h"
@@ -28,8 +25,9 @@ void require_size(const JsonValue& array, std::size_t expected, std::string_view
 }
 
 bool is_free(const JsonValue& value) {
-  return value.integer(std::numeric_limits<std::int64_t>::min(),
-                       std::numeric_limits<std::int64_t>::max()) == 0;
+  if (!value.json().is_number_integer())
+    value.fail_expected("0 for a passable cell, another integer for a blocked one");
+  return value.json() == 0;
 }
 
 Grid read_grid(const JsonValue& root) {

@@ -106,6 +106,12 @@ TEST_F(LibmrpFile, ReadsOtherWaysToSayTheSame) {
             "2x1 7(1,0)(0,0)");
 }
 
+TEST_F(LibmrpFile, OneDocumentMayBeginAndEndAsYamlSays) {
+  EXPECT_EQ(told(read("%YAML 1.2\n---\n" + kMapf + "...\n# the end\n")), told(mapf()));
+  EXPECT_EQ(told(read("\xEF\xBB\xBF# the beginning\n" + kMapf)), told(mapf()));
+  EXPECT_EQ(refused("# nothing\n"), "i.yaml: holds nothing; expected a YAML map");
+}
+
 TEST_F(LibmrpFile, KeepsOddNames) {
   for (const std::string name :
        {"null", "~",   "7", "a b",    "a: b", "#",   "'", "\"", "-",  "\n", "\t",   "\x01",

@@ -96,8 +96,8 @@ TEST_F(MapfwFile, NamesWhatIsWrong) {
   EXPECT_EQ(refused_with("[0,0,0,1,1]", "[0,0,0,1]"),
             "p.json: /grid/2: has 4 entries; expected 5, one per column");
   EXPECT_EQ(refused_with("[0,0,0,1,1]", "[0,0,0,1,true]"),
-            "p.json: /grid/2/4: found true; expected an integer from -9223372036854775808 to "
-            "9223372036854775807");
+            "p.json: /grid/2/4: found true; expected 0 for a passable cell, another integer for a "
+            "blocked one");
   EXPECT_EQ(refused_with("[4,0],", ""), "p.json: /goals: has 1 entries; expected 2, one per start");
   EXPECT_EQ(refused_with("[[2,1]],", ""),
             "p.json: /waypoints: has 1 entries; expected 2, one per start");
