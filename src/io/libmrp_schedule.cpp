@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "grove/io/atomic_file.h"
+#include "grove/io/expressible.h"
 #include "grove/io/plan_export.h"
 #include "plan_steps.h"
 #include "yaml_text.h"
@@ -36,13 +37,28 @@ void add_steps(std::string& text, const Grid& grid, const Path& path) {
   }
 }
 
+// YAML's readers look for the colon no farther than that.
+constexpr std::size_t kLongestKey = 1024;
+
+std::string key_text(const Instance& instance, AgentIndex agent) {
+  std::string key = yaml_text(instance.agent(agent).id);
+  if (key.size() > kLongestKey)
+    throw NotExpressible(
+        fmt::format("agents/{}", agent),
+        fmt::format("the id has {} bytes in YAML; expected at most {}, for it is a "
+                    "key there",
+                    key.size(), kLongestKey),
+        Loss::kNothing);
+  return key;
+}
+
 }  // namespace
 
 void write_libmrp_schedule(const std::filesystem::path& path, const Instance& instance,
                            const Solution& solution) {
   std::string text = statistics_text(solution) + "schedule:\n";
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
-    text += fmt::format("  {}:\n", yaml_text(instance.agent(i).id));
+    text += fmt::format("  {}:\n", key_text(instance, i));
     add_steps(text, instance.grid(), solution.plan->agents[i].path);
   }
   write_file_atomically(path, text);

@@ -36,6 +36,7 @@ bool is_plain(const std::string& text) {
 std::string yaml_text(const std::string& text) {
   if (is_plain(text)) return text;
   YAML::Emitter emitter;
+  emitter.SetOutputCharset(YAML::EscapeNonAscii);  // some characters end a line in YAML 1.1 only
   emitter << YAML::DoubleQuoted << text;
   return emitter.c_str();
 }

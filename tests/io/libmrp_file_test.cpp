@@ -124,6 +124,16 @@ TEST_F(LibmrpFile, KeepsOddNames) {
   }
 }
 
+// As Python's yaml reads them, too: it takes them for the ends of lines.
+TEST_F(LibmrpFile, WritesAsciiOnly) {
+  InstanceBuilder builder(grid());
+  builder.add_agent("\u2028\u0085\u00e9", {0, 0}, Position{4, 0});
+  write_libmrp_instance(directory_ / "o.yaml", std::move(builder).build());
+  EXPECT_NE(file_content(directory_ / "o.yaml").find("name: \"\\u2028\\x85\\xe9\"\n"),
+            std::string::npos)
+      << file_content(directory_ / "o.yaml");
+}
+
 TEST_F(LibmrpFile, AMapWithoutObstaclesSaysSo) {
   InstanceBuilder builder(testing::grid_of({"..", ".."}));
   builder.add_agent("a", {0, 0}, Position{1, 0});

@@ -92,6 +92,18 @@ TEST_F(PlanExport, LibmrpScheduleEndsWithEachAgent) {
           "  \"third one\":\n    - x: 0\n      y: 2\n      t: 0\n");
 }
 
+TEST_F(PlanExport, LibmrpSchedulesHaveNoKeysTooLongForYaml) {
+  const auto write = [&](std::size_t size) {
+    InstanceBuilder builder(testing::grid_of({"."}));
+    builder.add_agent(std::string(size, 'x'), {0, 0}, Position{0, 0});
+    Solution solution;
+    solution.plan = Plan{0, {{0, {}, {0}}}};
+    write_libmrp_schedule(directory_ / "out", std::move(builder).build(), solution);
+  };
+  write(1024);
+  EXPECT_THROW(write(1025), NotExpressible);
+}
+
 TEST_F(PlanExport, VisualizerTextIsPaddedAndEndsEveryPositionWithAComma) {
   EXPECT_EQ(written([&](const std::string& path) {
               write_visualizer_text(path, instance_, solution_, "m.map");

@@ -15,7 +15,8 @@ namespace grove {
 
 // libMultiRobotPlanning's schedule (YAML): x, y, t of every step until the agent comes to rest, x
 // the column and y the row. Its viewer finds an agent by its name in the instance, so the ids are
-// the names. Statistics that the plan file does not tell are left out.
+// the names. Statistics that the plan file does not tell are left out. Throws NotExpressible for an
+// id that is longer than a key of YAML may be.
 void write_libmrp_schedule(const std::filesystem::path& path, const Instance& instance,
                            const Solution& solution);
 
