@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   add_check_command(app);
   add_generate_command(app);
   add_report_command(app);
+  add_convert_command(app);
   return run_only_process(app, argc, argv);
 }
 

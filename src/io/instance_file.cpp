@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include "grove/io/atomic_file.h"
+#include "grove/io/expressible.h"
 #include "grove/io/input_error.h"
 #include "grove/io/map_file.h"
 #include "grove/io/scenario_file.h"
+#include "grove/model/distance_field.h"
 #include "json_value.h"
 #include "json_writer.h"
 
@@ -62,6 +64,27 @@ void add_row(InstanceBuilder& builder, const std::string& file, const ScenarioRo
   }
 }
 
+// The row of agent `i`, and the steps from its start to its destination.
+std::pair<ScenarioRow, Time> row_of(const Instance& instance, AgentIndex i,
+                                    const std::string& map) {
+  const Grid& grid = instance.grid();
+  const Agent& agent = instance.agent(i);
+  const Time length = distance_field(grid, *agent.goal)[agent.start];
+  if (length >= kNever)
+    throw NotExpressible(fmt::format("agents/{}", i),
+                         fmt::format("agent '{}' cannot reach its goal; expected a way there, for "
+                                     "a .scen file tells how long it is",
+                                     agent.id),
+                         Loss::kNothing);
+  return {{.line = i + 2,
+           .map = map,
+           .width = grid.width(),
+           .height = grid.height(),
+           .start = grid.position(agent.start),
+           .goal = grid.position(*agent.goal)},
+          length};
+}
+
 OrderedJson cell_json(const Grid& grid, Cell cell) {
   const Position p = grid.position(cell);
   return {p.x, p.y};
@@ -114,8 +137,29 @@ LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
   const Grid grid = read_map(map, &warnings);
   require_same_map(scenario, {rows.data(), static_cast<std::size_t>(agents)}, map, grid);
   InstanceBuilder builder(grid);
-  for (int i = 0; i < agents; ++i) add_row(builder, file, rows[i], fmt::format("a{}", i));
+  for (int i = 0; i < agents; ++i) add_row(builder, file, rows[i], default_agent_id(i));
   return {std::move(builder).build(), map, std::move(warnings)};
+}
+
+void write_scenario_instance(const std::filesystem::path& path, const Instance& instance,
+                             const std::string& map) {
+  constexpr std::string_view kFormat = "a .scen file";
+  require_goals(instance, kFormat);
+  require_no_tasks(instance, kFormat);
+  require_default_agent_ids(instance, kFormat);
+  if (map.find_first_of(" \t\r\n") != std::string::npos)
+    throw InputError(path.string(), "",
+                     fmt::format("the map's name '{}' has blanks in it; expected none, for they "
+                                 "separate the columns of a .scen file",
+                                 map));
+  std::vector<ScenarioRow> rows;
+  std::vector<Time> lengths;
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    const auto [row, length] = row_of(instance, i, map);
+    rows.push_back(row);
+    lengths.push_back(length);
+  }
+  write_scenario(path, rows, lengths);
 }
 
 void write_instance(const std::filesystem::path& path, const Instance& instance,

@@ -14,6 +14,7 @@ TEST(Usage, HelpIsWorthReading) {
   for (const Arguments& arguments : {Arguments{"--help"},
                                      {"-h"},
                                      {"check", "--help"},
+                                     {"convert", "--help"},
                                      {"generate", "--help"},
                                      {"generate", "map", "--help"},
                                      {"generate", "map", "rooms", "--help"},

@@ -14,7 +14,7 @@ namespace grove {
 // An instance and where it came from.
 struct LoadedInstance {
   Instance instance;
-  std::filesystem::path map_path;     // the map file that was read
+  std::filesystem::path map_path;     // the map file that was read; empty: the map was in the file
   std::vector<std::string> warnings;  // one line each: unknown keys, unusual map characters, ...
 };
 
@@ -24,6 +24,13 @@ LoadedInstance read_instance(const std::filesystem::path& path);
 // Classical MAPF: the first `agents` rows of a scenario as they stand, ids a0, a1, ...; no tasks.
 LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
                                       const std::filesystem::path& map, int agents);
+
+// Writes classical MAPF as a scenario, one row per agent, whole or not at all; `map` is the map's
+// file name. The length column is the 4-connected distance (write_scenario). Throws NotExpressible
+// for tasks, for agents without a destination or out of its reach, and for ids that are not the
+// default ones; InputError when the file cannot be written or the name has blanks in it.
+void write_scenario_instance(const std::filesystem::path& path, const Instance& instance,
+                             const std::string& map);
 
 // Writes `instance` as *.cts.json, whole or not at all; `map` is stored as it is given and should
 // be relative to the file. Throws InputError when the file cannot be written.

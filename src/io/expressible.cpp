@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/expressible.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace grove {
+namespace {
+
+std::string agent_field(AgentIndex agent) {
+  return fmt::format("agents/{}", agent);
+}
+
+// The tasks as they appear first, agent by agent.
+std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
+  std::vector<TaskIndex> order;
+  std::vector<bool> seen(instance.task_count());
+  for (const Agent& agent : instance.agents()) {
+    for (TaskIndex task : agent.tasks) {
+      if (seen[task]) continue;
+      seen[task] = true;
+      order.push_back(task);
+    }
+  }
+  return order;
+}
+
+std::optional<Position> goal_of(const Instance& instance, const Agent& agent) {
+  if (!agent.goal) return std::nullopt;
+  return instance.grid().position(*agent.goal);
+}
+
+// Builds `instance` anew, with the agent ids of `agent_id(i)`.
+template <typename AgentId>
+InstanceBuilder with_agents(const Instance& instance, AgentId agent_id) {
+  InstanceBuilder builder(instance.grid());
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    const Agent& agent = instance.agent(i);
+    builder.add_agent(agent_id(i), instance.grid().position(agent.start), goal_of(instance, agent));
+  }
+  return builder;
+}
+
+template <typename AgentId>
+void add_task(InstanceBuilder& builder, const Instance& instance, const Task& task, std::string id,
+              AgentId agent_id) {
+  std::vector<std::string> agents;
+  for (AgentIndex agent : task.agents) agents.push_back(agent_id(agent));
+  builder.add_task(std::move(id), instance.grid().position(task.cell), agents);
+}
+
+}  // namespace
+
+std::string default_agent_id(AgentIndex agent) {
+  return fmt::format("a{}", agent);
+}
+
+std::string default_task_id(TaskIndex task) {
+  return fmt::format("t{}", task);
+}
+
+void require_goals(const Instance& instance, std::string_view format) {
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    if (!instance.agent(i).goal)
+      throw NotExpressible(agent_field(i),
+                           fmt::format("agent '{}' has no goal; expected one for every agent, for "
+                                       "{} cannot do without",
+                                       instance.agent(i).id, format),
+                           Loss::kNothing);
+}
+
+void require_no_tasks(const Instance& instance, std::string_view format) {
+  if (instance.task_count() == 0) return;
+  throw NotExpressible(
+      "tasks/0",
+      fmt::format("task '{}' cannot be said in {}; expected no tasks", instance.task(0).id, format),
+      Loss::kTasks);
+}
+
+void require_default_agent_ids(const Instance& instance, std::string_view format) {
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    if (instance.agent(i).id != default_agent_id(i))
+      throw NotExpressible(
+          agent_field(i),
+          fmt::format("{} has no ids: read back, agent '{}' would be '{}'; expected that id",
+                      format, instance.agent(i).id, default_agent_id(i)),
+          Loss::kIds);
+}
+
+void require_default_task_ids(const Instance& instance, std::string_view format) {
+  const std::vector<TaskIndex> order = order_of_appearance(instance);
+  for (TaskIndex i = 0; i < instance.task_count(); ++i) {
+    const std::string& id = instance.task(order[i]).id;
+    if (id != default_task_id(i) || order[i] != i)
+      throw NotExpressible(
+          fmt::format("tasks/{}", order[i]),
+          fmt::format("{} has no ids of tasks: read back, task '{}' (number {}) would be '{}' "
+                      "(number {}); expected that",
+                      format, id, order[i], default_task_id(i), i),
+          Loss::kIds);
+  }
+}
+
+Instance without_tasks(const Instance& instance) {
+  return with_agents(instance, [&](AgentIndex i) { return instance.agent(i).id; }).build();
+}
+
+Instance with_default_task_ids(const Instance& instance) {
+  const auto agent_id = [&](AgentIndex i) { return instance.agent(i).id; };
+  InstanceBuilder builder = with_agents(instance, agent_id);
+  TaskIndex count = 0;
+  for (TaskIndex task : order_of_appearance(instance))
+    add_task(builder, instance, instance.task(task), default_task_id(count++), agent_id);
+  return std::move(builder).build();
+}
+
+Instance with_default_agent_ids(const Instance& instance) {
+  InstanceBuilder builder = with_agents(instance, default_agent_id);
+  for (const Task& task : instance.tasks())
+    add_task(builder, instance, task, task.id, default_agent_id);
+  return std::move(builder).build();
+}
+
+}  // namespace grove

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/libmrp_file.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <optional>
+
+#include "grove/io/atomic_file.h"
+#include "grove/io/expressible.h"
+#include "grove/io/input_error.h"
+#include "waypoints.h"
+#include "yaml_text.h"
+#include "yaml_value.h"
+
+namespace grove {
+namespace {
+
+// --- reading ---
+
+// A few bytes of this format can ask for any number of cells.
+constexpr int kMaxCells = 1 << 24;
+
+Grid read_grid(const YamlValue& map) {
+  const YamlValue dimensions = map.member("dimensions");
+  if (dimensions.size() != 2) dimensions.fail_expected("[columns, rows]");
+  const int width = dimensions.element(0).integer(1, kMaxCells);
+  const int height = dimensions.element(1).integer(1, kMaxCells);
+  if (height > kMaxCells / width)
+    dimensions.fail(
+        fmt::format("{} x {} cells are too many; expected at most {}", width, height, kMaxCells));
+  std::vector<bool> passable(static_cast<std::size_t>(width) * height, true);
+  const YamlValue obstacles = map.member("obstacles");
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const YamlValue value = obstacles.element(k);
+    const Position p = value.position();
+    if (p.x >= width || p.y >= height)
+      value.fail(
+          fmt::format("obstacle [{}, {}] is outside the map; expected x in 0..{} and y in "
+                      "0..{}",
+                      p.x, p.y, width - 1, height - 1));
+    passable[static_cast<std::size_t>(p.y) * width + p.x] = false;
+  }
+  return Grid(width, height, passable);
+}
+
+// The destination that `agent` names, if it names one.
+std::optional<YamlValue> find_goal(const YamlValue& agent) {
+  const auto goal = agent.find("goal");
+  const auto choice = agent.find("potentialGoals");
+  const auto goals = agent.find("goals");
+  if (goal.has_value() + choice.has_value() + goals.has_value() != 1)
+    agent.fail("expected exactly one of the keys 'goal', 'goals' and 'potentialGoals'");
+  if (!choice) return goal;
+  if (choice->size() != 1)
+    choice->fail(
+        fmt::format("{} potential goals leave a choice; expected one, for Grove does not "
+                    "choose destinations",
+                    choice->size()));
+  return choice->element(0);
+}
+
+// Where in `agent` the key stands that an InstanceError is about.
+YamlValue place_of(const YamlValue& agent, const std::optional<YamlValue>& goal,
+                   const std::string& field) {
+  if (field == "id") return agent.member("name");
+  if (field == "start") return agent.member("start");
+  return field == "goal" && goal ? *goal : agent;
+}
+
+void add_agent(InstanceBuilder& builder, const YamlValue& agent, Waypoints& waypoints) {
+  const std::string name = agent.member("name").text();
+  const Position start = agent.member("start").position();
+  const auto goal = find_goal(agent);
+  try {
+    builder.add_agent(name, start, goal ? std::optional(goal->position()) : std::nullopt);
+  } catch (const InstanceError& error) {
+    place_of(agent, goal, error.field()).fail(error.what());
+  }
+  const auto goals = agent.find("goals");
+  if (!goals) return;
+  if (goals->size() == 0) goals->fail("there are no goals; expected at least one");
+  for (std::size_t k = 0; k < goals->size(); ++k) {
+    const YamlValue value = goals->element(k);
+    waypoints.add(name, value.position(), value.place());
+  }
+}
+
+// --- writing ---
+
+std::string cell_text(const Grid& grid, Cell cell) {
+  const Position p = grid.position(cell);
+  return fmt::format("[{}, {}]", p.x, p.y);
+}
+
+std::string map_text(const Grid& grid) {
+  std::string text =
+      fmt::format("map:\n  dimensions: [{}, {}]\n  obstacles:", grid.width(), grid.height());
+  if (grid.passable_count() == grid.cell_count()) return text + " []\n";
+  text += '\n';
+  for (Cell cell = 0; cell < grid.cell_count(); ++cell)
+    if (!grid.passable(cell))
+      fmt::format_to(std::back_inserter(text), "    - {}\n", cell_text(grid, cell));
+  return text;
+}
+
+std::string head_text(const Grid& grid, const Agent& agent) {
+  return fmt::format("  - name: {}\n    start: {}\n", yaml_text(agent.id),
+                     cell_text(grid, agent.start));
+}
+
+void require_no_goals(const Instance& instance, std::string_view format) {
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    if (instance.agent(i).goal)
+      throw NotExpressible(
+          fmt::format("agents/{}", i),
+          fmt::format("agent '{}' has a goal to end on, which cannot be said in {}; expected an "
+                      "agent that may end on any of its tasks (MG-MAPF)",
+                      instance.agent(i).id, format),
+          Loss::kNothing);
+}
+
+}  // namespace
+
+Instance read_libmrp_instance(const std::filesystem::path& path,
+                              std::vector<std::string>* warnings) {
+  const YamlDocument document(path);
+  const YamlValue root = document.root();
+  if (const auto roadmap = root.find("roadmap"))
+    roadmap->fail("a roadmap; expected a grid, given by the key 'map'");
+  UnknownYamlKeys unknown(path.string(), warnings);
+  unknown.look_at(root, {"map", "agents"});
+  const YamlValue map = root.member("map");
+  InstanceBuilder builder(read_grid(map));
+  unknown.look_at(map, {"dimensions", "obstacles"});
+  const YamlValue agents = root.member("agents");
+  Waypoints waypoints(path.string());
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    add_agent(builder, agents.element(i), waypoints);
+    unknown.look_at(agents.element(i), {"name", "start", "goal", "goals", "potentialGoals"});
+  }
+  waypoints.add_to(builder);
+  try {
+    return std::move(builder).build();
+  } catch (const InstanceError& error) {
+    agents.fail(error.what());
+  }
+}
+
+void write_libmrp_instance(const std::filesystem::path& path, const Instance& instance) {
+  constexpr std::string_view kFormat = "libMultiRobotPlanning's YAML";
+  require_goals(instance, kFormat);
+  require_no_tasks(instance, kFormat);
+  std::string text = map_text(instance.grid()) + "agents:\n";
+  for (const Agent& agent : instance.agents())
+    text += head_text(instance.grid(), agent) +
+            fmt::format("    goal: {}\n", cell_text(instance.grid(), *agent.goal));
+  write_file_atomically(path, text);
+}
+
+void write_mgcbs_instance(const std::filesystem::path& path, const Instance& instance) {
+  constexpr std::string_view kFormat = "MGCBS's YAML";
+  require_no_goals(instance, kFormat);
+  require_default_task_ids(instance, kFormat);
+  std::string text = map_text(instance.grid()) + "agents:\n";
+  for (const Agent& agent : instance.agents()) {
+    text += head_text(instance.grid(), agent) + "    goals:\n";
+    for (TaskIndex task : agent.tasks)
+      text += fmt::format("      - {}\n", cell_text(instance.grid(), instance.task(task).cell));
+  }
+  write_file_atomically(path, text);
+}
+
+}  // namespace grove

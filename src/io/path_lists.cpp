@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "grove/io/atomic_file.h"
+#include "grove/io/plan_export.h"
+#include "plan_steps.h"
+
+namespace grove {
+
+void write_path_lists(const std::filesystem::path& path, const Instance& instance,
+                      const Solution& solution) {
+  std::string text;
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    text += fmt::format("Agent {}: ", i);
+    for (Cell cell : until_rest(solution.plan->agents[i].path)) {
+      const Position p = instance.grid().position(cell);
+      fmt::format_to(std::back_inserter(text), "({},{})->", p.y, p.x);
+    }
+    text += '\n';
+  }
+  write_file_atomically(path, text);
+}
+
+}  // namespace grove

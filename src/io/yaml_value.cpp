@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "yaml_value.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "grove/io/input_error.h"
+#include "grove/io/text_file.h"
+
+namespace grove {
+namespace {
+
+// The parser's nodes take some 150 times the bytes of the text. This is a million obstacles and
+// more.
+constexpr std::size_t kLargestYaml = std::size_t{32} << 20;
+
+std::string place_of(const YAML::Mark& mark) {
+  if (mark.is_null()) return "";
+  return line_and_column(static_cast<std::size_t>(mark.line) + 1,
+                         static_cast<std::size_t>(mark.column) + 1);
+}
+
+std::string description(const YAML::Node& node) {
+  if (node.IsSequence()) return "a list";
+  if (node.IsMap()) return "a map";
+  if (node.IsScalar()) return fmt::format("'{}'", one_line(node.Scalar()));
+  return "nothing";
+}
+
+bool is_utf8(const std::string& text) {
+  try {
+    return !nlohmann::json(text).dump().empty();
+  } catch (const nlohmann::json::exception&) {
+    return false;
+  }
+}
+
+// The number that a decimal integer without leading zeros is.
+std::optional<int> decimal(const std::string& text) {
+  int value = 0;
+  const char* end = text.data() + text.size();
+  const auto [parsed_to, error] = std::from_chars(text.data(), end, value);
+  const std::string_view digits = std::string_view(text).substr(text.starts_with('-') ? 1 : 0);
+  const bool is_padded = digits.size() > 1 && digits.front() == '0';
+  if (error != std::errc() || parsed_to != end || is_padded) return std::nullopt;
+  return value;
+}
+
+// Hears all that a document holds, and keeps nothing.
+class Deaf : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// Load() would ignore all but the first; LoadAll() never comes back from a stray comma, before
+// which it finds empty documents for ever.
+void require_one_document(const std::string& file, const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Deaf deaf;
+  if (!parser.HandleNextDocument(deaf))
+    throw InputError(file, "", "holds nothing; expected a YAML map");
+  if (parser.HandleNextDocument(deaf))
+    throw InputError(file, "", "holds more than one YAML document; expected one");
+}
+
+}  // namespace
+
+std::string YamlValue::place() const {
+  return place_of(node_.Mark());
+}
+
+void YamlValue::fail(std::string_view message) const {
+  throw InputError(*file_, place(), message);
+}
+
+void YamlValue::fail_expected(std::string_view expected) const {
+  fail(fmt::format("found {}; expected {}", description(node_), expected));
+}
+
+YamlValue YamlValue::member(std::string_view key) const {
+  auto value = find(key);
+  if (!value) fail(fmt::format("key '{}' is missing; expected it in this map", key));
+  return *std::move(value);
+}
+
+std::optional<YamlValue> YamlValue::find(std::string_view key) const {
+  if (!node_.IsMap()) fail_expected("a map");
+  std::optional<YamlValue> found;
+  for (const auto& entry : node_) {
+    const YAML::Node& name = entry.first;
+    if (!name.IsScalar() || name.Scalar() != key) continue;
+    if (found)
+      YamlValue(name, *file_)
+          .fail(fmt::format("key '{}' appears twice; expected distinct keys", key));
+    found.emplace(entry.second, *file_);
+  }
+  return found;
+}
+
+std::size_t YamlValue::size() const {
+  if (node_.IsNull()) return 0;
+  if (!node_.IsSequence()) fail_expected("a list");
+  return node_.size();
+}
+
+YamlValue YamlValue::element(std::size_t index) const {
+  return {node_[index], *file_};
+}
+
+int YamlValue::integer(int least, int most) const {
+  const auto value = node_.IsScalar() ? decimal(node_.Scalar()) : std::nullopt;
+  if (!value || *value < least || *value > most)
+    fail_expected(fmt::format("a decimal integer from {} to {}", least, most));
+  return *value;
+}
+
+std::string YamlValue::text() const {
+  if (!node_.IsScalar()) fail_expected("a text");
+  if (node_.Scalar().find('\0') != std::string::npos || !is_utf8(node_.Scalar()))
+    fail_expected("a text in UTF-8 without NUL characters");
+  return node_.Scalar();
+}
+
+Position YamlValue::position() const {
+  if (!node_.IsSequence() || node_.size() != 2) fail_expected("a cell [x, y]");
+  constexpr int kMost = std::numeric_limits<int>::max();
+  return {element(0).integer(0, kMost), element(1).integer(0, kMost)};
+}
+
+YamlDocument::YamlDocument(const std::filesystem::path& path) : file_(path.string()) {
+  const std::string text = read_text(path);
+  if (text.size() > kLargestYaml)
+    throw InputError(file_, "", "is too large; expected at most 32 MiB of YAML");
+  try {
+    require_one_document(file_, text);
+    root_ = YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw InputError(file_, place_of(error.mark),
+                     fmt::format("malformed YAML: {}; expected a YAML map", error.msg));
+  }
+  if (!root_.IsMap()) root().fail_expected("a map with the keys 'map' and 'agents'");
+}
+
+void UnknownYamlKeys::look_at(const YamlValue& map, std::initializer_list<std::string_view> known) {
+  for (const auto& entry : map.node()) {
+    const YAML::Node& name = entry.first;
+    const std::string key = name.IsScalar() ? name.Scalar() : "?";
+    if (std::ranges::find(known, key) != known.end() || !seen_.insert(key).second) continue;
+    if (warnings_)
+      warnings_->push_back(fmt::format("{}: {}: unknown key '{}' is ignored", one_line(file_),
+                                       place_of(name.Mark()), one_line(key)));
+  }
+}
+
+}  // namespace grove

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Plans in the formats of other tools, byte by byte.
+#include "grove/io/plan_export.h"
+
+#include <gtest/gtest.h>
+
+#include "grove/io/expressible.h"
+#include "grove/io/tracker_file.h"
+#include "grove/model/check.h"
+#include "tests/support/instances.h"
+#include "tests/support/refusal.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove {
+namespace {
+
+// . @ . . .   Wider than high, and the same neither mirrored nor turned round.
+// . . . . .
+// . . . @ @
+class PlanExport : public ::testing::Test {
+ protected:
+  // Without tasks all the same: the paths stay.
+  static Instance make_instance(bool tasks) {
+    InstanceBuilder builder(testing::grid_of({".@...", ".....", "...@@"}));
+    builder.add_agent("red", {0, 0}, Position{4, 0});
+    builder.add_agent("no", {3, 0}, tasks ? std::nullopt : std::optional(Position{1, 2}));
+    builder.add_agent("third one", {0, 2}, Position{0, 2});
+    if (tasks) builder.add_task("shelf", {1, 2}, std::vector<std::string>{"no"});
+    return std::move(builder).build();
+  }
+
+  // The first agent moves all the time, the second waits on the way and at the end, the third
+  // rests.
+  Solution make_solution(const Instance& instance) {
+    const auto path = [&](const std::vector<Position>& positions) {
+      Path cells;
+      for (Position p : positions) cells.push_back(instance.grid().cell(p));
+      return cells;
+    };
+    Solution solution;
+    solution.plan = Plan{
+        12,
+        {{6, {}, path({{0, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}, {4, 0}})},
+         {6, {}, path({{3, 0}, {2, 0}, {2, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {1, 2}, {1, 2}})},
+         {0, {}, path({{0, 2}})}}};
+    if (instance.task_count() > 0) solution.plan->agents[1].sequence = {0};
+    solution.status = Status::kBounded;
+    solution.lower_bound = 10;
+    solution.omega = Omega::parse("0.2");
+    solution.stats.measures["wall_s"] = 0.25;
+    solution.stats.counts["nodes_expanded"] = 7;
+    solution.stats.counts["seed"] = 3;
+    return solution;
+  }
+
+  template <typename Write>
+  std::string written(Write write) {
+    EXPECT_TRUE(check(instance_, solution_).empty());
+    write(directory_ / "out");
+    return file_content(directory_ / "out");
+  }
+  std::string tracker_row(TrackerLayout layout, TrackerUp up) {
+    const Instance instance = make_instance(false);
+    const Solution solution = make_solution(instance);
+    EXPECT_TRUE(check(instance, solution).empty());
+    return written([&](const std::string& path) {
+      write_tracker_row(path, instance, solution, {"random-32-32-20", "even", 1}, layout, up);
+    });
+  }
+
+  const Instance instance_ = make_instance(true);
+  Solution solution_ = make_solution(instance_);
+  TemporaryDirectory directory_;
+};
+
+std::string steps(const std::vector<Position>& positions) {
+  std::string text;
+  for (std::size_t t = 0; t < positions.size(); ++t)
+    text += "    - x: " + std::to_string(positions[t].x) +
+            "\n      y: " + std::to_string(positions[t].y) + "\n      t: " + std::to_string(t) +
+            "\n";
+  return text;
+}
+
+TEST_F(PlanExport, LibmrpScheduleEndsWithEachAgent) {
+  EXPECT_EQ(
+      written([&](const std::string& path) { write_libmrp_schedule(path, instance_, solution_); }),
+      "statistics:\n  cost: 12\n  makespan: 6\n  runtime: 0.25\n  highLevelExpanded: 7\n"
+      "schedule:\n  red:\n" +
+          steps({{0, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}, {4, 0}}) + "  \"no\":\n" +
+          steps({{3, 0}, {2, 0}, {2, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}}) +
+          "  \"third one\":\n    - x: 0\n      y: 2\n      t: 0\n");
+}
+
+TEST_F(PlanExport, LibmrpSchedulesHaveNoKeysTooLongForYaml) {
+  const auto write = [&](std::size_t size) {
+    InstanceBuilder builder(testing::grid_of({"."}));
+    builder.add_agent(std::string(size, 'x'), {0, 0}, Position{0, 0});
+    Solution solution;
+    solution.plan = Plan{0, {{0, {}, {0}}}};
+    write_libmrp_schedule(directory_ / "out", std::move(builder).build(), solution);
+  };
+  write(1024);
+  EXPECT_THROW(write(1025), NotExpressible);
+}
+
+TEST_F(PlanExport, VisualizerTextIsPaddedAndEndsEveryPositionWithAComma) {
+  EXPECT_EQ(written([&](const std::string& path) {
+              write_visualizer_text(path, instance_, solution_, "m.map");
+            }),
+            "agents=3\nmap_file=m.map\nsolver=grove\nsolved=1\nsoc=12\nsoc_lb=10\nmakespan=6\n"
+            "makespan_lb=6\nsum_of_loss=12\nsum_of_loss_lb=10\ncomp_time=250\nseed=3\n"
+            "starts=(0,0),(3,0),(0,2),\n"
+            "goals=(4,0),(1,2),(0,2),\n"
+            "solution=\n"
+            "0:(0,0),(3,0),(0,2),\n"
+            "1:(0,1),(2,0),(0,2),\n"
+            "2:(1,1),(2,0),(0,2),\n"
+            "3:(2,1),(2,0),(0,2),\n"
+            "4:(3,1),(2,1),(0,2),\n"
+            "5:(4,1),(2,2),(0,2),\n"
+            "6:(4,0),(1,2),(0,2),\n");
+}
+
+TEST_F(PlanExport, LeavesOutWhatThePlanFileDoesNotTell) {
+  solution_.stats = {};
+  EXPECT_EQ(written([&](const std::string& path) {
+              write_libmrp_schedule(path, instance_, solution_);
+            }).substr(0, 50),
+            "statistics:\n  cost: 12\n  makespan: 6\nschedule:\n  r");
+  EXPECT_NE(written([&](const std::string& path) {
+              write_visualizer_text(path, instance_, solution_, "m.map");
+            }).find("sum_of_loss_lb=10\nstarts="),
+            std::string::npos);
+}
+
+TEST_F(PlanExport, LossCountsLeavingTheGoalButNoRestOnIt) {
+  // On its goal from 1 to 2 and again from 4 on: the rest in between is no loss, all else is.
+  const Instance instance = testing::instance_of({"..."}, {{{0, 0}, Position{1, 0}}});
+  Solution solution;
+  solution.plan = Plan{4, {{4, {}, {0, 1, 1, 2, 1}}}};
+  write_visualizer_text(directory_ / "out", instance, solution, "m.map");
+  EXPECT_NE(file_content(directory_ / "out").find("soc=4\n"), std::string::npos);
+  EXPECT_NE(file_content(directory_ / "out").find("sum_of_loss=3\n"), std::string::npos);
+}
+
+TEST_F(PlanExport, PathListsAreRowsAndColumnsWithoutPadding) {
+  EXPECT_EQ(written([&](const std::string& path) { write_path_lists(path, instance_, solution_); }),
+            "Agent 0: (0,0)->(1,0)->(1,1)->(1,2)->(1,3)->(1,4)->(0,4)->\n"
+            "Agent 1: (0,3)->(0,2)->(0,2)->(0,2)->(1,2)->(2,2)->(2,1)->\n"
+            "Agent 2: (2,0)->\n");
+}
+
+TEST_F(PlanExport, TrackerRowsChargeNoRest) {
+  EXPECT_EQ(tracker_row(TrackerLayout::kJson, TrackerUp::kTowardsRowZero),
+            R"([{"map_name":"random-32-32-20","scen_type":"even","type_id":1,"agents":3,)"
+            R"("lower_cost":10,"solution_cost":12,"flip_up_down":false,)"
+            R"("solution_plan":"d4ru\nl2w2dl\n"}])"
+            "\n");
+  EXPECT_EQ(
+      tracker_row(TrackerLayout::kCsv, TrackerUp::kTowardsRowZero),
+      "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
+      "\"random-32-32-20\",\"even\",1,3,10,12,FALSE,\"d4ru\nl2w2dl\n\"\n");
+}
+
+TEST_F(PlanExport, TrackerRowsCanBeFlipped) {
+  EXPECT_EQ(tracker_row(TrackerLayout::kJson, TrackerUp::kAwayFromRowZero),
+            R"([{"map_name":"random-32-32-20","scen_type":"even","type_id":1,"agents":3,)"
+            R"("lower_cost":10,"solution_cost":12,"flip_up_down":true,)"
+            R"("solution_plan":"u4rd\nl2w2ul\n"}])"
+            "\n");
+}
+
+TEST_F(PlanExport, TheTrackerKnowsNoTasks) {
+  const auto write = [&](const Instance& instance) {
+    write_tracker_row(directory_ / "out", instance, solution_, {"m", "even", 1},
+                      TrackerLayout::kJson, TrackerUp::kTowardsRowZero);
+  };
+  EXPECT_THROW(write(instance_), NotExpressible);
+  EXPECT_THROW(write(testing::instance_of({"..."}, {{{0, 0}, Position{2, 0}, {{1, 0}}}})),
+               NotExpressible);
+  EXPECT_TRUE(directory_.files().empty());
+}
+
+TEST_F(PlanExport, CannotBeWrittenWhereThereIsNoFolder) {
+  EXPECT_EQ(refusal([&] { write_path_lists(directory_ / "none/o", instance_, solution_); }),
+            "o: cannot be written: No such file or directory");
+}
+
+TEST(TrackerScenario, IsTypeAndNumber) {
+  const auto scenario = parse_tracker_scenario("m", "random-25");
+  ASSERT_TRUE(scenario);
+  EXPECT_EQ(scenario->map, "m");
+  EXPECT_EQ(scenario->type, "random");
+  EXPECT_EQ(scenario->number, 25);
+  for (const char* wrong : {"", "even", "even-", "even-x", "even--1", "even-1 ", "odd-1", "-1",
+                            "even-99999999999", "random-32-32-20-even-1"})
+    EXPECT_FALSE(parse_tracker_scenario("m", wrong)) << wrong;
+}
+
+}  // namespace
+}  // namespace grove
