@@ -26,5 +26,6 @@ class CommandFailed : public std::exception {
 void add_solve_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_generate_command(CLI::App& app);
+void add_bench_command(CLI::App& app);
 
 }  // namespace grove
