@@ -31,6 +31,8 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kCsvInterval_s = 30;  // the whole file is written each time
+// The disk takes longer than a quick run. What a crash of the machine loses is run again.
+constexpr double kFlushInterval_s = 1;
 constexpr auto kWatchInterval = std::chrono::milliseconds(100);
 
 class Bench {
@@ -62,6 +64,7 @@ class Bench {
     threads.clear();
     fs::remove_all(scratch());
     if (failure_) std::rethrow_exception(failure_);
+    table_.flush();
     table_.write_csv();
     return state();
   }
@@ -188,6 +191,10 @@ class Bench {
     const std::lock_guard lock(mutex_);
     table_.append(row);
     state_.count(row);
+    if (seconds() >= next_flush_s_) {
+      table_.flush();
+      next_flush_s_ = seconds() + kFlushInterval_s;
+    }
     if (seconds() < next_csv_s_) return;
     table_.write_csv();
     next_csv_s_ = seconds() + kCsvInterval_s;
@@ -223,6 +230,7 @@ class Bench {
   BenchState state_;
   std::vector<UnderWay> under_way_;  // by worker
   double next_csv_s_ = 0;
+  double next_flush_s_ = 0;
   std::exception_ptr failure_;
   std::atomic<bool> failed_ = false;
   std::atomic<std::size_t> working_ = workers();

@@ -123,6 +123,9 @@ void ResultTable::append(const Row& row) {
     throw std::logic_error("a second row of " + row.run.method + " on " + row.run.instance);
   rows_.push_back(row);
   lines_->append(json_line(row) + "\n");
+}
+
+void ResultTable::flush() {
   lines_->flush();
 }
 

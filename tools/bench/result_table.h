@@ -38,8 +38,10 @@ class ResultTable {
   // rows of what is run again, and a torn line. Throws InputError when a row is of another run.
   std::vector<std::size_t> begin(const std::vector<RunIdentity>& runs);
 
-  // A row of a pair that has none. It is on disk when this returns.
+  // A row of a pair that has none. It outlives this process when this returns.
   void append(const Row& row);
+  // Returns when all rows would outlive a crash of the machine.
+  void flush();
   // Makes DIR/results.csv anew, whole or not at all: the runs in their order, then what is left
   // from others.
   void write_csv() const;
