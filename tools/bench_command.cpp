@@ -105,6 +105,9 @@ void run(const CLI::App& app, BenchArguments& a) {
   };
   const bench::BenchState state = run_bench(instances, methods, options);
   if (!a.quiet) display.finish(progress_text(state));
+  for (const std::string& version : state.other_versions)
+    say_on_stderr(
+        fmt::format("grove: warning: {} holds rows of {}; they stay", a.output_dir, version));
   if (state.work.left > 0)
     say_on_stderr(fmt::format("grove: stopped with {} run{} left; the same command goes on",
                               state.work.left, state.work.left == 1 ? "" : "s"));

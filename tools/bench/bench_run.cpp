@@ -101,7 +101,11 @@ class Bench {
       state_.counts[method.name];
     }
     for (const RunIdentity& run : runs_)
-      if (const Row* row = table_.find(run)) state_.count(*row);
+      if (const Row* row = table_.find(run)) {
+        state_.count(*row);
+        if (row->outcome.version != options_.version)
+          state_.other_versions.insert(row->outcome.version);
+      }
   }
 
   std::size_t workers() const {
@@ -145,7 +149,6 @@ class Bench {
 
     Row row{.run = runs_[run],
             .instance = instance.facts,
-            .omega = method.omega,
             .threads = method.threads,
             .wall_s = end.wall_s,
             .machine = options_.machine,
@@ -153,6 +156,7 @@ class Bench {
     judge(row, end, run, plan, said);
     if (was_interrupted(row.outcome) && must_stop()) return;  // the signal was for us all
     if (row.outcome.version.empty()) row.outcome.version = options_.version;
+    if (row.outcome.omega.empty()) row.outcome.omega = method.omega;
     if (options_.keep_plans) keep(plan, method, instance.entry);
     record(row);
   }

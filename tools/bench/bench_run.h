@@ -18,7 +18,7 @@ namespace grove::bench {
 struct Method {
   std::string name;                // unique; names files
   std::vector<std::string> words;  // the options as given, one word each
-  std::string omega = {};          // what they amount to
+  std::string omega = {};          // what they amount to, for runs that end without a plan file
   std::int64_t seed = 0;
   double time_limit_s = 0;
   std::optional<double> memory_limit_gb = {};  // none: by the machine

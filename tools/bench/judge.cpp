@@ -58,6 +58,7 @@ void add_stats(Outcome& outcome, const Stats& stats) {
 
 Outcome outcome_of(const Instance& instance, const Solution& solution) {
   Outcome outcome;
+  outcome.omega = solution.omega.to_string();
   add_stats(outcome, solution.stats);
   if (solution.plan) {
     if (const auto violations = check(instance, solution, 1); !violations.empty()) {

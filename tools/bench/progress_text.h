@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct BenchState {
   std::vector<std::string> methods;           // in the order of the command line
   std::map<std::string, MethodCount> counts;  // of all of them
   batch::Workload work = {};
-  double elapsed_s = 0;  // since this command began
+  double elapsed_s = 0;                       // since this command began
+  std::set<std::string> other_versions = {};  // of the program, that made rows which stand
 
   void count(const Row& row);
 };

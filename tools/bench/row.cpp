@@ -54,7 +54,7 @@ std::vector<std::pair<std::string, Json>> columns(const Row& row) {
           {"agents", row.instance.agents},
           {"tasks", row.instance.tasks},
           {"problem", row.instance.problem},
-          {"omega", row.omega},
+          {"omega", outcome.omega},
           {"seed", row.run.seed},
           {"time_limit_s", row.run.time_limit_s},
           {"solved", outcome.solved},
@@ -115,6 +115,7 @@ Outcome outcome_of(const nlohmann::json& json) {
                   .nodes = optional_member<std::int64_t>(json, "nodes"),
                   .low_level_calls = optional_member<std::int64_t>(json, "low_level_calls"),
                   .peak_memory_mb = optional_member<double>(json, "peak_memory_mb"),
+                  .omega = json.at("omega").get<std::string>(),
                   .version = json.at("version").get<std::string>(),
                   .error = optional_member<std::string>(json, "error").value_or("")};
   if (!outcome.failed() && !parse_status(outcome.status))
@@ -141,7 +142,6 @@ Row parse_json_line(std::string_view line) {
     const auto json = nlohmann::json::parse(line);
     return {.run = identity_of(json),
             .instance = facts_of(json),
-            .omega = json.at("omega").get<std::string>(),
             .threads = json.at("threads").get<std::int64_t>(),
             .outcome = outcome_of(json),
             .root_cost = optional_member<Cost>(json, "root_cost"),

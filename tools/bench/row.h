@@ -46,6 +46,7 @@ struct Outcome {
   std::optional<std::int64_t> nodes = {};
   std::optional<std::int64_t> low_level_calls = {};
   std::optional<double> peak_memory_mb = {};
+  std::string omega = {};  // 0, 0.01, inf
   std::string version = {};
   std::string error = {};  // why the status is error, or the limit that struck
 
@@ -56,7 +57,6 @@ struct Outcome {
 struct Row {
   RunIdentity run;
   InstanceFacts instance;
-  std::string omega;  // 0, 0.01, inf
   std::int64_t threads = 1;
   Outcome outcome = {};
   std::optional<Cost> root_cost = {};  // sum_of_best_sequences() of the instance

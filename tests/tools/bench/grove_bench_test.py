@@ -250,6 +250,17 @@ class Resuming(Program):
         self.run_well(*self.bench())
         self.assertEqual(self.lines(), after)
 
+    def test_rows_of_another_version_stay_and_are_told(self):
+        self.easy(1)
+        self.run_well(*self.bench())
+        file = self.folder / "out/results.jsonl"
+        text = file.read_text().replace('"version":"grove 0', '"version":"grove -1', 1)
+        file.write_text(text)
+        running = self.start(*self.bench("--quiet"))
+        self.assertRegex(running.communicate(timeout=PATIENCE_S)[1],
+                         r"\Agrove: warning: out holds rows of grove -1[^\n]*; they stay\n\Z")
+        self.assertEqual(file.read_text(), text)
+
     def test_killed_again_and_again(self):
         self.hard(3)
         command = self.bench(runs=["a: --omega 0", "b: --omega 0 --seed 1"], limit=0.3)

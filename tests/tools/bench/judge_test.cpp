@@ -49,6 +49,7 @@ TEST_F(Judges, BelieveWhatTheyHaveChecked) {
                                 .nodes = 3,
                                 .low_level_calls = 4,
                                 .peak_memory_mb = 5.5,
+                                .omega = "0",
                                 .version = "grove 9"}));
 }
 

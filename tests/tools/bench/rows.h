@@ -17,7 +17,6 @@ inline Row solved_row(const std::string& instance = "set/a_s3_n2_m4_mg",
                   .memory_limit_gb = 1.5,
                   .digest = "0123456789abcdef"},
           .instance = {.map = "a, \"b\"", .scenario = 3, .agents = 2, .tasks = 4, .problem = "mg"},
-          .omega = "0.01",
           .threads = 2,
           .outcome = {.status = "bounded",
                       .solved = true,
@@ -28,6 +27,7 @@ inline Row solved_row(const std::string& instance = "set/a_s3_n2_m4_mg",
                       .nodes = 5,
                       .low_level_calls = 6,
                       .peak_memory_mb = 7.25,
+                      .omega = "0.01",
                       .version = "grove 0.1.0 (git 0123)"},
           .root_cost = 150,
           .wall_s = 1.25,
@@ -39,7 +39,10 @@ inline Row failed_row(const std::string& instance = "i", const std::string& meth
   Row row = solved_row(instance, method);
   row.run.memory_limit_gb.reset();
   row.instance.scenario.reset();
-  row.outcome = {.status = "error", .version = "grove", .error = "ended by signal 9 (Killed)"};
+  row.outcome = {.status = "error",
+                 .omega = "0.01",
+                 .version = "grove",
+                 .error = "ended by signal 9 (Killed)"};
   return row;
 }
 
