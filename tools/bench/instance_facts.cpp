@@ -4,16 +4,43 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <regex>
+#include <string_view>
+#include <system_error>
 
 namespace grove::bench {
 namespace {
 
-std::optional<std::int64_t> number(const std::ssub_match& digits) {
-  const std::string text = digits.str();
+namespace fs = std::filesystem;
+
+// 12 of "s12" for the letter s; none of anything else.
+std::optional<std::int64_t> numbered(std::string_view word, char letter) {
+  if (!word.starts_with(letter) || word.size() < 2) return std::nullopt;
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() ? std::optional(value) : std::nullopt;
+  const auto [end, error] = std::from_chars(word.data() + 1, word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || value < 0) return std::nullopt;
+  return value;
+}
+
+// What a name such as room-32-32-4_s3_n5_m20_mg says.
+struct NamedNumbers {
+  std::optional<std::int64_t> scenario;
+  std::optional<std::int64_t> tasks;
+};
+
+NamedNumbers numbers_in(std::string_view name) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
+    end = name.find('_', begin);
+    words.push_back(name.substr(begin, end - begin));
+  }
+  NamedNumbers numbers;
+  for (std::size_t i = 1; i + 1 < words.size(); ++i) {
+    if (!(numbers.scenario = numbered(words[i], 's'))) continue;
+    if (i + 2 < words.size() && numbered(words[i + 1], 'n'))
+      numbers.tasks = numbered(words[i + 2], 'm');
+    break;
+  }
+  return numbers;
 }
 
 std::string problem_of(const Instance& instance) {
@@ -31,18 +58,13 @@ LoadedInstance load(const batch::Entry& entry) {
 }
 
 InstanceFacts facts_of(const batch::Entry& entry, const LoadedInstance& loaded) {
-  static const std::regex scenario("_s([0-9]+)_");
-  static const std::regex tasks("_s[0-9]+_n[0-9]+_m([0-9]+)(_|$)");
   const Instance& instance = loaded.instance;
-  const std::string name = std::filesystem::path(entry.id).filename().string();
-  InstanceFacts facts{.map = loaded.map_path.stem().string(),
-                      .agents = instance.agent_count(),
-                      .tasks = instance.task_count(),
-                      .problem = problem_of(instance)};
-  std::smatch found;
-  if (std::regex_search(name, found, scenario)) facts.scenario = number(found[1]);
-  if (std::regex_search(name, found, tasks)) facts.tasks = number(found[1]).value_or(facts.tasks);
-  return facts;
+  const NamedNumbers named = numbers_in(fs::path(entry.id).filename().string());
+  return {.map = loaded.map_path.stem().string(),
+          .scenario = named.scenario,
+          .agents = instance.agent_count(),
+          .tasks = named.tasks.value_or(instance.task_count()),
+          .problem = problem_of(instance)};
 }
 
 std::vector<BenchInstance> balanced(const std::vector<batch::Entry>& entries) {

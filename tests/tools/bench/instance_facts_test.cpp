@@ -33,7 +33,18 @@ TEST(InstanceFacts, AreOfTheInstanceAndItsName) {
 TEST(InstanceFacts, HaveTheTasksOfThePapersCell) {
   const AgentSpec free{{1, 0}, std::nullopt, {{2, 0}, {3, 1}}};
   EXPECT_EQ(facts("room_s1_n1_m1_mg", {free}).tasks, 1);
-  EXPECT_EQ(facts("room_s1_n1_mX_mg", {free}).tasks, 2);
+  EXPECT_EQ(facts("room_s1_n1_m1", {free}).tasks, 1);
+  for (const char* other :
+       {"room_s1_n1_mX_mg", "room_s1_m1_n1", "room_n1_m1", "s1_n1_m1", "room_s1"})
+    EXPECT_EQ(facts(other, {free}).tasks, 2) << other;
+}
+
+TEST(InstanceFacts, KnowAScenarioWhenTheySeeOne) {
+  const AgentSpec agent{{0, 0}, Position{3, 0}};
+  EXPECT_EQ(facts("a_small_set_s07_n1", {agent}).scenario, 7);
+  for (const char* other :
+       {"a_s_n1", "a_s1", "s1_n1", "a_s-1_n1", "a_s1x_n1", "a_s99999999999999999999_n1", "", "_"})
+    EXPECT_EQ(facts(other, {agent}).scenario, std::nullopt) << other;
 }
 
 class Orders : public ::testing::Test {
