@@ -84,7 +84,7 @@ void share_memory(std::vector<bench::Method>& methods, int jobs) {
 
 void run(const CLI::App& app, BenchArguments& a) {
   if (app.count("--memory-limit") > 0) a.defaults.memory_limit_gb = a.memory_limit_gb;
-  std::vector<bench::Method> methods = parse_methods(a.runs, a.defaults);
+  std::vector<bench::Method> methods = read_runs(a.runs, a.defaults);
   const int jobs = jobs_of(a, methods);
   share_memory(methods, jobs);
   const auto instances = bench::balanced(batch::read_manifest(a.instances));

@@ -79,7 +79,7 @@ void append(Words& words, const CLI::App& app, const std::string& option,
 
 }  // namespace
 
-bench::Method parse_method(const std::string& text, const RunDefaults& defaults) {
+bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   const NameAndOptions given = split(text);
   CLI::App app;
   SolveArguments a;
@@ -118,12 +118,12 @@ bench::Method parse_method(const std::string& text, const RunDefaults& defaults)
   return method;
 }
 
-std::vector<bench::Method> parse_methods(const std::vector<std::string>& texts,
-                                         const RunDefaults& defaults) {
+std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
+                                     const RunDefaults& defaults) {
   std::vector<bench::Method> methods;
   std::set<std::string> names;
   for (const std::string& text : texts) {
-    methods.push_back(parse_method(text, defaults));
+    methods.push_back(read_run(text, defaults));
     if (!names.insert(methods.back().name).second)
       refuse(text, "a second run of that name; expected distinct ones");
   }

@@ -21,10 +21,10 @@ struct RunDefaults {
 // Reads "NAME: OPTIONS OF grove solve" as `grove solve` itself would, so that a slip is found
 // before anything runs; "NAME" alone is short for "NAME: --method NAME". Options that name files
 // are the bench's own. Throws CLI::ValidationError, naming the run.
-bench::Method parse_method(const std::string& text, const RunDefaults& defaults);
+bench::Method read_run(const std::string& text, const RunDefaults& defaults);
 
 // The same of several, whose names must differ.
-std::vector<bench::Method> parse_methods(const std::vector<std::string>& texts,
-                                         const RunDefaults& defaults);
+std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
+                                     const RunDefaults& defaults);
 
 }  // namespace grove
