@@ -22,7 +22,8 @@ constexpr const char* kFooter =
     "  grove generate instance --map my.map --scen my.scen --agents 10 --tasks 30 -o my.cts.json\n"
     "  grove generate instance --map my.map --agents 5 --tasks 10 --mg -o my_mg.cts.json\n"
     "  grove generate dataset --map my.map --scen my.scen --agents 5,10,20 --tasks 10,30,50 \\\n"
-    "        --output-dir my_set";
+    "        --output-dir my_set\n"
+    "  grove generate paper --scenarios 1-5 --output-dir paper";
 
 }  // namespace
 
@@ -62,6 +63,7 @@ void add_generate_command(CLI::App& app) {
   add_generate_scenario_command(*command);
   add_generate_instance_command(*command);
   add_generate_dataset_command(*command);
+  add_generate_paper_command(*command);
 }
 
 }  // namespace grove

@@ -20,6 +20,7 @@ void add_generate_map_command(CLI::App& generate);
 void add_generate_scenario_command(CLI::App& generate);
 void add_generate_instance_command(CLI::App& generate);
 void add_generate_dataset_command(CLI::App& generate);
+void add_generate_paper_command(CLI::App& generate);
 
 // --output, required.
 void add_output(CLI::App& command, std::string& path, const std::string& type_name);

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <functional>
 #include <memory>
 #include <set>
 
 #include "generate_commands.h"
-#include "grove/io/atomic_file.h"
+#include "generate_set.h"
 #include "grove/io/input_error.h"
-#include "grove/io/instance_file.h"
 
 namespace grove {
 namespace {
@@ -29,12 +27,6 @@ struct DatasetArguments {
   std::int64_t seed = 0;
   bool mg = false;
   std::string output_dir;
-};
-
-// A scenario and what stands for it in file names: "s7".
-struct NumberedScenario {
-  std::string number;
-  Scenario scenario;
 };
 
 // "7" of "room-32-32-4-random-7.scen"; `position` where the name does not end in a number.
@@ -56,7 +48,7 @@ std::vector<NumberedScenario> load_scenarios(const DatasetArguments& arguments, 
                        fmt::format("is a second scenario with number {}; expected "
                                    "distinct ones",
                                    number));
-    scenarios.push_back({number, load_scenario(file, arguments.map, grid)});
+    scenarios.push_back({number, load_scenario(file, arguments.map, grid), arguments.seed});
   }
   return scenarios;
 }
@@ -68,55 +60,21 @@ std::vector<NumberedScenario> draw_scenarios(const DatasetArguments& arguments, 
   for (std::int64_t k = 0; k < arguments.scenarios_to_draw; ++k)
     scenarios.push_back(
         {std::to_string(k + 1),
-         draw_scenario(arguments.map, grid, rows_needed(largest), arguments.seed + k)});
+         draw_scenario(arguments.map, grid, rows_needed(largest), arguments.seed + k),
+         arguments.seed});
   return scenarios;
-}
-
-using UseInstance = std::function<void(const std::string& name, const Instance& instance)>;
-
-void for_each_instance(const DatasetArguments& arguments, const Grid& grid,
-                       const std::vector<NumberedScenario>& scenarios, const UseInstance& use) {
-  const std::string stem = fs::path(arguments.map).stem().string();
-  for (const auto& [number, scenario] : scenarios) {
-    for (std::int64_t agents : arguments.agents) {
-      for (std::int64_t tasks : arguments.tasks) {
-        const InstanceRequest request{.agents = static_cast<int>(agents),
-                                      .tasks = static_cast<int>(tasks),
-                                      .seed = static_cast<std::uint64_t>(arguments.seed),
-                                      .mg = arguments.mg};
-        use(fmt::format("{}_s{}_n{}_m{}{}.cts.json", stem, number, agents, tasks,
-                        arguments.mg ? "_mg" : ""),
-            generate_instance(grid, scenario, request));
-      }
-    }
-  }
-}
-
-void make_directory(const fs::path& directory) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw InputError(directory.string(), "", "cannot be made: " + error.message());
 }
 
 void run(const DatasetArguments& arguments) {
   const Grid grid = load_map(arguments.map);
-  const auto scenarios = arguments.scenario_files.empty() ? draw_scenarios(arguments, grid)
-                                                          : load_scenarios(arguments, grid);
+  const std::vector<MapSet> maps{{arguments.map, grid,
+                                  arguments.scenario_files.empty()
+                                      ? draw_scenarios(arguments, grid)
+                                      : load_scenarios(arguments, grid)}};
+  const SetSizes sizes{arguments.agents, arguments.tasks, {arguments.mg}};
   // First without writing: a set that does not fit must not leave half of itself behind.
-  for_each_instance(arguments, grid, scenarios, [](const std::string&, const Instance&) {});
-
-  const fs::path directory = arguments.output_dir;
-  make_directory(directory);
-  std::string manifest;
-  const std::string map = map_as_seen_from(directory / "any", arguments.map);
-  for_each_instance(arguments, grid, scenarios,
-                    [&](const std::string& name, const Instance& instance) {
-                      write_instance(directory / name, instance, map);
-                      manifest += name + "\n";
-                    });
-  write_file_atomically(directory / "manifest.txt", manifest);
-  fmt::print("wrote {}: {} instances\n", (directory / "manifest.txt").string(),
-             std::ranges::count(manifest, '\n'));
+  require_fitting(maps, sizes);
+  write_set(arguments.output_dir, maps, sizes);
 }
 
 }  // namespace

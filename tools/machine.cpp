@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <thread>
 
 namespace grove {
@@ -36,6 +37,20 @@ std::string machine_text() {
   ::uname(&name);
   return fmt::format("{} {} {}, {} cores, {:.1f} GB", name.nodename, name.sysname, name.machine,
                      std::thread::hardware_concurrency(), physical_memory_gb());
+}
+
+std::string processor_text() {
+  utsname name{};
+  ::uname(&name);
+  std::string model = name.machine;
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(": ");
+    if (!line.starts_with("model name") || colon == std::string::npos) continue;
+    model = line.substr(colon + 2);
+    break;
+  }
+  return fmt::format("{}, {} cores", model, std::thread::hardware_concurrency());
 }
 
 }  // namespace grove

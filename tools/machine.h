@@ -13,5 +13,7 @@ int usable_cores();
 std::string usable_cores_text();
 // "host Linux x86_64, 8 cores, 16.0 GB"
 std::string machine_text();
+// "Intel(R) Xeon(R) CPU @ 2.20GHz, 8 cores": what results of several machines are told apart by.
+std::string processor_text();
 
 }  // namespace grove

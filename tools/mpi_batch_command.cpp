@@ -14,6 +14,7 @@
 
 #include "commands.h"
 #include "crew.h"
+#include "grove/batch/manifest.h"
 #include "grove/engine/run_observer.h"
 #include "grove/engine/solve.h"
 #include "grove/io/instance_file.h"
@@ -21,11 +22,11 @@
 #include "mpi/batch/farm_client.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/batch/gather.h"
-#include "mpi/batch/manifest.h"
 #include "mpi/solve_distributed.h"
 #include "mpi_commands.h"
 #include "options.h"
 #include "program.h"
+#include "progress_style.h"
 #include "signals.h"
 #include "solve_arguments.h"
 #include "solve_run.h"
@@ -212,7 +213,7 @@ class BatchRun {
   MpiSession& session_;
   SolveOptions options_;
   std::unique_ptr<Transport> world_, farm_, agreement_, search_;
-  batch::BatchProgress progress_{batch::stderr_style()};
+  batch::BatchProgress progress_{stderr_style()};
   std::optional<batch::ResultTable> table_;
   std::optional<batch::FarmMaster> master_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 #include <sstream>
 
 namespace grove {
@@ -38,6 +39,19 @@ std::vector<std::int64_t> parse_integers(const std::string& option, const std::s
   return values;
 }
 
+// "7" or "3-9".
+std::vector<std::int64_t> parse_range(const std::string& option, const std::string& text,
+                                      IntegerRange range) {
+  const std::size_t dash = text.find('-', 1);
+  const std::int64_t first = parse_integer(option, text.substr(0, dash), range);
+  const std::int64_t last =
+      dash == std::string::npos ? first : parse_integer(option, text.substr(dash + 1), range);
+  if (first > last) refuse(option, text, "the smaller number first");
+  std::vector<std::int64_t> values(static_cast<std::size_t>(last - first + 1));
+  std::iota(values.begin(), values.end(), first);
+  return values;
+}
+
 }  // namespace
 
 std::int64_t parse_integer(const std::string& option, const std::string& text, IntegerRange range) {
@@ -65,6 +79,22 @@ CLI::Option* add_integers(CLI::App& app, const std::string& name, std::vector<st
     return true;
   };
   return app.add_option(name, read, description)->type_name("N,N,...");
+}
+
+CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
+                        IntegerRange range, const std::string& shown,
+                        const std::string& description) {
+  const auto read = [&values, name, range](const CLI::results_t& results) {
+    values.clear();
+    for (const std::string& part : CLI::detail::split(results.front(), ','))
+      for (const std::int64_t value : parse_range(name, part, range)) {
+        if (std::ranges::count(values, value) > 0)
+          refuse(name, results.front(), "distinct integers");
+        values.push_back(value);
+      }
+    return true;
+  };
+  return app.add_option(name, read, description)->type_name("K-K,...")->default_str(shown);
 }
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,

@@ -24,6 +24,11 @@ CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t& v
 // "5,10,20": a list of distinct integers; no default is shown.
 CLI::Option* add_integers(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
                           IntegerRange range, const std::string& description);
+// "1-15,20": a list of distinct integers and ranges of them. `values` keeps what it is when the
+// option is not given, and `shown` is shown as that.
+CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
+                        IntegerRange range, const std::string& shown,
+                        const std::string& description);
 // A decimal number from `least` to `most`.
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,
                         double most, const std::string& description);

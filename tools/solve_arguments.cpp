@@ -166,6 +166,18 @@ void add_file_options(CLI::App& app, SolveArguments& a) {
   app.add_flag("--quiet", a.quiet, "no log on the screen");
 }
 
+void add_solve_options(CLI::App& app, SolveArguments& a) {
+  a.instance.add_to(app);
+  add_search_options(app, a);
+  app.add_flag(
+      "--deterministic", a.deterministic,
+      "let what happens depend on the work done alone: runs that come near no time or memory limit "
+      "then find the same plan and log the same, times and memory aside, whatever the number of "
+      "threads, of which it has work for four. (Without it only runs on one thread do.)");
+  add_checkpoint_options(app, a.checkpoints);
+  add_file_options(app, a);
+}
+
 std::string options_text(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {

@@ -47,6 +47,8 @@ void add_search_options(CLI::App& app, SolveArguments& arguments);
 void add_omega_option(CLI::App& app, SolveArguments& arguments);
 void add_method_options(CLI::App& app, SolveArguments& arguments);
 void add_file_options(CLI::App& app, SolveArguments& arguments);
+// All that `grove solve` knows.
+void add_solve_options(CLI::App& app, SolveArguments& arguments);
 
 // What was asked for that is not the default, as one types it.
 std::string options_text(const CLI::App& app);

@@ -76,15 +76,7 @@ void add_solve_command(CLI::App& root) {
   CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
   app->footer(kFooter);
   const auto arguments = std::make_shared<SolveArguments>();
-  arguments->instance.add_to(*app);
-  add_search_options(*app, *arguments);
-  app->add_flag(
-      "--deterministic", arguments->deterministic,
-      "let what happens depend on the work done alone: runs that come near no time or memory limit "
-      "then find the same plan and log the same, times and memory aside, whatever the number of "
-      "threads, of which it has work for four. (Without it only runs on one thread do.)");
-  add_checkpoint_options(*app, arguments->checkpoints);
-  add_file_options(*app, *arguments);
+  add_solve_options(*app, *arguments);
   app->callback([app, arguments] { run_solve(*app, *arguments); });
 }
 

@@ -2,13 +2,12 @@
 // How far a batch is, and how long it will take.
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 
+#include "grove/batch/progress.h"
 #include "mpi/batch/row.h"
 
 namespace grove::batch {
@@ -32,33 +31,16 @@ struct BatchState {
   void count(const Row& row);
 };
 
-// How long until all is done; none before the first instance is. As if the time an instance takes
-// were exponentially distributed: the mean is all time spent, on what is under way too, over the
-// number done. (Without what is under way the easy ones, which are done first, would promise too
-// much.)
+// How long until all is done, see progress.h; none before the first instance is.
 std::optional<double> seconds_left(const BatchState& state);
-
-// "1:02:03", "2:03"; whole seconds.
-std::string duration_text(double seconds);
 
 // "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, about 4:10 left"
 std::string progress_line(const BatchState& state);
-// The same after a bar, in at most `columns` columns.
-std::string progress_bar(const BatchState& state, int columns);
-
-// What is shown where.
-struct ProgressStyle {
-  bool terminal = false;  // a bar that is drawn again and again; else now and then a line
-  int columns = 80;
-  std::function<void(std::string_view)> write;
-};
-// On stderr, as it is now.
-ProgressStyle stderr_style();
 
 // Shows the progress at a decent pace. Of one thread.
 class BatchProgress {
  public:
-  explicit BatchProgress(ProgressStyle style) : style_(std::move(style)) {}
+  explicit BatchProgress(ProgressStyle style) : display_(std::move(style)) {}
 
   // Call it as often as you like.
   void show(const BatchState& state);
@@ -66,10 +48,7 @@ class BatchProgress {
   void finish(const BatchState& state);
 
  private:
-  void draw(const BatchState& state);
-
-  const ProgressStyle style_;
-  double next_s_ = 0;
+  ProgressDisplay display_;
 };
 
 }  // namespace grove::batch

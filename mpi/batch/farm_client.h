@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "mpi/batch/batch_clock.h"
-#include "mpi/batch/entry.h"
+#include "grove/batch/batch_clock.h"
+#include "grove/batch/entry.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/batch/farm_messages.h"
 #include "mpi/batch/row.h"

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "mpi/batch/batch_clock.h"
+#include "grove/batch/batch_clock.h"
+#include "grove/batch/entry.h"
 #include "mpi/batch/batch_progress.h"
-#include "mpi/batch/entry.h"
 #include "mpi/batch/farm_messages.h"
 #include "mpi/batch/grouping.h"
 #include "mpi/batch/result_table.h"

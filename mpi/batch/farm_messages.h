@@ -17,7 +17,7 @@
 #include <string_view>
 #include <variant>
 
-#include "mpi/batch/entry.h"
+#include "grove/batch/entry.h"
 #include "mpi/batch/row.h"
 
 namespace grove::batch {

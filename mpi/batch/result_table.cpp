@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/batch/result_table.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -23,23 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
-}
-
-// Held while the descriptor is open. A file of its own: those of the table are replaced.
-int lock(const fs::path& folder) {
-  const fs::path path = folder / ".lock";
-  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (fd < 0)
-    throw InputError(path.string(), "",
-                     "cannot be written: " + std::generic_category().message(errno));
-  if (::flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return fd;  // or has no locks
-  ::close(fd);
-  throw InputError(folder.string(), "",
-                   "is in use by another run; expected a folder that no other run writes to");
+fs::path made(fs::path folder) {
+  make_folder(folder);
+  return folder;
 }
 
 std::string value_text(const Settings& settings, const std::string& name) {
@@ -60,27 +42,11 @@ std::string differences(const Settings& theirs, const Settings& ours) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// The lines that `text` holds whole; what follows the last line end is torn.
-std::vector<std::string_view> whole_lines(std::string_view text) {
-  return split_lines(text.substr(0, text.rfind('\n') + 1));
-}
-
 }  // namespace
 
 ResultTable::ResultTable(fs::path folder, Settings settings)
-    : folder_(std::move(folder)), settings_(std::move(settings)) {
-  make_folder(folder_);
-  lock_ = lock(folder_);
-  try {
-    read();
-  } catch (...) {
-    ::close(lock_);
-    throw;
-  }
-}
-
-ResultTable::~ResultTable() {
-  ::close(lock_);
+    : folder_(made(std::move(folder))), settings_(std::move(settings)), lock_(folder_) {
+  read();
 }
 
 void ResultTable::read() {

@@ -29,10 +29,11 @@
 #include <string>
 #include <vector>
 
+#include "grove/batch/entry.h"
+#include "grove/batch/folder.h"
+#include "grove/batch/line_file.h"
 #include "grove/model/instance.h"
 #include "grove/model/plan.h"
-#include "mpi/batch/entry.h"
-#include "mpi/batch/line_file.h"
 #include "mpi/batch/row.h"
 
 namespace grove::batch {
@@ -43,7 +44,6 @@ class ResultTable {
   // Opens the table in `folder`, which is made if missing. Throws InputError when it cannot be read
   // or written, holds rows of other `settings`, or is in use by another run.
   ResultTable(std::filesystem::path folder, Settings settings);
-  ~ResultTable();
   ResultTable(const ResultTable&) = delete;
   ResultTable& operator=(const ResultTable&) = delete;
 
@@ -78,7 +78,7 @@ class ResultTable {
 
   const std::filesystem::path folder_;
   const Settings settings_;
-  int lock_ = -1;
+  const FolderLock lock_;
   std::vector<Row> rows_;
   std::map<std::string, std::size_t> index_;  // of rows_, by id
   std::map<std::string, std::size_t> order_;  // of the batch, by id

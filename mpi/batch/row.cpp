@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "grove/batch/csv.h"
+
 namespace grove::batch {
 namespace {
 
@@ -52,16 +54,9 @@ std::vector<std::pair<std::string, Json>> tail_columns(const Row& row) {
           {"instance_digest", row.digest}};
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
-  return result + "\"";
-}
-
 std::string csv_cell(const Json& value) {
   if (value.is_null()) return "";
-  if (value.is_string()) return quoted(value.get<std::string>());
+  if (value.is_string()) return csv_quoted(value.get<std::string>());
   if (value.is_number_float() && std::isinf(value.get<double>())) return "inf";
   return value.dump();
 }
@@ -148,7 +143,7 @@ RowAndSettings parse_json_line(std::string_view line) {
 std::string csv_header(const Settings& settings) {
   std::vector<std::string> names;
   for (const auto& [name, value] : head_columns({})) names.push_back(name);
-  for (const auto& [name, value] : settings) names.push_back(quoted(name));
+  for (const auto& [name, value] : settings) names.push_back(csv_quoted(name));
   for (const auto& [name, value] : tail_columns({})) names.push_back(name);
   return fmt::format("{}\n", fmt::join(names, ","));
 }
@@ -156,7 +151,7 @@ std::string csv_header(const Settings& settings) {
 std::string csv_line(const Row& row, const Settings& settings) {
   std::vector<std::string> cells;
   for (const auto& [name, value] : head_columns(row)) cells.push_back(csv_cell(value));
-  for (const auto& [name, value] : settings) cells.push_back(quoted(value));
+  for (const auto& [name, value] : settings) cells.push_back(csv_quoted(value));
   for (const auto& [name, value] : tail_columns(row)) cells.push_back(csv_cell(value));
   return fmt::format("{}\n", fmt::join(cells, ","));
 }

@@ -163,12 +163,13 @@ void write_scenario_instance(const std::filesystem::path& path, const Instance& 
 }
 
 void write_instance(const std::filesystem::path& path, const Instance& instance,
-                    const std::string& map) {
+                    const std::string& map, Outlives outlives) {
   OrderedJson agents = OrderedJson::array();
   for (const Agent& agent : instance.agents()) agents.push_back(agent_json(instance, agent));
   OrderedJson tasks = OrderedJson::array();
   for (const Task& task : instance.tasks()) tasks.push_back(task_json(instance, task));
-  write_file_atomically(path, dump_by_lines({{"map", map}, {"agents", agents}, {"tasks", tasks}}));
+  write_file_atomically(path, dump_by_lines({{"map", map}, {"agents", agents}, {"tasks", tasks}}),
+                        outlives);
 }
 
 }  // namespace grove

@@ -124,6 +124,81 @@ TEST(GenerateCommand, DrawsScenariosForADatasetFromAMapAlone) {
             file_content(directory / "my_s2_n5_m10_mg.cts.json"));
 }
 
+TEST(GeneratePaper, MakesOneSetOfThreeMapsAndBothProblems) {
+  const TemporaryDirectory directory;
+  const ProcessResult result = generate(
+      directory, "paper --scenarios 1-2,4 --agents 5,10 --tasks 10,30 --output-dir out/paper");
+  EXPECT_EQ(result.out, "wrote out/paper/manifest.txt: 72 instances\n") << result.err;
+  const auto names = lines_of(file_content(directory / "out/paper/manifest.txt"));
+  ASSERT_EQ(names.size(), 72U);
+  EXPECT_EQ(std::set(names.begin(), names.end()).size(), 72U);
+  EXPECT_EQ(names[0], "empty-32x32_s1_n5_m10.cts.json");
+  EXPECT_EQ(names[1], "empty-32x32_s1_n5_m10_mg.cts.json");
+  EXPECT_EQ(names[71], "rooms-32x32_s4_n10_m30_mg.cts.json");
+  for (const std::string& name : names) {
+    const Instance instance = read_instance(directory.path() / "out/paper" / name).instance;
+    EXPECT_EQ(instance.agent(0).goal.has_value(), !name.ends_with("_mg.cts.json"));
+  }
+  // Maps and instances are those of the data that comes with Grove.
+  const fs::path data = GROVE_DATA;
+  for (const char* map : {"empty-32x32.map", "random-32x32-20.map", "rooms-32x32.map"})
+    EXPECT_EQ(file_content(directory.path() / "out/paper" / map), file_content(data / map)) << map;
+  for (const char* map : {"empty-32x32", "rooms-32x32"})
+    EXPECT_EQ(
+        file_content(directory.path() / "out/paper" / (map + std::string("_s1_n5_m10.cts.json"))),
+        file_content(data / (map + std::string("_n5_m10.cts.json"))));
+}
+
+TEST(GeneratePaper, TakesScenariosOfBothKindsFromMovingAi) {
+  const TemporaryDirectory directory;
+  fs::create_directories(directory / "ai");
+  generate(directory, "map empty -o ai/m-1.map");
+  generate(directory, "scenario --map ai/m-1.map --rows 40 --seed 1 -o ai/m-1-random-3.scen");
+  generate(directory, "scenario --map ai/m-1.map --rows 40 --seed 2 -o ai/m-1-even-2.scen");
+  const std::string start = "paper --movingai ai --maps m-1 --agents 5 --tasks 10 --seed 2 ";
+  ASSERT_EQ(generate(directory, start + "--scenarios 3,27 --problem cts --output-dir out").out,
+            "wrote out/manifest.txt: 2 instances\n");
+  for (const char* one : {"random-3.scen --seed 5 -o s3", "even-2.scen --seed 29 -o s27"}) {
+    const std::string made = std::string(one).substr(std::string(one).rfind(' ') + 1);
+    generate(directory,
+             "instance --map ai/m-1.map --agents 5 --tasks 10 --scen ai/m-1-" + std::string(one));
+    const std::string text = file_content(directory / ("out/m-1_" + made + "_n5_m10.cts.json"));
+    const std::string map = "\"../ai/m-1.map\"";
+    ASSERT_NE(text.find(map), std::string::npos);
+    EXPECT_EQ(std::string(text).replace(text.find(map), map.size(), "\"ai/m-1.map\""),
+              file_content(directory / made));
+  }
+  const auto said = [&](const std::string& more) {
+    return complaint(generate(directory, start + more + " --output-dir no"));
+  };
+  EXPECT_EQ(said("--scenarios 3-4"),
+            "ai/m-1-random-4.scen: cannot be read: No such file or directory");
+  EXPECT_EQ(said("--scenarios 26"),
+            "ai/m-1-even-1.scen: cannot be read: No such file or directory");
+  EXPECT_TRUE(said("--scenarios 51").starts_with("--scenarios: expected at most 50"));
+  EXPECT_TRUE(said("--maps m-1").starts_with("--maps: expected 'm-1' once"));
+  EXPECT_FALSE(fs::exists(directory / "no"));
+}
+
+TEST(GeneratePaper, RefusesWhatMakesNoSense) {
+  const TemporaryDirectory directory;
+  const auto said = [&](const std::string& more) {
+    return complaint(generate(directory, "paper --output-dir out " + more));
+  };
+  const std::string hint = " (see 'grove generate paper --help')";
+  EXPECT_EQ(said("--maps a"), "--maps: expected only with --movingai" + hint);
+  EXPECT_EQ(said("--problem x"), "--problem: found 'x'; expected one of both, cts, mg" + hint);
+  EXPECT_EQ(said("--scenarios 3-1"),
+            "--scenarios: found '3-1'; expected the smaller number first" + hint);
+  EXPECT_EQ(said("--scenarios 1-3,2"),
+            "--scenarios: found '1-3,2'; expected distinct integers" + hint);
+  EXPECT_EQ(said("--scenarios 0-3"),
+            "--scenarios: found '0'; expected an integer from 1 to 10000" + hint);
+  EXPECT_EQ(said("--scenarios 1-"),
+            "--scenarios: found ''; expected an integer from 1 to 10000" + hint);
+  EXPECT_FALSE(fs::exists(directory / "out"));
+}
+
 TEST(GenerateCommand, RefusesCountsThatDoNotFitAndLeavesNothing) {
   const TemporaryDirectory directory;
   generate(directory, "map empty --width 10 --height 10 -o my.map");

@@ -20,7 +20,9 @@ TEST(Usage, HelpIsWorthReading) {
                                      {"generate", "map", "rooms", "--help"},
                                      {"generate", "scenario", "--help"},
                                      {"generate", "instance", "--help"},
-                                     {"generate", "dataset", "--help"}}) {
+                                     {"generate", "dataset", "--help"},
+                                     {"generate", "paper", "--help"},
+                                     {"bench", "--help"}}) {
     const ProcessResult result = run_grove(arguments);
     EXPECT_EQ(result.exit_code, 0) << arguments[0];
     EXPECT_EQ(result.err, "");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "grove/io/atomic_file.h"
 #include "grove/model/instance.h"
 
 namespace grove {
@@ -35,6 +36,6 @@ void write_scenario_instance(const std::filesystem::path& path, const Instance& 
 // Writes `instance` as *.cts.json, whole or not at all; `map` is stored as it is given and should
 // be relative to the file. Throws InputError when the file cannot be written.
 void write_instance(const std::filesystem::path& path, const Instance& instance,
-                    const std::string& map);
+                    const std::string& map, Outlives outlives = Outlives::kMachine);
 
 }  // namespace grove

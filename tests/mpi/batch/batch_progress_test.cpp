@@ -60,16 +60,7 @@ TEST(SecondsLeft, AreNotKnownBeforeTheFirstIsDone) {
   EXPECT_EQ(seconds_left(state), std::nullopt);
   state.solved = 3;
   EXPECT_EQ(seconds_left(state), 0);
-  EXPECT_EQ(seconds_left({}), 0);
-}
-
-TEST(Durations, AreClocks) {
-  EXPECT_EQ(duration_text(0), "0:00");
-  EXPECT_EQ(duration_text(-1), "0:00");
-  EXPECT_EQ(duration_text(59.6), "1:00");
-  EXPECT_EQ(duration_text(3599), "59:59");
-  EXPECT_EQ(duration_text(3600), "1:00:00");
-  EXPECT_EQ(duration_text(100 * 3600 + 62), "100:01:02");
+  EXPECT_EQ(seconds_left(BatchState{}), 0);
 }
 
 TEST(ProgressTexts, SayWhatThereIs) {
@@ -87,26 +78,6 @@ TEST(ProgressTexts, SayWhatThereIs) {
   first.total = 2;
   first.under_way = 1;
   EXPECT_EQ(progress_line(first), "0/2 done: 0 solved; 0:00 gone");
-}
-
-TEST(ProgressTexts, HaveABarWhereItFits) {
-  BatchState state;
-  state.total = 4;
-  state.solved = 1;
-  const std::string line = "1/4 done: 1 solved; 0:00 gone, about 0:00 left";
-  state.solving_s = 0.1;
-  EXPECT_EQ(progress_line(state), line);
-  EXPECT_EQ(progress_bar(state, 200), "[##########" + std::string(30, '-') + "] " + line);
-  EXPECT_EQ(progress_bar(state, 63), "[###-----------] " + line);
-  EXPECT_EQ(progress_bar(state, 58), line);
-  EXPECT_EQ(progress_bar(state, 20), line.substr(0, 20));
-  EXPECT_EQ(progress_bar(state, 0), "");
-  for (int columns = 0; columns < 150; ++columns)
-    EXPECT_LE(progress_bar(some_state(), columns).size(), static_cast<std::size_t>(columns));
-  state.solved = 4;
-  EXPECT_TRUE(progress_bar(state, 200).starts_with("[" + std::string(40, '#') + "] "));
-  state.solved = 0;
-  EXPECT_TRUE(progress_bar(state, 200).starts_with("[" + std::string(40, '-') + "] "));
 }
 
 std::string shown(bool terminal, const std::vector<double>& times) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/batch/manifest.h"
+#include "grove/batch/manifest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // FNV-1a (Fowler, Noll, Vo) with 64 bits.
-#include "mpi/batch/instance_digest.h"
+#include "grove/batch/instance_digest.h"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,13 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace grove::batch {
+
+// The lines that `text`, the content of such a file, holds whole; what follows the last line end is
+// torn. They point into `text`.
+std::vector<std::string_view> whole_lines(std::string_view text);
 
 // Appends to a file. A process that is killed leaves at most the last line torn. Of one thread.
 class LineFile {

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "mpi/batch/entry.h"
+#include "grove/batch/entry.h"
 
 namespace grove::batch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/batch/batch_clock.h"
+#include "grove/batch/batch_clock.h"
 
 #include <fmt/chrono.h>
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "mpi/batch/entry.h"
+#include "grove/batch/entry.h"
 
 namespace grove::batch {
 

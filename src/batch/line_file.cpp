@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/batch/line_file.h"
+#include "grove/batch/line_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -9,8 +9,13 @@
 #include <utility>
 
 #include "grove/io/input_error.h"
+#include "grove/io/text_file.h"
 
 namespace grove::batch {
+
+std::vector<std::string_view> whole_lines(std::string_view text) {
+  return split_lines(text.substr(0, text.rfind('\n') + 1));
+}
 
 LineFile::LineFile(std::filesystem::path path)
     : path_(std::move(path)),

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What the agents' best orders of visits cost together when nobody is in anybody's way.
+#pragma once
+
+#include <optional>
+
+#include "grove/model/instance.h"
+#include "grove/model/limits.h"
+#include "grove/model/omega.h"
+
+namespace grove {
+
+// The sum over the agents of the optimum of their sequencing problem (with or without destination,
+// as the instance has it): the cost of the first root of CTS-CBS, and a lower bound on every plan.
+// kInfiniteCost when some agent has no way; none when `limits` strike first.
+std::optional<Cost> sum_of_best_sequences(const Instance& instance, const Limits& limits);
+
+}  // namespace grove

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#include "grove/batch/csv.h"
+
+namespace grove::batch {
+
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + "\"";
+}
+
+}  // namespace grove::batch

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "grove/sequencing/sum_of_best_sequences.h"
+
+#include "grove/model/distance_field.h"
+#include "grove/sequencing/cost_matrix.h"
+#include "grove/sequencing/rtsp.h"
+
+namespace grove {
+
+std::optional<Cost> sum_of_best_sequences(const Instance& instance, const Limits& limits) {
+  const DistanceFields distances(instance, limits);
+  if (!distances.complete()) return std::nullopt;
+  Cost sum = 0;
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    if (limits.stop_requested()) return std::nullopt;
+    const CostMatrix matrix = cost_matrix(instance, i, distances);
+    const RtspAnswer answer =
+        make_rtsp_solver(RtspBackend::kAuto, matrix, limits)->best({}, kNever);
+    if (answer.kind == RtspAnswer::Kind::kStopped) return std::nullopt;
+    if (answer.kind != RtspAnswer::Kind::kExact || answer.cost >= kNever) return kInfiniteCost;
+    sum += answer.cost;
+  }
+  return sum;
+}
+
+}  // namespace grove

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "grove/batch/line_file.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/refusal.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove::batch {
+namespace {
+
+using Lines = std::vector<std::string_view>;
+
+TEST(LineFiles, Grow) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.write("lines", "a\n");
+  {
+    LineFile file(path);
+    file.append("b\nc\n");
+    file.append("");
+    file.append("d\n");
+    file.flush();
+  }
+  EXPECT_EQ(file_content(path), "a\nb\nc\nd\n");
+  EXPECT_NE(refusal([&] { LineFile file(directory.path()); }).find("cannot be written"),
+            std::string::npos);
+}
+
+TEST(LineFiles, AreReadWithoutATornLine) {
+  EXPECT_EQ(whole_lines(""), Lines());
+  EXPECT_EQ(whole_lines("tor"), Lines());
+  EXPECT_EQ(whole_lines("a\nb\n"), (Lines{"a", "b"}));
+  EXPECT_EQ(whole_lines("a\n\nb\ntor"), (Lines{"a", "", "b"}));
+}
+
+}  // namespace
+}  // namespace grove::batch

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "grove/sequencing/sum_of_best_sequences.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "grove/model/distance_field.h"
+#include "tests/support/instances.h"
+
+namespace grove::testing {
+namespace {
+
+Time distance(const Instance& instance, Cell from, Cell to) {
+  return distance_field(instance.grid(), to)[from];
+}
+
+// Over all orders of visits.
+Time best_by_brute_force(const Instance& instance, const Agent& agent) {
+  std::vector<std::size_t> order(agent.tasks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  Time best = kNever;
+  do {
+    Time cost = 0;
+    Cell at = agent.start;
+    for (const std::size_t k : order) {
+      const Cell next = instance.task(agent.tasks[k]).cell;
+      cost += distance(instance, at, next);
+      at = next;
+    }
+    if (agent.goal) cost += distance(instance, at, *agent.goal);
+    best = std::min(best, cost);
+  } while (std::ranges::next_permutation(order).found);
+  return best;
+}
+
+const std::vector<std::string> kRooms{"........", "@.@@.@@.", "........", "...@....", "...@...."};
+
+TEST(SumOfBestSequences, IsTheBestOfAllOrders) {
+  const Instance instance =
+      instance_of(kRooms, {{{0, 0}, Position{7, 4}, {{5, 0}, {0, 4}, {4, 3}, {2, 2}}},
+                           {{7, 0}, std::nullopt, {{0, 4}, {6, 4}, {3, 0}}},
+                           {{1, 2}, Position{2, 0}}});
+  Cost expected = 0;
+  for (const Agent& agent : instance.agents()) expected += best_by_brute_force(instance, agent);
+  EXPECT_EQ(sum_of_best_sequences(instance, Limits()), expected);
+}
+
+TEST(SumOfBestSequences, IsInfiniteWhereThereIsNoWay) {
+  EXPECT_EQ(sum_of_best_sequences(instance_of({"..@."}, {{{0, 0}, Position{3, 0}}}), Limits()),
+            kInfiniteCost);
+  EXPECT_EQ(sum_of_best_sequences(instance_of({"..@."}, {{{0, 0}, std::nullopt, {{1, 0}, {3, 0}}}}),
+                                  Limits()),
+            kInfiniteCost);
+}
+
+TEST(SumOfBestSequences, IsNotKnownWhenALimitStrikes) {
+  Limits limits;
+  limits.set_deadline(Limits::Clock::now());
+  EXPECT_EQ(
+      sum_of_best_sequences(instance_of(kRooms, {{{0, 0}, Position{7, 4}, {{5, 0}}}}), limits),
+      std::nullopt);
+}
+
+}  // namespace
+}  // namespace grove::testing

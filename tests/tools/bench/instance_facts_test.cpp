@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "tools/bench/instance_facts.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/instances.h"
+#include "tests/support/refusal.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove::bench {
+namespace {
+
+using grove::testing::AgentSpec;
+using grove::testing::instance_of;
+
+InstanceFacts facts(const std::string& id, const std::vector<AgentSpec>& agents) {
+  return facts_of({.id = id, .path = ""},
+                  {instance_of({"....", "...."}, agents), "x/room-32.map", {}});
+}
+
+TEST(InstanceFacts, AreOfTheInstanceAndItsName) {
+  const AgentSpec with_goal{{0, 0}, Position{3, 0}, {{1, 1}, {2, 1}}};
+  const AgentSpec free{{1, 0}, std::nullopt, {{2, 0}}};
+  EXPECT_EQ(facts("set/room_s12_n1_m2", {with_goal}), (InstanceFacts{"room-32", 12, 1, 2, "cts"}));
+  EXPECT_EQ(facts("anything", {with_goal, free}),
+            (InstanceFacts{"room-32", std::nullopt, 2, 3, "mixed"}));
+  EXPECT_EQ(facts("a_s3_x", {free}), (InstanceFacts{"room-32", 3, 1, 1, "mg"}));
+  EXPECT_EQ(facts("_s3_n1_m9/x", {{{0, 0}, Position{3, 0}}}),
+            (InstanceFacts{"room-32", std::nullopt, 1, 0, "mapf"}));
+}
+
+// What was a destination is one more task of an MG-MAPF instance.
+TEST(InstanceFacts, HaveTheTasksOfThePapersCell) {
+  const AgentSpec free{{1, 0}, std::nullopt, {{2, 0}, {3, 1}}};
+  EXPECT_EQ(facts("room_s1_n1_m1_mg", {free}).tasks, 1);
+  EXPECT_EQ(facts("room_s1_n1_m1", {free}).tasks, 1);
+  for (const char* other :
+       {"room_s1_n1_mX_mg", "room_s1_m1_n1", "room_n1_m1", "s1_n1_m1", "room_s1"})
+    EXPECT_EQ(facts(other, {free}).tasks, 2) << other;
+}
+
+TEST(InstanceFacts, KnowAScenarioWhenTheySeeOne) {
+  const AgentSpec agent{{0, 0}, Position{3, 0}};
+  EXPECT_EQ(facts("a_small_set_s07_n1", {agent}).scenario, 7);
+  for (const char* other :
+       {"a_s_n1", "a_s1", "s1_n1", "a_s-1_n1", "a_s1x_n1", "a_s99999999999999999999_n1", "", "_"})
+    EXPECT_EQ(facts(other, {agent}).scenario, std::nullopt) << other;
+}
+
+class Orders : public ::testing::Test {
+ protected:
+  batch::Entry entry(const std::string& id) {
+    directory_.write("a.map", "type octile\nheight 1\nwidth 2\nmap\n..\n");
+    return {.id = id,
+            .path = directory_.write(
+                id + ".cts.json",
+                R"({"map": "a.map", "agents": [{"id": "a", "start": [0, 0], "goal": [1, 0]}],
+                    "tasks": []})")};
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Orders, AreBalanced) {
+  std::vector<std::string> ids;
+  for (const BenchInstance& instance :
+       balanced({entry("b_s2_n5"), entry("b_s10_n5"), entry("b_s1_n5"), entry("a_s1_n5"),
+                 entry("a_s2_n5"), entry("other")}))
+    ids.push_back(instance.entry.id);
+  EXPECT_EQ(ids, (std::vector<std::string>{"other", "b_s1_n5", "a_s1_n5", "b_s2_n5", "a_s2_n5",
+                                           "b_s10_n5"}));
+}
+
+TEST_F(Orders, RefuseABrokenInstance) {
+  EXPECT_NE(refusal([&] {
+              balanced({entry("good"), {.id = "x", .path = directory_.write("x.cts.json", "{")}});
+            }).find("x.cts.json"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace grove::bench

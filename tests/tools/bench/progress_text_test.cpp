@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "tools/bench/progress_text.h"
+
+#include <gtest/gtest.h>
+
+#include "rows.h"
+
+namespace grove::bench {
+namespace {
+
+BenchState counted() {
+  BenchState state{.methods = {"auto", "paper"}, .counts = {{"auto", {}}, {"paper", {}}}};
+  state.work.left = 10;
+  state.work.workers = 2;
+  state.elapsed_s = 65;
+  for (const double wall_s : {3.0, 1.0, 4.0}) {
+    Row row = solved_row("i", "auto");
+    row.wall_s = wall_s;
+    state.count(row);
+  }
+  Row failed = failed_row("i", "paper");
+  failed.wall_s = 2;
+  state.count(failed);
+  return state;
+}
+
+TEST(BenchProgress, SaysHowFarAndHowGood) {
+  EXPECT_EQ(progress_text(counted()).line,
+            "4/10 done; 1:05 gone, about 0:08 left; solved: auto 3/3, paper 0/1; 1 error");
+  EXPECT_EQ(progress_text(counted()).done, 4);
+  EXPECT_EQ(progress_text(counted()).total, 10);
+}
+
+TEST(BenchSummary, HasMediansOfWhatWasSolved) {
+  BenchState state = counted();
+  EXPECT_EQ(summary_table(state),
+            "method   solved/run  median s  errors\n"
+            "auto            3/3      3.00       0\n"
+            "paper           0/1         -       1\n");
+  Row row = solved_row("i", "auto");
+  row.wall_s = 5;
+  state.count(row);
+  EXPECT_NE(summary_table(state).find("4/4      3.50"), std::string::npos) << summary_table(state);
+}
+
+}  // namespace
+}  // namespace grove::bench

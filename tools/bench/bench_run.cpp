@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// A worker is a thread that runs one child after the other, judges each and writes its row: as many
+// workers as children may run, so that judging takes no core from them. One mutex guards the table
+// and the counts; children run, and plans are checked, outside of it.
+//
+// A row is written only when the run has ended and was judged; a plan that is kept is in its place
+// before. Whatever ends this process therefore leaves no row of what was under way, and its
+// children die with it.
+#include "tools/bench/bench_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "grove/batch/batch_clock.h"
+#include "grove/io/input_error.h"
+#include "tools/bench/child_process.h"
+#include "tools/bench/judge.h"
+#include "tools/bench/result_table.h"
+#include "tools/bench/root_costs.h"
+
+namespace grove::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kCsvInterval_s = 30;  // the whole file is written each time
+// The disk takes longer than a quick run. What a crash of the machine loses is run again.
+constexpr double kFlushInterval_s = 1;
+constexpr auto kWatchInterval = std::chrono::milliseconds(100);
+
+class Bench {
+ public:
+  Bench(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
+        const BenchOptions& options)
+      : instances_(instances),
+        methods_(methods),
+        options_(options),
+        table_(options.folder),
+        runs_(identities()),
+        todo_(table_.begin(runs_)),
+        root_costs_(instances.size(), options.root_cost_s,
+                    static_cast<std::size_t>(options.root_cost_gb * 1e9)) {
+    count_rows_that_stand();
+    under_way_.resize(workers());
+  }
+
+  BenchState run() {
+    fs::remove_all(scratch());  // of a bench that was killed
+    batch::make_folder(scratch());
+    std::vector<std::jthread> threads;
+    for (std::size_t worker = 0; worker < workers(); ++worker)
+      threads.emplace_back([this, worker] { work(worker); });
+    while (working_ > 0) {
+      if (options_.watch) options_.watch(state());
+      std::this_thread::sleep_for(kWatchInterval);
+    }
+    threads.clear();
+    fs::remove_all(scratch());
+    if (failure_) std::rethrow_exception(failure_);
+    table_.flush();
+    table_.write_csv();
+    return state();
+  }
+
+ private:
+  struct UnderWay {
+    bool busy = false;
+    Clock::time_point since;
+  };
+
+  // --- which runs there are ---
+
+  std::vector<RunIdentity> identities() const {
+    std::vector<RunIdentity> runs;
+    for (const BenchInstance& instance : instances_)
+      for (const Method& method : methods_)
+        runs.push_back({.instance = instance.entry.id,
+                        .method = method.name,
+                        .options = method.options(),
+                        .seed = method.seed,
+                        .time_limit_s = method.time_limit_s,
+                        .memory_limit_gb = method.memory_limit_gb,
+                        .digest = instance.entry.digest});
+    return runs;
+  }
+  const Method& method_of(std::size_t run) const { return methods_[run % methods_.size()]; }
+  std::size_t instance_index(std::size_t run) const { return run / methods_.size(); }
+
+  void count_rows_that_stand() {
+    state_.work.left = static_cast<int>(runs_.size());
+    state_.work.workers = static_cast<int>(std::max<std::size_t>(1, workers()));
+    for (const Method& method : methods_) {
+      state_.methods.push_back(method.name);
+      state_.counts[method.name];
+    }
+    for (const RunIdentity& run : runs_)
+      if (const Row* row = table_.find(run)) {
+        state_.count(*row);
+        if (row->outcome.version != options_.version)
+          state_.other_versions.insert(row->outcome.version);
+      }
+  }
+
+  std::size_t workers() const {
+    return std::min(todo_.size(), static_cast<std::size_t>(options_.jobs));
+  }
+
+  // --- a worker ---
+
+  void work(std::size_t worker) {
+    try {
+      while (const auto run = take(worker)) do_run(*run, worker);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      failed_ = true;  // the others need not go on
+    }
+    --working_;
+  }
+
+  std::optional<std::size_t> take(std::size_t worker) {
+    const std::lock_guard lock(mutex_);
+    under_way_[worker].busy = false;
+    if (must_stop() || next_ == todo_.size()) return std::nullopt;
+    under_way_[worker] = {true, Clock::now()};
+    return todo_[next_++];
+  }
+
+  bool must_stop() const { return failed_ || options_.stopped(); }
+
+  void do_run(std::size_t run, std::size_t worker) {
+    const BenchInstance& instance = instances_[instance_index(run)];
+    const Method& method = method_of(run);
+    const fs::path plan = scratch() / fmt::format("{}.plan.json", worker);
+    const fs::path said = scratch() / fmt::format("{}.txt", worker);
+    fs::remove(plan);
+    const ChildEnd end =
+        run_child(command(instance.entry, method, plan), said,
+                  {.seconds = method.time_limit_s * options_.grace_factor + options_.grace_s,
+                   .cancelled = [this] { return must_stop(); }});
+    if (end.kind == ChildEnd::Kind::kCancelled) return;
+
+    Row row{.run = runs_[run],
+            .instance = instance.facts,
+            .threads = method.threads,
+            .wall_s = end.wall_s,
+            .machine = options_.machine,
+            .ended_at = batch::machine_clock().utc()};
+    judge(row, end, run, plan, said);
+    if (was_interrupted(row.outcome) && must_stop()) return;  // the signal was for us all
+    if (row.outcome.version.empty()) row.outcome.version = options_.version;
+    if (row.outcome.omega.empty()) row.outcome.omega = method.omega;
+    if (options_.keep_plans) keep(plan, method, instance.entry);
+    record(row);
+  }
+
+  std::vector<std::string> command(const batch::Entry& entry, const Method& method,
+                                   const fs::path& plan) const {
+    std::vector<std::string> words{options_.program, "solve", entry.path};
+    if (entry.agents > 0)
+      words.insert(words.end(), {"--map", entry.map, "--agents", std::to_string(entry.agents)});
+    words.insert(words.end(), method.arguments.begin(), method.arguments.end());
+    words.insert(words.end(), {"--output", plan.string(), "--quiet"});
+    return words;
+  }
+
+  // Reads the instance anew: what is re-checked depends on the files alone.
+  void judge(Row& row, const ChildEnd& end, std::size_t run, const fs::path& plan,
+             const fs::path& said) {
+    const std::size_t index = instance_index(run);
+    try {
+      const LoadedInstance loaded = load(instances_[index].entry);
+      row.outcome = judged(end, loaded.instance, plan, said);
+      row.root_cost = root_costs_.of(index, loaded.instance);
+    } catch (const InputError& error) {
+      row.outcome = {.error = error.what()};
+    }
+  }
+
+  void keep(const fs::path& plan, const Method& method, const batch::Entry& entry) const {
+    const fs::path kept = options_.folder / "plans" / method.name / (entry.id + ".plan.json");
+    if (!fs::exists(plan)) return;
+    batch::make_folder(kept.parent_path());
+    fs::rename(plan, kept);
+  }
+
+  void record(const Row& row) {
+    const std::lock_guard lock(mutex_);
+    table_.append(row);
+    state_.count(row);
+    if (seconds() >= next_flush_s_) {
+      table_.flush();
+      next_flush_s_ = seconds() + kFlushInterval_s;
+    }
+    if (seconds() < next_csv_s_) return;
+    table_.write_csv();
+    next_csv_s_ = seconds() + kCsvInterval_s;
+  }
+
+  // --- what one sees of it ---
+
+  BenchState state() {
+    const std::lock_guard lock(mutex_);
+    BenchState state = state_;
+    state.elapsed_s = seconds();
+    const Clock::time_point now = Clock::now();
+    for (const UnderWay& run : under_way_)
+      if (run.busy)
+        state.work.under_way_s += std::chrono::duration<double>(now - run.since).count();
+    return state;
+  }
+
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  fs::path scratch() const { return options_.folder / ".running"; }
+
+  const std::vector<BenchInstance>& instances_;
+  const std::vector<Method>& methods_;
+  const BenchOptions& options_;
+  const Clock::time_point start_ = Clock::now();
+  ResultTable table_;
+  const std::vector<RunIdentity> runs_;
+  const std::vector<std::size_t> todo_;  // of runs_
+  RootCosts root_costs_;
+
+  std::mutex mutex_;  // guards the table and all below
+  std::size_t next_ = 0;
+  BenchState state_;
+  std::vector<UnderWay> under_way_;  // by worker
+  double next_csv_s_ = 0;
+  double next_flush_s_ = 0;
+  std::exception_ptr failure_;
+  std::atomic<bool> failed_ = false;
+  std::atomic<std::size_t> working_ = workers();
+};
+
+}  // namespace
+
+std::string Method::options() const {
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+BenchState run_bench(const std::vector<BenchInstance>& instances,
+                     const std::vector<Method>& methods, const BenchOptions& options) {
+  return Bench(instances, methods, options).run();
+}
+
+}  // namespace grove::bench

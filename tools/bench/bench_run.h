@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Methods x instances: who runs what when, and what is kept of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/bench/instance_facts.h"
+#include "tools/bench/progress_text.h"
+
+namespace grove::bench {
+
+struct Method {
+  std::string name;                // unique; names files
+  std::vector<std::string> words;  // the options as given, one word each
+  std::string omega = {};          // what they amount to, for runs that end without a plan file
+  std::int64_t seed = 0;
+  double time_limit_s = 0;
+  std::optional<double> memory_limit_gb = {};  // none: by the machine
+  std::int64_t threads = 1;
+  // What `grove solve INSTANCE` is called with, but for the plan file.
+  std::vector<std::string> arguments = {};
+
+  std::string options() const;  // the words in one line
+};
+
+struct BenchOptions {
+  std::string program;  // grove
+  std::filesystem::path folder;
+  int jobs = 1;
+  bool keep_plans = false;
+  double root_cost_s = 10;        // for the root cost of an instance
+  double root_cost_gb = 1;        // the process may have so much while it works one out
+  double grace_s = 10;            // so much longer than its time limit a run may last, and
+  double grace_factor = 1.1;      // so many times its time limit
+  std::string version;            // of runs that do not say
+  std::string machine;            // a text for the rows
+  std::function<bool()> stopped;  // by the user; of any thread
+  std::function<void(const BenchState&)> watch;  // called several times a second
+};
+
+// Runs all methods on all instances, all on one instance before the next, `jobs` at a time, each a
+// process of its own; and goes on with what an earlier bench left in the folder. Every plan is
+// re-checked. Ends when all is done, or soon after options.stopped() says so: what is under way is
+// then given up and has no row. Returns the state at the end. Throws InputError when the folder
+// cannot be used or holds rows of other runs; std::system_error.
+BenchState run_bench(const std::vector<BenchInstance>& instances,
+                     const std::vector<Method>& methods, const BenchOptions& options);
+
+}  // namespace grove::bench

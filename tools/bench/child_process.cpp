@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "tools/bench/child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <system_error>
+
+namespace grove::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kLookInterval_ms = 100;
+constexpr int kCannotBeStarted = 127;
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+class Descriptor {
+ public:
+  Descriptor(int fd, const char* what) : fd_(fd) {
+    if (fd_ < 0) fail(what);
+  }
+  ~Descriptor() { ::close(fd_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+
+ private:
+  const int fd_;
+};
+
+// Between fork() and exec(), where only what is safe in a signal handler may be called.
+[[noreturn]] void become(char* const* arguments, pid_t parent, int input, int output) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::setpgid(0, 0);
+  const bool orphaned = ::getppid() != parent;  // before the line above could help
+  if (!orphaned && ::dup2(input, STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
+      ::dup2(output, STDERR_FILENO) >= 0)
+    ::execv(arguments[0], arguments);
+  ::_exit(kCannotBeStarted);
+}
+
+ChildEnd ended(pid_t pid) {
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0)
+    if (errno != EINTR) fail("waitpid");
+  if (WIFSIGNALED(status)) return {ChildEnd::Kind::kSignalled, WTERMSIG(status)};
+  return {ChildEnd::Kind::kExited, WEXITSTATUS(status)};
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& said,
+                   const ChildLimits& limits) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const Descriptor input(::open("/dev/null", O_RDONLY | O_CLOEXEC), "/dev/null");
+  const Descriptor output(::open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666),
+                          said.c_str());
+
+  const pid_t parent = ::getpid();
+  const Clock::time_point start = Clock::now();
+  const pid_t pid = ::fork();
+  if (pid < 0) fail("fork");
+  if (pid == 0) become(arguments.data(), parent, input.get(), output.get());
+
+  // glibc 2.36 declares pidfd_open() for C alone.
+  const auto handle = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));
+  if (handle < 0) {
+    const int error = errno;
+    ::kill(pid, SIGKILL);
+    ended(pid);
+    errno = error;
+    fail("pidfd_open");
+  }
+  const Descriptor process(handle, "pidfd_open");
+  auto killed = ChildEnd::Kind::kExited;  // that is: not
+  for (;;) {
+    pollfd wait{process.get(), POLLIN, 0};
+    if (::poll(&wait, 1, kLookInterval_ms) > 0) break;
+    if (killed != ChildEnd::Kind::kExited) continue;
+    if (limits.cancelled()) killed = ChildEnd::Kind::kCancelled;
+    if (seconds_since(start) > limits.seconds) killed = ChildEnd::Kind::kTooLong;
+    if (killed != ChildEnd::Kind::kExited) ::kill(pid, SIGKILL);
+  }
+  const double wall_s = seconds_since(start);
+  ChildEnd end = ended(pid);
+  end.wall_s = wall_s;
+  const bool was_killed = end.kind == ChildEnd::Kind::kSignalled && end.code == SIGKILL;
+  if (killed != ChildEnd::Kind::kExited && was_killed) end.kind = killed;
+  return end;
+}
+
+}  // namespace grove::bench

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Running a program to its end.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace grove::bench {
+
+struct ChildLimits {
+  double seconds = 0;               // then it is killed
+  std::function<bool()> cancelled;  // asked several times a second; then it is killed
+};
+
+struct ChildEnd {
+  enum class Kind : std::uint8_t {
+    kExited,     // by itself: `code` is its exit code
+    kSignalled,  // ended by the signal `code`
+    kTooLong,    // killed at the limit
+    kCancelled,  // killed because that was asked for
+  };
+  Kind kind = Kind::kExited;
+  int code = 0;
+  double wall_s = 0;  // from its start to its end
+};
+
+// Runs `command`, a program and its arguments, and waits for it; nothing is on its standard input,
+// and what it says goes to the file `said`. It dies with this process, however that ends, and is in
+// a process group of its own: a Ctrl-C is for the caller alone. A program that cannot be started
+// exits with 127. Of any thread, which must live as long. Throws std::system_error when there are
+// no more processes or files.
+ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& said,
+                   const ChildLimits& limits);
+
+}  // namespace grove::bench

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "tools/bench/instance_facts.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+namespace grove::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+// 12 of "s12" for the letter s; none of anything else.
+std::optional<std::int64_t> numbered(std::string_view word, char letter) {
+  if (!word.starts_with(letter) || word.size() < 2) return std::nullopt;
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data() + 1, word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || value < 0) return std::nullopt;
+  return value;
+}
+
+// What a name such as room-32-32-4_s3_n5_m20_mg says.
+struct NamedNumbers {
+  std::optional<std::int64_t> scenario;
+  std::optional<std::int64_t> tasks;
+};
+
+NamedNumbers numbers_in(std::string_view name) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
+    end = name.find('_', begin);
+    words.push_back(name.substr(begin, end - begin));
+  }
+  NamedNumbers numbers;
+  for (std::size_t i = 1; i + 1 < words.size(); ++i) {
+    if (!(numbers.scenario = numbered(words[i], 's'))) continue;
+    if (i + 2 < words.size() && numbered(words[i + 1], 'n'))
+      numbers.tasks = numbered(words[i + 2], 'm');
+    break;
+  }
+  return numbers;
+}
+
+std::string problem_of(const Instance& instance) {
+  if (instance.task_count() == 0) return "mapf";
+  const auto with_goal = std::ranges::count_if(
+      instance.agents(), [](const Agent& agent) { return agent.goal.has_value(); });
+  return with_goal == instance.agent_count() ? "cts" : with_goal == 0 ? "mg" : "mixed";
+}
+
+}  // namespace
+
+LoadedInstance load(const batch::Entry& entry) {
+  return entry.agents > 0 ? read_scenario_instance(entry.path, entry.map, entry.agents)
+                          : read_instance(entry.path);
+}
+
+InstanceFacts facts_of(const batch::Entry& entry, const LoadedInstance& loaded) {
+  const Instance& instance = loaded.instance;
+  const NamedNumbers named = numbers_in(fs::path(entry.id).filename().string());
+  return {.map = loaded.map_path.stem().string(),
+          .scenario = named.scenario,
+          .agents = instance.agent_count(),
+          .tasks = named.tasks.value_or(instance.task_count()),
+          .problem = problem_of(instance)};
+}
+
+std::vector<BenchInstance> balanced(const std::vector<batch::Entry>& entries) {
+  std::vector<BenchInstance> instances;
+  for (const batch::Entry& entry : entries)
+    instances.push_back({entry, facts_of(entry, load(entry))});
+  std::ranges::stable_sort(instances, {}, [](const BenchInstance& instance) {
+    return instance.facts.scenario.value_or(0);
+  });
+  return instances;
+}
+
+}  // namespace grove::bench

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What to make of a run that has ended.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "grove/model/instance.h"
+#include "tools/bench/child_process.h"
+#include "tools/bench/row.h"
+
+namespace grove::bench {
+
+// The outcome of a solve of `instance` that was to write `plan_file` and said what is in the file
+// `said`: believes the plan file nothing that the checker can work out itself. Never throws for
+// what the run did wrong: that is an outcome. Not for runs that were cancelled.
+Outcome judged(const ChildEnd& end, const Instance& instance,
+               const std::filesystem::path& plan_file, const std::filesystem::path& said);
+
+// A run that was stopped from outside, and not by a limit of its own.
+bool was_interrupted(const Outcome& outcome);
+
+}  // namespace grove::bench

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// How far a bench is, in words.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "grove/batch/progress.h"
+#include "tools/bench/row.h"
+
+namespace grove::bench {
+
+// What has become of a method's runs.
+struct MethodCount {
+  int runs = 0;
+  int solved = 0;
+  int errors = 0;
+  std::vector<double> solved_s = {};  // runtimes of those solved
+
+  void count(const Row& row);
+};
+
+// A bench at one moment. Runs of earlier commands count as done.
+struct BenchState {
+  std::vector<std::string> methods;           // in the order of the command line
+  std::map<std::string, MethodCount> counts;  // of all of them
+  batch::Workload work = {};
+  double elapsed_s = 0;                       // since this command began
+  std::set<std::string> other_versions = {};  // of the program, that made rows which stand
+
+  void count(const Row& row);
+};
+
+// "41/135 done; 2:05 gone, about 4:10 left; solved: cts-cbs-a 20/21, auto 20/20; 1 error"
+batch::ProgressText progress_text(const BenchState& state);
+
+// A line for each method: solved of those run, the median runtime of those solved, errors.
+std::string summary_table(const BenchState& state);
+
+}  // namespace grove::bench

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "tools/bench/row.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "grove/batch/csv.h"
+#include "grove/model/plan.h"
+
+namespace grove::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Value>
+Json optional_json(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+// To a millionth: nobody reads more.
+double rounded(double value) {
+  return std::round(value * 1e6) / 1e6;
+}
+
+Json text_or_null(const std::string& text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
+Json ratio(std::optional<Cost> numerator, std::optional<Cost> denominator) {
+  if (!numerator || !denominator || *denominator == 0) return nullptr;
+  return rounded(static_cast<double>(*numerator) / static_cast<double>(*denominator));
+}
+
+// (cost - lower bound) / lower bound; none over a bound of 0 that is not met.
+Json gap(const Outcome& outcome) {
+  if (!outcome.cost || !outcome.lower_bound) return nullptr;
+  if (*outcome.cost == *outcome.lower_bound) return 0.0;
+  return ratio(*outcome.cost - *outcome.lower_bound, outcome.lower_bound);
+}
+
+// The columns, once for all formats.
+std::vector<std::pair<std::string, Json>> columns(const Row& row) {
+  const Outcome& outcome = row.outcome;
+  return {{"instance", row.run.instance},
+          {"method", row.run.method},
+          {"options", row.run.options},
+          {"map", row.instance.map},
+          {"scenario", optional_json(row.instance.scenario)},
+          {"agents", row.instance.agents},
+          {"tasks", row.instance.tasks},
+          {"problem", row.instance.problem},
+          {"omega", outcome.omega},
+          {"seed", row.run.seed},
+          {"time_limit_s", row.run.time_limit_s},
+          {"solved", outcome.solved},
+          {"status", outcome.status},
+          {"cost", optional_json(outcome.cost)},
+          {"lower_bound", optional_json(outcome.lower_bound)},
+          {"gap", gap(outcome)},
+          {"root_cost", optional_json(row.root_cost)},
+          {"sqr", outcome.solved ? ratio(row.root_cost, outcome.cost) : Json(nullptr)},
+          {"runtime_s", rounded(row.runtime_s())},
+          {"wall_s", rounded(row.wall_s)},
+          {"roots", optional_json(outcome.roots)},
+          {"rtsp_calls", optional_json(outcome.rtsp_calls)},
+          {"nodes", optional_json(outcome.nodes)},
+          {"low_level_calls", optional_json(outcome.low_level_calls)},
+          {"peak_memory_mb", optional_json(outcome.peak_memory_mb)},
+          {"version", outcome.version},
+          {"machine", row.machine},
+          {"ended_at", row.ended_at},
+          {"error", text_or_null(outcome.error)},
+          {"threads", row.threads},
+          {"memory_limit_gb", optional_json(row.run.memory_limit_gb)},
+          {"instance_digest", row.run.digest}};
+}
+
+template <typename Value>
+std::optional<Value> optional_member(const nlohmann::json& json, const char* key) {
+  const auto& value = json.at(key);
+  if (value.is_null()) return std::nullopt;
+  return value.get<Value>();
+}
+
+RunIdentity identity_of(const nlohmann::json& json) {
+  return {.instance = json.at("instance").get<std::string>(),
+          .method = json.at("method").get<std::string>(),
+          .options = json.at("options").get<std::string>(),
+          .seed = json.at("seed").get<std::int64_t>(),
+          .time_limit_s = json.at("time_limit_s").get<double>(),
+          .memory_limit_gb = optional_member<double>(json, "memory_limit_gb"),
+          .digest = json.at("instance_digest").get<std::string>()};
+}
+
+InstanceFacts facts_of(const nlohmann::json& json) {
+  return {.map = json.at("map").get<std::string>(),
+          .scenario = optional_member<std::int64_t>(json, "scenario"),
+          .agents = json.at("agents").get<std::int64_t>(),
+          .tasks = json.at("tasks").get<std::int64_t>(),
+          .problem = json.at("problem").get<std::string>()};
+}
+
+Outcome outcome_of(const nlohmann::json& json) {
+  Outcome outcome{.status = json.at("status").get<std::string>(),
+                  .solved = json.at("solved").get<bool>(),
+                  .cost = optional_member<Cost>(json, "cost"),
+                  .lower_bound = optional_member<Cost>(json, "lower_bound"),
+                  .roots = optional_member<std::int64_t>(json, "roots"),
+                  .rtsp_calls = optional_member<std::int64_t>(json, "rtsp_calls"),
+                  .nodes = optional_member<std::int64_t>(json, "nodes"),
+                  .low_level_calls = optional_member<std::int64_t>(json, "low_level_calls"),
+                  .peak_memory_mb = optional_member<double>(json, "peak_memory_mb"),
+                  .omega = json.at("omega").get<std::string>(),
+                  .version = json.at("version").get<std::string>(),
+                  .error = optional_member<std::string>(json, "error").value_or("")};
+  if (!outcome.failed() && !parse_status(outcome.status))
+    throw std::invalid_argument(fmt::format("status '{}'", outcome.status));
+  return outcome;
+}
+
+std::string csv_cell(const Json& value) {
+  if (value.is_null()) return "";
+  if (value.is_string()) return batch::csv_quoted(value.get<std::string>());
+  return value.dump();
+}
+
+}  // namespace
+
+std::string json_line(const Row& row) {
+  Json json = Json::object();
+  for (auto& [name, value] : columns(row)) json[name] = std::move(value);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Row parse_json_line(std::string_view line) {
+  try {
+    const auto json = nlohmann::json::parse(line);
+    return {.run = identity_of(json),
+            .instance = facts_of(json),
+            .threads = json.at("threads").get<std::int64_t>(),
+            .outcome = outcome_of(json),
+            .root_cost = optional_member<Cost>(json, "root_cost"),
+            .wall_s = json.at("wall_s").get<double>(),
+            .machine = json.at("machine").get<std::string>(),
+            .ended_at = json.at("ended_at").get<std::string>()};
+  } catch (const nlohmann::json::exception& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
+
+std::string csv_header() {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : columns({})) names.push_back(name);
+  return fmt::format("{}\n", fmt::join(names, ","));
+}
+
+std::string csv_line(const Row& row) {
+  std::vector<std::string> cells;
+  for (const auto& [name, value] : columns(row)) cells.push_back(csv_cell(value));
+  return fmt::format("{}\n", fmt::join(cells, ","));
+}
+
+}  // namespace grove::bench
