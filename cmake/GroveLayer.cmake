@@ -5,6 +5,19 @@ target_compile_options(grove_options INTERFACE
   # GCC 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
+# What most sources include, compiled once; but not in a Release build, which so tells when a source
+# uses what it does not include.
+add_library(grove_headers STATIC ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)
+target_link_libraries(grove_headers PRIVATE grove_options)
+target_precompile_headers(grove_headers PRIVATE
+  <algorithm> <array> <atomic> <chrono> <cstdint> <filesystem> <functional> <map> <memory> <mutex>
+  <optional> <span> <string> <string_view> <vector>)
+function(grove_precompile target)
+  if(NOT CMAKE_BUILD_TYPE STREQUAL Release)
+    target_precompile_headers(${target} REUSE_FROM grove_headers)
+  endif()
+endfunction()
+
 # grove_layer(<name> SOURCES ... [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])
 # One layer of the design as the static library grove_<name>, alias grove::<name>. Its interface is
 # include/grove/<name>/, its text src/<name>/. `cmake --build --preset release --target grove_<name>`
@@ -19,4 +32,5 @@ function(grove_layer name)
     target_link_libraries(grove_${name} PUBLIC grove::${layer})
   endforeach()
   target_link_libraries(grove_${name} PUBLIC ${LAYER_LINK_PUBLIC})
+  grove_precompile(grove_${name})
 endfunction()
