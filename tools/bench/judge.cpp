@@ -21,17 +21,6 @@ std::optional<typename Map::mapped_type> find(const Map& map, const char* name) 
   return it == map.end() ? std::nullopt : std::optional(it->second);
 }
 
-// The last line that a program said, after a colon; empty if it said nothing.
-std::string last_words(const std::filesystem::path& said) {
-  try {
-    const std::string text = read_text(said);
-    const auto lines = split_lines(text);
-    return lines.empty() ? "" : ": " + one_line(lines.back());
-  } catch (const InputError&) {
-    return "";
-  }
-}
-
 std::string why_failed(const ChildEnd& end, const std::filesystem::path& said) {
   switch (end.kind) {
     case ChildEnd::Kind::kExited:
@@ -80,6 +69,16 @@ Outcome outcome_of(const Instance& instance, const Solution& solution) {
 }
 
 }  // namespace
+
+std::string last_words(const std::filesystem::path& said) {
+  try {
+    const std::string text = read_text(said);
+    const auto lines = split_lines(text);
+    return lines.empty() ? "" : ": " + one_line(lines.back());
+  } catch (const InputError&) {
+    return "";
+  }
+}
 
 Outcome judged(const ChildEnd& end, const Instance& instance,
                const std::filesystem::path& plan_file, const std::filesystem::path& said) {
