@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <string_view>
 
 #include "grove/io/input_error.h"
 #include "grove/io/plan_file.h"
@@ -14,6 +15,7 @@ namespace grove::bench {
 namespace {
 
 constexpr const char* kInterrupt = "interrupt";
+constexpr std::string_view kErrorMark = "grove: error: ";
 
 template <typename Map>
 std::optional<typename Map::mapped_type> find(const Map& map, const char* name) {
@@ -74,7 +76,10 @@ std::string last_words(const std::filesystem::path& said) {
   try {
     const std::string text = read_text(said);
     const auto lines = split_lines(text);
-    return lines.empty() ? "" : ": " + one_line(lines.back());
+    if (lines.empty()) return "";
+    std::string_view last = lines.back();
+    if (last.starts_with(kErrorMark)) last.remove_prefix(kErrorMark.size());
+    return ": " + one_line(last);
   } catch (const InputError&) {
     return "";
   }
