@@ -16,6 +16,7 @@
 #include "signals.h"
 #include "standard_error.h"
 #include "tools/bench/bench_run.h"
+#include "tools/bench/rehearsal.h"
 #include "version.h"
 
 namespace grove {
@@ -103,6 +104,7 @@ void run(const CLI::App& app, BenchArguments& a) {
     if (!a.quiet && display.is_due(state.elapsed_s))
       display.show(state.elapsed_s, progress_text(state));
   };
+  rehearse(instances, methods, options);
   const bench::BenchState state = run_bench(instances, methods, options);
   if (!a.quiet) display.finish(progress_text(state));
   for (const std::string& version : state.other_versions)

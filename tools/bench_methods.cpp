@@ -71,9 +71,21 @@ void refuse_file_options(const CLI::App& app, const std::string& text) {
       refuse(text, name + ": which files a run reads and writes is up to the bench");
 }
 
-// Only what the user gave: grove solve has its own defaults.
-void append(Words& words, const CLI::App& app, const std::string& option,
-            const std::string& value) {
+// What was given, as one would type it, but for the time limit.
+Words given_arguments(const CLI::App& app) {
+  Words words;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || option->get_positional() || option->get_name() == "--time-limit")
+      continue;
+    words.push_back(option->get_name());
+    const bool is_flag = option->get_expected_max() == 0;
+    if (!is_flag) words.push_back(fmt::format("{}", fmt::join(option->results(), ",")));
+  }
+  return words;
+}
+
+void add_default(Words& words, const CLI::App& app, const std::string& option,
+                 const std::string& value) {
   if (app.count(option) == 0) words.insert(words.end(), {option, value});
 }
 
@@ -109,12 +121,12 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   method.threads = a.threads;
   method.memory_limit_gb = defaults.memory_limit_gb;
   if (app.count("--memory-limit") > 0) method.memory_limit_gb = a.memory_limit_gb;
-  method.arguments = given.words;
-  append(method.arguments, app, "--threads", "1");
-  append(method.arguments, app, "--time-limit", fmt::format("{}", a.time_limit_s));
-  append(method.arguments, app, "--seed", std::to_string(a.seed));
+  method.arguments = given_arguments(app);
+  add_default(method.arguments, app, "--threads", "1");
+  add_default(method.arguments, app, "--seed", std::to_string(a.seed));
   if (method.memory_limit_gb)
-    append(method.arguments, app, "--memory-limit", fmt::format("{}", *method.memory_limit_gb));
+    add_default(method.arguments, app, "--memory-limit",
+                fmt::format("{}", *method.memory_limit_gb));
   return method;
 }
 

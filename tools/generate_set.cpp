@@ -47,14 +47,20 @@ void require_fitting(const std::vector<MapSet>& maps, const SetSizes& sizes) {
 void write_set(const fs::path& directory, const std::vector<MapSet>& maps, const SetSizes& sizes) {
   batch::make_folder(directory);
   std::string manifest;
+  std::string parts[2];  // CTS-MAPF, MG-MAPF
   for (const MapSet& map : maps) {
     const std::string seen = map_as_seen_from(directory / "any", map.map);
     for_each_instance(map, sizes, [&](const std::string& name, const Instance& instance) {
       write_instance(directory / name, instance, seen, Outlives::kProcess);  // there are thousands
       manifest += name + "\n";
+      parts[name.ends_with("_mg.cts.json") ? 1 : 0] += name + "\n";
     });
   }
   write_file_atomically(directory / "manifest.txt", manifest);
+  if (sizes.mg.size() > 1) {
+    write_file_atomically(directory / "manifest-cts.txt", parts[0]);
+    write_file_atomically(directory / "manifest-mg.txt", parts[1]);
+  }
   fmt::print("wrote {}: {} instances\n", (directory / "manifest.txt").string(),
              std::ranges::count(manifest, '\n'));
 }

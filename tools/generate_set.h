@@ -37,7 +37,8 @@ struct SetSizes {
 void require_fitting(const std::vector<MapSet>& maps, const SetSizes& sizes);
 
 // Writes DIR/MAP_sS_nN_mM.cts.json (_mg is added to MG-MAPF ones) and DIR/manifest.txt, which lists
-// them, and says so. The folder is made if missing. Throws InputError.
+// them, and says so; of a set with both, manifest-cts.txt and manifest-mg.txt beside it list each.
+// The folder is made if missing. Throws InputError.
 void write_set(const std::filesystem::path& directory, const std::vector<MapSet>& maps,
                const SetSizes& sizes);
 

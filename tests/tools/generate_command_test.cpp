@@ -139,6 +139,10 @@ TEST(GeneratePaper, MakesOneSetOfThreeMapsAndBothProblems) {
     const Instance instance = read_instance(directory.path() / "out/paper" / name).instance;
     EXPECT_EQ(instance.agent(0).goal.has_value(), !name.ends_with("_mg.cts.json"));
   }
+  EXPECT_EQ(lines_of(file_content(directory / "out/paper/manifest-cts.txt")).size(), 36U);
+  const auto mg = lines_of(file_content(directory / "out/paper/manifest-mg.txt"));
+  EXPECT_EQ(mg.size(), 36U);
+  for (const std::string& name : mg) EXPECT_TRUE(name.ends_with("_mg.cts.json")) << name;
   // Maps and instances are those of the data that comes with Grove.
   const fs::path data = GROVE_DATA;
   for (const char* map : {"empty-32x32.map", "random-32x32-20.map", "rooms-32x32.map"})

@@ -141,10 +141,10 @@ class Bench {
     const fs::path plan = scratch() / fmt::format("{}.plan.json", worker);
     const fs::path said = scratch() / fmt::format("{}.txt", worker);
     fs::remove(plan);
-    const ChildEnd end =
-        run_child(command(instance.entry, method, plan), said,
-                  {.seconds = method.time_limit_s * options_.grace_factor + options_.grace_s,
-                   .cancelled = [this] { return must_stop(); }});
+    const ChildEnd end = run_child(
+        solve_command(options_.program, instance.entry, method, method.time_limit_s, plan), said,
+        {.seconds = method.time_limit_s * options_.grace_factor + options_.grace_s,
+         .cancelled = [this] { return must_stop(); }});
     if (end.kind == ChildEnd::Kind::kCancelled) return;
 
     Row row{.run = runs_[run],
@@ -159,16 +159,6 @@ class Bench {
     if (row.outcome.omega.empty()) row.outcome.omega = method.omega;
     if (options_.keep_plans) keep(plan, method, instance.entry);
     record(row);
-  }
-
-  std::vector<std::string> command(const batch::Entry& entry, const Method& method,
-                                   const fs::path& plan) const {
-    std::vector<std::string> words{options_.program, "solve", entry.path};
-    if (entry.agents > 0)
-      words.insert(words.end(), {"--map", entry.map, "--agents", std::to_string(entry.agents)});
-    words.insert(words.end(), method.arguments.begin(), method.arguments.end());
-    words.insert(words.end(), {"--output", plan.string(), "--quiet"});
-    return words;
   }
 
   // Reads the instance anew: what is re-checked depends on the files alone.
@@ -244,6 +234,18 @@ class Bench {
 
 std::string Method::options() const {
   return fmt::format("{}", fmt::join(words, " "));
+}
+
+std::vector<std::string> solve_command(const std::string& program, const batch::Entry& entry,
+                                       const Method& method, double time_limit_s,
+                                       const fs::path& plan) {
+  std::vector<std::string> words{program, "solve", entry.path};
+  if (entry.agents > 0)
+    words.insert(words.end(), {"--map", entry.map, "--agents", std::to_string(entry.agents)});
+  words.insert(words.end(), method.arguments.begin(), method.arguments.end());
+  words.insert(words.end(), {"--time-limit", fmt::format("{}", time_limit_s), "--output",
+                             plan.string(), "--quiet"});
+  return words;
 }
 
 BenchState run_bench(const std::vector<BenchInstance>& instances,

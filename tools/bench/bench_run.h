@@ -23,7 +23,7 @@ struct Method {
   double time_limit_s = 0;
   std::optional<double> memory_limit_gb = {};  // none: by the machine
   std::int64_t threads = 1;
-  // What `grove solve INSTANCE` is called with, but for the plan file.
+  // What `grove solve INSTANCE` is called with, but for the time limit and the plan file.
   std::vector<std::string> arguments = {};
 
   std::string options() const;  // the words in one line
@@ -43,6 +43,11 @@ struct BenchOptions {
   std::function<bool()> stopped;  // by the user; of any thread
   std::function<void(const BenchState&)> watch;  // called several times a second
 };
+
+// The command line of one run.
+std::vector<std::string> solve_command(const std::string& program, const batch::Entry& entry,
+                                       const Method& method, double time_limit_s,
+                                       const std::filesystem::path& plan);
 
 // Runs all methods on all instances, all on one instance before the next, `jobs` at a time, each a
 // process of its own; and goes on with what an earlier bench left in the folder. Every plan is

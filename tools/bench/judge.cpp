@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <string_view>
 
 #include "grove/io/input_error.h"
 #include "grove/io/plan_file.h"
@@ -14,22 +15,12 @@ namespace grove::bench {
 namespace {
 
 constexpr const char* kInterrupt = "interrupt";
+constexpr std::string_view kErrorMark = "grove: error: ";
 
 template <typename Map>
 std::optional<typename Map::mapped_type> find(const Map& map, const char* name) {
   const auto it = map.find(name);
   return it == map.end() ? std::nullopt : std::optional(it->second);
-}
-
-// The last line that a program said, after a colon; empty if it said nothing.
-std::string last_words(const std::filesystem::path& said) {
-  try {
-    const std::string text = read_text(said);
-    const auto lines = split_lines(text);
-    return lines.empty() ? "" : ": " + one_line(lines.back());
-  } catch (const InputError&) {
-    return "";
-  }
 }
 
 std::string why_failed(const ChildEnd& end, const std::filesystem::path& said) {
@@ -80,6 +71,19 @@ Outcome outcome_of(const Instance& instance, const Solution& solution) {
 }
 
 }  // namespace
+
+std::string last_words(const std::filesystem::path& said) {
+  try {
+    const std::string text = read_text(said);
+    const auto lines = split_lines(text);
+    if (lines.empty()) return "";
+    std::string_view last = lines.back();
+    if (last.starts_with(kErrorMark)) last.remove_prefix(kErrorMark.size());
+    return ": " + one_line(last);
+  } catch (const InputError&) {
+    return "";
+  }
+}
 
 Outcome judged(const ChildEnd& end, const Instance& instance,
                const std::filesystem::path& plan_file, const std::filesystem::path& said) {

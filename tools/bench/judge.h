@@ -17,6 +17,9 @@ namespace grove::bench {
 Outcome judged(const ChildEnd& end, const Instance& instance,
                const std::filesystem::path& plan_file, const std::filesystem::path& said);
 
+// The last line that grove said, after a colon and a blank; empty if it said nothing.
+std::string last_words(const std::filesystem::path& said);
+
 // A run that was stopped from outside, and not by a limit of its own.
 bool was_interrupted(const Outcome& outcome);
 

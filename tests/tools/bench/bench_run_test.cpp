@@ -10,7 +10,9 @@
 
 #include "grove/io/input_error.h"
 #include "grove/io/text_file.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
+#include "tools/bench/rehearsal.h"
 
 namespace grove::bench {
 namespace {
@@ -58,7 +60,7 @@ class Benches : public ::testing::Test {
                           .words = {"--k", std::to_string(k)},
                           .omega = "0.5",
                           .time_limit_s = 60,
-                          .arguments = {"--k", std::to_string(k), "--time-limit", "60"}});
+                          .arguments = {"--k", std::to_string(k)}});
   }
   BenchState run() { return run_bench(instances_, methods_, options_); }
   std::vector<Row> rows() const {
@@ -175,6 +177,27 @@ TEST_F(Benches, LeaveNoRowOfWhatWasUnderWayWhenStopped) {
   solver("cp '" + (directory_ / "good") + "' \"$plan\"");
   EXPECT_EQ(run().work.left, 0);
   EXPECT_EQ(rows().size(), 3U);
+}
+
+TEST_F(Benches, AreRehearsedOnEveryProblem) {
+  instances(3);
+  methods(2);
+  instances_[2].facts.problem = "mg";
+  solver("");
+  rehearse(instances_, methods_, options_);
+  const std::string text = file_content(directory_ / "log");
+  ASSERT_EQ(split_lines(text).size(), 4U);  // 2 methods, 2 problems
+  for (const std::string_view line : split_lines(text))
+    EXPECT_NE(line.find(" --time-limit 0 "), std::string_view::npos) << line;
+
+  for (const char* other : {"exit 1", "kill $$"}) {  // not a refusal
+    solver(other);
+    EXPECT_NO_THROW(rehearse(instances_, methods_, options_));
+  }
+  solver("case $(tail -n 1 \"$log\") in *i2.cts.json*1*) echo 'not for me'; exit 2;; esac");
+  EXPECT_EQ(refusal([&] { rehearse(instances_, methods_, options_); }),
+            "i2.cts.json: is not for the run 'm1': not for me");
+  EXPECT_FALSE(fs::exists(options_.folder));
 }
 
 TEST_F(Benches, EndWhenTheyCannotGoOn) {

@@ -104,8 +104,7 @@ TEST_F(Judges, RefuseWrongPlans) {
 
 TEST_F(Judges, NameWhatWentWrong) {
   directory_.write("said", "grove: warning: odd\ngrove: error: broken\n");
-  EXPECT_EQ(verdict({ChildEnd::Kind::kExited, 2, 1}).error,
-            "ended with exit code 2: grove: error: broken");
+  EXPECT_EQ(verdict({ChildEnd::Kind::kExited, 2, 1}).error, "ended with exit code 2: broken");
   EXPECT_EQ(verdict({ChildEnd::Kind::kSignalled, SIGKILL, 1}).error, "ended by signal 9 (Killed)");
   EXPECT_EQ(verdict({ChildEnd::Kind::kTooLong, SIGKILL, 76.4}).error,
             "did not end; killed after 76 s");

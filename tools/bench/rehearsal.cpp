@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "tools/bench/rehearsal.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <map>
+#include <system_error>
+
+#include "grove/io/input_error.h"
+#include "tools/bench/child_process.h"
+#include "tools/bench/judge.h"
+
+namespace grove::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kRefused = 2;
+constexpr double kPatience_s = 60;  // to read an instance
+
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "grove-bench-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw InputError(name, "", "cannot be made: " + std::generic_category().message(errno));
+    folder_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  fs::path operator/(const char* name) const { return folder_ / name; }
+
+ private:
+  fs::path folder_;
+};
+
+}  // namespace
+
+void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
+              const BenchOptions& options) {
+  std::map<std::string, const BenchInstance*> first;  // of each problem
+  for (const BenchInstance& instance : instances) first.emplace(instance.facts.problem, &instance);
+  const Scratch scratch;
+  for (const Method& method : methods) {
+    for (const auto& [problem, instance] : first) {
+      const ChildEnd end =
+          run_child(solve_command(options.program, instance->entry, method, 0, scratch / "plan"),
+                    scratch / "said", {.seconds = kPatience_s, .cancelled = options.stopped});
+      if (end.kind == ChildEnd::Kind::kExited && end.code == kRefused)
+        throw InputError(
+            instance->entry.path, "",
+            fmt::format("is not for the run '{}'{}", method.name, last_words(scratch / "said")));
+    }
+  }
+}
+
+}  // namespace grove::bench
