@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <span>
@@ -70,6 +71,15 @@ Format find_format(const std::string& option, const std::string& name, const std
 
 InstanceFormat instance_format(const std::string& option, const std::string& name,
                                const std::string& file) {
+  if (name.empty() && file.ends_with(".plan.json"))
+    throw CLI::ValidationError(option,
+                               fmt::format("'{}' is called like a plan; plans are converted "
+                                           "by --plan PLAN INSTANCE OUT",
+                                           file));
+  if (std::ranges::count(kPlanNames, name, &Entry<PlanFormat>::name) > 0 &&
+      std::ranges::count(kInstanceNames, name, &Entry<InstanceFormat>::name) == 0)
+    throw CLI::ValidationError(
+        option, fmt::format("{} is a format of plans; expected --plan PLAN to go with it", name));
   return find_format<InstanceFormat>(option, name, file, kInstanceNames, kInstanceSuffixes);
 }
 

@@ -10,6 +10,7 @@
 #include "generate_commands.h"
 #include "generate_set.h"
 #include "grove/batch/folder.h"
+#include "grove/io/input_error.h"
 #include "grove/io/map_file.h"
 #include "tools/generate/map_generator.h"
 
@@ -74,12 +75,19 @@ std::string scenario_file(const std::string& map, std::int64_t k) {
                        : fmt::format("{}-even-{}.scen", map, k - kOfAKind);
 }
 
+void require_scenario(const std::string& file, std::int64_t k) {
+  if (!fs::exists(file))
+    throw InputError(file, "",
+                     fmt::format("is not there; expected it, or --scenarios without {}", k));
+}
+
 MapSet load_map_set(const PaperArguments& arguments, const std::string& name) {
   const fs::path folder = arguments.movingai;
   const std::string map = (folder / (name + ".map")).string();
   MapSet set{map, load_map(map), {}};
   for (const std::int64_t k : arguments.scenarios) {
     const std::string file = (folder / scenario_file(name, k)).string();
+    require_scenario(file, k);
     set.scenarios.push_back(
         {std::to_string(k), load_scenario(file, map, set.grid), arguments.seed + k});
   }

@@ -28,9 +28,9 @@ int main(int argc, char** argv) {
   add_solve_command(app);
   add_check_command(app);
   add_generate_command(app);
-  add_report_command(app);
   add_convert_command(app);
   add_bench_command(app);
+  add_report_command(app);
   return run_only_process(app, argc, argv);
 }
 

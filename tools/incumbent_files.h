@@ -39,6 +39,7 @@ class IncumbentFiles : public RunObserver {
     next_.on_event(event, progress);
   }
   void on_infeasible(std::string_view reason) override { next_.on_infeasible(reason); }
+  void on_note(std::string_view note) override { next_.on_note(note); }
   void on_checkpoint(const CheckpointReport& report) override { next_.on_checkpoint(report); }
 
  private:

@@ -69,9 +69,10 @@ batch::Settings settings_of(const CLI::App& app, const BatchArguments& a) {
   const auto given = [&](const char* option) {
     return app.count(option) == 0 ? std::string("default") : app[option]->as<std::string>();
   };
-  return {{"omega", Omega::parse(a.solve.omega).to_string()},
+  return {{"omega", solve_options(a.solve).omega.to_string()},
           {"time-limit", fmt::format("{}", a.solve.time_limit_s)},
           {"memory-limit", given("--memory-limit")},
+          {"method", a.solve.method},
           {"policy", a.solve.policy},
           {"rtsp", a.solve.rtsp},
           {"seed", std::to_string(a.solve.seed)},

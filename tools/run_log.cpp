@@ -177,6 +177,10 @@ void RunLog::on_infeasible(std::string_view reason) {
   sink_.line(fmt::format("There is no plan: {}.", reason));
 }
 
+void RunLog::on_note(std::string_view note) {
+  sink_.line(fmt::format("  {} ({:.2f}s)", note, seconds()));
+}
+
 void RunLog::on_checkpoint(const CheckpointReport& report) {
   if (report.failure.empty())
     sink_.line(fmt::format("  Checkpoint of {} nodes written in {:.2f} s ({:.2f}s)", report.nodes,
@@ -205,6 +209,8 @@ void RunLog::finish(const Solution& solution, const std::filesystem::path& plan_
                            solution.omega.is_infinite()
                                ? "any plan"
                                : fmt::format("at most {:g} %", 100 * solution.omega.value())));
+  if (const std::string remark = text("remark"); !remark.empty())
+    sink_.line("Remark        " + remark);
   sink_.line(fmt::format("Time          {:.2f} s", solution.stats.measures.at("wall_s")));
   const auto node_bytes = solution.stats.measures.find("node_bytes");
   if (node_bytes != solution.stats.measures.end())

@@ -52,6 +52,7 @@ class RunLog : public RunObserver {
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
+  void on_note(std::string_view note) override;
   void on_checkpoint(const CheckpointReport& report) override;
 
   // The result, below the table. `plan_path` is where the plan file is.

@@ -13,6 +13,7 @@
 namespace grove {
 namespace {
 
+constexpr const char* kDefaultOmega = "0.01";
 const std::map<std::string, Policy> kPolicies{
     {"auto", Policy::kAuto}, {"fixed", Policy::kFixed}, {"free", Policy::kFree}};
 const std::map<std::string, RtspBackend> kBackends{
@@ -32,7 +33,8 @@ std::string check_method(const std::string& text) {
   std::string names;
   for (Method method : all_methods())
     names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(method));
-  return fmt::format("found '{}'; expected one of {}", text, names);
+  return fmt::format("found '{}'; expected one of {} (CTS-CBS as the paper has it: --policy fixed)",
+                     text, names);
 }
 
 // A value must be one of the table's keys.
@@ -86,7 +88,7 @@ void add_omega_option(CLI::App& app, SolveArguments& a) {
          "sequence allows)")
       ->type_name("W|inf")
       ->check(CLI::Validator(check_omega, ""))
-      ->capture_default_str();
+      ->default_str(kDefaultOmega);
 }
 
 void add_method_options(CLI::App& app, SolveArguments& a) {
@@ -94,13 +96,15 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
          "--method", a.method,
          "auto: Grove's search, as the other options say. To compare with: plain CBS with the low "
          "level of optimal-cbs, hcbs or mgcbs; s-cbs, CTS-CBS with omega inf and policy fixed. For "
-         "agents without a goal, with either policy (fixed is the paper's): cts-cbs-a, which is "
-         "auto; cts-cbs-b, one task of each agent is made its goal; cts-cbs-c, two thirds of the "
-         "time for a, then b")
+         "agents without a goal: cts-cbs-a, which is auto; cts-cbs-b, one task of each is made its "
+         "goal; cts-cbs-c, cts-cbs-a for two thirds of the time, then cts-cbs-b. The paper's are "
+         "those with --policy fixed")
       ->type_name("METHOD")
       ->check(CLI::Validator(check_method, ""))
       ->capture_default_str();
-  app.add_flag("--anytime", a.anytime, "with cts-cbs-c: b first, then a from its plan");
+  app.add_flag("--anytime", a.anytime,
+               "with cts-cbs-c: cts-cbs-b first, for two thirds of the time at most, then "
+               "cts-cbs-a from its plan");
   app.add_option(
          "--policy", a.policy,
          "what a tree of the forest fixes: a complete task sequence for every agent (fixed: the "
@@ -193,11 +197,18 @@ Method method_of(const SolveArguments& a) {
   return *parse_method(a.method);
 }
 
+Omega omega_of(const SolveArguments& a) {
+  return Omega::parse(a.omega.empty() ? kDefaultOmega : a.omega);
+}
+
 SolveOptions solve_options(const SolveArguments& a) {
   if (a.anytime && method_of(a) != Method::kCtsCbsC)
     throw CLI::ValidationError("--anytime", "expected --method cts-cbs-c to go with it");
   SolveOptions options;
-  options.omega = Omega::parse(a.omega);
+  if (method_of(a) == Method::kSCbs && !a.omega.empty() && !omega_of(a).is_infinite())
+    throw CLI::ValidationError("--method s-cbs",
+                               fmt::format("has omega inf; expected no --omega {}", a.omega));
+  options.omega = omega_of(a);
   options.policy = kPolicies.at(a.policy);
   options.rtsp = kBackends.at(a.rtsp);
   options.seed = static_cast<std::uint64_t>(a.seed);

@@ -20,7 +20,7 @@ namespace grove {
 
 struct SolveArguments {
   InstanceArguments instance;
-  std::string omega = "0.01";
+  std::string omega;  // empty: not given
   double time_limit_s = 180;
   double memory_limit_gb = std::floor(8 * physical_memory_gb()) / 10;
   std::int64_t threads = usable_cores();
@@ -54,6 +54,7 @@ void add_solve_options(CLI::App& app, SolveArguments& arguments);
 std::string options_text(const CLI::App& app);
 
 Method method_of(const SolveArguments& arguments);
+Omega omega_of(const SolveArguments& arguments);
 // For the engine, but for the start plan. Throws CLI::ValidationError when they do not fit
 // together.
 SolveOptions solve_options(const SolveArguments& arguments);

@@ -38,6 +38,14 @@ std::filesystem::path default_output(const InstanceArguments& instance, int agen
   return name + (is_scenario ? fmt::format("-{}", agents) : "") + ".plan.json";
 }
 
+// An adaptation of CTS-CBS is the paper's with the paper's policy.
+std::string method_text(const SolveArguments& a) {
+  const bool is_fixed = solve_options(a).policy == Policy::kFixed;
+  if (!is_adaptation(method_of(a))) return a.method;
+  return fmt::format("{}, policy {}", a.method,
+                     is_fixed ? "fixed" : "free (the paper's: --policy fixed)");
+}
+
 // The files of --incumbents must not replace any other of the run.
 void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
   const std::filesystem::path instance = a.instance.path();
@@ -75,6 +83,7 @@ void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& a,
                         instance.grid().width(), instance.grid().height(),
                         instance.grid().passable_count()));
   sink.line(fmt::format("Options       {}", options.empty() ? "all defaults" : options));
+  if (method_of(a) != Method::kAuto) sink.line(fmt::format("Method        {}", method_text(a)));
   sink.line(fmt::format("Threads       {}{}", workers, a.deterministic ? ", deterministic" : ""));
   sink.line();
   sink.line(

@@ -37,10 +37,14 @@ class Told {
   }
   void event(RunEvent event, const Progress& progress) {
     searched_ = true;
+    const Cost bound = last_.lower_bound;
     last_ = of_whole(progress);
-    if (event == RunEvent::kIncumbent && !is_better_) event = RunEvent::kProgress;
-    if (event != RunEvent::kEnd) next_.on_event(event, last_);
+    const bool is_news = event == RunEvent::kIncumbent ? is_better_
+                         : event == RunEvent::kBound   ? last_.lower_bound > bound
+                                                       : true;
+    if (event != RunEvent::kEnd) next_.on_event(is_news ? event : RunEvent::kProgress, last_);
   }
+  void note(std::string_view note) { next_.on_note(note); }
   void infeasible(std::string_view reason) { next_.on_infeasible(reason); }
   void end() {
     if (searched_) next_.on_event(RunEvent::kEnd, last_);
@@ -103,6 +107,10 @@ class StageOfB : public Stage {
   const Destinations& destinations_;
 };
 
+bool was_stopped(const Solution& solution) {
+  return solution.stats.texts.contains("stopped_by");
+}
+
 Solution stopped(const SolveOptions& options, const Limits& limits) {
   Solution solution;
   solution.omega = options.omega;
@@ -120,6 +128,7 @@ Solution solve_b(const Instance& instance, const SolveOptions& options, const Li
   if (!destinations)
     throw std::logic_error("internal error: agents that can rest have nowhere to do so");
 
+  told.note("One task of each agent without a goal is made its goal; the lower bound is for any.");
   StageOfB stage(told, instance, *destinations);
   Solution solution = solve(with_destinations(instance, *destinations), options, limits, &stage);
   if (solution.plan)
@@ -129,17 +138,18 @@ Solution solve_b(const Instance& instance, const SolveOptions& options, const Li
   solution.lower_bound = destinations->bound;
   const auto cost = solution.plan ? std::optional(solution.plan->cost) : std::nullopt;
   solution.status = status_of(cost, solution.lower_bound, options.omega);
+  if (solution.status == Status::kFeasible && !was_stopped(solution))
+    solution.stats.texts["remark"] =
+        "within omega of the best plan that ends on the tasks chosen; no bound says so for all "
+        "plans";
   return solution;
 }
 
 Solution solve_a(const Instance& instance, const SolveOptions& options, const Limits& limits,
                  Told& told) {
+  told.note("The agents may end on any of their tasks.");
   Stage stage(told);
   return solve(instance, options, limits, &stage);
-}
-
-bool was_stopped(const Solution& solution) {
-  return solution.stats.texts.contains("stopped_by");
 }
 
 // How the run ended is how the second search did.

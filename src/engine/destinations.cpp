@@ -25,6 +25,7 @@
 #include "grove/sequencing/completions.h"
 #include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/rtsp.h"
+#include "grove/sequencing/sum_of_best_sequences.h"
 
 namespace grove {
 namespace {
@@ -104,9 +105,7 @@ class Chooser {
     const Instance& instance = problem_.instance;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
       if (!instance.agent(agent).goal) continue;
-      const CostMatrix matrix = cost_matrix(instance, agent, problem_.distances);
-      const auto solver = make_rtsp_solver(RtspBackend::kAuto, matrix, limits_);
-      const RtspAnswer answer = solver->best({}, kNever);
+      const RtspAnswer answer = best_sequence_cost(instance, agent, problem_.distances, limits_);
       if (answer.kind != RtspAnswer::Kind::kExact) return false;
       bound += answer.cost;
     }

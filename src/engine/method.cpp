@@ -79,10 +79,10 @@ SolveOptions options_of(Method method, SolveOptions options) {
   options.low_level = low_level_of(method);
   const bool is_other = options.low_level != LowLevel::kOwn;
   if (is_other && options.policy == Policy::kFixed)
-    refuse(method, "has one tree for all sequences; expected no policy fixed");
+    refuse(method, "has one tree for all sequences; expected policy free, or none");
   if (method == Method::kSCbs) {
     if (options.policy == Policy::kFree)
-      refuse(method, "searches the tree of one joint sequence; expected no policy free");
+      refuse(method, "searches the tree of one joint sequence; expected policy fixed, or none");
     options.policy = Policy::kFixed;
     options.omega = Omega::infinite();
   }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "grove/sequencing/sum_of_best_sequences.h"
 
-#include "grove/model/distance_field.h"
 #include "grove/sequencing/cost_matrix.h"
-#include "grove/sequencing/rtsp.h"
 
 namespace grove {
+
+RtspAnswer best_sequence_cost(const Instance& instance, AgentIndex agent,
+                              const DistanceFields& distances, const Limits& limits) {
+  const CostMatrix matrix = cost_matrix(instance, agent, distances);
+  return make_rtsp_solver(RtspBackend::kAuto, matrix, limits)->best({}, kNever);
+}
 
 std::optional<Cost> sum_of_best_sequences(const Instance& instance, const Limits& limits) {
   const DistanceFields distances(instance, limits);
@@ -13,9 +17,7 @@ std::optional<Cost> sum_of_best_sequences(const Instance& instance, const Limits
   Cost sum = 0;
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     if (limits.stop_requested()) return std::nullopt;
-    const CostMatrix matrix = cost_matrix(instance, i, distances);
-    const RtspAnswer answer =
-        make_rtsp_solver(RtspBackend::kAuto, matrix, limits)->best({}, kNever);
+    const RtspAnswer answer = best_sequence_cost(instance, i, distances, limits);
     if (answer.kind == RtspAnswer::Kind::kStopped) return std::nullopt;
     if (answer.kind != RtspAnswer::Kind::kExact || answer.cost >= kNever) return kInfiniteCost;
     sum += answer.cost;

@@ -215,10 +215,12 @@ TEST_F(ConvertCommand, LeavesNoMapBehindWhenTheInstanceFails) {
 }
 
 TEST_F(ConvertCommand, OverwritesNoneOfItsInputs) {
-  EXPECT_EQ(refused({"plain.yaml", "./plain.yaml"}), "./plain.yaml: is the instance; expected another file to write to");
+  EXPECT_EQ(refused({"plain.yaml", "./plain.yaml"}),
+            "./plain.yaml: is the instance; expected another file to write to");
   EXPECT_EQ(refused({"--plan", "p.json", "plain.cts.json", "p.json", "--to", "eecbs"}),
             "p.json: is the plan; expected another file to write to");
-  EXPECT_EQ(refused({"plain.cts.json", "m.map", "--to", "libmrp"}), "m.map: is the map; expected another file to write to");
+  EXPECT_EQ(refused({"plain.cts.json", "m.map", "--to", "libmrp"}),
+            "m.map: is the map; expected another file to write to");
   EXPECT_EQ(content("m.map"), kMap);
 }
 

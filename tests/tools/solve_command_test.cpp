@@ -177,7 +177,7 @@ TEST_F(SolveCommand, WithInfiniteOmegaSaysSo) {
 // A log without times, memory, and what was asked for.
 std::string timeless(const std::string& log) {
   return std::regex_replace(
-      log, std::regex(R"([0-9]+ MB +[0-9.]+s|[0-9.]+ s\n|Memory .*\n|Options .*\n|Threads .*\n)"),
+      log, std::regex(R"( +[0-9]+ MB +[0-9.]+s|[0-9.]+ s\n|Memory .*\n|Options .*\n|Threads .*\n)"),
       "");
 }
 

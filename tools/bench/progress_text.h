@@ -17,7 +17,7 @@ struct MethodCount {
   int runs = 0;
   int solved = 0;
   int errors = 0;
-  std::vector<double> solved_s = {};  // runtimes of those solved
+  std::vector<double> runtimes_s = {};  // of those not solved the time limit
 
   void count(const Row& row);
 };

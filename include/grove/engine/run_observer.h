@@ -46,6 +46,9 @@ class RunObserver {
   // The instance was seen to have no plan before any search; `reason` is a sentence.
   virtual void on_infeasible(std::string_view /*reason*/) {}
 
+  // What the run goes on with now, a sentence: of methods that search more than once.
+  virtual void on_note(std::string_view /*note*/) {}
+
   // A checkpoint was written, or could not be.
   virtual void on_checkpoint(const CheckpointReport& /*report*/) {}
 

@@ -4,11 +4,17 @@
 
 #include <optional>
 
+#include "grove/model/distance_field.h"
 #include "grove/model/instance.h"
 #include "grove/model/limits.h"
 #include "grove/model/omega.h"
+#include "grove/sequencing/rtsp.h"
 
 namespace grove {
+
+// The optimum of one agent's sequencing problem, as RtspSolver::best of all sequences.
+RtspAnswer best_sequence_cost(const Instance& instance, AgentIndex agent,
+                              const DistanceFields& distances, const Limits& limits);
 
 // The sum over the agents of the optimum of their sequencing problem (with or without destination,
 // as the instance has it): the cost of the first root of CTS-CBS, and a lower bound on every plan.

@@ -31,12 +31,13 @@ TEST(BenchProgress, SaysHowFarAndHowGood) {
   EXPECT_EQ(progress_text(counted()).total, 10);
 }
 
-TEST(BenchSummary, HasMediansOfWhatWasSolved) {
+TEST(BenchSummary, CountsWhatIsNotSolvedAsTheLimit) {
   BenchState state = counted();
   EXPECT_EQ(summary_table(state),
             "method   solved/run  median s  errors\n"
             "auto            3/3      3.00       0\n"
-            "paper           0/1         -       1\n");
+            "paper           0/1     60.00       1\n"
+            "median s: of all runs; one that is not solved counts as its time limit\n");
   Row row = solved_row("i", "auto");
   row.wall_s = 5;
   state.count(row);
