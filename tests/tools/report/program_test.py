@@ -74,6 +74,7 @@ class Folder(unittest.TestCase):
         """Its page and its stderr."""
         done = run(*arguments, "-o", self.folder / "out", **options)
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, f"^wrote {self.folder}/out/report.html: [1-9][0-9]* rows\n$")
         return (self.folder / "out/report.html").read_text(encoding="utf-8"), done.stderr
 
     def table(self, name):
