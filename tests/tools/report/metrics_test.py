@@ -12,7 +12,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[3] / "tools/report"),
                 str(Path(__file__).resolve().parent)]
 
 import synthetic  # noqa: E402
-from grove_report import metrics, proofs, rows, speedup  # noqa: E402
+from grove_report import metrics, proofs, rows, scales, speedup, style  # noqa: E402
 from grove_report.lines import Line, Lines, families  # noqa: E402
 from grove_report.metrics import Cell  # noqa: E402
 from grove_report.rows import BadInput, read_results  # noqa: E402
@@ -345,6 +345,30 @@ class TheLines(unittest.TestCase):
         same = {"options": "--method x --omega 0", "omega": "0"}
         self.assertEqual(families([row(**same), row(method="b", **same)]), [])
         self.assertEqual(families([row(omega="0"), row(omega="1", time_limit_s=7)]), [])
+
+
+class Scales(unittest.TestCase):
+    def test_points_side_by_side(self):
+        self.assertEqual(scales.dodged([10, 30], "abc"), {"a": -0.5, "b": 0, "c": 0.5})
+        self.assertEqual(scales.dodged([10, 15, 30], "ab"), {"a": -0.125, "b": 0.125})
+        self.assertEqual(scales.dodged([10], "ab"), {"a": 0, "b": 0})
+        self.assertEqual(scales.dodged([10, 30], "a"), {"a": 0})
+
+    def test_rounded_down(self):
+        for value, rounded in ((1, 1), (0.9, 0.3), (0.3, 0.3), (0.29, 0.1), (0.0081, 0.003), (0.002, 0.001)):
+            self.assertAlmostEqual(scales.rounded_down(value), rounded, places=12)
+
+    def test_where_time_begins(self):
+        self.assertEqual(scales.first_time([row(runtime_s=0.0042), row(runtime_s=2)]), 0.003)
+        self.assertEqual(scales.first_time([row(runtime_s=0), row(runtime_s=0.05)]), 0.03)
+        self.assertEqual(scales.first_time([row(runtime_s=50)]), 1)
+        self.assertEqual(scales.first_time([failed()]), 1)
+
+    def test_what_lies_below_is_larger(self):
+        for count in (1, 2, 8, 30):
+            depths = [style.depth(rank, count) for rank in range(count)]
+            self.assertEqual((depths, depths[-1]), (sorted(set(depths), reverse=True), 0))
+            self.assertLessEqual(depths[0], 1)
 
 
 class Tables(unittest.TestCase):

@@ -239,8 +239,8 @@ def _problem(problem, lines):
                         f"As a file: summary_{name}.csv.")]
     parts += [_figure(figure, "A column for each map and number of agents N (where the number of tasks "
                       "M does not vary: for each map, with N along the axis), a row for each metric. "
-                      "Runtime is on a log axis; a failure counts as the time limit (dotted). Points of "
-                      "one place are drawn a little side by side, so that none hides another.") for figure in problem.comparison]
+                      "Runtime is on a log axis; a failure counts as the time limit (dotted). Where lines "
+                      "lie on each other, those below are broader and have larger markers.") for figure in problem.comparison]
     for title, value, show, better in (
             ("Success rate", lambda found: found.success, percent, max),
             ("Mean runtime (s)", lambda found: found.mean_runtime_s, seconds, min),
