@@ -38,14 +38,22 @@ SHORTEST_S = 0.001
 class Metric(NamedTuple):
     label: str
     value: object        # of Measures
-    axis: str = "plain"  # "percent", "seconds", "ratio", "count"
+    axis: str = "plain"  # "percent", "seconds", "ratio" (at most 1), "excess" (at least 1), "count"
 
 
 SUCCESS = Metric("success rate (%)", lambda m: 100 * m.success, "percent")
 RUNTIME = Metric("mean runtime (s)", lambda m: max(m.mean_runtime_s, SHORTEST_S), "seconds")
-SQR = Metric("mean SQR", lambda m: m.mean_sqr, "ratio")
+SQR = Metric("mean SQR\n(solved runs)", lambda m: m.mean_sqr, "ratio")
+COST_RATIO = Metric("mean cost ratio\n(solved runs, 1 = best)", lambda m: m.mean_cost_ratio, "excess")
 ROOTS = Metric("mean number of roots", lambda m: m.mean_roots, "count")
 RTSP_CALLS = Metric("mean number of rTSP calls", lambda m: m.mean_rtsp_calls, "count")
+
+
+# What must be known wherever a figure is shown, so it is part of it.
+SQR_CAPTION = ("Mean SQR is over the runs that each method solved: methods that solve only the easy "
+               "instances look better.")
+RATIO_CAPTION = ("Cost ratio: cost / least cost that any method found for the instance, over the same runs; "
+                 "1 is best.")
 
 
 def save(figure, stem):
@@ -91,6 +99,10 @@ def _set_axis(ax, metric, values, limits):
         bottom = math.floor(lowest / step - 0.1) * step
         ax.set_ylim(bottom, 1 + 0.06 * (1 - bottom))
         ax.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+    elif metric.axis == "excess":
+        excess = max(max(values, default=1) - 1, 0.005)
+        ax.set_ylim(1 - 0.08 * excess, 1 + 1.1 * excess)
+        ax.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     elif metric.axis == "count":
         lowest, highest = min(values, default=1), max(values, default=1)
         if lowest > 0:
@@ -200,14 +212,18 @@ def columns_of(cells):
                    "N (agents)", lambda key: f"M = {key[1]}")
 
 
-def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR)):
-    """Laid out like the paper's Fig. 5: a row for each metric. `cells`: {cell: {line: Measures}}."""
+def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COST_RATIO)):
+    """Laid out like the paper's Fig. 5, and below that the cost ratio: a row for each metric. `cells`:
+    {cell: {line: Measures}}."""
     with matplotlib.rc_context(SETTINGS):
         columns = columns_of(cells)
         metrics = [metric for metric in metrics if _values(cells, lines, metric)]
         count = len(columns.keys)
-        left, right, bottom = 0.72, 0.12, 0.45
-        width = max(6.5, left + right + 1.42 * count)
+        width = max(6.5, 0.98 + 1.42 * count)
+        notes = [text for metric, text in ((SQR, SQR_CAPTION), (COST_RATIO, RATIO_CAPTION))
+                 if metric in metrics]
+        caption = _wrapped(notes, width)
+        left, right, bottom = 0.86, 0.12, 0.5 + 0.13 * len(caption)
         legend = _legend_height(lines, looks, width - 0.4)
         top = legend + 0.5
         height = top + bottom + 1.55 * len(metrics)
@@ -236,7 +252,19 @@ def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR)):
         figure.align_ylabels(axes[:, 0])
         _name_maps(figure, columns, axes, (height - legend - 0.17) / height)
         _add_legend(figure, lines, looks, nested=True)
+        _add_caption(figure, caption)
         return figure
+
+
+def _wrapped(texts, width):
+    """Lines of a caption as wide as a figure of `width` inches."""
+    return textwrap.wrap(" ".join(texts), int(width / 0.061))
+
+
+def _add_caption(figure, lines):
+    """At the bottom left; 0.13 inches a line."""
+    figure.text(0.1 / figure.get_figwidth(), 0.06 / figure.get_figheight(), "\n".join(lines), va="bottom",
+                fontsize=7, linespacing=1.25, color="#555555")
 
 
 def _name_maps(figure, columns, axes, y):
@@ -318,7 +346,7 @@ def cactus(groups, lines, looks, per_row=4):
 def _omega_labels(lines, looks):
     """Omega alone if that tells them apart and the methods' names do not fit."""
     labels = [omega_text(line.omega) for line in lines]
-    longer = [f"{label}: {looks.label(line)}" for label, line in zip(labels, lines)]
+    longer = [f"{label}: {looks.name(line)}" for label, line in zip(labels, lines)]
     distinct = len(set(labels)) == len(labels)
     if distinct and (len({line.method for line in lines}) == 1 or max(map(len, longer)) > 32):
         return labels
@@ -329,8 +357,8 @@ def omega_study(cells, lines, looks, setting):
     """Laid out like the paper's Fig. 6, (a) being the legend and the setting: lines of text. `cells`:
     those of one map and N."""
     with matplotlib.rc_context(SETTINGS):
-        figure = _new_figure(8.4, 4.7)
-        axes = figure.subplots(2, 3, gridspec_kw={"left": 0.07, "right": 0.985, "bottom": 0.1,
+        figure = _new_figure(8.4, 4.9)
+        axes = figure.subplots(2, 3, gridspec_kw={"left": 0.07, "right": 0.985, "bottom": 0.14,
                                                   "top": 0.94, "wspace": 0.27, "hspace": 0.42})
         axes[0][0].set_axis_off()
         axes[0][0].set_title("(a) setting", loc="left", fontweight="bold")
@@ -350,5 +378,6 @@ def omega_study(cells, lines, looks, setting):
                 _show_limits(ax, limits, named=True)
             _set_axis(ax, metric, _values(cells, lines, metric), limits)
             _set_x(ax, x_values, "M (tasks)")
-            ax.set_title(f"({letter}) {metric.label}", loc="left", fontweight="bold")
+            ax.set_title(f"({letter}) {metric.label}".replace("\n", " "), loc="left", fontweight="bold")
+        _add_caption(figure, _wrapped([SQR_CAPTION], figure.get_figwidth()))
         return figure
