@@ -53,7 +53,7 @@ RTSP_CALLS = Metric("mean number of rTSP calls", lambda m: m.mean_rtsp_calls, "c
 SQR_CAPTION = ("Mean SQR is over the runs that each method solved: methods that solve only the easy "
                "instances look better.")
 RATIO_CAPTION = ("Cost ratio: cost / least cost that any method found for the instance, over the same runs; "
-                 "1 is best.")
+                 "1 is best, and says nothing where only one method has a plan.")
 
 
 def save(figure, stem):

@@ -40,7 +40,8 @@ GLOSSARY = [
      "ones too, whose SQR is lower for everybody."),
     ("Cost ratio", "Cost of the plan / best known cost, of solved runs. The best known cost is the least that "
      "any row here has for the instance, runs that a limit ended included. 1 is the best, 1.05 is 5 % dearer. "
-     "Unlike SQR it does not fall because an instance is hard, so that methods compare even where one solves more."),
+     "Unlike SQR it does not fall because an instance is hard, so that methods compare even where one "
+     "solves more. Where no other method has a plan, it is 1 whatever the plan: nothing better is known."),
     ("PAR-2", "Mean runtime where a failure counts as twice the time limit. Lower is better."),
     ("Roots, rTSP calls", "Constraint trees that the search began, and sequencing problems that it solved to "
      "find them; means over all runs that tell, failures included."),
