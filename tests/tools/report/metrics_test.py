@@ -12,7 +12,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[3] / "tools/report"),
                 str(Path(__file__).resolve().parent)]
 
 import synthetic  # noqa: E402
-from grove_report import metrics, proofs, rows, speedup  # noqa: E402
+from grove_report import metrics, proofs, rows, scales, speedup, style  # noqa: E402
 from grove_report.lines import Line, Lines, families  # noqa: E402
 from grove_report.metrics import Cell  # noqa: E402
 from grove_report.rows import BadInput, read_results  # noqa: E402
@@ -32,6 +32,11 @@ def row(**values):
 
 def failed(**values):
     return row(**({"solved": False, "status": "unknown", "cost": None} | values))
+
+
+def measures(found):
+    """Of rows that are all there are."""
+    return metrics.measures(found, metrics.best_costs(found))
 
 
 class Folder(unittest.TestCase):
@@ -183,9 +188,8 @@ class Refusals(Folder):
 
 class Measures(unittest.TestCase):
     def test_of_some_rows(self):
-        found = metrics.measures([row(runtime_s=1.0, sqr=0.9, roots=4, rtsp_calls=10),
-                                  row(runtime_s=3.0, sqr=0.8, roots=2),
-                                  failed(roots=30), failed()])
+        found = measures([row(runtime_s=1.0, sqr=0.9, roots=4, rtsp_calls=10),
+                          row(runtime_s=3.0, sqr=0.8, roots=2), failed(roots=30), failed()])
         self.assertEqual((found.runs, found.solved, found.success), (4, 2, 0.5))
         self.assertEqual(found.mean_runtime_s, (1 + 3 + 100 + 100) / 4)
         self.assertEqual(found.median_runtime_s, (3 + 100) / 2)
@@ -194,12 +198,66 @@ class Measures(unittest.TestCase):
         self.assertEqual((found.mean_roots, found.mean_rtsp_calls), (12, 10))
 
     def test_none_solved(self):
-        found = metrics.measures([failed()])
-        self.assertEqual((found.success, found.mean_runtime_s, found.par2_s, found.mean_sqr),
-                         (0, 100, 200, None))
+        found = measures([failed(omega="0")])
+        self.assertEqual((found.success, found.mean_runtime_s, found.par2_s, found.mean_sqr,
+                          found.mean_cost_ratio, found.within_omega), (0, 100, 200, None, None, 0))
+
+    def test_within_omega(self):
+        def within(omega, **values):
+            return metrics.within_omega(row(omega=omega, **values))
+        for cost, found in ((100, True), (101, True), (102, False)):
+            self.assertIs(within("0.01", cost=cost, lower_bound=100), found)
+        # What the plan costs counts, not what the status says.
+        self.assertIs(within("0.01", status="bounded", cost=102, lower_bound=100), False)
+        # 1.1 x 110 is 121, but a little more or less in binary.
+        self.assertIs(within("0.1", cost=121, lower_bound=110), True)
+        self.assertIs(within("0.1", cost=122, lower_bound=110), False)
+        self.assertIs(within("0", cost=10, lower_bound=10), True)
+        self.assertIs(within("0", cost=10, lower_bound=9), False)
+        for status, found in (("optimal", True), ("bounded", True), ("feasible", False)):
+            self.assertIs(within("0.01", status=status), found)  # no bound is told
+        for omega in ("inf", ""):
+            self.assertIsNone(within(omega, status="optimal", lower_bound=10))
+
+    def test_how_many_are_within_omega(self):
+        found = [row(omega="0.1", cost=110, lower_bound=100), row(omega="0.1", cost=111, lower_bound=100),
+                 row(omega="0.1", status="optimal"), failed(omega="0.1", cost=100, lower_bound=100)]
+        self.assertEqual(measures(found).within_omega, 2)
+        self.assertIsNone(measures([row(omega="inf")]).within_omega)
+        self.assertIsNone(measures([row()]).within_omega)
+
+    def test_best_costs(self):
+        found = metrics.best_costs([
+            row(cost=12), row(method="b", cost=11), failed(method="c", status="feasible", cost=10),
+            failed(method="d", status="error", cost=1), failed(method="e"),
+            row(problem="cts", cost=20), failed(instance="j")])
+        self.assertEqual(found, {("mg", "i"): 10, ("cts", "i"): 20})
+
+    def test_cost_ratio(self):
+        easy = row(cost=10)
+        hard = row(instance="j", cost=30)
+        best = metrics.best_costs([easy, hard, row(method="b", cost=8), failed(instance="k", cost=1),
+                                   row(method="b", instance="j", cost=30)])
+        # 10/8 and 30/30; the failure does not count.
+        self.assertEqual(metrics.measures([easy, hard, failed(instance="k", cost=2)], best).mean_cost_ratio,
+                         1.125)
+        free = row(cost=0)
+        self.assertEqual(metrics.cost_ratio(free, metrics.best_costs([free])), 1)
+        self.assertIsNone(metrics.cost_ratio(easy, metrics.best_costs([easy, free])))
+
+    def test_the_cost_ratio_of_an_exact_method_is_not_worse_for_solving_more(self):
+        """SQR is: 10/10 on the easy instance, 10/20 on the hard one, which the other does not solve."""
+        exact = [row(status="optimal", cost=10, sqr=1.0),
+                 row(instance="j", status="optimal", cost=20, sqr=0.5)]
+        other = [row(method="b", cost=11, sqr=10 / 11), failed(method="b", instance="j")]
+        best = metrics.best_costs(exact + other)
+        exact, other = metrics.measures(exact, best), metrics.measures(other, best)
+        self.assertLess(exact.mean_sqr, other.mean_sqr)
+        self.assertEqual((exact.mean_cost_ratio, other.mean_cost_ratio), (1, 1.1))
 
     def test_cells_keep_methods_omegas_and_limits_apart_and_leave_gaps(self):
-        found = metrics.by_cell([row(), row(omega="0"), row(time_limit_s=7.0), row(tasks=20, method="b")])
+        made = [row(), row(omega="0"), row(time_limit_s=7.0), row(tasks=20, method="b")]
+        found = metrics.by_cell(made, metrics.best_costs(made))
         self.assertEqual({cell: set(lines) for cell, lines in found.items()},
                          {Cell("m", 5, 10): {Line("a", "", 100), Line("a", "0", 100), Line("a", "", 7.0)},
                           Cell("m", 5, 20): {Line("b", "", 100)}})
@@ -320,7 +378,17 @@ class TheLines(unittest.TestCase):
                  row(method="c"), row(method="c", time_limit_s=7.5)]
         lines = Lines(found, ["b"])
         self.assertEqual([lines.label(line) for line in lines.all],
-                         ["a, ω = 0", "a, ω = ∞", "c, limit 7.5 s", "c, limit 100 s", "b"])
+                         ["a, ω = 0", "a, ω = ∞", "c, no ω, limit 7.5 s", "c, no ω, limit 100 s", "b, ω = 0.01"])
+        self.assertEqual([lines.name(line) for line in lines.all],
+                         ["a", "a", "c, limit 7.5 s", "c, limit 100 s", "b"])
+
+    def test_labels_leave_out_an_omega_that_all_share(self):
+        def labels(*found):
+            lines = Lines(found, [])
+            return [lines.label(line) for line in lines.all]
+        self.assertEqual(labels(row(omega="0"), row(method="b", omega="0")), ["a", "b"])
+        # Of different problems, which no figure shows side by side.
+        self.assertEqual(labels(row(omega="0"), row(method="b", omega="1", problem="cts")), ["a", "b"])
 
     def test_families_by_options(self):
         found = [row(method=method, omega=omega, options=options) for method, omega, options in (
@@ -345,6 +413,30 @@ class TheLines(unittest.TestCase):
         same = {"options": "--method x --omega 0", "omega": "0"}
         self.assertEqual(families([row(**same), row(method="b", **same)]), [])
         self.assertEqual(families([row(omega="0"), row(omega="1", time_limit_s=7)]), [])
+
+
+class Scales(unittest.TestCase):
+    def test_points_side_by_side(self):
+        self.assertEqual(scales.dodged([10, 30], "abc"), {"a": -0.5, "b": 0, "c": 0.5})
+        self.assertEqual(scales.dodged([10, 15, 30], "ab"), {"a": -0.125, "b": 0.125})
+        self.assertEqual(scales.dodged([10], "ab"), {"a": 0, "b": 0})
+        self.assertEqual(scales.dodged([10, 30], "a"), {"a": 0})
+
+    def test_rounded_down(self):
+        for value, rounded in ((1, 1), (0.9, 0.3), (0.3, 0.3), (0.29, 0.1), (0.0081, 0.003), (0.002, 0.001)):
+            self.assertAlmostEqual(scales.rounded_down(value), rounded, places=12)
+
+    def test_where_time_begins(self):
+        self.assertEqual(scales.first_time([row(runtime_s=0.0042), row(runtime_s=2)]), 0.003)
+        self.assertEqual(scales.first_time([row(runtime_s=0), row(runtime_s=0.05)]), 0.03)
+        self.assertEqual(scales.first_time([row(runtime_s=50)]), 1)
+        self.assertEqual(scales.first_time([failed()]), 1)
+
+    def test_what_lies_below_is_larger(self):
+        for count in (1, 2, 8, 30):
+            depths = [style.depth(rank, count) for rank in range(count)]
+            self.assertEqual((depths, depths[-1]), (sorted(set(depths), reverse=True), 0))
+            self.assertLessEqual(depths[0], 1)
 
 
 class Tables(unittest.TestCase):

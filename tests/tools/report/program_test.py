@@ -74,6 +74,7 @@ class Folder(unittest.TestCase):
         """Its page and its stderr."""
         done = run(*arguments, "-o", self.folder / "out", **options)
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, f"^wrote {self.folder}/out/report.html: [1-9][0-9]* rows\n$")
         return (self.folder / "out/report.html").read_text(encoding="utf-8"), done.stderr
 
     def table(self, name):
@@ -119,6 +120,35 @@ class Reports(Folder):
                                sum(row["runtime_s"] for row in cell) / len(cell), places=2)
         self.assertEqual({row["omega"] for row in self.table("omega_study")}, {"0", "0.01", "0.1", "inf"})
 
+    def test_every_cell_and_method_is_in_the_page_and_in_a_file(self):
+        page, _ = self.report(self.results([row for row in few(1) if row["problem"] == "mg"]))
+        table = page.split("Table: every cell (map, N, M) and method</summary>")[1].split("</details>")[0]
+        self.assertEqual(table.count("<tr>"), 1 + len(self.table("comparison_mg")))
+        for column in ("success rate", "median s (failures = limit)", "mean SQR (solved runs)"):
+            self.assertIn(f">{column}</th>", table)
+        self.assertLessEqual({"success_rate", "median_runtime_s", "mean_sqr", "mean_cost_ratio"},
+                             set(self.table("comparison_mg")[0]))
+
+    def test_what_is_not_proven_is_told(self):
+        first = next(few(1)) | {"solved": True, "runtime_s": 1, "lower_bound": 100, "root_cost": 100}
+        found = [first | {"instance": name, "method": method, "omega": omega, "status": status, "cost": cost}
+                 for name, method, omega, status, cost in (
+                     ("p", "near", "0.01", "feasible", 107), ("q", "near", "0.01", "feasible", 103),
+                     ("r", "near", "0.01", "optimal", 120), ("p", "any", "inf", "feasible", 105),
+                     ("q", "any", "inf", "optimal", 102), ("p", "exact", "0", "optimal", 104))]
+        page, _ = self.report(self.results(found))
+        for told in ("(ω = 0: exact; ω = 0.01: near; ω = ∞: any)",
+                     "near, ω = 0.01: 2 of 3 solved runs are outside ω (status feasible)",
+                     "any, ω = ∞: no guarantee; 1 of 2 solved runs are not proven optimal (status feasible)"):
+            self.assertIn(told, page)
+        self.assertNotIn("of 1 solved runs", page)  # exact
+        within = {row["method"]: row["within_omega"] for row in self.table("summary_mg")}
+        self.assertEqual(within, {"near": "1", "any": "", "exact": "1"})
+        ratios = {row["method"]: row["mean_cost_ratio"] for row in self.table("summary_mg")}
+        # p: 104 is best, q: 102, r: 120.
+        self.assertEqual(ratios, {"near": f"{(107 / 104 + 103 / 102 + 1) / 3:.6g}",
+                                  "any": f"{(105 / 104 + 1) / 2:.6g}", "exact": "1"})
+
     def test_the_same_rows_give_the_same_bytes(self):
         found = list(few(2))
         path = self.results(found)
@@ -156,11 +186,11 @@ class Reports(Folder):
         self.assertEqual({row["instance"] for row in self.table("contradictions")}, {first["instance"]})
 
     def test_several_limits_and_seeds_are_told(self):
-        found = list(few(1, study=False))
+        found = [row for row in few(1, study=False) if row["omega"] == "0"]
         page, _ = self.report(self.results(found))
         self.assertNotIn("Before you compare", page)
         self.assertNotIn("The influence", page)  # nothing to study
-        more = [row | {"time_limit_s": 999} for row in found if row["method"] == "auto"]
+        more = [row | {"time_limit_s": 999} for row in found if row["method"] == "mgcbs"]
         more += [row | {"seed": 7, "version": "grove 9", "instance_digest": "f00"} for row in found
                  if row["method"] == "hcbs"]
         path = self.results(found + more)
@@ -169,13 +199,13 @@ class Reports(Folder):
         page, _ = self.report(path)
         for told in ("the last line is cut off", "Under one name stand several instances",
                      "several time limits (180 s, 999 s)", "several seeds (0, 7)", "several versions",
-                     "auto, limit 999 s"):
+                     "mgcbs, limit 999 s"):
             self.assertIn(told, page)
 
     def test_gaps(self):
         found = [row for row in few(1) if row["method"] != "hcbs" or row["tasks"] != 30]
         page, _ = self.report(self.results(found))
-        self.assertIn("not every method was run on all 6 instances (hcbs 4)", page)
+        self.assertIn("not every method was run on all 6 instances (hcbs, ω = 0: 4)", page)
         self.assertNotIn(("hcbs", "30"), {(row["method"], row["tasks"])
                                           for row in self.table("comparison_mg")})
 

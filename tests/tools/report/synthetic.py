@@ -52,7 +52,7 @@ def _row(dice, instance, method, options, omega, shape):
         "options": options, "map": name, "scenario": scenario, "agents": agents, "tasks": tasks,
         "problem": problem, "omega": omega, "seed": 0, "time_limit_s": LIMIT_S, "solved": solved,
         "status": "unknown" if not solved else "optimal" if proves else "bounded"
-                  if omega not in ("inf", "0") else "feasible",
+                  if omega != "inf" and cost <= (1 + float(omega)) * root else "feasible",
         "cost": cost, "lower_bound": optimum if proves else root,
         "gap": None if cost is None else (cost - root) / root, "root_cost": root,
         "sqr": root / cost if solved else None, "runtime_s": round(spent, 4),

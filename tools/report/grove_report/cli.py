@@ -139,7 +139,7 @@ def _run(arguments):
     if report.contradictions:
         print(f"grove: warning: proofs contradict each other ({len(report.contradictions)} times); "
               f"see {Path(a.output) / 'contradictions.csv'}", file=sys.stderr)
-    print(printable(f"{len(report.results.rows)} rows -> {Path(a.output) / PAGE}"))
+    print(printable(f"wrote {Path(a.output) / PAGE}: {len(report.results.rows)} rows"))
 
 
 def main(arguments):

@@ -17,7 +17,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocat
 
 from .lines import omega_text
 from .metrics import solved_over_time
-from .style import plot_arguments
+from .scales import dodged, first_time
+from .style import APART, depth, plot_arguments
 
 SETTINGS = {
     "svg.hashsalt": "grove report", "svg.fonttype": "path", "font.family": "DejaVu Sans",
@@ -37,14 +38,22 @@ SHORTEST_S = 0.001
 class Metric(NamedTuple):
     label: str
     value: object        # of Measures
-    axis: str = "plain"  # "percent", "seconds", "ratio", "count"
+    axis: str = "plain"  # "percent", "seconds", "ratio" (at most 1), "excess" (at least 1), "count"
 
 
 SUCCESS = Metric("success rate (%)", lambda m: 100 * m.success, "percent")
 RUNTIME = Metric("mean runtime (s)", lambda m: max(m.mean_runtime_s, SHORTEST_S), "seconds")
-SQR = Metric("mean SQR", lambda m: m.mean_sqr, "ratio")
+SQR = Metric("mean SQR\n(solved runs)", lambda m: m.mean_sqr, "ratio")
+COST_RATIO = Metric("mean cost ratio\n(solved runs, 1 = best)", lambda m: m.mean_cost_ratio, "excess")
 ROOTS = Metric("mean number of roots", lambda m: m.mean_roots, "count")
 RTSP_CALLS = Metric("mean number of rTSP calls", lambda m: m.mean_rtsp_calls, "count")
+
+
+# What must be known wherever a figure is shown, so it is part of it.
+SQR_CAPTION = ("Mean SQR is over the runs that each method solved: methods that solve only the easy "
+               "instances look better.")
+RATIO_CAPTION = ("Cost ratio: cost / least cost that any method found for the instance, over the same runs; "
+                 "1 is best, and says nothing where only one method has a plan.")
 
 
 def save(figure, stem):
@@ -90,6 +99,10 @@ def _set_axis(ax, metric, values, limits):
         bottom = math.floor(lowest / step - 0.1) * step
         ax.set_ylim(bottom, 1 + 0.06 * (1 - bottom))
         ax.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+    elif metric.axis == "excess":
+        excess = max(max(values, default=1) - 1, 0.005)
+        ax.set_ylim(1 - 0.08 * excess, 1 + 1.1 * excess)
+        ax.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     elif metric.axis == "count":
         lowest, highest = min(values, default=1), max(values, default=1)
         if lowest > 0:
@@ -114,13 +127,6 @@ def _show_limits(ax, limits, named):
                     xytext=(2, 1.5), textcoords="offset points", color=FAINT)
 
 
-def _dodged(x_values, lines):
-    """{line: what to add to x}, so that points on each other can be seen."""
-    gap = min((b - a for a, b in zip(x_values, x_values[1:])), default=0)
-    between = gap * min(0.05, 0.32 / max(len(lines) - 1, 1))
-    return {line: between * (index - (len(lines) - 1) / 2) for index, line in enumerate(lines)}
-
-
 def _x_ticks(x_values):
     if len(x_values) <= 6:
         return x_values
@@ -139,12 +145,12 @@ def _set_x(ax, x_values, name):
 def _plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
     """`cells`: {cell: {line: Measures}} of one panel. A cell without the line is a gap."""
     drawn = False
-    for line in lines:
+    for rank, line in enumerate(lines):
         points = [(x_of(cell) + offsets[line], metric.value(found[line]) if line in found else None)
                   for cell, found in sorted(cells.items(), key=lambda item: x_of(item[0]))]
         drawn |= any(y is not None for _, y in points)
         ax.plot([x for x, _ in points], [math.nan if y is None else y for _, y in points],
-                **plot_arguments(looks.style(line)))
+                **plot_arguments(looks.style(line), depth(rank, len(lines))))
     if not drawn:
         ax.text(0.5, 0.5, "no data" if cells else "no runs", transform=ax.transAxes, ha="center",
                 va="center", color=FAINT)
@@ -158,10 +164,12 @@ def _legend_columns(labels, width):
     return math.ceil(len(labels) / lines)  # equally long lines
 
 
-def _handles(lines, labels, looks):
+def _handles(lines, labels, looks, nested):
     # matplotlib leaves out labels that begin with _.
-    return [Line2D([], [], label=" " * label.startswith("_") + label, **plot_arguments(looks.style(line)))
-            for line, label in zip(lines, labels)]
+    depths = [depth(rank, len(lines)) if nested else APART for rank in range(len(lines))]
+    return [Line2D([], [], label=" " * label.startswith("_") + label,
+                   **plot_arguments(looks.style(line), below))
+            for line, label, below in zip(lines, labels, depths)]
 
 
 def _legend_height(lines, looks, width):
@@ -169,10 +177,10 @@ def _legend_height(lines, looks, width):
     return 0.17 * math.ceil(len(labels) / _legend_columns(labels, width)) + 0.05
 
 
-def _add_legend(figure, lines, looks):
+def _add_legend(figure, lines, looks, nested):
     """On top, as wide as the figure."""
     labels = [looks.label(line) for line in lines]
-    figure.legend(handles=_handles(lines, labels, looks), loc="upper center", frameon=False,
+    figure.legend(handles=_handles(lines, labels, looks, nested), loc="upper center", frameon=False,
                   ncol=_legend_columns(labels, figure.get_figwidth() - 0.4), handlelength=2.6,
                   columnspacing=1.6, borderaxespad=0.2)
 
@@ -204,14 +212,18 @@ def columns_of(cells):
                    "N (agents)", lambda key: f"M = {key[1]}")
 
 
-def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR)):
-    """Laid out like the paper's Fig. 5: a row for each metric. `cells`: {cell: {line: Measures}}."""
+def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COST_RATIO)):
+    """Laid out like the paper's Fig. 5, and below that the cost ratio: a row for each metric. `cells`:
+    {cell: {line: Measures}}."""
     with matplotlib.rc_context(SETTINGS):
         columns = columns_of(cells)
         metrics = [metric for metric in metrics if _values(cells, lines, metric)]
         count = len(columns.keys)
-        left, right, bottom = 0.72, 0.12, 0.45
-        width = max(6.5, left + right + 1.42 * count)
+        width = max(6.5, 0.98 + 1.42 * count)
+        notes = [text for metric, text in ((SQR, SQR_CAPTION), (COST_RATIO, RATIO_CAPTION))
+                 if metric in metrics]
+        caption = _wrapped(notes, width)
+        left, right, bottom = 0.86, 0.12, 0.5 + 0.13 * len(caption)
         legend = _legend_height(lines, looks, width - 0.4)
         top = legend + 0.5
         height = top + bottom + 1.55 * len(metrics)
@@ -224,7 +236,7 @@ def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR)):
         for column, key in enumerate(columns.keys):
             here = {cell: found for cell, found in cells.items() if columns.key_of(cell) == key}
             x_values = sorted({columns.x_of(cell) for cell in here})
-            offsets = _dodged(x_values, lines)
+            offsets = dodged(x_values, lines)
             for row, metric in enumerate(metrics):
                 ax = axes[row][column]
                 _plot_metric(ax, here, columns.x_of, lines, metric, looks, offsets)
@@ -239,8 +251,20 @@ def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR)):
             axes[0][column].set_title(columns.title_of(key), pad=4)
         figure.align_ylabels(axes[:, 0])
         _name_maps(figure, columns, axes, (height - legend - 0.17) / height)
-        _add_legend(figure, lines, looks)
+        _add_legend(figure, lines, looks, nested=True)
+        _add_caption(figure, caption)
         return figure
+
+
+def _wrapped(texts, width):
+    """Lines of a caption as wide as a figure of `width` inches."""
+    return textwrap.wrap(" ".join(texts), int(width / 0.061))
+
+
+def _add_caption(figure, lines):
+    """At the bottom left; 0.13 inches a line."""
+    figure.text(0.1 / figure.get_figwidth(), 0.06 / figure.get_figheight(), "\n".join(lines), va="bottom",
+                fontsize=7, linespacing=1.25, color="#555555")
 
 
 def _name_maps(figure, columns, axes, y):
@@ -265,12 +289,11 @@ def _thinned(times, first, last, bins=300):
     return list(points.values())
 
 
-def _plot_solved(ax, rows, first, last, line, looks, phase):
+def _plot_solved(ax, rows, first, last, arguments, phase):
     """A step function from `first` to the time limit, with markers where `phase` puts them."""
     points = _thinned(solved_over_time(rows), first, last)
     xs = [first, *[x for x, _ in points], last]
     ys = [0, *[y for _, y in points], points[-1][1] if points else 0]
-    arguments = plot_arguments(looks.style(line))
     marker = {key: arguments.pop(key) for key in list(arguments) if key.startswith("marker")}
     ax.plot(xs, ys, drawstyle="steps-post", **arguments)
     spots = [first * (last / first) ** ((index + 0.15 + 0.7 * phase) / 5) for index in range(5)]
@@ -282,9 +305,8 @@ def cactus(groups, lines, looks, per_row=4):
     """Number solved against time. `groups`: {title: {line: rows}}, one panel each."""
     with matplotlib.rc_context(SETTINGS):
         limits = [line.time_limit_s for line in lines]
-        shortest = min([row.runtime_s for group in groups.values() for rows in group.values()
-                        for row in rows if row.solved], default=1)
-        first = 10 ** math.floor(math.log10(max(min(shortest, 1), 0.01)))
+        first = first_time([row for group in groups.values() for rows in group.values()
+                            for row in rows])
         across = min(len(groups), per_row)
         down = math.ceil(len(groups) / across)
         width = max(6.5, 2.75 * across + 0.3)
@@ -297,8 +319,9 @@ def cactus(groups, lines, looks, per_row=4):
         for ax, (title, group) in zip(axes.flat, groups.items()):
             for place, line in enumerate(lines):
                 if line in group:
-                    _plot_solved(ax, group[line], first, max(line.time_limit_s, first * 10), line,
-                                 looks, place / max(len(lines) - 1, 1))
+                    _plot_solved(ax, group[line], first, max(line.time_limit_s, first * 10),
+                                 plot_arguments(looks.style(line), APART),
+                                 place / max(len(lines) - 1, 1))
             most = max(len(rows) for rows in group.values())
             ax.axhline(most, color=FAINT, linewidth=0.7, linestyle=(0, (1, 1.5)), zorder=1)
             ax.annotate("all", (0, most), xycoords=("axes fraction", "data"), fontsize=6.5,
@@ -316,14 +339,14 @@ def cactus(groups, lines, looks, per_row=4):
             ax.set_axis_off()
         for row in axes:
             row[0].set_ylabel("instances solved")
-        _add_legend(figure, lines, looks)
+        _add_legend(figure, lines, looks, nested=False)
         return figure
 
 
 def _omega_labels(lines, looks):
     """Omega alone if that tells them apart and the methods' names do not fit."""
     labels = [omega_text(line.omega) for line in lines]
-    longer = [f"{label}: {looks.label(line)}" for label, line in zip(labels, lines)]
+    longer = [f"{label}: {looks.name(line)}" for label, line in zip(labels, lines)]
     distinct = len(set(labels)) == len(labels)
     if distinct and (len({line.method for line in lines}) == 1 or max(map(len, longer)) > 32):
         return labels
@@ -334,20 +357,20 @@ def omega_study(cells, lines, looks, setting):
     """Laid out like the paper's Fig. 6, (a) being the legend and the setting: lines of text. `cells`:
     those of one map and N."""
     with matplotlib.rc_context(SETTINGS):
-        figure = _new_figure(8.4, 4.7)
-        axes = figure.subplots(2, 3, gridspec_kw={"left": 0.07, "right": 0.985, "bottom": 0.1,
+        figure = _new_figure(8.4, 4.9)
+        axes = figure.subplots(2, 3, gridspec_kw={"left": 0.07, "right": 0.985, "bottom": 0.14,
                                                   "top": 0.94, "wspace": 0.27, "hspace": 0.42})
         axes[0][0].set_axis_off()
         axes[0][0].set_title("(a) setting", loc="left", fontweight="bold")
         axes[0][0].text(0, 0.97, "\n".join(textwrap.fill(text, 40) for text in setting), va="top", linespacing=1.45,
                         transform=axes[0][0].transAxes)
         labels = _omega_labels(lines, looks)
-        axes[0][0].legend(handles=_handles(lines, labels, looks), frameon=False, handlelength=2.6,
-                          loc="lower left", borderaxespad=0, borderpad=0,
+        axes[0][0].legend(handles=_handles(lines, labels, looks, nested=True), frameon=False,
+                          handlelength=2.6, loc="lower left", borderaxespad=0, borderpad=0,
                           ncol=1 if len(lines) <= 5 else 2)
         limits = sorted({line.time_limit_s for line in lines})
         x_values = sorted({cell.tasks for cell in cells})
-        offsets = _dodged(x_values, lines)
+        offsets = dodged(x_values, lines)
         panels = zip("bcdef", list(axes.flat)[1:], (SUCCESS, RUNTIME, SQR, ROOTS, RTSP_CALLS))
         for letter, ax, metric in panels:
             _plot_metric(ax, cells, lambda cell: cell.tasks, lines, metric, looks, offsets)
@@ -355,5 +378,6 @@ def omega_study(cells, lines, looks, setting):
                 _show_limits(ax, limits, named=True)
             _set_axis(ax, metric, _values(cells, lines, metric), limits)
             _set_x(ax, x_values, "M (tasks)")
-            ax.set_title(f"({letter}) {metric.label}", loc="left", fontweight="bold")
+            ax.set_title(f"({letter}) {metric.label}".replace("\n", " "), loc="left", fontweight="bold")
+        _add_caption(figure, _wrapped([SQR_CAPTION], figure.get_figwidth()))
         return figure

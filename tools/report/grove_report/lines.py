@@ -40,9 +40,12 @@ class Lines:
         self.all = sorted(found, key=lambda line: (
             line not in shown_first, self.is_baseline(line), line.method, omega_value(line.omega),
             line.time_limit_s))
-        self._omegas, self._limits = defaultdict(set), defaultdict(set)
+        omegas = defaultdict(set)
+        for row in rows:
+            omegas[row.problem].add(row.omega)
+        self._omegas_differ = any(len(values) > 1 for values in omegas.values())
+        self._limits = defaultdict(set)
         for line in found:
-            self._omegas[line.method].add(line.omega)
             self._limits[line.method, line.omega].add(line.time_limit_s)
         self._index = {line: index for index, line in enumerate(self.all)}
 
@@ -52,10 +55,18 @@ class Lines:
     def index(self, line):
         return self._index[line]
 
+    def name(self, line):
+        """The label without omega: for where omega stands beside it."""
+        return self._called(line, False)
+
     def label(self, line):
-        """The method, and omega and time limit where the method alone does not tell."""
+        """The method; omega, of all methods as soon as two of one problem differ in it, since those
+        with a larger one have less to prove; and the time limit of a method that has several."""
+        return self._called(line, self._omegas_differ)
+
+    def _called(self, line, with_omega):
         parts = [line.method]
-        if len(self._omegas[line.method]) > 1:
+        if with_omega:
             parts.append(omega_text(line.omega))
         if len(self._limits[line.method, line.omega]) > 1:
             parts.append(f"limit {seconds_text(line.time_limit_s)}")

@@ -2,20 +2,58 @@
 """The figures of a set of rows of one line: success, runtime, SQR, PAR-2, ..."""
 import statistics
 from collections import defaultdict
+from fractions import Fraction
 from typing import NamedTuple, Optional
 
 from .lines import line_of
+
+
+NO_PROMISE = ("", "inf")  # omegas
+
+
+def within_omega(row):
+    """Whether a row with a plan proves that its cost is at most (1 + omega) times a lower bound. None:
+    its omega promises nothing. From cost and bound where both are there, not from what the status says:
+    a method may mean another bound."""
+    if row.omega in NO_PROMISE:
+        return None
+    if row.status == "optimal":
+        return True
+    if row.lower_bound is None:
+        return row.status == "bounded"
+    return row.cost <= (1 + Fraction(row.omega)) * row.lower_bound
+
+
+def best_costs(rows):
+    """{(problem, instance): the least cost of any plan}; also of plans of runs that a limit ended, but
+    not of runs with an error: their plans may be wrong."""
+    best = {}
+    for row in rows:
+        if row.cost is not None and row.status != "error":
+            key = row.problem, row.instance
+            best[key] = min(best.get(key, row.cost), row.cost)
+    return best
+
+
+def cost_ratio(row, best):
+    """Cost / best known cost, at least 1. None: the best known is 0 and this is not."""
+    least = best[row.problem, row.instance]
+    if row.cost == least:
+        return 1.0
+    return row.cost / least if least else None
 
 
 class Measures(NamedTuple):
     """None: no row to tell."""
     runs: int
     solved: int
+    within_omega: Optional[int]    # of the solved; None: omega promises nothing
     success: float                 # solved / runs
     mean_runtime_s: float          # a failure counts as the time limit
     median_runtime_s: float        # likewise
     par2_s: float                  # a failure counts as twice the time limit
     mean_sqr: Optional[float]      # over solved rows
+    mean_cost_ratio: Optional[float]  # likewise; cost / best known cost
     mean_roots: Optional[float]    # over all rows that tell
     mean_rtsp_calls: Optional[float]
 
@@ -25,15 +63,19 @@ def _mean(values):
     return statistics.fmean(values) if values else None
 
 
-def measures(rows):
-    solved = sum(row.solved for row in rows)
+def measures(rows, best):
+    """`rows`: of one line, at least one; `best`: best_costs() of all rows there are."""
+    solved = [row for row in rows if row.solved]
     return Measures(
-        runs=len(rows), solved=solved, success=solved / len(rows),
+        runs=len(rows), solved=len(solved),
+        within_omega=None if rows[0].omega in NO_PROMISE else sum(map(within_omega, solved)),
+        success=len(solved) / len(rows),
         mean_runtime_s=statistics.fmean(row.runtime_s for row in rows),
         median_runtime_s=statistics.median(row.runtime_s for row in rows),
         par2_s=statistics.fmean(row.runtime_s if row.solved else 2 * row.time_limit_s
                                 for row in rows),
-        mean_sqr=_mean(row.sqr for row in rows if row.solved),
+        mean_sqr=_mean(row.sqr for row in solved),
+        mean_cost_ratio=_mean(cost_ratio(row, best) for row in solved),
         mean_roots=_mean(row.roots for row in rows),
         mean_rtsp_calls=_mean(row.rtsp_calls for row in rows))
 
@@ -44,14 +86,14 @@ class Cell(NamedTuple):
     tasks: int
 
 
-def by_cell(rows):
-    """{cell: {line: Measures}}; a line without rows in a cell is not there."""
+def by_cell(rows, best):
+    """{cell: {line: Measures}}; a line without rows in a cell is not there. `best`: as in measures()."""
     groups = defaultdict(list)
     for row in rows:
         groups[Cell(row.map, row.agents, row.tasks), line_of(row)].append(row)
     cells = defaultdict(dict)
     for (cell, line), group in sorted(groups.items()):
-        cells[cell][line] = measures(group)
+        cells[cell][line] = measures(group, best)
     return dict(cells)
 
 

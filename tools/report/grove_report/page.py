@@ -2,10 +2,12 @@
 """The HTML page: one file, no script, nothing loaded from anywhere."""
 import base64
 import html
+from collections import Counter, defaultdict
 from pathlib import Path
 
-from .lines import omega_text, seconds_text
+from .lines import line_of, omega_text, seconds_text
 from .report import PROBLEM_NAMES
+from .rows import STATUSES_WITH_PLAN
 from .speedup import ALL_MAPS, BEST
 from .tables import NOTHING, Entry, count, html_table, percent, ratio, seconds, word
 
@@ -18,17 +20,28 @@ GLOSSARY = [
      "destination, must not collide. The sum of their finish times, the cost, is to be small."),
     ("MG-MAPF", "The same without destinations: an agent may end on any of its own tasks."),
     ("N, M", "The number of agents; the number of tasks (one task may belong to several agents)."),
-    ("ω", "How far from optimal a plan may be: its cost is at most (1 + ω) times a proven lower bound. "
-     "0: optimal; ∞: no promise."),
-    ("Solved", "The run ended by itself with a plan that was re-checked. A run that a limit ended is a "
-     "failure, even with a plan."),
+    ("ω", "How far from optimal a plan may be, as the method was told: at most (1 + ω) times the least "
+     "possible cost. 0: optimal; ∞: no promise. Not every method proves it for the whole problem: one that "
+     "first chooses the agents' destinations, say, may stop within ω of the best plan for these, however "
+     "much better another choice is."),
+    ("Solved", "The run ended by itself with a plan that was re-checked: no more. A run that a limit ended "
+     "is a failure, even with a plan. Solved runs may be outside ω."),
+    ("Within ω", "A solved run that proves what ω says: the plan is optimal, or costs at most (1 + ω) times "
+     "the lower bound that the run proved. The others are outside ω; the plan may still be good, but nothing "
+     "shows it. A dash where ω is ∞ or not given: nothing was promised."),
+    ("Status", "Of a plan: optimal; bounded, proven to be within ω; feasible, neither."),
     ("Success rate", "Solved runs / all runs. Higher is better."),
     ("Runtime", "Wall time of a run in seconds; a failure counts as the time limit. So the mean of a "
      "method with many failures says little but that. Lower is better."),
     ("SQR, solution quality ratio", "Root cost / cost of the plan, of solved runs. The root cost is what the "
      "agents' best sequences cost together when nobody minds the others: a lower bound on the optimum. 1 "
      "is thus the best there can be, and the optimum may lie below 1. Each method is averaged over the runs "
-     "that it solved: one that solves only easy instances looks better."),
+     "that it solved: one that solves only the easy instances looks better than one that solves the hard "
+     "ones too, whose SQR is lower for everybody."),
+    ("Cost ratio", "Cost of the plan / best known cost, of solved runs. The best known cost is the least that "
+     "any row here has for the instance, runs that a limit ended included. 1 is the best, 1.05 is 5 % dearer. "
+     "Unlike SQR it does not fall because an instance is hard, so that methods compare even where one "
+     "solves more. Where no other method has a plan, it is 1 whatever the plan: nothing better is known."),
     ("PAR-2", "Mean runtime where a failure counts as twice the time limit. Lower is better."),
     ("Roots, rTSP calls", "Constraint trees that the search began, and sequencing problems that it solved to "
      "find them; means over all runs that tell, failures included."),
@@ -113,14 +126,34 @@ def _provenance(report):
 
 
 def _methods(report):
-    options = {}
+    options, statuses = defaultdict(set), defaultdict(Counter)
     for row in report.results.rows:
-        options.setdefault((row.method, row.omega, row.time_limit_s), set()).add(row.options)
-    rows = [[word(report.lines.label(line)), word(omega_text(line.omega)),
+        options[line_of(row)].add(row.options)
+        if row.solved:
+            statuses[line_of(row)][row.status] += 1
+    rows = [[word(report.lines.name(line)), word(omega_text(line.omega)),
              Entry(seconds_text(line.time_limit_s)),
              word("yes" if report.lines.is_baseline(line) else ""),
+             word(", ".join(f"{statuses[line][status]} {status}" for status in STATUSES_WITH_PLAN
+                            if statuses[line][status])),
              word("; ".join(sorted(options[line])))] for line in report.lines.all]
-    return html_table(["method", "ω", "time limit", "baseline", "options"], rows)
+    return html_table(["method", "ω", "time limit", "baseline", "status of its solved runs", "options"], rows)
+
+
+def _within(line, found):
+    """How many of the solved rows of a line, measured as `found`, are within omega."""
+    if found.within_omega is None:
+        return Entry("–", f"{omega_text(line.omega)}: no promise")
+    return Entry(str(found.within_omega))
+
+
+# A failure has no time of its own: the paper's convention.
+MEDIAN = "median s (failures = limit)"
+MEAN = "mean s (failures = limit)"
+PAR2 = "PAR-2 s (failures = 2 × limit)"
+SQR = "mean SQR (solved runs)"
+COST_RATIO = "mean cost ratio (solved runs)"
+WITHIN = "of these within ω"
 
 
 def _best(values, better):
@@ -134,19 +167,20 @@ def _summary(problem, lines):
     best_solved = max(found.solved for found in measured) if comparable else None
     best_par2 = min(found.par2_s for found in measured) if comparable else None
     has_baselines = any(lines.is_baseline(line) for line in problem.lines)
-    header = ["method", "runs", "solved", "success rate", "PAR-2 (s)", "median time (s)",
-              "mean runtime (s)", "mean SQR", "solved by it alone",
+    header = ["method", "runs", "solved", WITHIN, "success rate", PAR2, MEDIAN, MEAN, SQR, COST_RATIO,
+              "solved by it alone",
               *(["solved by no baseline"] if has_baselines else [])]
     rows = []
     for line in problem.lines:
         found = problem.by_line[line]
         rows.append([
             word(lines.label(line)), Entry(str(found.runs)),
-            Entry(str(found.solved), strong=found.solved == best_solved),
+            Entry(str(found.solved), strong=found.solved == best_solved), _within(line, found),
             Entry(percent(found.success)),
             Entry(seconds(found.par2_s), strong=found.par2_s == best_par2),
             Entry(seconds(found.median_runtime_s)), Entry(seconds(found.mean_runtime_s)),
-            Entry(ratio(found.mean_sqr)), Entry(str(len(problem.only.get(line, ()))))])
+            Entry(ratio(found.mean_sqr)), Entry(ratio(found.mean_cost_ratio)),
+            Entry(str(len(problem.only.get(line, ()))))])
         if has_baselines:
             rows[-1].append(Entry("" if lines.is_baseline(line) else
                                   str(problem.beyond.get(line, 0))))
@@ -169,6 +203,17 @@ def _matrix(problem, lines, value, show, better):
         rows.append(row)
     header = ["map", Entry("N"), Entry("M"), *(Entry(lines.label(line)) for line in problem.lines)]
     return html_table(header, rows)
+
+
+def _cells(problem, lines):
+    """A row for each cell and line."""
+    rows = [[word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks)), word(lines.label(line)),
+             Entry(str(found[line].runs)), Entry(str(found[line].solved)), _within(line, found[line]),
+             Entry(percent(found[line].success)), Entry(seconds(found[line].median_runtime_s)),
+             Entry(ratio(found[line].mean_sqr)), Entry(ratio(found[line].mean_cost_ratio))]
+            for cell, found in problem.cells.items() for line in problem.lines if line in found]
+    return html_table(["map", "N", "M", "method", "runs", "solved", WITHIN, "success rate", MEDIAN, SQR,
+                       COST_RATIO], rows)
 
 
 def _speedup_entry(found):
@@ -233,18 +278,26 @@ def _problem(problem, lines):
              _paragraph(f"{len(problem.rows)} runs of {problem.instances} instances. Every figure and table "
                         "has one line or column for each method with one ω and one time limit."),
              "<h3>All instances together</h3>", _summary(problem, lines),
-             _paragraph("Bold: the best, where all have as many runs. Median time: a failure counts as the limit. Solved by it alone: "
+             _paragraph("Bold: the best, where all have as many runs. Of these within ω: solved runs that prove "
+                        "their plan to be as good as ω asks. Mean SQR is over the runs that each method "
+                        "solved: one that solves only the easy instances looks better. Solved by it alone: "
                         "instances that no other method solves. Solved by no baseline: that it solves "
                         "and no baseline that tried does. "
                         f"As a file: summary_{name}.csv.")]
     parts += [_figure(figure, "A column for each map and number of agents N (where the number of tasks "
                       "M does not vary: for each map, with N along the axis), a row for each metric. "
-                      "Runtime is on a log axis; a failure counts as the time limit (dotted). Points of "
-                      "one place are drawn a little side by side, so that none hides another.") for figure in problem.comparison]
+                      "Runtime is on a log axis; a failure counts as the time limit (dotted). SQR (higher is "
+                      "better) and cost ratio (1 is best) are over the runs that each method solved; SQR "
+                      "makes methods that solve only the easy instances look better. Where lines lie on "
+                      "each other, those below are broader and have larger markers.") for figure in problem.comparison]
+    parts += ["<details><summary>Table: every cell (map, N, M) and method</summary>", _cells(problem, lines),
+              "</details>"]
     for title, value, show, better in (
             ("Success rate", lambda found: found.success, percent, max),
-            ("Mean runtime (s)", lambda found: found.mean_runtime_s, seconds, min),
-            ("Mean SQR", lambda found: found.mean_sqr, ratio, None)):
+            ("Median runtime in s (failures = limit)", lambda found: found.median_runtime_s, seconds, min),
+            ("Mean runtime in s (failures = limit)", lambda found: found.mean_runtime_s, seconds, min),
+            ("Mean SQR (solved runs)", lambda found: found.mean_sqr, ratio, None),
+            ("Mean cost ratio (solved runs)", lambda found: found.mean_cost_ratio, ratio, None)):
         parts += [f"<details><summary>Table: {title}</summary>",
                   _matrix(problem, lines, value, show, better), "</details>"]
     parts += [_paragraph(f"All of it as a file: comparison_{name}.csv."),
@@ -264,12 +317,14 @@ def _study_table(study, lines):
     for cell, found in study.cells.items():
         rows += [[word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks)),
                   word(omega_text(line.omega), lines.label(line)), Entry(str(found[line].runs)),
+                  Entry(str(found[line].solved)), _within(line, found[line]),
                   Entry(percent(found[line].success)), Entry(seconds(found[line].mean_runtime_s)),
-                  Entry(ratio(found[line].mean_sqr)), Entry(count(found[line].mean_roots)),
+                  Entry(ratio(found[line].mean_sqr)), Entry(ratio(found[line].mean_cost_ratio)),
+                  Entry(count(found[line].mean_roots)),
                   Entry(count(found[line].mean_rtsp_calls))]
                  for line in study.family.lines if line in found]
-    return html_table(["map", "N", "M", "ω", "runs", "success rate", "mean runtime (s)", "mean SQR",
-                       "mean roots", "mean rTSP calls"], rows)
+    return html_table(["map", "N", "M", "ω", "runs", "solved", WITHIN, "success rate", MEAN, SQR,
+                       COST_RATIO, "mean roots", "mean rTSP calls"], rows)
 
 
 def _studies(report):
@@ -280,7 +335,8 @@ def _studies(report):
     for study in report.studies:
         parts += [_figure(study.figure, f"{PROBLEM_NAMES[study.problem]}, map {study.map}, "
                           f"N = {study.agents}. (b) to (f) by number of tasks M; runtime and numbers on log "
-                          "axes."),
+                          "axes. SQR is over the runs solved with each ω: an ω with which only the easy "
+                          "instances are solved looks better."),
                   "<details><summary>Table: all maps and numbers of agents</summary>",
                   _study_table(study, report.lines), "</details>",
                   _paragraph(f"As a file: {study.figure.stem}.csv.")]

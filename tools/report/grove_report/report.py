@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from . import figures, metrics, proofs
-from .lines import Lines, families, line_of, seconds_text
+from .lines import Lines, families, line_of, omega_text, omega_value, seconds_text
 from .rows import PROBLEMS, BadInput
 from .speedup import ALL_MAPS, hard_instances, speedups
 from .style import style_of
@@ -67,6 +67,7 @@ class Looks:
 
     def __init__(self, lines):
         self.label = lines.label
+        self.name = lines.name
         self._lines = lines
 
     def style(self, line):
@@ -106,7 +107,7 @@ def _comparison_figures(output, problem, cells, lines, looks):
     for number, part in enumerate(parts, 1):
         stem = f"comparison_{problem}" + (f"_{number}" if len(parts) > 1 else "")
         maps = ", ".join(sorted({cell.map for cell in part}))
-        yield output.figure(stem, f"Success rate, mean runtime and mean SQR on {maps}",
+        yield output.figure(stem, f"Success rate, mean runtime, mean SQR and mean cost ratio on {maps}",
                             figures.comparison(part, lines, looks))
 
 
@@ -122,17 +123,17 @@ def _cactus_figure(output, problem, runs, lines, looks):
 
 
 LINE_COLUMNS = ["method", "omega", "time_limit_s"]
-MEASURE_COLUMNS = ["runs", "solved", "success_rate", "mean_runtime_s", "median_runtime_s", "par2_s",
-                   "mean_sqr", "mean_roots", "mean_rtsp_calls"]
+MEASURE_COLUMNS = ["runs", "solved", "within_omega", "success_rate", "mean_runtime_s", "median_runtime_s", "par2_s",
+                   "mean_sqr", "mean_cost_ratio", "mean_roots", "mean_rtsp_calls"]
 
 
-def _problem(output, name, rows, lines, looks):
+def _problem(output, name, rows, best, lines, looks):
     here = metrics.by_line(rows)
     ordered = [line for line in lines.all if line in here]
-    cells = metrics.by_cell(rows)
+    cells = metrics.by_cell(rows, best)
     runs = metrics.median_runs(rows)
     problem = Problem(
-        name, ordered, rows, {line: metrics.measures(here[line]) for line in ordered}, cells,
+        name, ordered, rows, {line: metrics.measures(here[line], best) for line in ordered}, cells,
         len(runs), metrics.only_solver(runs), metrics.beyond_baselines(runs, lines.is_baseline),
         speedups(runs, lines.is_baseline), len(hard_instances(runs, lines.is_baseline)),
         list(_comparison_figures(output, name, cells, ordered, looks)),
@@ -183,14 +184,14 @@ def _setting(problem, family, map_name, agents, rows):
             "time limit " + ", ".join(map(seconds_text, limits))]
 
 
-def _studies(output, rows_of, lines, looks, options):
+def _studies(output, rows_of, best, looks, options):
     """Of the first problem, CTS-MAPF first as in the paper, where lines differ in omega alone."""
     for name in ("cts", *PROBLEMS):
         rows = rows_of.get(name, [])
         found = families(rows, options.study_methods)
         stems = [f"omega_study_{number}" if len(found) > 1 else "omega_study"
                  for number in range(1, len(found) + 1)]
-        studies = [_study(output, name, family, rows, looks, options, stem)
+        studies = [_study(output, name, family, rows, best, looks, options, stem)
                    for family, stem in zip(found, stems)]
         if any(studies):
             return [study for study in studies if study]
@@ -200,10 +201,10 @@ def _studies(output, rows_of, lines, looks, options):
     return []
 
 
-def _study(output, problem, family, rows, looks, options, stem):
+def _study(output, problem, family, rows, best, looks, options, stem):
     members = set(family.lines)
     rows = [row for row in rows if line_of(row) in members]
-    cells = metrics.by_cell(rows)
+    cells = metrics.by_cell(rows, best)
     map_name, agents = _shown_cell(cells, options.study_map, options.study_agents)
     shown = {cell: found for cell, found in cells.items()
              if (cell.map, cell.agents) == (map_name, agents)}
@@ -228,13 +229,44 @@ def _errors(rows, lines):
             for line in lines.all if line in found]
 
 
-def _listed(values, most=6):
+def _listed(values, most=6, between=", "):
     values = list(values)
-    return ", ".join(values[:most]) + (f" and {len(values) - most} more" if values[most:] else "")
+    return between.join(values[:most]) + (f" and {len(values) - most} more" if values[most:] else "")
+
+
+def _omegas(problem, lines):
+    """'ω = 0: a, b; ω = 0.01: c', if they differ."""
+    methods = defaultdict(list)
+    for line in problem.lines:
+        methods[line.omega].append(lines.name(line))
+    if len(methods) > 1:
+        yield "; ".join(f"{omega_text(omega)}: {_listed(methods[omega])}"
+                        for omega in sorted(methods, key=omega_value))
+
+
+def _guarantee(line, solved, lines):
+    """What the `solved` rows of a line do not prove though they count as solved."""
+    outside = [row for row in solved if metrics.within_omega(row) is False]
+    unproven = [row for row in solved if line.omega in metrics.NO_PROMISE and row.status != "optimal"]
+    statuses = "status " + ", ".join(sorted({row.status for row in outside or unproven}))
+    if outside:
+        yield (f"{lines.label(line)}: {len(outside)} of {len(solved)} solved runs are outside ω "
+               f"({statuses}): no proof that the plan costs at most (1 + ω) times the least possible.")
+    if unproven:
+        yield (f"{lines.label(line)}: no guarantee; {len(unproven)} of {len(solved)} solved runs are not "
+               f"proven optimal ({statuses}).")
 
 
 def _notes(results, rows, lines, problems):
     """What a reader must know before comparing figures."""
+    for problem in problems:
+        for omegas in _omegas(problem, lines):
+            yield (f"{PROBLEM_NAMES[problem.name].split(' (')[0]}: methods with different ω stand side by "
+                   f"side ({omegas}). The larger ω, the less there is to prove: success rates, times and "
+                   "speed-ups compare only so far.")
+    solved = metrics.by_line([row for row in rows if row.solved])
+    for line in lines.all:
+        yield from _guarantee(line, solved.get(line, []), lines)
     limits = sorted({row.time_limit_s for row in rows})
     if len(limits) > 1:
         yield (f"The rows have several time limits ({_listed(map(seconds_text, limits))}). No figure "
@@ -277,11 +309,11 @@ def _notes(results, rows, lines, problems):
         tried = defaultdict(set)
         for row in problem.rows:
             tried[line_of(row)].add(row.instance)
-        partial = [f"{lines.label(line)} {len(tried[line])}" for line in problem.lines
+        partial = [f"{lines.label(line)}: {len(tried[line])}" for line in problem.lines
                    if len(tried[line]) < problem.instances]
         if partial:
             yield (f"{PROBLEM_NAMES[problem.name].split(' (')[0]}: not every method was run on all "
-                   f"{problem.instances} instances ({_listed(partial, 12)}). Cells without runs are "
+                   f"{problem.instances} instances ({_listed(partial, 12, '; ')}). Cells without runs are "
                    "gaps; totals compare only between methods with as many runs.")
 
 
@@ -301,11 +333,12 @@ def make_report(results, options, folder):
     rows_of = defaultdict(list)
     for row in rows:
         rows_of[row.problem].append(row)
-    problems = [_problem(output, name, rows_of[name], lines, looks)
+    best = metrics.best_costs(rows)
+    problems = [_problem(output, name, rows_of[name], best, lines, looks)
                 for name in PROBLEMS if name in rows_of]
     contradictions = proofs.contradictions(rows)
     output.table("contradictions", proofs.Contradiction._fields, contradictions)
     return Report(results._replace(rows=rows), lines, problems,
-                  _studies(output, rows_of, lines, looks, options), contradictions,
+                  _studies(output, rows_of, best, looks, options), contradictions,
                   proofs.optimal_agreements(rows), _errors(rows, lines),
                   list(_notes(results, rows, lines, problems)))

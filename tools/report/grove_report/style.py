@@ -8,6 +8,9 @@ from typing import NamedTuple
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#8C510A")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")
 
+# Factors that make markers of one size look it.
+EVEN = {"s": 0.86, "D": 0.74, "*": 1.3}
+
 
 class Style(NamedTuple):
     colour: str
@@ -20,9 +23,20 @@ def style_of(index, is_baseline):
     return Style(COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)], is_baseline)
 
 
-def plot_arguments(style):
-    """For Axes.plot()."""
-    return {"color": style.colour, "marker": style.marker, "linewidth": 1.2,
-            "linestyle": (0, (4, 1.6)) if style.dashed else "-", "markersize": 5.6 if style.marker == "*" else 4.2,
+def depth(rank, count):
+    """Of the line drawn as number `rank` of `count`: from 0, drawn last, to at most 1."""
+    return (count - 1 - rank) / max(count - 1, 4)
+
+
+APART = 0.2  # for all lines of a figure where few lie on each other
+
+
+def plot_arguments(style, below):
+    """For Axes.plot(). `below`: depth() where lines lie on each other, as many do at 100 %. The deeper, the
+    broader is the line and the larger are its markers: so all are seen."""
+    size = EVEN.get(style.marker, 1) * (3.4 + 5.4 * below)
+    return {"color": style.colour, "marker": style.marker, "linewidth": 0.9 + 1.4 * below,
+            "linestyle": (0, (4, 1.6)) if style.dashed else "-", "markersize": size,
             "markerfacecolor": "white" if style.dashed else style.colour,
-            "markeredgecolor": style.colour, "markeredgewidth": 0.9}
+            "markeredgecolor": style.colour if style.dashed else "white",
+            "markeredgewidth": 0.9 if style.dashed else 0.5}
