@@ -98,7 +98,7 @@ Time VisitedSetSearch::least_cost(Cell cell, StopSet left) {
   for (int stop = 0; stop < stops_->count(); ++stop)
     if (left == 0 || (left >> stop & 1) != 0) nearest = std::min(nearest, to_stop[stop]);
   const Time tree = left == 0 ? 0 : (*bound_)(left, SpanningTreeBound::kNowhere);
-  return std::min(kNever, nearest + tree);
+  return nearest >= kNever || tree >= kNever ? kNever : nearest + tree;
 }
 
 bool VisitedSetSearch::is_finish(const Label& label) const {
