@@ -18,6 +18,14 @@ function(grove_precompile target)
   endif()
 endfunction()
 
+# So many sources of the target make one translation unit: for those whose headers take much longer
+# to compile than they do. The compiler then takes no unit for what it is, a source, and warns of
+# classes with members from unnamed namespaces.
+function(grove_bundle target size)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
 # grove_layer(<name> SOURCES ... [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])
 # One layer of the design as the static library grove_<name>, alias grove::<name>. Its interface is
 # include/grove/<name>/, its text src/<name>/. `cmake --build --preset release --target grove_<name>`

@@ -25,7 +25,7 @@ namespace {
 constexpr double kShareOfMemory = 0.8;
 constexpr double kSmallestRoom_gb = 0.1;
 
-constexpr const char* kFooter =
+constexpr const char* kBenchFooter =
     "INSTANCES is a list (a path on each line, relative to the list, or FILE.scen --map M --agents "
     "K;\n"
     "# begins a comment), as 'grove generate paper' writes it, or a folder, with all *.cts.json "
@@ -48,6 +48,8 @@ constexpr const char* kFooter =
     "names with other options, limits, seed or instances are refused. A run counts as solved when "
     "it ended\n"
     "by itself with a plan, before any limit.\n"
+    "\n"
+    "Exits with 0 also when stopped: it says then how many runs are left.\n"
     "\n"
     "Examples:\n"
     "  grove bench paper/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir "
@@ -121,7 +123,7 @@ void run(const CLI::App& app, BenchArguments& a) {
 void add_bench_command(CLI::App& root) {
   CLI::App* app =
       root.add_subcommand("bench", "Run methods on many instances, tabulate the results");
-  app->footer(kFooter);
+  app->footer(kBenchFooter);
   const auto a = std::make_shared<BenchArguments>();
   app->add_option("INSTANCES", a->instances, "a list of instances, or a folder of them")
       ->required()

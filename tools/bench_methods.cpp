@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "grove/io/input_error.h"
+#include "parse_error.h"
 #include "solve_arguments.h"
 
 namespace grove {
@@ -108,7 +109,7 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   } catch (const CLI::CallForHelp&) {
     refuse(text, "--help: expected options of a search");
   } catch (const CLI::ParseError& error) {
-    refuse(text, error.what());
+    refuse(text, parse_error_text(app, error));
   }
   refuse_file_options(app, text);
   try {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostViolations = 20;
 
-constexpr const char* kFooter =
+constexpr const char* kCheckFooter =
     "Works every path, visit, collision and cost out again, sharing no code with the search, and\n"
     "compares status, cost, lower bound and omega. What it cannot check is the proof behind the\n"
     "lower bound.\n"
@@ -68,7 +68,7 @@ void run(const CheckArguments& arguments) {
 void add_check_command(CLI::App& app) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "Re-check a plan from the files alone");
-  command->footer(kFooter);
+  command->footer(kCheckFooter);
   arguments->instance.add_to(*command);
   command->add_option("PLAN", arguments->plan, "plan file to check")->required()->type_name("");
   command->callback([arguments] { run(*arguments); });

@@ -13,7 +13,7 @@
 namespace grove {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kConvertFooter =
     "Instances (--from, --to; the suffix tells where one is given):\n"
     "  grove    *.cts.json             Grove's own\n"
     "  libmrp   *.yaml, *.yml          libMultiRobotPlanning: agents with a goal, no tasks\n"
@@ -134,7 +134,7 @@ void add_convert_command(CLI::App& app) {
   const auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command =
       app.add_subcommand("convert", "Instances and plans in the formats of other tools");
-  command->footer(kFooter);
+  command->footer(kConvertFooter);
   add_options(*command, *arguments);
   command->callback([arguments] { run(*arguments); });
 }

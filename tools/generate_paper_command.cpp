@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr IntegerRange kScenarioNumbers{1, 10'000};
 constexpr int kScenarios = 50;
 
-constexpr const char* kFooter =
+constexpr const char* kPaperFooter =
     "Without further options: 3 maps, 50 scenarios, 5, 10 and 20 agents, 10 to 50 tasks, with "
     "destinations\n"
     "and without: 4,500 instances, and DIR/manifest.txt with them all, for 'grove bench'. Files "
@@ -151,7 +151,7 @@ void add_generate_paper_command(CLI::App& generate) {
   std::iota(arguments->scenarios.begin(), arguments->scenarios.end(), 1);
   CLI::App* command =
       generate.add_subcommand("paper", "The paper's whole data set, or a part of it");
-  command->footer(kFooter);
+  command->footer(kPaperFooter);
   command
       ->add_option("--movingai", arguments->movingai,
                    "a folder with maps and scenarios of Moving AI; by default Grove draws its own")

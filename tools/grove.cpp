@@ -13,7 +13,7 @@ constexpr const char* kDescription =
     "destination, without collisions, at the least sum of finish times - with a proof of how far\n"
     "from the least the answer can be.\n";
 
-constexpr const char* kFooter =
+constexpr const char* kProgramFooter =
     "Exit codes:\n"
     "  0  ended cleanly; a plan file says how\n"
     "  1  internal failure\n"
@@ -23,7 +23,7 @@ constexpr const char* kFooter =
 
 int main(int argc, char** argv) {
   CLI::App app(kDescription, "grove");
-  app.footer(kFooter);
+  app.footer(kProgramFooter);
   prepare_program(app);
   add_solve_command(app);
   add_check_command(app);

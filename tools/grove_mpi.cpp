@@ -19,7 +19,7 @@ constexpr const char* kDescription =
     "Grove by several processes, on one machine or many: each rank searches with threads of its\n"
     "own, all share one search. Start it with mpirun or srun.\n";
 
-constexpr const char* kFooter =
+constexpr const char* kProgramFooter =
     "Exit codes:\n"
     "  0  ended cleanly; a plan file says how\n"
     "  1  internal failure\n"
@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   stop_on_signals();  // one may come while MPI begins, and would kill the job
   MpiSession session(argc, argv);
   CLI::App app(kDescription, "grove-mpi");
-  app.footer(kFooter);
+  app.footer(kProgramFooter);
   prepare_program(app);
   CommandLines lines(session);
   add_mpi_solve_command(app, session, lines);

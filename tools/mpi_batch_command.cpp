@@ -42,7 +42,7 @@ using Poll = std::function<void()>;
 
 constexpr double kNoLimit_s = 1e9;
 
-constexpr const char* kFooter =
+constexpr const char* kBatchFooter =
     "INSTANCES is a folder, with all *.cts.json below it, or a list: a path on each line, relative "
     "to\n"
     "the list, or FILE.scen --map M --agents K; # begins a comment. The limits are for each "
@@ -223,7 +223,7 @@ class BatchRun {
 
 void add_mpi_batch_command(CLI::App& root, MpiSession& session, CommandLines& lines) {
   CLI::App* app = root.add_subcommand("batch", "Solve many instances, and tabulate the results");
-  app->footer(kFooter);
+  app->footer(kBatchFooter);
   const auto a = std::make_shared<BatchArguments>();
   app->add_option("INSTANCES", a->instances, "a folder of instances, or a list of them")
       ->required()

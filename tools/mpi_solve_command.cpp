@@ -31,7 +31,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kFooter =
+constexpr const char* kSolveFooter =
     "All ranks work on the one instance, each with --threads threads beside the one that talks to\n"
     "the others. Every rank must be able to read the instance; rank 0 alone writes files and the "
     "log.\n"
@@ -135,7 +135,7 @@ class Run {
 
 void add_mpi_solve_command(CLI::App& root, MpiSession& session, CommandLines& lines) {
   CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
-  app->footer(kFooter);
+  app->footer(kSolveFooter);
   const auto arguments = std::make_shared<SolveArguments>();
   arguments->instance.add_to(*app);
   add_search_options(*app, *arguments);

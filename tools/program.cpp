@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "grove/io/input_error.h"
 #include "help_formatter.h"
+#include "parse_error.h"
 #include "standard_error.h"
 #include "version.h"
 
@@ -31,13 +32,7 @@ std::string full_name(const CLI::App& command) {
 
 std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = reached_command(app);
-  std::string message = error.what();
-  // CLI11 would only say that a command is required.
-  const bool unknown_command = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
-                               command.get_require_subcommand_min() > 0 &&
-                               command.remaining_size() > 0;
-  if (unknown_command) message = fmt::format("unknown command '{}'", command.remaining().front());
-  return fmt::format("{} (see '{} --help')", message, full_name(command));
+  return fmt::format("{} (see '{} --help')", parse_error_text(command, error), full_name(command));
 }
 
 // A full disk or a closed pipe must not pass for success.

@@ -226,6 +226,11 @@ SolveOptions solve_options(const SolveArguments& a) {
     throw CLI::ValidationError(
         options.policy == Policy::kFixed ? "--policy fixed" : "--method " + a.method,
         "uses no techniques; expected neither --with nor --without");
+  if (a.rtsp != "auto" && options.policy != Policy::kFixed)
+    throw CLI::ValidationError(
+        "--rtsp", fmt::format("is for trees of fixed sequences; expected --policy fixed with it, "
+                              "or no --rtsp {}",
+                              a.rtsp));
   return options;
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kFooter =
+constexpr const char* kSolveFooter =
     "The plan file says how the run ended: optimal, bounded (within omega), feasible (a plan "
     "outside\n"
     "omega), unknown (no plan when a limit struck) or infeasible (proven). Its lower_bound is "
@@ -74,7 +74,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
 
 void add_solve_command(CLI::App& root) {
   CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
-  app->footer(kFooter);
+  app->footer(kSolveFooter);
   const auto arguments = std::make_shared<SolveArguments>();
   add_solve_options(*app, *arguments);
   app->callback([app, arguments] { run_solve(*app, *arguments); });

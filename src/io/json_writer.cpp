@@ -4,14 +4,15 @@
 namespace grove {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-std::string compact(const Json& value) {
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string compact(const OrderedJson& value) {
+  return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 template <typename DumpElement>
-std::string dump_lines(const Json& value, const std::string& indent, DumpElement dump_element) {
+std::string dump_lines(const OrderedJson& value, const std::string& indent,
+                       DumpElement dump_element) {
   const bool is_object = value.is_object();
   std::string text = is_object ? "{" : "[";
   std::string separator = "\n" + indent;
@@ -24,8 +25,8 @@ std::string dump_lines(const Json& value, const std::string& indent, DumpElement
 
 }  // namespace
 
-std::string dump_by_lines(const Json& document) {
-  const auto dump_member = [](const Json& value) {
+std::string dump_by_lines(const OrderedJson& document) {
+  const auto dump_member = [](const OrderedJson& value) {
     return value.is_structured() ? dump_lines(value, "  ", compact) : compact(value);
   };
   return dump_lines(document, " ", dump_member) + "\n";

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace grove::batch {
-namespace {
+namespace csv_test {
 
 TEST(CsvCells, AreQuotedOnlyWhereTheyMust) {
   EXPECT_EQ(csv_quoted(""), "");
@@ -15,5 +15,5 @@ TEST(CsvCells, AreQuotedOnlyWhereTheyMust) {
   EXPECT_EQ(csv_quoted("a\rb"), "\"a\rb\"");
 }
 
-}  // namespace
+}  // namespace csv_test
 }  // namespace grove::batch

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::batch {
-namespace {
+namespace folder_test {
 
 TEST(Folders, AreMadeWithThoseAbove) {
   const TemporaryDirectory directory;
@@ -32,5 +32,5 @@ TEST(FolderLocks, KeepOthersOutWhileTheyLive) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace folder_test
 }  // namespace grove::batch

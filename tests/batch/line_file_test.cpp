@@ -7,7 +7,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::batch {
-namespace {
+namespace line_file_test {
 
 using Lines = std::vector<std::string_view>;
 
@@ -33,5 +33,5 @@ TEST(LineFiles, AreReadWithoutATornLine) {
   EXPECT_EQ(whole_lines("a\n\nb\ntor"), (Lines{"a", "", "b"}));
 }
 
-}  // namespace
+}  // namespace line_file_test
 }  // namespace grove::batch

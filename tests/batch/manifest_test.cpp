@@ -9,11 +9,11 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::batch {
-namespace {
+namespace manifest_test {
 
 namespace fs = std::filesystem;
 
-class Manifests : public testing::Test {
+class Manifests : public ::testing::Test {
  protected:
   void add_file(const std::string& name, const std::string& content = "{}") {
     fs::create_directories(fs::path(directory_ / name).parent_path());
@@ -159,5 +159,5 @@ TEST_F(Manifests, TellWhenAnInstanceHasChanged) {
   }
 }
 
-}  // namespace
+}  // namespace manifest_test
 }  // namespace grove::batch

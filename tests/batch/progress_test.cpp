@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace grove::batch {
-namespace {
+namespace progress_test {
 
 TEST(Estimates, AreWhatTheRestTakesAtThisPace) {
   const Workload work{.done = 41, .left = 94, .workers = 2, .done_s = 235, .under_way_s = 11};
@@ -67,5 +67,5 @@ TEST(Displays, SayALineNowAndThenElsewhere) {
   EXPECT_EQ(shown(false, {0, 1, 10, 29, 31, 32, 60, 61.5}), "0:00\n0:31\n1:02\nend\n");
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace grove::batch

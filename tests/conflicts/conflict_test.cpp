@@ -12,7 +12,7 @@
 #include "tests/support/obeys.h"
 
 namespace grove {
-namespace {
+namespace conflict_test {
 
 using testing::obeys;
 
@@ -131,5 +131,5 @@ TEST(ConflictFinder, FindsTheCollisionsOfRandomPathsAndSplitLosesNone) {
   EXPECT_GT(with_conflict, 500);
 }
 
-}  // namespace
+}  // namespace conflict_test
 }  // namespace grove

@@ -12,7 +12,7 @@
 #include "tests/support/obeys.h"
 
 namespace grove {
-namespace {
+namespace splits_test {
 
 using testing::obeys;
 
@@ -88,5 +88,5 @@ INSTANTIATE_TEST_SUITE_P(Maps, SplitsTest,
                                            std::vector<std::string>{"...@@", ".@...", "...@@"},
                                            std::vector<std::string>{".....", "@@.@@", "....."}));
 
-}  // namespace
+}  // namespace splits_test
 }  // namespace grove

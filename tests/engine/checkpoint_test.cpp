@@ -22,7 +22,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace checkpoint_test {
 
 using Names = std::vector<std::string>;
 
@@ -381,5 +381,5 @@ TEST_F(DamagedCheckpoint, OfAnotherInstanceOrPolicyIsRefused) {
   EXPECT_EQ(refusal([&] { read(directory_.path(), 0xABC, Policy::kFixed); }), "accepted");
 }
 
-}  // namespace
+}  // namespace checkpoint_test
 }  // namespace grove

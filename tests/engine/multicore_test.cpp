@@ -15,7 +15,7 @@
 #include "tests/primal/crowd.h"
 
 namespace grove {
-namespace {
+namespace multicore_test {
 
 using testing::Crowd;
 using testing::random_crowd;
@@ -156,5 +156,5 @@ TEST(Multicore, WhatAnObserverThrowsArrives) {
   }
 }
 
-}  // namespace
+}  // namespace multicore_test
 }  // namespace grove

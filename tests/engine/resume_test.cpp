@@ -15,7 +15,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace resume_test {
 
 using testing::random_crowd;
 
@@ -149,5 +149,5 @@ TEST(Resume, WhatWasProvenIsSaidEvenIfThereIsNoTimeToSearch) {
   EXPECT_EQ(none.plan.has_value(), first.plan.has_value());
 }
 
-}  // namespace
+}  // namespace resume_test
 }  // namespace grove

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace grove {
-namespace {
+namespace serialise_test {
 
 NodeRecord a_node() {
   NodeRecord record;
@@ -142,5 +142,5 @@ TEST(Bytes, ThatAreNoTruthValueOrKindAreRefused) {
   EXPECT_TRUE(is_refused<Constraint>(bytes));
 }
 
-}  // namespace
+}  // namespace serialise_test
 }  // namespace grove

@@ -14,7 +14,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace solve_test {
 
 using testing::AgentSpec;
 using testing::instance_of;
@@ -344,5 +344,5 @@ TEST(Solve, AnInvalidStartPlanIsRefused) {
   EXPECT_THROW(solve(instance, options, Limits()), std::logic_error);
 }
 
-}  // namespace
+}  // namespace solve_test
 }  // namespace grove

@@ -13,7 +13,7 @@
 #include "tests/oracle/joint_oracle.h"
 
 namespace grove::fuzz {
-namespace {
+namespace fuzz_test {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -222,5 +222,5 @@ TEST(FuzzCase, SurvivesItsText) {
                std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace fuzz_test
 }  // namespace grove::fuzz

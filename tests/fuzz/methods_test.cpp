@@ -14,7 +14,7 @@
 #include "tests/fuzz/random_instance.h"
 
 namespace grove::fuzz {
-namespace {
+namespace methods_test {
 
 std::uint64_t count(std::uint64_t seeds) {
   const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
@@ -277,5 +277,5 @@ TEST(Method, RefusesInstancesItIsNotFor) {
   EXPECT_NO_THROW(require_fit(Method::kMgcbs, all_end, {}));
 }
 
-}  // namespace
+}  // namespace methods_test
 }  // namespace grove::fuzz

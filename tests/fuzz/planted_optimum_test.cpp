@@ -12,7 +12,7 @@
 #include "tests/oracle/joint_oracle.h"
 
 namespace grove::fuzz {
-namespace {
+namespace planted_optimum_test {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -215,5 +215,5 @@ TEST(PlantedOptimum, SurvivesSearchesThatGiveNodesUp) {
   RecordProperty("optimal", optimal);
 }
 
-}  // namespace
+}  // namespace planted_optimum_test
 }  // namespace grove::fuzz

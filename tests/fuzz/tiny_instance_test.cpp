@@ -9,7 +9,7 @@
 #include "tests/fuzz/random_instance.h"
 
 namespace grove::fuzz {
-namespace {
+namespace tiny_instance_test {
 
 TEST(TinyInstance, ReadsWhatAPersonWrites) {
   const TinyInstance instance = TinyInstance::parse(R"(# Two agents pass each other.
@@ -82,5 +82,5 @@ TEST(RandomInstance, TurnsUpWhatHurts) {
   EXPECT_GT(tasks_on_starts, 100);
 }
 
-}  // namespace
+}  // namespace tiny_instance_test
 }  // namespace grove::fuzz

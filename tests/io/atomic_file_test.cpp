@@ -12,7 +12,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace atomic_file_test {
 
 namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
@@ -158,5 +158,5 @@ TEST(RequireWritable, LeavesNothingBehind) {
   EXPECT_TRUE(directory.files().empty());
 }
 
-}  // namespace
+}  // namespace atomic_file_test
 }  // namespace grove

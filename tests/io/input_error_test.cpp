@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace grove {
-namespace {
+namespace input_error_test {
 
 TEST(InputError, NamesFilePlaceAndMessage) {
   EXPECT_STREQ(InputError("a.map", "line 2, column 1", "wrong").what(),
@@ -28,5 +28,5 @@ TEST(OneLine, CutsOffWhatNobodyReads) {
   EXPECT_LT(one_line(std::string(1 << 20, 'x')).size(), 500U);
 }
 
-}  // namespace
+}  // namespace input_error_test
 }  // namespace grove

@@ -7,14 +7,14 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace instance_file_test {
 
 const std::string kAgents =
     R"("agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]}, {"id": "m", "start": [0, 1]}])";
 const std::string kTasks = R"("tasks": [{"id": "t", "cell": [2, 1], "agents": ["a", "m"]}])";
 const std::string kMap = R"("map": "m.map")";
 
-class InstanceFile : public testing::Test {
+class InstanceFile : public ::testing::Test {
  protected:
   InstanceFile() { directory_.write("m.map", "type octile\nheight 2\nwidth 3\nmap\n.@.\n...\n"); }
 
@@ -219,5 +219,5 @@ TEST_F(InstanceFile, IsAFile) {
             "none.json: cannot be read: No such file or directory");
 }
 
-}  // namespace
+}  // namespace instance_file_test
 }  // namespace grove

@@ -16,7 +16,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace interchange_fuzz_test {
 
 const std::string kMapf =
     "map:\n  dimensions: [5, 3]\n  obstacles:\n    - [1, 0]\n    - !!python/tuple [3, 2]\n"
@@ -141,5 +141,5 @@ TEST(InterchangeFuzz, MapfwProblems) {
   EXPECT_LT(survived, static_cast<int>(cases()));
 }
 
-}  // namespace
+}  // namespace interchange_fuzz_test
 }  // namespace grove

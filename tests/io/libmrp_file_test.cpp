@@ -9,7 +9,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace libmrp_file_test {
 
 // . @ . . .   Wider than high, and the same neither mirrored nor turned round.
 // . . . . .
@@ -269,5 +269,5 @@ TEST_F(LibmrpFile, WhatTheToolsCannotSayIsNotWritten) {
   EXPECT_TRUE(directory_.files().empty());
 }
 
-}  // namespace
+}  // namespace libmrp_file_test
 }  // namespace grove

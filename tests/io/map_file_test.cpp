@@ -7,9 +7,9 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace map_file_test {
 
-class MapFile : public testing::Test {
+class MapFile : public ::testing::Test {
  protected:
   Grid read(const std::string& content) {
     warnings_.clear();
@@ -108,5 +108,5 @@ TEST_F(MapFile, RoundTrips) {
   EXPECT_EQ(file_content(directory_ / "out.map"), kHeader + ".@.\n..@\n");
 }
 
-}  // namespace
+}  // namespace map_file_test
 }  // namespace grove

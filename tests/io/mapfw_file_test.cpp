@@ -9,7 +9,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace mapfw_file_test {
 
 // . @ . . .   Wider than high, and the same neither mirrored nor turned round.
 // . . . . .
@@ -174,5 +174,5 @@ TEST(Expressible, ReducedInstancesKeepTheRest) {
   EXPECT_THROW(without_tasks(std::move(mg).build()), InstanceError);
 }
 
-}  // namespace
+}  // namespace mapfw_file_test
 }  // namespace grove

@@ -8,7 +8,7 @@
 #include "grove/io/scenario_file.h"
 
 namespace grove {
-namespace {
+namespace movingai_test {
 
 TEST(MovingAi, FilesAreReadWithoutAWarning) {
   if (!has_movingai()) GTEST_SKIP() << movingai_missing();
@@ -23,5 +23,5 @@ TEST(MovingAi, FilesAreReadWithoutAWarning) {
   }
 }
 
-}  // namespace
+}  // namespace movingai_test
 }  // namespace grove

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace plan_export_test {
 
 // . @ . . .   Wider than high, and the same neither mirrored nor turned round.
 // . . . . .
@@ -198,5 +198,5 @@ TEST(TrackerScenario, IsTypeAndNumber) {
     EXPECT_FALSE(parse_tracker_scenario("m", wrong)) << wrong;
 }
 
-}  // namespace
+}  // namespace plan_export_test
 }  // namespace grove

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace plan_file_test {
 
 Instance instance() {
   InstanceBuilder builder(Grid(3, 2, std::vector<bool>(6, true)));
@@ -39,7 +39,7 @@ const std::string kWritten =
     " \"stats\": {\n  \"stopped_by\": \"nothing\",\n  \"wall_s\": 0.25,\n"
     "  \"nodes_expanded\": 7}}\n";
 
-class PlanFile : public testing::Test {
+class PlanFile : public ::testing::Test {
  protected:
   std::string written(const Solution& s) {
     write_solution(directory_ / "out.json", instance(), s);
@@ -185,5 +185,5 @@ TEST_F(PlanFile, CannotBeWrittenWhereThereIsNoFolder) {
             "p.json: cannot be written: No such file or directory");
 }
 
-}  // namespace
+}  // namespace plan_file_test
 }  // namespace grove

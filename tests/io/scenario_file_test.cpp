@@ -8,12 +8,12 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace scenario_file_test {
 
 const std::string kVersion = "version 1\n";
 const std::string kRow = "0\tm.map\t3\t2\t0\t0\t2\t1\t3\n";
 
-class ScenarioFile : public testing::Test {
+class ScenarioFile : public ::testing::Test {
  protected:
   std::vector<ScenarioRow> read(const std::string& content) {
     return read_scenario(directory_.write("m.scen", content));
@@ -113,5 +113,5 @@ TEST_F(ScenarioFile, RefusesMoreAgentsThanRows) {
   EXPECT_EQ(refused_instance(kVersion + kRow + kRow, 2).substr(0, 21), "m.scen: line 3, start");
 }
 
-}  // namespace
+}  // namespace scenario_file_test
 }  // namespace grove

@@ -8,7 +8,7 @@
 #include <string>
 
 namespace grove {
-namespace {
+namespace check_test {
 
 using Ids = std::vector<std::string>;
 
@@ -295,5 +295,5 @@ TEST(Check, StopsAtTheLimit) {
   EXPECT_EQ(check(instance(), solution).size(), 3U);
 }
 
-}  // namespace
+}  // namespace check_test
 }  // namespace grove

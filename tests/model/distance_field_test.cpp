@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace grove {
-namespace {
+namespace distance_field_test {
 
 TEST(DistanceField, WalksAroundWalls) {
   // . @ .
@@ -32,5 +32,5 @@ TEST(DistanceFields, HoldsTasksAndDestinations) {
   EXPECT_EQ(fields.to(1)[3], 2);
 }
 
-}  // namespace
+}  // namespace distance_field_test
 }  // namespace grove

@@ -8,7 +8,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace fingerprint_test {
 
 using Rows = std::vector<std::string>;
 using Agents = std::vector<testing::AgentSpec>;
@@ -55,5 +55,5 @@ TEST(Fingerprint, DoesNotCountNames) {
   EXPECT_EQ(named("a", "t"), named("robot", "dock"));
 }
 
-}  // namespace
+}  // namespace fingerprint_test
 }  // namespace grove

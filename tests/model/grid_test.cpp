@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 namespace grove {
-namespace {
+namespace grid_test {
 
 TEST(Grid, NumbersCellsRowByRowFromTheTopLeft) {
   const Grid grid(3, 2, std::vector<bool>(6, true));
@@ -43,5 +43,5 @@ TEST(Grid, RefusesSizesThatDoNotFit) {
   EXPECT_THROW(Grid(1 << 20, 1 << 20, {}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace grid_test
 }  // namespace grove

@@ -6,7 +6,7 @@
 #include <functional>
 
 namespace grove {
-namespace {
+namespace instance_test {
 
 using Ids = std::vector<std::string>;
 
@@ -87,5 +87,5 @@ TEST(InstanceBuilder, RefusesInstancesWithNothingToDo) {
   EXPECT_EQ(refused_field([&] { std::move(b).build(); }), "agents/0");
 }
 
-}  // namespace
+}  // namespace instance_test
 }  // namespace grove

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace grove {
-namespace {
+namespace limits_test {
 
 TEST(Limits, NeverStopsWithoutALimit) {
   const Limits limits;
@@ -43,5 +43,5 @@ TEST(ResidentBytes, AreThoseOfARunningProcess) {
   EXPECT_GE(peak_resident_bytes(), resident_bytes());
 }
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace grove

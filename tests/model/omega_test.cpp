@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 namespace grove {
-namespace {
+namespace omega_test {
 
 TEST(Omega, ZeroAcceptsOnlyTheBoundItself) {
   const Omega omega;
@@ -48,5 +48,5 @@ TEST(Omega, RefusesWhatItCannotHold) {
     EXPECT_THROW(Omega::parse(text), std::invalid_argument) << text;
 }
 
-}  // namespace
+}  // namespace omega_test
 }  // namespace grove

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace grove {
-namespace {
+namespace plan_test {
 
 TEST(Status, FollowsFromCostBoundAndOmega) {
   const Omega one_percent = Omega::parse("0.01");
@@ -27,5 +27,5 @@ TEST(Status, NamesRoundTrip) {
   EXPECT_FALSE(parse_status("solved"));
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace grove

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace grove {
-namespace {
+namespace broker_test {
 
 message::Status with(std::vector<Frontier::Level> levels) {
   message::Status status;
@@ -64,5 +64,5 @@ TEST(Broker, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
   EXPECT_EQ(gift->to, 1);
 }
 
-}  // namespace
+}  // namespace broker_test
 }  // namespace grove

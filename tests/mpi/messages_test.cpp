@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 namespace grove {
-namespace {
+namespace messages_test {
 
 message::Status some_status() {
   message::Status status;
@@ -54,5 +54,5 @@ TEST(Messages, NoiseIsRefusedOrTakenForOtherValues) {
   }
 }
 
-}  // namespace
+}  // namespace messages_test
 }  // namespace grove

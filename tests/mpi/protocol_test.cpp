@@ -17,7 +17,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace protocol_test {
 
 using testing::Outbox;
 using testing::random_crowd;
@@ -155,5 +155,5 @@ TEST(CoordinatorAlone, TellsAllAtOnceToLookForACheckpoint) {
     EXPECT_EQ(transport.sent<message::Gather>(rank).size(), 1) << rank;
 }
 
-}  // namespace
+}  // namespace protocol_test
 }  // namespace grove

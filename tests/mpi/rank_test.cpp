@@ -18,7 +18,7 @@
 #include "tests/primal/crowd.h"
 
 namespace grove {
-namespace {
+namespace rank_test {
 
 // A rank that has been given the root of a tree, and an incumbent of `excess` over its bound.
 class RankWithRoot {
@@ -119,5 +119,5 @@ TEST(Rank, SaysAtOnceThatItHasFarMoreToSpare) {
   EXPECT_LT(statuses, expansions / 2) << "what changed little can wait";
 }
 
-}  // namespace
+}  // namespace rank_test
 }  // namespace grove

@@ -6,7 +6,7 @@
 #include "tests/mpi/try_schedule.h"
 
 namespace grove {
-namespace {
+namespace schedule_test {
 
 using testing::ScheduleTally;
 using testing::try_schedule;
@@ -21,5 +21,5 @@ TEST(Schedules, NeverSayMoreThanIsTrue) {
   EXPECT_GT(tally.batches, 50) << "too few nodes travelled to be a test";
 }
 
-}  // namespace
+}  // namespace schedule_test
 }  // namespace grove

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace grove {
-namespace {
+namespace simulated_network_test {
 
 TEST(SimulatedNetwork, DeliversWhenTheTimeHasCome) {
   SimulatedNetwork network(2, [](int, int, std::size_t bytes) { return double(bytes); });
@@ -34,5 +34,5 @@ TEST(SimulatedNetwork, KeepsTheOrderOfEachPairOnly) {
   EXPECT_EQ(network.at(2).receive()->bytes, "waits for it");
 }
 
-}  // namespace
+}  // namespace simulated_network_test
 }  // namespace grove

@@ -15,7 +15,7 @@
 #include "tests/primal/crowd.h"
 
 namespace grove {
-namespace {
+namespace simulator_test {
 
 using testing::random_crowd;
 
@@ -219,5 +219,5 @@ TEST(TimedTransport, MessagesLeaveOneAfterTheOther) {
   EXPECT_NEAR(to.waited_s(), (4 - 2.5) + (4 + 0.5 - 3.1), 1e-9);
 }
 
-}  // namespace
+}  // namespace simulator_test
 }  // namespace grove

@@ -20,7 +20,7 @@
 #include "tests/primal/crowd.h"
 
 namespace grove {
-namespace {
+namespace threads_test {
 
 using testing::random_crowd;
 
@@ -151,5 +151,5 @@ TEST(Threads, FindTheOptimumInManyTrees) {
   expect_optima(Policy::kFixed, {Technique::kTarget, Technique::kStrongBranching});
 }
 
-}  // namespace
+}  // namespace threads_test
 }  // namespace grove

@@ -9,7 +9,7 @@
 #include "tests/oracle/layered_search.h"
 
 namespace grove::oracle {
-namespace {
+namespace joint_oracle_test {
 
 Answer solve_text(const char* text) {
   return solve_jointly(fuzz::TinyInstance::parse(text).build());
@@ -134,5 +134,5 @@ TEST(JointOracle, AgreesWithASearchByLayersOfTime) {
   EXPECT_GT(infeasible, 0);
 }
 
-}  // namespace
+}  // namespace joint_oracle_test
 }  // namespace grove::oracle

@@ -13,7 +13,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace baseline_search_test {
 
 using testing::instance_of;
 using Outcome = BaselineSearch::Outcome;
@@ -134,5 +134,5 @@ INSTANTIATE_TEST_SUITE_P(, Baselines,
                            }
                          });
 
-}  // namespace
+}  // namespace baseline_search_test
 }  // namespace grove

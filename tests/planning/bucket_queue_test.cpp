@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace grove {
-namespace {
+namespace bucket_queue_test {
 
 BucketQueue::Entry entry(std::int32_t slot, std::uint16_t conflicts) {
   return {.slot = slot, .conflicts = conflicts};
@@ -71,5 +71,5 @@ TEST(BucketQueue, AgreesWithASortedMap) {
   }
 }
 
-}  // namespace
+}  // namespace bucket_queue_test
 }  // namespace grove

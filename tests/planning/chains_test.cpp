@@ -9,7 +9,7 @@
 #include "tests/planning/single_agent.h"
 
 namespace grove {
-namespace {
+namespace chains_test {
 
 using testing::grid_of;
 using Cells = std::vector<Cell>;
@@ -93,5 +93,5 @@ TEST(Chains, AreMaximalRowsOfCellsWithTwoNeighbors) {
   EXPECT_GT(chains_seen, 300);
 }
 
-}  // namespace
+}  // namespace chains_test
 }  // namespace grove

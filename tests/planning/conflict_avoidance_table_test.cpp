@@ -9,7 +9,7 @@
 #include "tests/planning/single_agent.h"
 
 namespace grove {
-namespace {
+namespace conflict_avoidance_table_test {
 
 using testing::grid_of;
 using testing::NaiveConflicts;
@@ -103,5 +103,5 @@ TEST(ConflictAvoidanceTable, ManyPathsOnOneCellAreManyEvenAfterRemovals) {
   EXPECT_EQ(table.conflicts(1, 1, 1), 0);
 }
 
-}  // namespace
+}  // namespace conflict_avoidance_table_test
 }  // namespace grove

@@ -10,7 +10,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace fewest_conflicts_test {
 
 Path random_walk(const Grid& grid, std::mt19937& random, Cell start) {
   Path path{start};
@@ -66,5 +66,5 @@ TEST(FewestConflicts, FindsAPathWithTheFewest) {
   EXPECT_GT(avoidable, 0);
 }
 
-}  // namespace
+}  // namespace fewest_conflicts_test
 }  // namespace grove

@@ -20,7 +20,7 @@
 #include "tests/planning/single_agent.h"
 
 namespace grove {
-namespace {
+namespace free_low_level_test {
 
 using Outcome = FreeLowLevelSearch::Outcome;
 using testing::free_reference_cost;
@@ -537,5 +537,5 @@ TEST(FreeLowLevel, APathOutsideTheClassRealizesNothing) {
   EXPECT_THROW(realized_sequence(agent.goals, {}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace free_low_level_test
 }  // namespace grove

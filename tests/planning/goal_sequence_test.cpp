@@ -8,7 +8,7 @@
 #include "tests/planning/single_agent.h"
 
 namespace grove {
-namespace {
+namespace goal_sequence_test {
 
 using testing::grid_of;
 using testing::SingleAgent;
@@ -49,5 +49,5 @@ TEST(GoalSequence, NeedsAGoal) {
   EXPECT_THROW(GoalSequence(agent.instance, agent.distances, 0, {}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace goal_sequence_test
 }  // namespace grove

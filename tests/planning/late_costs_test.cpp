@@ -13,7 +13,7 @@
 #include "tests/planning/single_agent.h"
 
 namespace grove {
-namespace {
+namespace late_costs_test {
 
 using testing::grid_of;
 using testing::members_of;
@@ -153,5 +153,5 @@ TEST(LateCosts, NoPathCostsLess) {
   EXPECT_GT(raised, 1000);
 }
 
-}  // namespace
+}  // namespace late_costs_test
 }  // namespace grove

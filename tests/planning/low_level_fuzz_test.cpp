@@ -13,7 +13,7 @@
 #include "tests/planning/single_agent.h"
 
 namespace grove {
-namespace {
+namespace low_level_fuzz_test {
 
 using testing::grid_of;
 using testing::NaiveConflicts;
@@ -193,5 +193,5 @@ TEST_P(LowLevelFuzz, AgreesWithATimeExpandedSearch) {
 INSTANTIATE_TEST_SUITE_P(, LowLevelFuzz, ::testing::Bool(),
                          [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
-}  // namespace
+}  // namespace low_level_fuzz_test
 }  // namespace grove

@@ -10,7 +10,7 @@
 #include "tests/planning/single_agent.h"
 
 namespace grove {
-namespace {
+namespace low_level_search_test {
 
 using Outcome = LowLevelSearch::Outcome;
 using testing::grid_of;
@@ -262,5 +262,5 @@ TEST(LowLevelSearch, StopsInTheMiddleOfALongProof) {
   EXPECT_LT(search.expanded() - whole, whole);
 }
 
-}  // namespace
+}  // namespace low_level_search_test
 }  // namespace grove

@@ -6,7 +6,7 @@
 #include "tests/planning/single_agent.h"
 
 namespace grove::testing {
-namespace {
+namespace obeys_test {
 
 TEST(Obeys, CountsTheRestForEver) {
   const Grid grid = grid_of({"..."});
@@ -65,5 +65,5 @@ TEST(Obeys, KnowsATraversalOfALoop) {
   EXPECT_TRUE(obeys(grid, {7, 4, 3, 0, 1, 4}, left));
 }
 
-}  // namespace
+}  // namespace obeys_test
 }  // namespace grove::testing

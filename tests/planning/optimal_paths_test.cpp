@@ -18,7 +18,7 @@
 #include "tests/planning/step_rules.h"
 
 namespace grove {
-namespace {
+namespace optimal_paths_test {
 
 using Outcome = OptimalPathsBuilder::Outcome;
 using Paths = std::set<Path>;
@@ -280,5 +280,5 @@ TEST(PairDependency, CountsTheRestOfTheShorterOne) {
   EXPECT_EQ(pair.find(rests.graph, passes.graph, kPlenty, Limits()), Dependence::kDependent);
 }
 
-}  // namespace
+}  // namespace optimal_paths_test
 }  // namespace grove

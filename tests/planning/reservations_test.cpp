@@ -16,7 +16,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace reservations_test {
 
 using Outcome = FreeLowLevelSearch::Outcome;
 
@@ -235,5 +235,5 @@ TEST(Reservations, AnEffortIsLimited) {
   EXPECT_GE(path.size(), 300u);
 }
 
-}  // namespace
+}  // namespace reservations_test
 }  // namespace grove

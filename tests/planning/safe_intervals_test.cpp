@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace grove {
-namespace {
+namespace safe_intervals_test {
 
 using Intervals = std::vector<std::pair<Time, Time>>;
 
@@ -154,5 +154,5 @@ TEST_F(SafeIntervalsTest, RejectsWhatIsNotOnTheGrid) {
   EXPECT_EQ(of(1), (Intervals{{0, 1}, {4, kNever}}));
 }
 
-}  // namespace
+}  // namespace safe_intervals_test
 }  // namespace grove

@@ -7,7 +7,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace sequence_constraints_test {
 
 using testing::grid_of;
 using testing::SingleAgent;
@@ -61,5 +61,5 @@ TEST_F(SequenceConstraints, ThatMakeNoClassAreRefused) {
   EXPECT_THROW(narrowed({is(0, 3)}, {{}, 0b1000}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace sequence_constraints_test
 }  // namespace grove

@@ -26,13 +26,6 @@ std::vector<TaskIndex> all_tasks(const Instance& instance) {
 
 }  // namespace
 
-Grid grid_of(const std::vector<std::string>& rows) {
-  std::vector<bool> passable;
-  for (const std::string& row : rows)
-    for (char c : row) passable.push_back(c == '.');
-  return Grid(static_cast<int>(rows.front().size()), static_cast<int>(rows.size()), passable);
-}
-
 SingleAgent::SingleAgent(const Grid& grid, Cell start, const std::vector<Cell>& tasks,
                          std::optional<Cell> destination)
     : instance(instance_of(grid, start, tasks, destination)),

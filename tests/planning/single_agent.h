@@ -3,15 +3,12 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "grove/planning/goal_sequence.h"
+#include "tests/support/instances.h"
 
 namespace grove::testing {
-
-// A grid from rows of '.' and '@'.
-Grid grid_of(const std::vector<std::string>& rows);
 
 // One agent with a start, tasks in the order to visit, and perhaps a destination.
 struct SingleAgent {

@@ -11,7 +11,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace configuration_generator_test {
 
 using testing::instance_of;
 
@@ -115,5 +115,5 @@ TEST(ConfigurationGenerator, BacksOffToTheJunctionWhereTwoMustPass) {
   EXPECT_EQ(to[1], 2);
 }
 
-}  // namespace
+}  // namespace configuration_generator_test
 }  // namespace grove

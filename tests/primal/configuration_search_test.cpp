@@ -17,7 +17,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace configuration_search_test {
 
 using testing::AgentSpec;
 using testing::Crowd;
@@ -248,5 +248,5 @@ TEST(ConfigurationSearch, StopsAtADeadline) {
   EXPECT_EQ(limits.reason(), StopReason::kTime);
 }
 
-}  // namespace
+}  // namespace configuration_search_test
 }  // namespace grove

@@ -11,7 +11,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace neighborhoods_test {
 
 // `count` agents that cross an open square from left to right, each one row up or down.
 Instance crossing(int count) {
@@ -59,5 +59,5 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
 
 INSTANTIATE_TEST_SUITE_P(Agents, NeighborhoodsTest, ::testing::Values(2, 3, 12));
 
-}  // namespace
+}  // namespace neighborhoods_test
 }  // namespace grove

@@ -15,7 +15,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace primal_search_test {
 
 using testing::instance_of;
 
@@ -307,5 +307,5 @@ TEST(PrimalSearch, TakesOverABetterPlan) {
   }
 }
 
-}  // namespace
+}  // namespace primal_search_test
 }  // namespace grove

@@ -11,7 +11,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace visit_orders_test {
 
 using testing::instance_of;
 
@@ -59,5 +59,5 @@ TEST(CheapestOrders, StopAtALimit) {
   EXPECT_FALSE(cheapest_orders(problem, over));
 }
 
-}  // namespace
+}  // namespace visit_orders_test
 }  // namespace grove

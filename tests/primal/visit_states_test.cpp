@@ -8,7 +8,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace visit_states_test {
 
 using testing::instance_of;
 
@@ -75,5 +75,5 @@ TEST(Configurations, AreFoundAgain) {
     EXPECT_TRUE(std::ranges::equal(configurations[static_cast<int>(i)], all[i]));
 }
 
-}  // namespace
+}  // namespace visit_states_test
 }  // namespace grove

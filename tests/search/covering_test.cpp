@@ -7,7 +7,7 @@
 #include <random>
 
 namespace grove {
-namespace {
+namespace covering_test {
 
 // The least sum by trying every assignment of at most `most` each.
 Cost brute_force(const std::vector<GroupExcess>& statements, int agents, int most) {
@@ -85,5 +85,5 @@ TEST(CoveringBound, StaysABoundWhereTheSumIsLarge) {
   EXPECT_LE(covering_bound(triangle), 45'000);
 }
 
-}  // namespace
+}  // namespace covering_test
 }  // namespace grove

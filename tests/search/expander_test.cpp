@@ -9,7 +9,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace expander_test {
 
 using testing::AgentSpec;
 
@@ -143,5 +143,5 @@ TEST(Expander, IsAPureFunctionOfTheNode) {
   }
 }
 
-}  // namespace
+}  // namespace expander_test
 }  // namespace grove

@@ -6,7 +6,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace feasibility_test {
 
 using testing::AgentSpec;
 
@@ -53,5 +53,5 @@ TEST(EvidentInfeasibility, WalksBentCorridorsAndLeavesRingsAlone) {
       evident({"...", ".@.", "..."}, {{{0, 0}, Position{2, 2}}, {{2, 2}, Position{0, 0}}}));
 }
 
-}  // namespace
+}  // namespace feasibility_test
 }  // namespace grove

@@ -13,7 +13,7 @@
 #include "tests/primal/crowd.h"
 
 namespace grove {
-namespace {
+namespace findings_test {
 
 constexpr Cost kSlack = 20;
 
@@ -139,5 +139,5 @@ TEST(Findings, RefusesWhatCannotBe) {
   refuses({0, {0, 1}, {-1, false, 1}});
 }
 
-}  // namespace
+}  // namespace findings_test
 }  // namespace grove

@@ -11,7 +11,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace frontier_memory_test {
 
 class ScarceFrontier : public ::testing::Test {
  protected:
@@ -89,5 +89,5 @@ TEST_F(ScarceFrontier, KeepsTheBoundWhenBeginningAnewFails) {
   EXPECT_GT(failures, 0);
 }
 
-}  // namespace
+}  // namespace frontier_memory_test
 }  // namespace grove

@@ -8,7 +8,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace frontier_test {
 
 // Roots whose bound is the length of one agent's walk.
 class FrontierTest : public ::testing::Test {
@@ -183,5 +183,5 @@ TEST_F(FrontierTest, BeginsAnewWithTheProvenBoundNewestFirst) {
   EXPECT_EQ(frontier_.bound(), 5);
 }
 
-}  // namespace
+}  // namespace frontier_test
 }  // namespace grove

@@ -8,7 +8,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace gate_test {
 
 // One agent in a corridor: walking straight costs 4, each wait one more.
 const Instance& instance() {
@@ -107,5 +107,5 @@ TEST(Gate, AsksForTreesAsAlgorithm4Does) {
   EXPECT_FALSE(sequential.needs_new_tree(kInfiniteCost, 10));
 }
 
-}  // namespace
+}  // namespace gate_test
 }  // namespace grove

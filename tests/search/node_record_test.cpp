@@ -11,7 +11,7 @@
 #include "tests/primal/crowd.h"
 
 namespace grove {
-namespace {
+namespace node_record_test {
 
 // Nodes of a real search, some levels deep.
 class NodeRecords : public ::testing::Test {
@@ -91,5 +91,5 @@ TEST_F(NodeRecords, OfPathsThroughWallsAreRefused) {
   EXPECT_THROW(node_of(record, root_, instance_), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace node_record_test
 }  // namespace grove

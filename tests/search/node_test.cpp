@@ -9,7 +9,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace node_test {
 
 TEST(PackedPath, UnpacksWhatWasPacked) {
   std::mt19937 random(1);
@@ -150,5 +150,5 @@ TEST_F(NodeTest, WhereOneRestsTheOthersAreBarred) {
   }
 }
 
-}  // namespace
+}  // namespace node_test
 }  // namespace grove

@@ -11,7 +11,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace path_planner_test {
 
 using testing::instance_of;
 
@@ -92,5 +92,5 @@ INSTANTIATE_TEST_SUITE_P(Agents, SplitClasses, ::testing::Bool(), [](const auto&
   return agent.param ? "WithADestination" : "WithoutOne";
 });
 
-}  // namespace
+}  // namespace path_planner_test
 }  // namespace grove

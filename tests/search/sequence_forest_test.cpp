@@ -9,7 +9,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace sequence_forest_test {
 
 class ForestTest : public ::testing::Test {
  protected:
@@ -73,5 +73,5 @@ TEST_F(ForestTest, ALimitLosesNoTree) {
   EXPECT_EQ(forest.last_cost(), first);
 }
 
-}  // namespace
+}  // namespace sequence_forest_test
 }  // namespace grove

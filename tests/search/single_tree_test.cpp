@@ -8,7 +8,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace single_tree_test {
 
 class SingleTreeTest : public ::testing::Test {
  protected:
@@ -59,5 +59,5 @@ TEST_F(SingleTreeTest, ItsPlansNameTheSequencesThatWereChosen) {
   EXPECT_EQ(instance_.task(free_end.sequence.back()).cell, free_end.path.back());
 }
 
-}  // namespace
+}  // namespace single_tree_test
 }  // namespace grove

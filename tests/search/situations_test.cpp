@@ -10,7 +10,7 @@
 #include <tuple>
 
 namespace grove {
-namespace {
+namespace situations_test {
 
 std::vector<Constraint> random_constraints(std::mt19937& random) {
   std::vector<Constraint> constraints(random() % 4);
@@ -92,5 +92,5 @@ TEST(Situations, CanonicalListsHaveOneOrderAndNoRepeats) {
   EXPECT_EQ(a.size(), 2u);
 }
 
-}  // namespace
+}  // namespace situations_test
 }  // namespace grove

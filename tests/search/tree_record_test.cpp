@@ -16,7 +16,7 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace {
+namespace tree_record_test {
 
 // What add() says of a record.
 std::string answer(Trees& trees, const TreeRecord& record) {
@@ -231,5 +231,5 @@ TEST_F(SmallTreeRecords, OfDetoursAreRefused) {
   EXPECT_EQ(trees_.size(), 0u);
 }
 
-}  // namespace
+}  // namespace tree_record_test
 }  // namespace grove

@@ -9,7 +9,7 @@
 #include <set>
 
 namespace grove {
-namespace {
+namespace assignment_test {
 
 using Costs = std::vector<std::vector<std::int64_t>>;
 
@@ -50,5 +50,5 @@ TEST(Assignment, IsTheBestOfAll) {
   EXPECT_GT(impossible, 200);
 }
 
-}  // namespace
+}  // namespace assignment_test
 }  // namespace grove

@@ -15,7 +15,7 @@
 #include "src/sequencing/path_relaxation.h"
 
 namespace grove::testing {
-namespace {
+namespace bounded_dp_test {
 
 // The least cost from `at` through `left` to the end, by trying everything.
 Time cheapest_rest(const CostMatrix& matrix, StopSet left, int at) {
@@ -234,5 +234,5 @@ TEST(BoundedDp, FindsThePlantedOptimumOfSixtyFourStops) {
   EXPECT_GT(list.cost_bound(64), 206);
 }
 
-}  // namespace
+}  // namespace bounded_dp_test
 }  // namespace grove::testing

@@ -12,7 +12,7 @@
 #include "tests/sequencing/matrices.h"
 
 namespace grove {
-namespace {
+namespace completions_test {
 
 using testing::fuzz_rounds;
 using testing::kVariants;
@@ -145,5 +145,5 @@ TEST(Completions, ALimitChangesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace completions_test
 }  // namespace grove

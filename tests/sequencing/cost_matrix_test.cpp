@@ -6,7 +6,7 @@
 #include <string>
 
 namespace grove {
-namespace {
+namespace cost_matrix_test {
 
 // A row of cells, one of them blocked:  0 1 2 3 # 5
 Instance corridor(std::optional<Position> goal, const std::vector<Position>& tasks) {
@@ -64,5 +64,5 @@ TEST(CostMatrix, HoldsSixtyFourStops) {
   EXPECT_EQ(matrix.all(), ~StopSet{0});
 }
 
-}  // namespace
+}  // namespace cost_matrix_test
 }  // namespace grove

@@ -12,7 +12,7 @@
 #include "matrices.h"
 
 namespace grove::testing {
-namespace {
+namespace k_best_joint_sequences_test {
 
 // Matrices stay where they are: solvers keep references to them.
 struct Agents {
@@ -132,5 +132,5 @@ TEST(KBestJointSequences, CountsItsRtsps) {
   EXPECT_GE(joint.rtsp_calls(), 2);
 }
 
-}  // namespace
+}  // namespace k_best_joint_sequences_test
 }  // namespace grove::testing

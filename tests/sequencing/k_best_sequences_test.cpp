@@ -10,7 +10,7 @@
 #include "matrices.h"
 
 namespace grove::testing {
-namespace {
+namespace k_best_sequences_test {
 
 KBestSequences list_of(const CostMatrix& matrix, RtspBackend backend, const Limits& limits) {
   return {make_rtsp_solver(backend, matrix, limits), matrix, limits};
@@ -149,5 +149,5 @@ TEST_F(BackendsAgree, AllThreeOnTheFirst200UpTo22Stops) {
   }
 }
 
-}  // namespace
+}  // namespace k_best_sequences_test
 }  // namespace grove::testing

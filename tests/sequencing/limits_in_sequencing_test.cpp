@@ -11,7 +11,7 @@
 #include "matrices.h"
 
 namespace grove::testing {
-namespace {
+namespace limits_in_sequencing_test {
 
 using std::chrono::milliseconds;
 
@@ -153,5 +153,5 @@ TEST(Cbc, ServesThreadsOneAtATime) {
   EXPECT_EQ(right, 4);
 }
 
-}  // namespace
+}  // namespace limits_in_sequencing_test
 }  // namespace grove::testing

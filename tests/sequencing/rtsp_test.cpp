@@ -8,7 +8,7 @@
 #include "matrices.h"
 
 namespace grove::testing {
-namespace {
+namespace rtsp_test {
 
 std::string name_of(const ::testing::TestParamInfo<RtspBackend>& info) {
   const char* names[] = {"Auto", "HeldKarp", "BoundedDp", "Cbc"};
@@ -164,5 +164,5 @@ TEST(RelaxationBound, IsExactForUpToTwoStops) {
     }
 }
 
-}  // namespace
+}  // namespace rtsp_test
 }  // namespace grove::testing

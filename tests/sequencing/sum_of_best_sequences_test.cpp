@@ -10,7 +10,7 @@
 #include "tests/support/instances.h"
 
 namespace grove::testing {
-namespace {
+namespace sum_of_best_sequences_test {
 
 Time distance(const Instance& instance, Cell from, Cell to) {
   return distance_field(instance.grid(), to)[from];
@@ -63,5 +63,5 @@ TEST(SumOfBestSequences, IsNotKnownWhenALimitStrikes) {
       std::nullopt);
 }
 
-}  // namespace
+}  // namespace sum_of_best_sequences_test
 }  // namespace grove::testing

@@ -5,11 +5,11 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace check_command_test {
 
 // . . .   a goes from (0, 0) to (2, 0), b from (2, 1) by task t (1, 1) to (0, 1).
 // . . .
-class CheckCommand : public testing::Test {
+class CheckCommand : public ::testing::Test {
  protected:
   CheckCommand() {
     directory_.write("m.map", "type octile\nheight 2\nwidth 3\nmap\n...\n...\n");
@@ -98,5 +98,5 @@ TEST_F(CheckCommand, PrintsWarnings) {
             "grove: warning: " + (directory_ / "p.json") + ": /: unknown key 'note' is ignored\n");
 }
 
-}  // namespace
+}  // namespace check_command_test
 }  // namespace grove

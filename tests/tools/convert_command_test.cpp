@@ -7,7 +7,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace convert_command_test {
 
 using Arguments = std::vector<std::string>;
 
@@ -43,7 +43,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(text.find(from), from.size(), to);
 }
 
-class ConvertCommand : public testing::Test {
+class ConvertCommand : public ::testing::Test {
  protected:
   ConvertCommand() {
     directory_.write("m.map", kMap);
@@ -343,5 +343,5 @@ TEST_F(ConvertCommand, BrokenFilesAreRefusedInOneLine) {
   }
 }
 
-}  // namespace
+}  // namespace convert_command_test
 }  // namespace grove

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace generate_command_test {
 
 namespace fs = std::filesystem;
 
@@ -252,5 +252,5 @@ TEST(GenerateCommand, RefusesOutputsThatCannotBeWritten) {
           .starts_with("file: "));
 }
 
-}  // namespace
+}  // namespace generate_command_test
 }  // namespace grove

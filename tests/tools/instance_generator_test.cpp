@@ -10,7 +10,7 @@
 #include "tools/generate/scenario_generator.h"
 
 namespace grove {
-namespace {
+namespace instance_generator_test {
 
 const Grid& grid() {
   static const Grid grid = empty_map(12, 10);
@@ -122,5 +122,5 @@ TEST(GenerateInstance, RefusesWhatDoesNotFit) {
   EXPECT_EQ(refused(outside, {.agents = 2, .mg = true}).substr(0, 22), "m.scen: line 3, goal: ");
 }
 
-}  // namespace
+}  // namespace instance_generator_test
 }  // namespace grove

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace malformed_files_test {
 
 struct Malformed {
   std::string name;     // of the case
@@ -21,7 +21,7 @@ void PrintTo(const Malformed& malformed, std::ostream* out) {
   *out << malformed.name;
 }
 
-std::string name_of(const testing::TestParamInfo<Malformed>& info) {
+std::string name_of(const ::testing::TestParamInfo<Malformed>& info) {
   return info.param.name;
 }
 
@@ -38,7 +38,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(text.find(from), from.size(), to);
 }
 
-class MalformedFiles : public testing::TestWithParam<Malformed> {
+class MalformedFiles : public ::testing::TestWithParam<Malformed> {
  protected:
   MalformedFiles() {
     directory_.write("m.map", kMap);
@@ -99,7 +99,7 @@ Malformed instance_with(const std::string& name, const std::string& from, const 
 
 INSTANTIATE_TEST_SUITE_P(
     Json, MalformedInstance,
-    testing::Values(Malformed{"Empty", "", "is empty"},
+    ::testing::Values(Malformed{"Empty", "", "is empty"},
                     Malformed{"Truncated", "{\"map\": \"m.map\",\n\"agents\": [",
                               "line 2, column 12: "},
                     Malformed{"NotJson", "hello", "line 1, column 1: "},
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Values, MalformedInstance,
-    testing::Values(
+    ::testing::Values(
         instance_with("MissingKey", "\"start\"", "\"strat\"", "/agents/0: key 'start' is missing"),
         instance_with("WrongType", "\"a\"", "7", "/agents/0/id: "),
         instance_with("Fraction", "[0, 0]", "[0, 0.5]", "/agents/0/start/1: "),
@@ -151,7 +151,7 @@ TEST_P(MalformedMap, IsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     Map, MalformedMap,
-    testing::Values(
+    ::testing::Values(
         Malformed{"Empty", "", "line 1, column 1: "},
         Malformed{"WrongType", replaced(kMap, "octile", "tile"), "line 1, column 1: "},
         Malformed{"NoHeight", replaced(kMap, "height 2\n", ""), "line 3, column 1: "},
@@ -175,7 +175,7 @@ TEST_P(MalformedScenario, IsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenario, MalformedScenario,
-    testing::Values(
+    ::testing::Values(
         Malformed{"Empty", "", "line 1, column 1: "},
         Malformed{"WrongVersion", replaced(kScenario, "1", "3"), "line 1, column 1: "},
         Malformed{"MissingField", replaced(kScenario, "\t2\n", "\n"), "line 2, column 20: "},
@@ -196,7 +196,7 @@ TEST_P(MalformedPlan, IsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     Plan, MalformedPlan,
-    testing::Values(
+    ::testing::Values(
         Malformed{"Empty", "", "is empty"},
         Malformed{"Truncated", kPlan.substr(0, kPlan.size() / 2), "line "},
         Malformed{"UnknownStatus", replaced(kPlan, "optimal", "best"), "/status: "},
@@ -209,5 +209,5 @@ INSTANTIATE_TEST_SUITE_P(
                   "/omega: "}),
     name_of);
 
-}  // namespace
+}  // namespace malformed_files_test
 }  // namespace grove

@@ -9,7 +9,7 @@
 #include "tools/generate/components.h"
 
 namespace grove {
-namespace {
+namespace map_generator_test {
 
 std::string text(const Grid& grid) {
   std::string text;
@@ -70,5 +70,5 @@ TEST(RoomsMap, EndsWithoutAWallThatSeparatesNothing) {
   EXPECT_EQ(text(rooms_map(5, 1, 3, 1, 0)), ".....\n");  // the wall's only cell is the door
 }
 
-}  // namespace
+}  // namespace map_generator_test
 }  // namespace grove

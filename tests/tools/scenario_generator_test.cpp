@@ -10,7 +10,7 @@
 #include "tools/generate/random.h"
 
 namespace grove {
-namespace {
+namespace scenario_generator_test {
 
 // Two parts: 6 cells on the left, 2 on the right.
 Grid two_parts() {
@@ -61,5 +61,5 @@ TEST(Random, DrawsEachNumberAboutEquallyOften) {
   for (int count : counts) EXPECT_NEAR(count, 10'000, 400);
 }
 
-}  // namespace
+}  // namespace scenario_generator_test
 }  // namespace grove

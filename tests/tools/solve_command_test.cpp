@@ -15,7 +15,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace solve_command_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
@@ -31,7 +31,7 @@ constexpr const char* kPuzzle = R"({"map": "puzzle.map", "agents": [
   {"id": "a", "start": [0, 0], "goal": [3, 0]}, {"id": "b", "start": [1, 0], "goal": [1, 1]},
   {"id": "c", "start": [2, 0], "goal": [0, 0]}, {"id": "d", "start": [3, 0], "goal": [2, 0]}], "tasks": []})";
 
-class SolveCommand : public testing::Test {
+class SolveCommand : public ::testing::Test {
  protected:
   SolveCommand() {
     directory_.write("puzzle.map", kPuzzleMap);
@@ -277,6 +277,8 @@ TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--policy", "best"})),
               HasSubstr("auto, fixed, free"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "gurobi"})), HasSubstr("auto, cbc, dp"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "cbc"})),
+              HasSubstr("expected --policy fixed with it, or no --rtsp cbc"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omgea", "0"})), HasSubstr("--omgea"));
   EXPECT_THAT(complaint(solve({"missing.json"})), HasSubstr("missing.json"));
   EXPECT_THAT(complaint(solve({data("first.map")})), HasSubstr("expected an instance"));
@@ -397,5 +399,5 @@ TEST_F(Incumbents, DoNotReplaceOtherFilesOfTheRun) {
       0);
 }
 
-}  // namespace
+}  // namespace solve_command_test
 }  // namespace grove

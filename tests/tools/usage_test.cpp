@@ -6,7 +6,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
-namespace {
+namespace usage_test {
 
 using Arguments = std::vector<std::string>;
 
@@ -47,7 +47,11 @@ TEST(Usage, WrongUsageGetsOneLineAndAHint) {
   EXPECT_EQ(said({"check"}), "INSTANCE is required (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a"}), "PLAN is required (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a", "b", "--bogus"}),
-            "The following argument was not expected: --bogus (see 'grove check --help')");
+            "unknown option '--bogus' (see 'grove check --help')");
+  EXPECT_EQ(said({"solve", "a", "--omga", "0"}),
+            "unknown option '--omga'; did you mean '--omega'? (see 'grove solve --help')");
+  EXPECT_EQ(said({"solv", "a"}),
+            "unknown command 'solv'; did you mean 'solve'? (see 'grove --help')");
   EXPECT_EQ(said({"check", "a.scen", "b", "--agents", "2"}),
             "--map: required with a .scen file (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a.scen", "b", "--map", "m"}),
@@ -56,9 +60,8 @@ TEST(Usage, WrongUsageGetsOneLineAndAHint) {
             "--map, --agents: expected only with a .scen file (see 'grove check --help')");
   EXPECT_EQ(said({"generate", "map", "empty"}),
             "--output is required (see 'grove generate map empty --help')");
-  EXPECT_EQ(
-      said({"generate", "map", "empty", "-o", "x", "a\nb"}),
-      "The following argument was not expected: a\\nb (see 'grove generate map empty --help')");
+  EXPECT_EQ(said({"generate", "map", "empty", "-o", "x", "a\nb"}),
+            "unexpected argument 'a\\nb' (see 'grove generate map empty --help')");
 }
 
 TEST(Usage, NumbersAreCheckedWithFriendlyWords) {
@@ -94,5 +97,5 @@ TEST(Usage, AFullDiskLeavesNothingBehind) {
   EXPECT_TRUE(directory.files().empty());
 }
 
-}  // namespace
+}  // namespace usage_test
 }  // namespace grove

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace grove::batch {
-namespace {
+namespace batch_progress_test {
 
 BatchState some_state() {
   BatchState state;
@@ -107,5 +107,5 @@ TEST(Progress, ElsewhereIsALineNowAndThen) {
             "0/1 done: 0 solved; 1:02 gone\n1/1 done: 1 solved; 1:02 gone\n");
 }
 
-}  // namespace
+}  // namespace batch_progress_test
 }  // namespace grove::batch

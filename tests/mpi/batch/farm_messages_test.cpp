@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 namespace grove::batch {
-namespace {
+namespace farm_messages_test {
 
 Row some_row() {
   Row row;
@@ -53,5 +53,5 @@ TEST(FarmMessages, CutShortAreNone) {
   }
 }
 
-}  // namespace
+}  // namespace farm_messages_test
 }  // namespace grove::batch

@@ -22,7 +22,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::batch {
-namespace {
+namespace farm_test {
 
 namespace fs = std::filesystem;
 
@@ -471,5 +471,5 @@ TEST_F(Farms, TellTheirStateAsTheyGo) {
   EXPECT_GT(run.end_state->solving_s, 0);
 }
 
-}  // namespace
+}  // namespace farm_test
 }  // namespace grove::batch

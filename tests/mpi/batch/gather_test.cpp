@@ -7,7 +7,7 @@
 #include "simulated_ranks.h"
 
 namespace grove::batch {
-namespace {
+namespace gather_test {
 
 // Round after round: who is quick must not be taken for who is slow.
 TEST(Gathering, TellsAllWhatEachSaid) {
@@ -34,5 +34,5 @@ TEST(Gathering, TellsAllWhatEachSaid) {
     }
 }
 
-}  // namespace
+}  // namespace gather_test
 }  // namespace grove::batch

@@ -14,13 +14,13 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::batch {
-namespace {
+namespace result_table_test {
 
 namespace fs = std::filesystem;
 
 using Ids = std::vector<std::string>;
 
-class Tables : public testing::Test {
+class Tables : public ::testing::Test {
  protected:
   static Entry entry(const std::string& id) {
     return {.id = id, .path = id + ".cts.json", .digest = "digest of " + id};
@@ -276,5 +276,5 @@ TEST_F(Tables, HavePlansBesideThem) {
             Status::kUnknown);
 }
 
-}  // namespace
+}  // namespace result_table_test
 }  // namespace grove::batch

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 namespace grove::batch {
-namespace {
+namespace row_test {
 
 const Settings kSettings{{"omega", "0.01"}, {"seed", "7"}};
 
@@ -158,5 +158,5 @@ TEST(Results, SayWhatTheSolutionSays) {
   EXPECT_EQ(result_of(infeasible, ""), (Result{.status = Status::kInfeasible}));
 }
 
-}  // namespace
+}  // namespace row_test
 }  // namespace grove::batch

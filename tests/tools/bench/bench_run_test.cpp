@@ -15,7 +15,7 @@
 #include "tools/bench/rehearsal.h"
 
 namespace grove::bench {
-namespace {
+namespace bench_run_test {
 
 namespace fs = std::filesystem;
 
@@ -208,5 +208,5 @@ TEST_F(Benches, EndWhenTheyCannotGoOn) {
   EXPECT_ANY_THROW(run());
 }
 
-}  // namespace
+}  // namespace bench_run_test
 }  // namespace grove::bench

@@ -13,9 +13,9 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::bench {
-namespace {
+namespace child_process_test {
 
-class Children : public testing::Test {
+class Children : public ::testing::Test {
  protected:
   ChildEnd run(const std::string& script, double seconds = 60, bool cancelled = false) {
     return run_child({"/bin/sh", "-c", script}, directory_ / "said",
@@ -106,5 +106,5 @@ TEST_F(Children, DieWithTheirParent) {
   EXPECT_FALSE(lives());
 }
 
-}  // namespace
+}  // namespace child_process_test
 }  // namespace grove::bench

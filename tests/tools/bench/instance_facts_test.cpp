@@ -8,7 +8,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::bench {
-namespace {
+namespace instance_facts_test {
 
 using grove::testing::AgentSpec;
 using grove::testing::instance_of;
@@ -78,5 +78,5 @@ TEST_F(Orders, RefuseABrokenInstance) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace instance_facts_test
 }  // namespace grove::bench

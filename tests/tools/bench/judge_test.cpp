@@ -10,7 +10,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::bench {
-namespace {
+namespace judge_test {
 
 class Judges : public ::testing::Test {
  protected:
@@ -123,5 +123,5 @@ TEST_F(Judges, SeeWhatWasStoppedFromOutside) {
   EXPECT_FALSE(verdict().solved);
 }
 
-}  // namespace
+}  // namespace judge_test
 }  // namespace grove::bench

@@ -6,7 +6,7 @@
 #include "rows.h"
 
 namespace grove::bench {
-namespace {
+namespace progress_text_test {
 
 BenchState counted() {
   BenchState state{.methods = {"auto", "paper"}, .counts = {{"auto", {}}, {"paper", {}}}};
@@ -44,5 +44,5 @@ TEST(BenchSummary, CountsWhatIsNotSolvedAsTheLimit) {
   EXPECT_NE(summary_table(state).find("4/4      3.50"), std::string::npos) << summary_table(state);
 }
 
-}  // namespace
+}  // namespace progress_text_test
 }  // namespace grove::bench

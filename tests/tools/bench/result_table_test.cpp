@@ -10,11 +10,11 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::bench {
-namespace {
+namespace result_table_test {
 
 using Positions = std::vector<std::size_t>;
 
-class BenchTables : public testing::Test {
+class BenchTables : public ::testing::Test {
  protected:
   // The runs of a command on two instances by two methods, and their rows.
   std::vector<Row> rows_{solved_row("i", "a"), solved_row("i", "b"), solved_row("j", "a"),
@@ -132,5 +132,5 @@ TEST_F(BenchTables, AreCsvInTheOrderOfTheCommand) {
       csv_header() + csv_line(rows_[0]) + csv_line(rows_[1]) + csv_line(solved_row("j", "b")));
 }
 
-}  // namespace
+}  // namespace result_table_test
 }  // namespace grove::bench

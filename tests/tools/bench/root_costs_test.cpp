@@ -6,7 +6,7 @@
 #include "tests/support/instances.h"
 
 namespace grove::bench {
-namespace {
+namespace root_costs_test {
 
 using grove::testing::instance_of;
 
@@ -24,5 +24,5 @@ TEST(RootCosts, AreAbsentWhenTheyTakeTooLong) {
   EXPECT_EQ(costs.of(0, instance_of({"..."}, {{{0, 0}, Position{2, 0}, {{1, 0}}}})), std::nullopt);
 }
 
-}  // namespace
+}  // namespace root_costs_test
 }  // namespace grove::bench

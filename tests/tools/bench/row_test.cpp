@@ -9,7 +9,7 @@
 #include "rows.h"
 
 namespace grove::bench {
-namespace {
+namespace row_test {
 
 Row limited_row() {
   Row row = solved_row();
@@ -83,5 +83,5 @@ TEST(BenchRows, RefuseWhatIsNone) {
   EXPECT_THROW(parse_json_line(json.dump()), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace row_test
 }  // namespace grove::bench

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// What was wrong with a command line, in words.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace grove {
+
+// `error` came up while `command` was being parsed. CLI11's words, but for a command, an option or
+// an argument that is not known: that is named, and of options and commands the one that resembles
+// it.
+std::string parse_error_text(const CLI::App& command, const CLI::ParseError& error);
+
+}  // namespace grove
