@@ -8,15 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/sequencing/cost_matrix.h"
-
 namespace grove {
 
 SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
                        const Limits& limits)
     : problem_(problem), stops_(stops), pool_(pool), limits_(limits) {
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
-    relaxed_bound_ += relaxation_bound(cost_matrix(problem.instance, agent, problem.distances));
+    relaxed_bound_ += stops.of(agent).completions().relaxed_bound();
 }
 
 // Plans the agents one after the other around those before, which spares conflicts that are mere

@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "grove/sequencing/rtsp.h"
 #include "grove/sequencing/sequence_dag.h"
 #include "held_karp_table.h"
 #include "path_relaxation.h"
@@ -21,6 +22,7 @@ class Completions::Store {
   virtual ~Store() = default;
 
   const CostMatrix& matrix() const { return *matrix_; }
+  virtual Time relaxed_bound() const = 0;
   virtual Time beyond() const = 0;
   virtual Time completion(StopSet left, int stop) const = 0;
   // One with a beyond() > reach; null when a limit struck. Only if this has not.
@@ -38,6 +40,7 @@ class Completions::Table : public Store {
  public:
   using Store::Store;
 
+  Time relaxed_bound() const override { return relaxation_bound(matrix()); }
   Time beyond() const override { return table_.built() ? kNever : 0; }
   Time completion(StopSet left, int stop) const override {
     return table_.built() ? table_.completion(left, stop) : kNever;
@@ -60,6 +63,7 @@ class Completions::Graph : public Store {
   Graph(const Graph& narrower, SequenceDag dag)
       : Store(narrower.shared_matrix()), relaxation_(narrower.relaxation_), dag_(std::move(dag)) {}
 
+  Time relaxed_bound() const override { return relaxation_->root_bound(); }
   Time beyond() const override { return dag_.beyond(); }
   Time completion(StopSet left, int stop) const override { return dag_.completion(left, stop); }
   std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const override {
@@ -85,6 +89,10 @@ Completions::Completions(CostMatrix matrix) {
 
 const CostMatrix& Completions::matrix() const {
   return store_->matrix();
+}
+
+Time Completions::relaxed_bound() const {
+  return store_->relaxed_bound();
 }
 
 Time Completions::beyond() const {

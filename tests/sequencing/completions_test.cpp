@@ -50,6 +50,18 @@ void expect_exact(const CostMatrix& matrix) {
       ASSERT_EQ(completions.completion(left, stop), brute_force(matrix, left, stop));
 }
 
+TEST(Completions, TheRelaxedBoundIsThatOfTheMatrix) {
+  Random random(5);
+  for (const int n : {1, 6, 14, 15, 20}) {
+    const CostMatrix matrix = testing::grid_matrix(n, Variant::kCts, random);
+    Completions completions(matrix);
+    const Time bound = relaxation_bound(matrix);
+    EXPECT_EQ(completions.relaxed_bound(), bound);
+    ASSERT_TRUE(completions.widen(bound + 3, Limits()));
+    EXPECT_EQ(completions.relaxed_bound(), bound);
+  }
+}
+
 TEST(Completions, SmallOnesAreExactAndComplete) {
   Random random(1);
   for (int round = fuzz_rounds(20); round > 0; --round)

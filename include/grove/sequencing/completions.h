@@ -25,6 +25,9 @@ class Completions {
   // kNever when there is none, or the state is outside.
   Time completion(StopSet left, int stop) const;
 
+  // A lower bound on every complete sequence (relaxation_bound() in rtsp.h), whatever is known.
+  Time relaxed_bound() const;
+
   // Afterwards beyond() > reach, and never less than before. False, and nothing changed, when a
   // limit struck. `reach` < kNever.
   bool widen(Time reach, const Limits& limits);
