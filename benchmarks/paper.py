@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The paper's experiments: its methods and Grove's search on its data set, and a report of all.
+
+    paper.py OUT [--movingai DIR] [--scenarios 1-50] [--agents 5,10,20] [--tasks 10,20,..] [--time-limit S] [--jobs J]
+
+Comparison: MG-MAPF on three maps, CTS-CBS-A, -B and -C and four baselines at the paper's omega. Study of
+omega: CTS-MAPF on rooms with the fewest agents, the paper's CTS-CBS at omega 0, 0.01, 0.1 and infinity.
+Beside each stands Grove's own search, which proves the optimum.
+
+The same command goes on where an earlier one stopped. OUT/report/report.html is what came out.
+"""
+import argparse
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+GROVE = Path(__file__).resolve().parent.parent / "build/release/bin/grove"
+COMPARISON = {
+    "auto": "--omega 0",
+    "cts-cbs-a": "--method cts-cbs-a --policy fixed --omega 0.01",
+    "cts-cbs-b": "--method cts-cbs-b --policy fixed --omega 0.01",
+    "cts-cbs-c": "--method cts-cbs-c --policy fixed --omega 0.01",
+    "optimal-cbs": "--method optimal-cbs --omega 0",
+    "hcbs": "--method hcbs --omega 0",
+    "mgcbs": "--method mgcbs --omega 0",
+    "s-cbs": "--method s-cbs",
+}
+STUDY = {"auto": "--omega 0"} | {f"cts-cbs_{omega}": f"--policy fixed --omega {omega}"
+                                 for omega in ("0", "0.01", "0.1", "inf")}
+
+
+def run(*words):
+    done = subprocess.run([str(word) for word in words], check=False)
+    if done.returncode != 0:
+        sys.exit(done.returncode)
+
+
+def list_of_study(folder, agents):
+    """The rooms (of other maps, the last) with the fewest agents."""
+    entries = [line for line in (folder / "manifest-cts.txt").read_text(encoding="utf-8").splitlines()
+               if line and not line.startswith("#")]
+    maps = sorted({entry.split("_s")[0] for entry in entries})
+    chosen = next((name for name in maps if name.startswith("room")), maps[-1])
+    fewest = min(int(number) for number in agents.split(","))
+    path = folder / "manifest-study.txt"
+    path.write_text("".join(f"{entry}\n" for entry in entries
+                            if entry.startswith(f"{chosen}_s") and f"_n{fewest}_" in entry), encoding="utf-8")
+    return path
+
+
+def bench(instances, methods, folder, arguments):
+    words = ["bench", instances, "--output-dir", folder, "--time-limit", arguments.time_limit]
+    if arguments.jobs:
+        words += ["--jobs", arguments.jobs]
+    for name, options in methods.items():
+        words += ["--run", f"{name}: {options}"]
+    run(arguments.grove, *words)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", metavar="OUT", type=Path, help="a folder, made if missing")
+    parser.add_argument("--movingai", metavar="DIR", default=os.environ.get("GROVE_MOVINGAI"),
+                        help="maps and scenarios of Moving AI; by default where the environment variable "
+                        "GROVE_MOVINGAI points, or maps of Grove's own making")
+    parser.add_argument("--scenarios", metavar="K-K", default="1-50")
+    parser.add_argument("--agents", metavar="N,N", default="5,10,20")
+    parser.add_argument("--tasks", metavar="M,M", default="10,20,30,40,50")
+    parser.add_argument("--time-limit", metavar="S", default="180", help="seconds for each run (180)")
+    parser.add_argument("--grove", metavar="PROGRAM", default=GROVE, help="the program")
+    parser.add_argument("--jobs", metavar="J", help="runs at a time; by default one for each core")
+    arguments = parser.parse_args()
+
+    sets = arguments.out / "set"
+    run(arguments.grove, "generate", "paper", "--output-dir", sets, "--scenarios", arguments.scenarios,
+        "--agents", arguments.agents, "--tasks", arguments.tasks,
+        *(["--movingai", arguments.movingai] if arguments.movingai else []))
+    bench(sets / "manifest-mg.txt", COMPARISON, arguments.out / "comparison", arguments)
+    bench(list_of_study(sets, arguments.agents), STUDY, arguments.out / "study", arguments)
+    run(arguments.grove, "report", arguments.out / "comparison", arguments.out / "study",
+        "-o", arguments.out / "report")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The paper's experiments in small: every run is there, nothing contradicts, and more instances go on.
+
+    paper_test.py GROVE
+"""
+import csv
+import itertools
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PAPER = Path(__file__).resolve().parent.parent.parent / "benchmarks/paper.py"
+GROVE = None
+METHODS = {"auto", "cts-cbs-a", "cts-cbs-b", "cts-cbs-c", "optimal-cbs", "hcbs", "mgcbs", "s-cbs"}
+STUDY = {"auto", "cts-cbs_0", "cts-cbs_0.01", "cts-cbs_0.1", "cts-cbs_inf"}
+
+
+def rows(path):
+    with path.open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+class Paper(unittest.TestCase):
+    def run_paper(self, folder, *options):
+        done = subprocess.run([sys.executable, PAPER, folder, "--grove", GROVE, "--scenarios", "1", "--tasks", "4",
+                               "--time-limit", "1", *options], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_goes_on_with_more_agents(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for agents in ("2", "2,3"):
+                self.run_paper(folder, "--agents", agents)
+                comparison, study = (rows(folder / f"{part}/results.csv") for part in ("comparison", "study"))
+                self.assertEqual({(row["method"], row["agents"]) for row in comparison},
+                                 set(itertools.product(METHODS, agents.split(","))))
+                self.assertEqual({row["problem"] for row in comparison}, {"mg"})
+                self.assertEqual({row["method"] for row in study}, STUDY)
+                self.assertEqual({(row["problem"], row["agents"]) for row in study}, {("cts", "2")})
+                self.assertTrue(all(row["map"].startswith("room") for row in study))
+                self.assertEqual(rows(folder / "report/contradictions.csv"), [])
+                self.assertTrue((folder / "report/omega_study.svg").exists())
+
+    def test_failures_end_it(self):
+        done = subprocess.run([sys.executable, PAPER, "/proc/nowhere", "--grove", GROVE], capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("/proc/nowhere", done.stderr)
+
+
+if __name__ == "__main__":
+    GROVE = Path(sys.argv.pop(1)).resolve()
+    unittest.main()
