@@ -15,6 +15,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 constexpr std::size_t kMostTypos = 2;
+constexpr std::size_t kShortest = 4;  // of what resembles only few others
 
 // Levenshtein's distance: letters to add, drop or change.
 std::size_t distance(std::string_view from, std::string_view to) {
@@ -32,6 +33,7 @@ std::size_t distance(std::string_view from, std::string_view to) {
 }
 
 std::string suggestion(const std::string& word, const Words& known) {
+  if (word.size() < kShortest) return {};
   const auto typos = [&](const std::string& name) { return distance(word, name); };
   const auto nearest = std::ranges::min_element(known, {}, typos);
   if (nearest == known.end() || typos(*nearest) > kMostTypos) return {};

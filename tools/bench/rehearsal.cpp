@@ -41,6 +41,14 @@ class Scratch {
   fs::path folder_;
 };
 
+// The last words of a run; that they begin with the instance goes without saying.
+std::string reason(const fs::path& said, const std::string& instance) {
+  std::string words = last_words(said);
+  const std::string named = ": " + instance;
+  if (words.starts_with(named + ": ")) words.erase(0, named.size());
+  return words;
+}
+
 }  // namespace
 
 void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
@@ -54,9 +62,9 @@ void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Met
           run_child(solve_command(options.program, instance->entry, method, 0, scratch / "plan"),
                     scratch / "said", {.seconds = kPatience_s, .cancelled = options.stopped});
       if (end.kind == ChildEnd::Kind::kExited && end.code == kRefused)
-        throw InputError(
-            instance->entry.path, "",
-            fmt::format("is not for the run '{}'{}", method.name, last_words(scratch / "said")));
+        throw InputError(instance->entry.path, "",
+                         fmt::format("is not for the run '{}'{}", method.name,
+                                     reason(scratch / "said", instance->entry.path)));
     }
   }
 }

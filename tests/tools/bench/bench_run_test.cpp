@@ -194,7 +194,8 @@ TEST_F(Benches, AreRehearsedOnEveryProblem) {
     solver(other);
     EXPECT_NO_THROW(rehearse(instances_, methods_, options_));
   }
-  solver("case $(tail -n 1 \"$log\") in *i2.cts.json*--k\\ 1*) echo 'not for me'; exit 2;; esac");
+  solver("case $(tail -n 1 \"$log\") in *i2.cts.json*--k\\ 1*) echo 'grove: error: " +
+         instances_[2].entry.path + ": not for me'; exit 2;; esac");
   EXPECT_EQ(refusal([&] { rehearse(instances_, methods_, options_); }),
             "i2.cts.json: is not for the run 'm1': not for me");
   EXPECT_FALSE(fs::exists(options_.folder));
