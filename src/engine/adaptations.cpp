@@ -10,6 +10,7 @@
 #include "adaptations.h"
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -118,8 +119,13 @@ Solution stopped(const SolveOptions& options, const Limits& limits) {
   return solution;
 }
 
-Solution solve_b(const Instance& instance, const SolveOptions& options, const Limits& limits,
-                 RunObserver& observer, Told& told) {
+void say_of_destinations_alone(Stats& stats) {
+  stats.texts.erase("reason");
+  stats.texts["remark"] = "no plan ends on the tasks chosen; others may";
+}
+
+Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
+                          const Limits& limits, RunObserver& observer, Told& told) {
   const Problem problem(instance, limits);
   if (auto answer = answer_without_search(problem, options, limits, observer))
     return std::move(*answer);
@@ -134,7 +140,7 @@ Solution solve_b(const Instance& instance, const SolveOptions& options, const Li
   if (solution.plan)
     solution.plan = without_destinations(instance, *destinations, std::move(*solution.plan));
   else if (solution.status == Status::kInfeasible)
-    solution.stats.texts["reason"] = "no plan ends on the tasks that were chosen";
+    say_of_destinations_alone(solution.stats);
   solution.lower_bound = destinations->bound;
   const auto cost = solution.plan ? std::optional(solution.plan->cost) : std::nullopt;
   solution.status = status_of(cost, solution.lower_bound, options.omega);
@@ -145,6 +151,16 @@ Solution solve_b(const Instance& instance, const SolveOptions& options, const Li
   return solution;
 }
 
+Solution solve_b(const Instance& instance, const SolveOptions& options, const Limits& limits,
+                 RunObserver& observer, Told& told) {
+  try {
+    return choose_and_solve(instance, options, limits, observer, told);
+  } catch (const std::bad_alloc&) {  // before the search, which minds its own
+    limits.memory_exhausted();
+    return stopped(options, limits);
+  }
+}
+
 Solution solve_a(const Instance& instance, const SolveOptions& options, const Limits& limits,
                  Told& told) {
   told.note("The agents may end on any of their tasks.");
@@ -152,14 +168,23 @@ Solution solve_a(const Instance& instance, const SolveOptions& options, const Li
   return solve(instance, options, limits, &stage);
 }
 
-// How the run ended is how the second search did.
+bool is_within_omega(const Solution& solution) {
+  return solution.status == Status::kOptimal || solution.status == Status::kBounded;
+}
+
+// How the run ended is how the second search did. But one that ended because its destinations allow
+// no plan settles nothing: what stopped the first is why no more is known.
 Solution both(const Solution& first, Solution second) {
   if (second.status == Status::kInfeasible) return second;
+  auto& texts = second.stats.texts;
+  if (!second.plan && !was_stopped(second) && was_stopped(first))
+    texts["stopped_by"] = first.stats.texts.at("stopped_by");
   if (first.plan && (!second.plan || first.plan->cost < second.plan->cost))
     second.plan = first.plan;
   second.lower_bound = std::max(first.lower_bound, second.lower_bound);
   const auto cost = second.plan ? std::optional(second.plan->cost) : std::nullopt;
   second.status = status_of(cost, second.lower_bound, second.omega);
+  if (is_within_omega(second)) texts.erase("remark");
   for (const auto& [name, count] : first.stats.counts) second.stats.counts[name] += count;
   return second;
 }
@@ -190,9 +215,7 @@ Solution solve_with_destinations_first(const Instance& instance, const SolveOpti
   Told told(observer);
   const Limits part(limits, kShareOfFirst * limits.seconds_left());
   Solution solution = solve_b(instance, options, part, observer, told);
-  const bool is_settled = solution.status == Status::kOptimal ||
-                          solution.status == Status::kBounded ||
-                          solution.status == Status::kInfeasible;
+  const bool is_settled = is_within_omega(solution) || solution.status == Status::kInfeasible;
   if (!is_settled && !limits.stop_requested()) {
     SolveOptions from_there = options;
     from_there.start = solution.plan;

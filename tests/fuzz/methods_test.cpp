@@ -12,6 +12,7 @@
 #include "grove/engine/run_observer.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/random_instance.h"
+#include "tests/support/instances.h"
 
 namespace grove::fuzz {
 namespace methods_test {
@@ -212,10 +213,13 @@ TEST_P(Adaptations, ClaimNoMoreThanTheyProve) {
     EXPECT_EQ(false_claims(instance, truth, options.omega, solution, true),
               std::vector<std::string>());
     EXPECT_TRUE(announced.ended() || !solution.plan);
+    if (solution.status == Status::kOptimal || solution.status == Status::kBounded) {
+      EXPECT_EQ(solution.stats.texts.count("remark"), 0u);
+    }
     plans += solution.plan ? 1 : 0;
     feasible += solution.status == Status::kFeasible ? 1 : 0;
     if (!solution.plan && !stopped) {
-      EXPECT_GT(solution.stats.texts.count("reason"), 0u);
+      EXPECT_GT(solution.stats.texts.count("reason") + solution.stats.texts.count("remark"), 0u);
     }
   }
   EXPECT_GT(plans, 20);
@@ -227,6 +231,28 @@ INSTANTIATE_TEST_SUITE_P(, Adaptations,
                                            Adaptation{"C", Method::kCtsCbsC, false},
                                            Adaptation{"Anytime", Method::kCtsCbsC, true}),
                          [](const auto& all) { return std::string(all.param.name); });
+
+// On a line one agent is left of the other for ever, so it cannot end on its only task, which is
+// right of all of the other's. No search of a constraint tree finds that out: A is stopped by the
+// time limit. Then B sees that the ends it chose allow no plan, which says nothing of others.
+TEST(AdaptationC, IsStoppedByWhatStoppedAIfBFindsNothing) {
+  const Instance instance = testing::instance_of(
+      {".@", "..", "@.", ".."},
+      {{{1, 2}, std::nullopt, {{1, 1}, {1, 2}, {0, 1}}}, {{0, 1}, std::nullopt, {{1, 2}}}});
+  SolveOptions options;
+  options.omega = Omega::parse("0");
+  for (const bool anytime : {false, true}) {
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(300));
+    const Solution solution =
+        solve_by(Method::kCtsCbsC, anytime, instance, options, limits, nullptr);
+    EXPECT_EQ(solution.status, Status::kUnknown);
+    const auto& texts = solution.stats.texts;
+    ASSERT_EQ(texts.count("stopped_by"), 1u);
+    EXPECT_EQ(texts.at("stopped_by"), "time limit");
+    EXPECT_EQ(texts.count("reason"), 0u);
+  }
+}
 
 // B's plan is the best that ends there, no more and no less.
 TEST(AdaptationB, IsOptimalForItsDestinations) {
