@@ -21,6 +21,7 @@ import re
 import subprocess
 import sys
 
+GROVE = pathlib.Path(__file__).resolve().parent.parent / "build/release/bin/grove"
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from harness import tables  # noqa: E402
@@ -98,7 +99,7 @@ def ablation(arguments):
 
 
 def add_common(parser, time_limit, scenarios):
-    parser.add_argument("--grove", default="build/release/bin/grove", help="the program")
+    parser.add_argument("--grove", default=GROVE, help="the program")
     parser.add_argument("--maps", type=pathlib.Path,
                         default=os.environ.get("GROVE_MOVINGAI", "../shared/movingai"),
                         help="where the .map and .scen files are; by default what the environment "

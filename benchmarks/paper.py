@@ -8,10 +8,13 @@ Comparison: MG-MAPF on three maps, CTS-CBS-A, -B and -C and four baselines at th
 omega: CTS-MAPF on rooms with the fewest agents, the paper's CTS-CBS at omega 0, 0.01, 0.1 and infinity.
 Beside each stands Grove's own search, which proves the optimum.
 
-The same command goes on where an earlier one stopped. OUT/report/report.html is what came out.
+The same command goes on where an earlier one stopped, also with more scenarios, agents or tasks.
+OUT/report/report.html is what came out, of all that OUT holds.
 """
 import argparse
+import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -32,9 +35,32 @@ STUDY = {"auto": "--omega 0"} | {f"cts-cbs_{omega}": f"--policy fixed --omega {o
 
 
 def run(*words):
-    done = subprocess.run([str(word) for word in words], check=False)
-    if done.returncode != 0:
-        sys.exit(done.returncode)
+    """A command that must end well. It has the signals that this program gets, and no others."""
+    try:
+        child = subprocess.Popen([str(word) for word in words], process_group=0)
+    except OSError as error:
+        sys.exit(f"paper.py: error: {words[0]}: {error.strerror}; expected the program (tools/quickstart builds it)")
+    for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(each) != signal.SIG_IGN:
+            signal.signal(each, lambda number, _: child.send_signal(number))
+    code = child.wait()
+    if code != 0:
+        sys.exit(code if code > 0 else 128 - code)
+
+
+def keep_settings(arguments):
+    """Results of one folder must go together."""
+    settings = {"movingai": arguments.movingai and str(Path(arguments.movingai).resolve()),
+                "time_limit": float(arguments.time_limit)}
+    path = arguments.out / "settings.json"
+    if path.exists():
+        there = json.loads(path.read_text(encoding="utf-8"))
+        if there != settings:
+            sys.exit(f"paper.py: error: {arguments.out}: holds results of {there}, found {settings}; expected "
+                     "the same maps and time limit, or another folder")
+    else:
+        arguments.out.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(settings) + "\n", encoding="utf-8")
 
 
 def list_of_study(folder, agents):
@@ -74,6 +100,7 @@ def main():
     parser.add_argument("--jobs", metavar="J", help="runs at a time; by default one for each core")
     arguments = parser.parse_args()
 
+    keep_settings(arguments)
     sets = arguments.out / "set"
     run(arguments.grove, "generate", "paper", "--output-dir", sets, "--scenarios", arguments.scenarios,
         "--agents", arguments.agents, "--tasks", arguments.tasks,

@@ -33,7 +33,8 @@ constexpr const char* kBenchFooter =
     "\n"
     "A run is 'NAME: OPTIONS OF grove solve'; NAME alone is short for 'NAME: --method NAME'. Each "
     "is a\n"
-    "process of its own, on one thread unless its options say otherwise. All methods run on one "
+    "process of its own, on one thread and with omega 0.01 unless its options say otherwise. All "
+    "methods run on one "
     "instance\n"
     "before the next, and the first scenario (_s1_ in its name) of every kind comes before any "
     "second:\n"
@@ -49,7 +50,11 @@ constexpr const char* kBenchFooter =
     "it ended\n"
     "by itself with a plan, before any limit.\n"
     "\n"
-    "Exits with 0 also when stopped: it says then how many runs are left.\n"
+    "A run that went on until its limit is not solved, even with a plan: so methods that improve "
+    "their\n"
+    "plan as long as they may (cts-cbs-c --anytime) fare worse here than they are. Exits with 130 "
+    "when\n"
+    "stopped with runs left.\n"
     "\n"
     "Examples:\n"
     "  grove bench paper/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir "
@@ -116,6 +121,7 @@ void run(const CLI::App& app, BenchArguments& a) {
     say_on_stderr(fmt::format("grove: stopped with {} run{} left; the same command goes on",
                               state.work.left, state.work.left == 1 ? "" : "s"));
   fmt::print("{}", summary_table(state));
+  if (state.work.left > 0) throw CommandFailed(kExitInterrupted);
 }
 
 }  // namespace

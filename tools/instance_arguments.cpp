@@ -34,6 +34,10 @@ LoadedInstance InstanceArguments::read() const {
   if (path_.ends_with(".map"))
     throw InputError(
         path_, "", "a map; expected an instance, FILE.cts.json, which names its map, or FILE.scen");
+  if (path_.ends_with(".yaml") || path_.ends_with(".yml") || path_.ends_with(".mapfw.json"))
+    throw InputError(path_, "",
+                     "an instance of another tool; expected FILE.cts.json, which 'grove convert' "
+                     "makes of it");
   if (!is_scenario) return read_instance(path_);
   if (map_.empty()) throw CLI::ValidationError("--map", "required with a .scen file");
   if (agents_ == 0) throw CLI::ValidationError("--agents", "required with a .scen file");

@@ -9,6 +9,8 @@
 // C is two searches of one instance: the better plan and the greater bound stand.
 #include "adaptations.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <new>
 #include <optional>
@@ -134,20 +136,22 @@ Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
   if (!destinations)
     throw std::logic_error("internal error: agents that can rest have nowhere to do so");
 
-  told.note("One task of each agent without a goal is made its goal; the lower bound is for any.");
+  told.note(
+      "One task of each agent without a goal is made its goal; the lower bound is for all plans.");
   StageOfB stage(told, instance, *destinations);
   Solution solution = solve(with_destinations(instance, *destinations), options, limits, &stage);
   if (solution.plan)
     solution.plan = without_destinations(instance, *destinations, std::move(*solution.plan));
   else if (solution.status == Status::kInfeasible)
     say_of_destinations_alone(solution.stats);
-  solution.lower_bound = destinations->bound;
+  const Cost own_bound = std::exchange(solution.lower_bound, destinations->bound);
   const auto cost = solution.plan ? std::optional(solution.plan->cost) : std::nullopt;
   solution.status = status_of(cost, solution.lower_bound, options.omega);
   if (solution.status == Status::kFeasible && !was_stopped(solution))
-    solution.stats.texts["remark"] =
-        "within omega of the best plan that ends on the tasks chosen; no bound says so for all "
-        "plans";
+    solution.stats.texts["remark"] = fmt::format(
+        "within omega of {}, a lower bound for plans that end on the tasks chosen, though not of "
+        "that for all plans",
+        own_bound);
   return solution;
 }
 

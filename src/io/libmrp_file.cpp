@@ -54,7 +54,7 @@ std::optional<YamlValue> find_goal(const YamlValue& agent) {
   if (!choice) return goal;
   if (choice->size() != 1)
     choice->fail(
-        fmt::format("{} potential goals leave a choice; expected one, for Grove does not "
+        fmt::format("found {} potential goals; expected one, for Grove does not "
                     "choose destinations",
                     choice->size()));
   return choice->element(0);

@@ -6,9 +6,12 @@
 """
 import csv
 import itertools
+import os
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -44,11 +47,35 @@ class Paper(unittest.TestCase):
                 self.assertEqual(rows(folder / "report/contradictions.csv"), [])
                 self.assertTrue((folder / "report/omega_study.svg").exists())
 
-    def test_failures_end_it(self):
-        done = subprocess.run([sys.executable, PAPER, "/proc/nowhere", "--grove", GROVE], capture_output=True,
-                              text=True, check=False)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("/proc/nowhere", done.stderr)
+    def test_results_do_not_mix(self):
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "settings.json").write_text('{"movingai": null, "time_limit": 3.0}')
+            error = self.refused(name, "--time-limit", "2", "--grove", GROVE)
+            self.assertIn("expected the same maps and time limit, or another folder", error)
+
+    def test_a_program_that_is_not_there(self):
+        with tempfile.TemporaryDirectory() as name:
+            self.assertIn("tools/quickstart", self.refused(name, "--grove", "/no/such/grove"))
+
+    def test_signals_reach_the_bench(self):
+        with tempfile.TemporaryDirectory() as name:
+            running = subprocess.Popen([sys.executable, PAPER, name, "--grove", GROVE, "--agents", "20", "--tasks", "50"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            while not (Path(name) / "comparison/.running").exists():
+                time.sleep(0.05)
+            running.send_signal(signal.SIGTERM)
+            _, err = running.communicate(timeout=60)
+            self.assertEqual(running.returncode, 130, err)
+            self.assertIn("the same command goes on", err)
+            self.assertNotIn("Traceback", err)
+
+    def refused(self, *arguments):
+        environment = {key: value for key, value in os.environ.items() if key != "GROVE_MOVINGAI"}
+        done = subprocess.run([sys.executable, PAPER, *arguments], capture_output=True, text=True, check=False,
+                              env=environment)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        return done.stderr
 
 
 if __name__ == "__main__":

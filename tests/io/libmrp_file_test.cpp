@@ -196,7 +196,7 @@ TEST_F(LibmrpFile, NamesWhatIsWrong) {
             "i.yaml: line 8, column 5: expected exactly one of the keys 'goal', 'goals' and "
             "'potentialGoals'");
   EXPECT_EQ(refused_with("goal: [4, 0]", "potentialGoals: [[4, 0], [3, 0]]"),
-            "i.yaml: line 10, column 21: 2 potential goals leave a choice; expected one, for Grove "
+            "i.yaml: line 10, column 21: found 2 potential goals; expected one, for Grove "
             "does not choose destinations");
   EXPECT_EQ(refused_with("goal: [4, 0]", "goal: [4, 0]\n    goal: [3, 1]"),
             "i.yaml: line 11, column 5: key 'goal' appears twice; expected distinct keys");

@@ -276,6 +276,7 @@ TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--threads", "0"})), HasSubstr("--threads"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--policy", "best"})),
               HasSubstr("auto, fixed, free"));
+  EXPECT_THAT(complaint(solve({"other.yaml"})), HasSubstr("'grove convert' makes of it"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "gurobi"})), HasSubstr("auto, cbc, dp"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "cbc"})),
               HasSubstr("expected --policy fixed with it, or no --rtsp cbc"));

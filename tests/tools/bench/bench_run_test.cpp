@@ -116,6 +116,19 @@ TEST_F(Benches, RunAllMethodsOnOneInstanceAfterTheOther) {
   EXPECT_EQ(lines[3], expected(1, 1));
 }
 
+TEST_F(Benches, CountWhatComesTooLateAsUnsolved) {
+  instances(1);
+  methods(1);
+  methods_[0].time_limit_s = 0.1;
+  solver("sleep 0.2; cp '" + (directory_ / "good") + "' \"$plan\"");
+  run();
+  ASSERT_EQ(rows().size(), 1U);
+  EXPECT_FALSE(rows()[0].outcome.solved);
+  EXPECT_EQ(rows()[0].outcome.error, "time limit");
+  EXPECT_EQ(rows()[0].outcome.cost, 2);
+  EXPECT_EQ(rows()[0].runtime_s(), 0.1);
+}
+
 TEST_F(Benches, TakeNothingOverFromTheRunBefore) {
   instances(2);
   methods(1);

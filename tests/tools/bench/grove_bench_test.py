@@ -298,7 +298,7 @@ class Resuming(Program):
         children = self.wait_until(lambda: self.children(running.pid))
         running.send_signal(signal.SIGINT)
         out, err = running.communicate(timeout=PATIENCE_S)
-        self.assertEqual(running.returncode, 0, err)
+        self.assertEqual(running.returncode, 130, err)
         self.assertIn("stopped with", err)
         self.assertRegex(out, r"a +0/[12] ")
         self.assertFalse(any(self.lives(child) for child in children))

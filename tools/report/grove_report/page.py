@@ -232,8 +232,8 @@ def _speedups(problem, lines):
         return [_paragraph("None of the methods here is a baseline (--baseline names them), so there is "
                            "nothing to compare with.")]
     if not problem.speedups:
-        return [_paragraph("The baselines solve no instance, or only in less than a second, so there is "
-                           "nothing to compare.")]
+        return [_paragraph("On every instance that a baseline solves, the fastest one takes less than a "
+                           "second, so there is nothing to compare.")]
     return [_paragraph(
         f"On the {problem.hard} instances that the best baseline (on each instance whichever is the "
         "fastest) solves, but only after more than a second: the median of the baseline's time / the "

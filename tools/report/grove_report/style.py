@@ -3,9 +3,10 @@
 from typing import NamedTuple
 
 # Okabe and Ito's colours, told apart by the colour-blind too, without the yellow, which is hard to
-# see on white; and a brown. The numbers of colours and markers have no common divisor, so that their
-# pairs repeat late.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#8C510A")
+# see on white; a brown, and for those after the first eight darker and greyer ones. The numbers of
+# colours and markers have no common divisor, so that their pairs repeat late.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#8C510A",
+           "#7B3294", "#7F7F7F", "#A50026", "#66A61E")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")
 
 # Factors that make markers of one size look it.
