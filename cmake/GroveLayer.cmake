@@ -5,8 +5,16 @@ target_compile_options(grove_options INTERFACE
   # GCC 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
-# What most sources include, compiled once; but not in a Release build, which so tells when a source
-# uses what it does not include.
+# So many sources of the target make one translation unit: for those whose headers take much longer
+# to compile than they do. The compiler then takes no unit for what it is, a source, and warns of
+# classes with members from unnamed namespaces.
+function(grove_bundle target size)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
+# What most sources include, compiled once, and the sources some at a time; but not in a Release
+# build, which so tells when a source uses what it does not include.
 add_library(grove_headers STATIC ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)
 target_link_libraries(grove_headers PRIVATE grove_options)
 target_precompile_headers(grove_headers PRIVATE
@@ -15,15 +23,8 @@ target_precompile_headers(grove_headers PRIVATE
 function(grove_precompile target)
   if(NOT CMAKE_BUILD_TYPE STREQUAL Release)
     target_precompile_headers(${target} REUSE_FROM grove_headers)
+    grove_bundle(${target} 5)
   endif()
-endfunction()
-
-# So many sources of the target make one translation unit: for those whose headers take much longer
-# to compile than they do. The compiler then takes no unit for what it is, a source, and warns of
-# classes with members from unnamed namespaces.
-function(grove_bundle target size)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # grove_layer(<name> SOURCES ... [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])

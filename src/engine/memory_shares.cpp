@@ -17,7 +17,7 @@
 namespace grove {
 namespace {
 
-constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kLeast = 64 << 10;  // nothing is won by less
 
 // What is left below `limit`.
@@ -28,7 +28,7 @@ std::size_t room(std::size_t limit) {
 }  // namespace
 
 MemoryShares::MemoryShares(const Limits& limits, std::size_t most_for_nodes)
-    : limits_(limits), alarm_(kNever), for_nodes_(most_for_nodes), for_expanders_(kNever) {
+    : limits_(limits), alarm_(kNoLimit), for_nodes_(most_for_nodes), for_expanders_(kNoLimit) {
   if (const auto limit = limits.memory_limit()) alarm_ = *limit - room(*limit) / 8;
 }
 

@@ -21,7 +21,7 @@ namespace {
 constexpr double kLabelsOfOthers = 16;  // a call may take so many times what others did
 constexpr double kLeastLabels = 2000;
 constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
-constexpr double kMemory = 0.98;            // of a way's gain and work, per neighbourhood
+constexpr double kMemoryOfWay = 0.98;       // of a way's gain and work, per neighbourhood
 constexpr int kNeighborhoodsPerTrial = 10;  // one of so many goes to a way at random
 constexpr std::int64_t kWorkPerCall = 16;   // in labels
 
@@ -43,8 +43,8 @@ void NeighborhoodSearch::step(const Limits& limits) {
   const Cost gain = others + old_cost - paths_.cost();
   neighborhoods_.reward(gain);
   const std::int64_t work = router_.expanded() + kWorkPerCall * router_.calls() - work_before;
-  way.gain = kMemory * way.gain + static_cast<double>(gain);
-  way.work = kMemory * way.work + static_cast<double>(work);
+  way.gain = kMemoryOfWay * way.gain + static_cast<double>(gain);
+  way.work = kMemoryOfWay * way.work + static_cast<double>(work);
 }
 
 NeighborhoodSearch::Way& NeighborhoodSearch::choose_way() {
@@ -80,8 +80,8 @@ bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Lim
     if (way.found <= 0 && way.first_labels < kMostFirstLabels) way.first_labels *= 2;
     return false;
   }
-  way.labels = kMemory * way.labels + static_cast<double>(router_.expanded() - before);
-  way.found = kMemory * way.found + 1;
+  way.labels = kMemoryOfWay * way.labels + static_cast<double>(router_.expanded() - before);
+  way.found = kMemoryOfWay * way.found + 1;
   return true;
 }
 

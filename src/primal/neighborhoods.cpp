@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kFewest = 2;
 constexpr int kMost = 8;
-constexpr double kMemory = 0.99;       // of a kind's weight, per neighbourhood
-constexpr double kLeastWeight = 0.02;  // of the sum of all
-constexpr int kDelayedStarts = 8;      // tries to fill a neighbourhood of the delayed kind
-constexpr Time kAboutNow = 8;          // steps before and after, at one spot
+constexpr double kMemoryOfWeight = 0.99;  // of a kind's weight, per neighbourhood
+constexpr double kLeastWeight = 0.02;     // of the sum of all
+constexpr int kDelayedStarts = 8;         // tries to fill a neighbourhood of the delayed kind
+constexpr Time kAboutNow = 8;             // steps before and after, at one spot
 
 }  // namespace
 
@@ -45,7 +45,7 @@ Neighborhoods::Kind Neighborhoods::choose_kind() {
 
 void Neighborhoods::reward(Cost gain) {
   double& weight = weights_[kind_];
-  weight = kMemory * weight + (1 - kMemory) * static_cast<double>(gain);
+  weight = kMemoryOfWeight * weight + (1 - kMemoryOfWeight) * static_cast<double>(gain);
 }
 
 void Neighborhoods::add(AgentIndex agent) {

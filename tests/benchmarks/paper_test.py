@@ -61,7 +61,7 @@ class Paper(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             running = subprocess.Popen([sys.executable, PAPER, name, "--grove", GROVE, "--agents", "20", "--tasks", "50"],
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            while not (Path(name) / "comparison/.running").exists():
+            while running.poll() is None and not (Path(name) / "comparison/.running").exists():
                 time.sleep(0.05)
             running.send_signal(signal.SIGTERM)
             _, err = running.communicate(timeout=60)
