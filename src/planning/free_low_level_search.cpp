@@ -111,7 +111,7 @@
 namespace grove {
 namespace {
 
-constexpr std::int64_t kExpansionsPerPoll = 256;
+constexpr std::int64_t kLabelsPerPoll = 256;
 // After so many in one call, or before the completions are widened a second time, it is worth
 // asking whether each stop can be visited at all, or in time.
 constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 12;
@@ -377,7 +377,7 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::run(const Limits& lim
       write_path(entry, path);
       return Outcome::kFound;
     }
-    if (++expanded_ % kExpansionsPerPoll == 0) {
+    if (++expanded_ % kLabelsPerPoll == 0) {
       if (expanded_ >= give_up_at_ || limits.stop_requested()) return Outcome::kStopped;
       if (expanded_ >= doubt_at_ && is_hopeless()) return hopeless_;
       if (expanded_ >= price_at_ && price_anew()) {

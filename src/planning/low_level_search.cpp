@@ -71,12 +71,12 @@
 #include <vector>
 
 #include "bucket_queue.h"
+#include "poll.h"
 #include "safe_intervals.h"
 
 namespace grove {
 namespace {
 
-constexpr std::int64_t kExpansionsPerPoll = 512;
 constexpr int kMostGoals = 255;  // progress fits into a byte
 
 }  // namespace

@@ -17,12 +17,12 @@
 
 #include <algorithm>
 
+#include "poll.h"
 #include "space_time.h"
 
 namespace grove {
 namespace {
 
-constexpr std::int64_t kExpansionsPerPoll = 512;
 constexpr std::int32_t kNone = -1;
 
 }  // namespace
