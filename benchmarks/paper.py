@@ -48,19 +48,16 @@ def run(*words):
         sys.exit(code if code > 0 else 128 - code)
 
 
-def keep_settings(arguments):
-    """Results of one folder must go together."""
-    settings = {"movingai": arguments.movingai and str(Path(arguments.movingai).resolve()),
-                "time_limit": float(arguments.time_limit)}
-    path = arguments.out / "settings.json"
-    if path.exists():
-        there = json.loads(path.read_text(encoding="utf-8"))
-        if there != settings:
-            sys.exit(f"paper.py: error: {arguments.out}: holds results of {there}, found {settings}; expected "
-                     "the same maps and time limit, or another folder")
-    else:
-        arguments.out.mkdir(parents=True, exist_ok=True)
-        path.write_text(json.dumps(settings) + "\n", encoding="utf-8")
+def settings_of(arguments):
+    """What all results of a folder must have in common."""
+    return {"movingai": arguments.movingai and str(Path(arguments.movingai).resolve()),
+            "time_limit": float(arguments.time_limit)}
+
+
+def refuse_other_settings(path, settings):
+    if path.exists() and (there := json.loads(path.read_text(encoding="utf-8"))) != settings:
+        sys.exit(f"paper.py: error: {path}: results of {there}, found {settings}; expected the same maps and time "
+                 "limit, or another folder")
 
 
 def list_of_study(folder, agents):
@@ -100,11 +97,13 @@ def main():
     parser.add_argument("--jobs", metavar="J", help="runs at a time; by default one for each core")
     arguments = parser.parse_args()
 
-    keep_settings(arguments)
+    settings = arguments.out / "settings.json"
+    refuse_other_settings(settings, settings_of(arguments))
     sets = arguments.out / "set"
     run(arguments.grove, "generate", "paper", "--output-dir", sets, "--scenarios", arguments.scenarios,
         "--agents", arguments.agents, "--tasks", arguments.tasks,
         *(["--movingai", arguments.movingai] if arguments.movingai else []))
+    settings.write_text(json.dumps(settings_of(arguments)) + "\n", encoding="utf-8")
     bench(sets / "manifest-mg.txt", COMPARISON, arguments.out / "comparison", arguments)
     bench(list_of_study(sets, arguments.agents), STUDY, arguments.out / "study", arguments)
     run(arguments.grove, "report", arguments.out / "comparison", arguments.out / "study",

@@ -13,7 +13,7 @@ find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(CBC REQUIRED IMPORTED_TARGET cbc)
 # Of CBC and what it brings the archives, where there are any: to look up the symbols of six shared
-# libraries takes half the time in which a program starts.
+# libraries takes some 40 % of the time in which a program starts.
 foreach(library IN LISTS CBC_LINK_LIBRARIES)
   string(REGEX REPLACE "/lib(Cbc|Cgl|Clp|CoinUtils|Osi)([A-Za-z]*)\\.so$" "/lib\\1\\2.a" archive ${library})
   if(EXISTS ${archive})

@@ -10,10 +10,6 @@ namespace {
 constexpr std::size_t kBytesPerPair = 64;  // about
 constexpr std::size_t kBytesPerGroup = 160;
 
-std::size_t part_of(Excesses::Id first) {
-  return static_cast<std::size_t>(first) % Sharded<int>::kParts;
-}
-
 std::uint64_t key(Excesses::Id first, Excesses::Id second) {
   return static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint32_t>(second);
 }
@@ -21,14 +17,14 @@ std::uint64_t key(Excesses::Id first, Excesses::Id second) {
 }  // namespace
 
 Excesses::Known Excesses::of_pair(Id first, Id second) const {
-  return parts_.with(part_of(first), [&](const Part& part) {
+  return parts_.with(parts_.part_of(first), [&](const Part& part) {
     const auto found = part.known.find(key(first, second));
     return found == part.known.end() ? Known() : found->second;
   });
 }
 
 void Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
-  parts_.with(part_of(first), [&](Part& part) {
+  parts_.with(parts_.part_of(first), [&](Part& part) {
     const auto [entry, is_new] = part.known.try_emplace(key(first, second), known);
     if (is_new) bytes_ += kBytesPerPair;
     entry->second = join(entry->second, known);
@@ -44,7 +40,7 @@ void Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
 }
 
 void Excesses::partners(Id first, std::vector<Partner>& partners) const {
-  parts_.with(part_of(first), [&](const Part& part) {
+  parts_.with(parts_.part_of(first), [&](const Part& part) {
     const auto found = part.partners.find(first);
     if (found != part.partners.end())
       partners.insert(partners.end(), found->second.begin(), found->second.end());

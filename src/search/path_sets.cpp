@@ -11,21 +11,17 @@ constexpr std::size_t kMostNodesKept = 4'000'000;  // of all
 constexpr std::size_t kBytesPerNode = 24;          // about
 constexpr std::size_t kBytesPerSet = 176;
 
-std::size_t part_of(Situations::Id id) {
-  return static_cast<std::size_t>(id) % Sharded<int>::kParts;
-}
-
 }  // namespace
 
 PathSets::Set PathSets::find(Situations::Id id) const {
-  return parts_.with(part_of(id), [&](const Part& part) {
+  return parts_.with(parts_.part_of(id), [&](const Part& part) {
     const auto found = part.find(id);
     return found == part.end() ? nullptr : found->second;
   });
 }
 
 void PathSets::add(Situations::Id id, const Set& set) {
-  parts_.with(part_of(id), [&](Part& part) {
+  parts_.with(parts_.part_of(id), [&](Part& part) {
     if (!part.try_emplace(id, set).second) return;
     ++sets_;
     nodes_ += static_cast<std::size_t>(set->node_count());

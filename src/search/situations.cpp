@@ -10,10 +10,6 @@ namespace {
 constexpr Situations::Id kFree = -1;
 constexpr std::size_t kFirstSize = 64;
 
-std::size_t part_with(Situations::Id id) {
-  return static_cast<std::size_t>(id) % Sharded<int>::kParts;
-}
-
 std::size_t place_of(Situations::Id id) {
   return static_cast<std::size_t>(id) / Sharded<int>::kParts;
 }
@@ -64,12 +60,12 @@ Situations::Id Situations::id(AgentIndex agent, const AgentOrder& order,
 }
 
 Situations::Known Situations::known(Id id) const {
-  return parts_.with(part_with(id),
+  return parts_.with(parts_.part_of(id),
                      [&](const Part& part) { return part.entries[place_of(id)].known; });
 }
 
 void Situations::learn(Id id, Known learnt) {
-  parts_.with(part_with(id), [&](Part& part) {
+  parts_.with(parts_.part_of(id), [&](Part& part) {
     Known& known = part.entries[place_of(id)].known;
     const bool hard = known.hard || learnt.hard;
     if (!known.exact && (learnt.exact || learnt.at_least > known.at_least)) known = learnt;

@@ -56,6 +56,7 @@ class Paper(unittest.TestCase):
     def test_a_program_that_is_not_there(self):
         with tempfile.TemporaryDirectory() as name:
             self.assertIn("tools/quickstart", self.refused(name, "--grove", "/no/such/grove"))
+            self.assertFalse((Path(name) / "settings.json").exists())  # which nothing stands for
 
     def test_signals_reach_the_bench(self):
         with tempfile.TemporaryDirectory() as name:

@@ -154,18 +154,11 @@ class Bench {
             .machine = options_.machine,
             .ended_at = batch::machine_clock().utc()};
     judge(row, end, run, plan, said);
-    if (row.outcome.solved && row.wall_s > row.run.time_limit_s) come_too_late(row.outcome);
     if (was_interrupted(row.outcome) && must_stop()) return;  // the signal was for us all
     if (row.outcome.version.empty()) row.outcome.version = options_.version;
     if (row.outcome.omega.empty()) row.outcome.omega = method.omega;
     if (options_.keep_plans) keep(plan, method, instance.entry);
     record(row);
-  }
-
-  // A run looks at the clock now and then, and a process takes some time to begin and to end.
-  static void come_too_late(Outcome& outcome) {
-    outcome.solved = false;
-    outcome.error = "time limit";
   }
 
   // Reads the instance anew: what is re-checked depends on the files alone.
@@ -174,7 +167,7 @@ class Bench {
     const std::size_t index = instance_index(run);
     try {
       const LoadedInstance loaded = load(instances_[index].entry);
-      row.outcome = judged(end, loaded.instance, plan, said);
+      row.outcome = judged(end, row.run.time_limit_s, loaded.instance, plan, said);
       row.root_cost = root_costs_.of(index, loaded.instance);
     } catch (const InputError& error) {
       row.outcome = {.error = error.what()};

@@ -15,6 +15,7 @@ namespace grove::bench {
 namespace {
 
 constexpr const char* kInterrupt = "interrupt";
+constexpr const char* kTimeLimit = "time limit";
 constexpr std::string_view kErrorMark = "grove: error: ";
 
 template <typename Map>
@@ -85,13 +86,18 @@ std::string last_words(const std::filesystem::path& said) {
   }
 }
 
-Outcome judged(const ChildEnd& end, const Instance& instance,
+Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
                const std::filesystem::path& plan_file, const std::filesystem::path& said) {
   Outcome outcome;
   outcome.error = why_failed(end, said);
   if (!outcome.error.empty()) return outcome;
   try {
-    return outcome_of(instance, read_solution(plan_file, instance));
+    outcome = outcome_of(instance, read_solution(plan_file, instance));
+    if (outcome.solved && end.wall_s > time_limit_s) {
+      outcome.solved = false;
+      outcome.error = kTimeLimit;
+    }
+    return outcome;
   } catch (const InputError& error) {
     outcome.error = fmt::format("the plan file is wrong: {}", error.what());
     return outcome;

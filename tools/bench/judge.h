@@ -14,7 +14,9 @@ namespace grove::bench {
 // The outcome of a solve of `instance` that was to write `plan_file` and said what is in the file
 // `said`: believes the plan file nothing that the checker can work out itself. Never throws for
 // what the run did wrong: that is an outcome. Not for runs that were cancelled.
-Outcome judged(const ChildEnd& end, const Instance& instance,
+// A run that took longer than `time_limit_s` is not solved, though it may think so: it looks at the
+// clock now and then, and a process takes some time to begin and to end.
+Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
                const std::filesystem::path& plan_file, const std::filesystem::path& said);
 
 // The last line that grove said, after a colon and a blank; empty if it said nothing.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -16,6 +17,11 @@ class Sharded {
  public:
   static constexpr unsigned kBits = 5;
   static constexpr std::size_t kParts = std::size_t{1} << kBits;
+
+  // Of a key that is not negative.
+  static constexpr std::size_t part_of(std::integral auto key) {
+    return static_cast<std::size_t>(key) % kParts;
+  }
 
   // Calls use(part) under the lock of the part `number` < kParts and returns what it returns.
   template <class Use>

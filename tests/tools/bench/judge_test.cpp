@@ -30,7 +30,7 @@ class Judges : public ::testing::Test {
   }
   Outcome verdict(const ChildEnd& end = {}) {
     write_solution(directory_ / "plan", instance_, solution_);
-    return judged(end, instance_, directory_ / "plan", directory_ / "said");
+    return judged(end, 60, instance_, directory_ / "plan", directory_ / "said");
   }
 
   const Instance instance_ =
@@ -63,6 +63,14 @@ TEST_F(Judges, CountAPlanAtALimitAsUnsolved) {
   EXPECT_EQ(outcome.error, "time limit");
   EXPECT_EQ(outcome.cost, 3);
   EXPECT_EQ(outcome.lower_bound, 2);
+}
+
+TEST_F(Judges, CountAPlanAfterTheTimeLimitAsUnsolved) {
+  EXPECT_TRUE(verdict({ChildEnd::Kind::kExited, 0, 60}).solved);
+  const Outcome late = verdict({ChildEnd::Kind::kExited, 0, 60.01});
+  EXPECT_EQ(late.status, "optimal");
+  EXPECT_FALSE(late.solved);
+  EXPECT_EQ(late.error, "time limit");
 }
 
 TEST_F(Judges, CountAPlanOutsideOmegaAsSolvedIfNoLimitStruck) {
@@ -110,10 +118,10 @@ TEST_F(Judges, NameWhatWentWrong) {
             "did not end; killed after 76 s");
   EXPECT_TRUE(verdict({ChildEnd::Kind::kTooLong, SIGKILL, 76.4}).failed());
   directory_.write("plan", "{");
-  const Outcome outcome = judged({}, instance_, directory_ / "plan", directory_ / "said");
+  const Outcome outcome = judged({}, 60, instance_, directory_ / "plan", directory_ / "said");
   EXPECT_TRUE(outcome.failed());
   EXPECT_TRUE(outcome.error.starts_with("the plan file is wrong: ")) << outcome.error;
-  EXPECT_TRUE(judged({}, instance_, directory_ / "none", directory_ / "none").failed());
+  EXPECT_TRUE(judged({}, 60, instance_, directory_ / "none", directory_ / "none").failed());
 }
 
 TEST_F(Judges, SeeWhatWasStoppedFromOutside) {
