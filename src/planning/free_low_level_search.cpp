@@ -137,6 +137,14 @@ class FreeLowLevelSearch::Workspace {
   using Queue = BasicBucketQueue<StateId>;
   using Entry = Queue::Entry;
 
+  struct Label {
+    Time time;
+    std::int32_t parent_slot;
+    StateId parent_state;
+    std::uint32_t stamp;
+    std::uint16_t conflicts;
+  };
+  using Planes = LabelPlanes<Label>;
   // A stop that is barred for ever after `time`.
   struct Deadline {
     int stop;
@@ -193,7 +201,7 @@ class FreeLowLevelSearch::Workspace {
   SafeIntervals intervals_;
   VisitCheck visit_check_;
   Queue queue_;
-  LabelPlanes planes_;
+  Planes planes_;
   std::vector<Gate> gates_;
   std::vector<Deadline> deadlines_;
   std::int64_t expanded_ = 0;
@@ -449,7 +457,7 @@ bool FreeLowLevelSearch::Workspace::is_finish(const Entry& entry) const {
 
 // The label was improved since it was queued.
 bool FreeLowLevelSearch::Workspace::is_stale(const Entry& entry) {
-  const LabelPlanes::Label& l = planes_.label(entry.slot, entry.progress);
+  const Label& l = planes_.label(entry.slot, entry.progress);
   return l.time != entry.time || l.conflicts != entry.conflicts;
 }
 
@@ -462,7 +470,7 @@ bool FreeLowLevelSearch::Workspace::misses_deadline(StateId state, Cell cell, Ti
 }
 
 bool FreeLowLevelSearch::Workspace::postpone(const Entry& entry) {
-  if (planes_.gates(entry.progress) == LabelPlanes::kNoGates) return false;
+  if (planes_.gates(entry.progress) == Planes::kNoGates) return false;
   const Time until = postponed_to(entry);
   if (until > cap_) {
     over_ |= until < kNever;
@@ -497,13 +505,13 @@ void FreeLowLevelSearch::Workspace::close_gate(const Entry& entry) {
   const Cell cell = intervals_.cell_of(entry.slot);
   const int stop = goals_->stops().stop_at(cell);
   if (stop == AgentStops::kNoStop || !intervals_.is_free_of_traversals(entry.slot)) return;
-  const LabelPlanes::Label& l = planes_.label(entry.slot, entry.progress);
+  const Label& l = planes_.label(entry.slot, entry.progress);
   if (l.parent_slot == kNoSlot || l.parent_state == entry.progress) return;
   const StateId from = l.parent_state;
   const auto ways = goals_->onward(goals_->state(from));
   const auto way = std::ranges::find(ways, stop, &FreeGoals::Onward::stop);
   if (way == ways.end()) return;
-  if (planes_.gates(from) == LabelPlanes::kNoGates) {
+  if (planes_.gates(from) == Planes::kNoGates) {
     planes_.set_gates(from, static_cast<std::int32_t>(gates_.size()));
     gates_.resize(gates_.size() + ways.size());
   }
@@ -537,11 +545,11 @@ void FreeLowLevelSearch::Workspace::touch(const Entry& from, Cell from_cell, std
 
 void FreeLowLevelSearch::Workspace::reach(const Entry& from, Cell from_cell, std::int32_t slot,
                                           Cell cell, Time time, StateId state) {
-  if (!deadlines_.empty() && misses_deadline(state, cell, time)) return;
   if (!planes_.open(state, *limits_)) return;
-  LabelPlanes::Label& l = planes_.label(slot, state);
+  Label& l = planes_.label(slot, state);
   const bool known = planes_.is_current(l);
   if (known && (l.time < time || (l.time == time && l.conflicts <= from.conflicts))) return;
+  if (!deadlines_.empty() && misses_deadline(state, cell, time)) return;
   const Time distance = this->distance(state, cell);
   if (distance >= kNever) outside_ = true;
   if (distance > cap_ - time) {
@@ -579,7 +587,7 @@ void FreeLowLevelSearch::Workspace::write_path(const Entry& finish, Path& path) 
   Time end = finish.time;
   path.resize(static_cast<std::size_t>(end) + 1);
   while (slot != kNoSlot) {
-    const LabelPlanes::Label& l = planes_.label(slot, state);
+    const Label& l = planes_.label(slot, state);
     std::fill(path.begin() + l.time, path.begin() + end + 1, intervals_.cell_of(slot));
     end = l.time - 1;
     slot = l.parent_slot;

@@ -3,29 +3,26 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "grove/model/limits.h"
-#include "grove/model/plan.h"
 
 namespace grove {
 
 // One *plane* of labels, by slot, for each state that a search touches; planes are made when first
 // needed and reused from search to search. Nothing is cleared: what an earlier search wrote has an
 // earlier stamp. Memory that no label was written to is never touched, so on a large map a plane
-// costs what the search sees of it.
+// costs what the search sees of it. A label is what the search makes of it, with a `stamp`, which it
+// sets when it writes the others.
+template <class Label>
+  requires std::is_trivial_v<Label> && std::same_as<decltype(Label::stamp), std::uint32_t>
 class LabelPlanes {
  public:
-  struct Label {
-    Time time;
-    std::int32_t parent_slot;
-    std::int32_t parent_state;
-    std::uint32_t stamp;
-    std::uint16_t conflicts;
-  };
   static constexpr std::int32_t kNoGates = -1;
 
   // Forgets all labels.

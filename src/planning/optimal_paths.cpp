@@ -1,38 +1,46 @@
 // SPDX-License-Identifier: MIT
-// Forward, time step by time step, all (slot, state) pairs that an agent can be in: a slot of
-// safe_intervals.h, which says the cell and all that constraints ask of the past, and a state of
-// free_goals.h. Then backward: what does not lead to the end is dropped.
+// A *label* is a slot of safe_intervals.h, which says the cell and all that constraints ask of the
+// past, and a state of free_goals.h. Who is in a slot may wait there until it ends, and what can be
+// done from a label at a time depends on nothing else. So a path of cost C can be in a label at all
+// times from the *earliest* at which an agent can be there up to the *latest* from which it can
+// still end at C, and at no other: who came at the earliest waits for any later time, and who can
+// end from the latest can do so from any time before, waiting first. Two searches over labels, none
+// of which knows of times, find these: forward the earliest, in order of time, and with them all
+// moves; backward along those moves the latest, from the last moves on. The layers are then written
+// down, without a node that leads nowhere. (For one agent without goals and constraints, an MDD is
+// made of two distances in the same way.)
 //
-// *Claim: the ways are exactly the paths of cost C.* The step from time t on is as in the free low
-// level, but for one step only: a wait while the slot lasts, or a move that is open at t + 1 into
-// the slot that takes arrivals at t + 1. Whoever has counted as early as possible passes such
-// states (free_goals.cpp: each touch has one successor, or two, both followed), and the completions
-// are widened until they know all sequences of cost C, C < beyond(); so, as there, all states along
-// a path of cost C are known and have t + h <= C: none is pruned. A path comes to rest at C by a
-// move at C, in a slot to rest in (or stands there at C = 0): the last step is no wait, and any way
-// to such an end obeys the constraints, since they are a matter of slots and moves alone.
+// *Claim: the ways are exactly the paths of cost C.* A move from label to label is open at its
+// first time, which is the earliest since the moves are asked for at the earliest time in the label
+// that they leave; its last is bounded by the ends of both slots; in between single times may be
+// barred. Whoever has counted as early as possible passes such states (free_goals.cpp: each touch
+// has one successor, or two, both followed), and the completions are widened until they know all
+// sequences of cost C, C < beyond(); so all states along a path of cost C are known, and it is in
+// them at times t with t + h <= C: no move of such a path is dropped. A path comes to rest at C by
+// a move at C, in a slot to rest in (or stands there at C = 0): the last step is no wait, and any
+// way to such an end obeys the constraints, since they are a matter of slots and moves alone.
 //
-// Reduction. Nodes of one layer with the same cell and the same successors, themselves reduced, are
-// one: the same rows of cells follow on them (by induction from the last layer), and no more is
-// asked of a path later than where it is when. States and slots are forgotten in this way.
+// Measured against layers made forward, time by time, and cleared of dead ends afterwards: those met
+// four nodes for each that they kept, and an instance of the paper's data set that takes Grove
+// seconds took half as long again.
 #include "grove/planning/optimal_paths.h"
 
 #include <algorithm>
 
+#include "bucket_queue.h"
 #include "label_planes.h"
 #include "safe_intervals.h"
 
 namespace grove {
 namespace {
 
-constexpr std::size_t kNodesPerPoll = 256;
+constexpr std::size_t kLabelsPerPoll = 256;
 
 }  // namespace
 
 class OptimalPathsBuilder::Workspace {
  public:
-  explicit Workspace(const Grid& grid)
-      : grid_(grid), intervals_(grid), newest_at_(grid.cell_count(), kNoNode) {}
+  explicit Workspace(const Grid& grid) : grid_(grid), intervals_(grid) {}
 
   Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t most_nodes, const Limits& limits, OptimalPaths& paths);
@@ -41,34 +49,64 @@ class OptimalPathsBuilder::Workspace {
  private:
   using StateId = FreeGoals::StateId;
   using NodeId = OptimalPaths::NodeId;
+  using LabelId = std::int32_t;
+  static constexpr LabelId kNoLabel = -1;
   static constexpr NodeId kNoNode = -1;
+  static constexpr Time kTooLate = -1;
 
-  // A (slot, state) at the time of its layer.
-  struct Node {
+  struct Label {
     std::int32_t slot;
     StateId state;
-    std::int32_t first_edge;
+    Time earliest;
+    Time latest = kTooLate;
+    std::int32_t first_move = 0;  // those out of it
+    std::int32_t end_move = 0;
+  };
+  // Arrives at `first`, at `last`, or in between when it is not barred.
+  struct Move {
+    LabelId from;
+    LabelId to;
+    Time first;
+    Time last;
+  };
+  // By slot and state.
+  struct Mark {
+    LabelId label;
+    Time distance;  // to the end
+    std::uint32_t stamp;
   };
 
-  Outcome build_layers(std::size_t most_nodes);
+  Outcome make_layers(std::size_t most_nodes, OptimalPaths& paths);
+  Outcome go_forward(std::size_t most_labels);
   void start();
-  void step(const Node& node, Time time);
-  void add(std::int32_t slot, StateId state, Time time);
-  bool is_finish(std::int32_t slot, StateId state) const;
-  void reduce(OptimalPaths& paths);
-  void reduce_layer(NodeId first, NodeId end, OptimalPaths& paths);
-  NodeId reduced(Cell cell, std::int32_t first_edge, OptimalPaths& paths);
+  void expand(LabelId label);
+  void reach(LabelId from, std::int32_t slot, StateId state, Time first);
+  Mark* mark(std::int32_t slot, StateId state);
+  void go_backward();
+  void sort_moves();
+  void find_ends();
+  void leave_by(const Move& move, Time arrival);
+  Time last_arrival(const Move& move, Time latest) const;
+  std::size_t count_nodes() const;
+  void write_layers(OptimalPaths& paths);
+  void write_nodes(Time time, OptimalPaths& paths);
+  void write_successors(const Label& label, Time time, OptimalPaths& paths) const;
+  bool is_end(const Label& label) const;
+  Cell cell(LabelId label) const { return intervals_.cell_of(labels_[label].slot); }
 
   const Grid& grid_;
   SafeIntervals intervals_;
-  LabelPlanes planes_;  // a label: the time of the layer it was last met in, and the node there
-  std::vector<Node> nodes_;
-  std::vector<NodeId> edges_;      // to the nodes of the next layer
-  std::vector<NodeId> layers_;     // the first node of each
-  std::vector<NodeId> reduced_;    // by node; kNoNode: leads nowhere
-  std::vector<NodeId> newest_at_;  // by cell: the reduced node of this layer made last
-  std::vector<NodeId> older_;      // by reduced node: the one of its cell and layer before it
-  std::int64_t met_ = 0;           // nodes, in all calls
+  LabelPlanes<Mark> planes_;
+  BucketQueue queue_;  // of labels, in place of slots
+  std::vector<Label> labels_;
+  std::vector<Move> moves_;             // by the label they leave
+  std::vector<std::int32_t> into_;      // moves by the label they enter
+  std::vector<std::int32_t> first_in_;  // there, by label; one more at the end
+  std::vector<LabelId> ends_;           // where some path comes to rest
+  std::vector<LabelId> useful_;         // by latest, which they have, the last first
+  std::vector<LabelId> here_;           // the labels of the layer that is being written
+  std::vector<NodeId> nodes_;           // by label: of the layer after it
+  std::int64_t met_ = 0;                // labels and nodes, in all calls
 
   // Of the call under way.
   FreeGoals* goals_ = nullptr;
@@ -104,37 +142,38 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::build(
   goals_ = &goals;
   limits_ = &limits;
   cost_ = cost;
-  const Outcome outcome = build_layers(most_nodes);
-  met_ += std::ssize(nodes_);
-  if (outcome == Outcome::kBuilt) reduce(paths);
+  const Outcome outcome = make_layers(most_nodes, paths);
+  met_ += std::ssize(labels_) + paths.node_count();
   return outcome;
 }
 
-OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::build_layers(std::size_t most_nodes) {
-  nodes_.clear();
-  edges_.clear();
-  layers_.assign(1, 0);
+OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::make_layers(std::size_t most_nodes,
+                                                                         OptimalPaths& paths) {
+  const Outcome outcome = go_forward(most_nodes);
+  if (outcome != Outcome::kBuilt) return outcome;
+  go_backward();
+  if (ends_.empty()) return Outcome::kNone;
+  if (count_nodes() > most_nodes) return Outcome::kTooLarge;
+  write_layers(paths);
+  return Outcome::kBuilt;
+}
+
+// All labels that some path may pass, and the moves between them.
+OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::go_forward(std::size_t most_labels) {
+  labels_.clear();
+  moves_.clear();
   planes_.begin_search(intervals_.slot_count());
+  queue_.reset(0);
   start();
   std::size_t polled = 0;
-  for (Time time = 1; time <= cost_; ++time) {
-    const NodeId first = layers_.back();
-    const auto end = static_cast<NodeId>(nodes_.size());
-    layers_.push_back(end);
-    if (first == end) break;
-    for (NodeId node = first; node < end; ++node) {
-      nodes_[node].first_edge = static_cast<std::int32_t>(edges_.size());
-      step(nodes_[node], time);
-      if (nodes_.size() > most_nodes) return Outcome::kTooLarge;
-      if (++polled % kNodesPerPoll == 0 && limits_->stop_requested()) return Outcome::kStopped;
-    }
+  BucketQueue::Entry entry;
+  while (queue_.pop(entry) && entry.time < cost_) {
+    if (labels_[entry.slot].earliest != entry.time) continue;
+    expand(entry.slot);
+    if (labels_.size() > most_labels) return Outcome::kTooLarge;
+    if (++polled % kLabelsPerPoll == 0 && limits_->stop_requested()) return Outcome::kStopped;
   }
-  if (planes_.exhausted()) return Outcome::kStopped;
-  if (layers_.back() == static_cast<NodeId>(nodes_.size())) return Outcome::kNone;
-  layers_.push_back(static_cast<NodeId>(nodes_.size()));
-  for (NodeId node = layers_[cost_]; node < layers_[cost_ + 1]; ++node)
-    nodes_[node].first_edge = static_cast<std::int32_t>(edges_.size());
-  return Outcome::kBuilt;
+  return planes_.exhausted() ? Outcome::kStopped : Outcome::kBuilt;
 }
 
 void OptimalPathsBuilder::Workspace::start() {
@@ -142,90 +181,152 @@ void OptimalPathsBuilder::Workspace::start() {
   const StateId state = goals_->first_state();
   const int slot = intervals_.start_slot(cell);
   if (slot < 0 || state == FreeGoals::kOutside) return;
-  goals_->on_arrival(state, cell, [&](StateId then) { add(slot, then, 0); });
-  edges_.clear();
+  goals_->on_arrival(state, cell, [&](StateId then) { reach(kNoLabel, slot, then, 0); });
 }
 
-// All that can be done in one step, arriving at `time`.
-void OptimalPathsBuilder::Workspace::step(const Node& from, Time time) {
-  const Node node = from;  // nodes_ will grow
-  if (time < cost_ && time <= intervals_.end_of(node.slot)) add(node.slot, node.state, time);
-  intervals_.for_each_move(grid_, node.slot, time - 1, [&](int slot, Cell cell, Time first) {
-    if (first == time)
-      goals_->on_arrival(node.state, cell, [&](StateId then) { add(slot, then, time); });
+void OptimalPathsBuilder::Workspace::expand(LabelId from) {
+  const Label label = labels_[from];  // labels_ will grow
+  labels_[from].first_move = static_cast<std::int32_t>(moves_.size());
+  intervals_.for_each_move(grid_, label.slot, label.earliest, [&](int slot, Cell cell, Time first) {
+    goals_->on_arrival(label.state, cell, [&](StateId then) { reach(from, slot, then, first); });
   });
+  labels_[from].end_move = static_cast<std::int32_t>(moves_.size());
 }
 
-void OptimalPathsBuilder::Workspace::add(std::int32_t slot, StateId state, Time time) {
-  if (goals_->distance(state, intervals_.cell_of(slot)) > cost_ - time) return;
-  if (time == cost_ && !is_finish(slot, state)) return;
-  if (!planes_.open(state, *limits_)) return;
-  LabelPlanes::Label& l = planes_.label(slot, state);
-  if (!planes_.is_current(l) || l.time != time) {
-    l.time = time;
-    l.parent_slot = static_cast<std::int32_t>(nodes_.size());
-    l.stamp = planes_.stamp();
-    nodes_.push_back({slot, state, 0});
+// By a move that arrives at `first` or later.
+void OptimalPathsBuilder::Workspace::reach(LabelId from, std::int32_t slot, StateId state,
+                                           Time first) {
+  Mark* const there = mark(slot, state);
+  if (there == nullptr) return;
+  Time last = std::min(intervals_.last_arrival(slot), cost_ - there->distance);
+  if (from != kNoLabel) last = std::min(last, intervals_.end_of(labels_[from].slot) + 1);
+  if (first > last) return;
+  if (there->label == kNoLabel) {
+    there->label = static_cast<LabelId>(labels_.size());
+    labels_.push_back({.slot = slot, .state = state, .earliest = kNever});
   }
-  edges_.push_back(l.parent_slot);
+  if (Label& to = labels_[there->label]; first < to.earliest) {
+    to.earliest = first;
+    queue_.push(first, {.slot = there->label, .time = first});
+  }
+  if (from != kNoLabel) moves_.push_back({from, there->label, first, last});
 }
 
-bool OptimalPathsBuilder::Workspace::is_finish(std::int32_t slot, StateId state) const {
-  return goals_->is_rest(goals_->state(state), intervals_.cell_of(slot)) &&
-         intervals_.may_rest(slot);
+// Null: no memory for it.
+OptimalPathsBuilder::Workspace::Mark* OptimalPathsBuilder::Workspace::mark(std::int32_t slot,
+                                                                           StateId state) {
+  if (!planes_.open(state, *limits_)) return nullptr;
+  Mark& mark = planes_.label(slot, state);
+  if (!planes_.is_current(mark))
+    mark = {.label = kNoLabel,
+            .distance = goals_->distance(state, intervals_.cell_of(slot)),
+            .stamp = planes_.stamp()};
+  return &mark;
 }
 
-void OptimalPathsBuilder::Workspace::reduce(OptimalPaths& paths) {
-  reduced_.assign(nodes_.size(), kNoNode);
-  older_.clear();
-  for (Time time = cost_; time >= 0; --time) {
-    paths.first_of_layer_.push_back(paths.node_count());
-    reduce_layer(layers_[time], layers_[time + 1], paths);
+void OptimalPathsBuilder::Workspace::go_backward() {
+  sort_moves();
+  queue_.reset(0);
+  find_ends();
+  useful_.clear();
+  BucketQueue::Entry entry;
+  while (queue_.pop(entry)) {
+    if (labels_[entry.slot].latest != entry.time) continue;
+    useful_.push_back(entry.slot);
+    for (std::int32_t in = first_in_[entry.slot]; in < first_in_[entry.slot + 1]; ++in)
+      leave_by(moves_[into_[in]], entry.time);
+  }
+}
+
+void OptimalPathsBuilder::Workspace::sort_moves() {
+  first_in_.assign(labels_.size() + 1, 0);
+  for (const Move& move : moves_) ++first_in_[move.to];
+  for (std::size_t label = 1; label < first_in_.size(); ++label)
+    first_in_[label] += first_in_[label - 1];
+  into_.resize(moves_.size());
+  for (std::size_t move = 0; move < moves_.size(); ++move)
+    into_[--first_in_[moves_[move].to]] = static_cast<std::int32_t>(move);
+}
+
+void OptimalPathsBuilder::Workspace::find_ends() {
+  ends_.clear();
+  for (LabelId label = 0; label < std::ssize(labels_); ++label) {
+    if (!is_end(labels_[label])) continue;
+    bool reached = cost_ == 0;
+    for (std::int32_t in = first_in_[label]; in < first_in_[label + 1]; ++in) {
+      const Move& move = moves_[into_[in]];
+      if (cost_ < move.first || last_arrival(move, cost_) != cost_) continue;
+      leave_by(move, cost_);
+      reached = true;
+    }
+    if (reached) ends_.push_back(label);
+  }
+}
+
+// The agent must arrive no later than this.
+void OptimalPathsBuilder::Workspace::leave_by(const Move& move, Time arrival) {
+  const Time last = last_arrival(move, arrival);
+  Label& from = labels_[move.from];
+  if (last < move.first || last - 1 <= from.latest) return;
+  from.latest = last - 1;
+  queue_.push(cost_ - from.latest, {.slot = move.from, .time = from.latest});
+}
+
+// Before move.first: none.
+Time OptimalPathsBuilder::Workspace::last_arrival(const Move& move, Time latest) const {
+  return intervals_.last_move(labels_[move.from].slot, cell(move.to), std::min(latest, move.last));
+}
+
+bool OptimalPathsBuilder::Workspace::is_end(const Label& label) const {
+  return goals_->is_rest(goals_->state(label.state), intervals_.cell_of(label.slot)) &&
+         intervals_.may_rest(label.slot);
+}
+
+std::size_t OptimalPathsBuilder::Workspace::count_nodes() const {
+  std::size_t count = ends_.size();
+  for (const LabelId label : useful_)
+    count += static_cast<std::size_t>(labels_[label].latest - labels_[label].earliest + 1);
+  return count;
+}
+
+void OptimalPathsBuilder::Workspace::write_layers(OptimalPaths& paths) {
+  nodes_.assign(labels_.size(), kNoNode);
+  here_ = ends_;
+  write_nodes(cost_, paths);
+  here_.clear();
+  auto next = useful_.begin();
+  for (Time time = cost_ - 1; time >= 0; --time) {
+    std::erase_if(here_, [&](LabelId label) { return labels_[label].earliest > time; });
+    for (; next != useful_.end() && labels_[*next].latest == time; ++next) here_.push_back(*next);
+    write_nodes(time, paths);
   }
   paths.first_of_layer_.push_back(paths.node_count());
   paths.first_successor_.push_back(static_cast<std::int32_t>(paths.successors_.size()));
 }
 
-void OptimalPathsBuilder::Workspace::reduce_layer(NodeId first, NodeId end, OptimalPaths& paths) {
-  const bool last = static_cast<std::size_t>(end) == nodes_.size();
-  const NodeId first_made = paths.node_count();
-  for (NodeId node = first; node < end; ++node) {
-    const std::int32_t end_edge = static_cast<std::size_t>(node) + 1 < nodes_.size()
-                                      ? nodes_[node + 1].first_edge
-                                      : static_cast<std::int32_t>(edges_.size());
-    const auto first_new = static_cast<std::int32_t>(paths.successors_.size());
-    for (std::int32_t edge = nodes_[node].first_edge; edge < end_edge; ++edge)
-      if (reduced_[edges_[edge]] != kNoNode) paths.successors_.push_back(reduced_[edges_[edge]]);
-    const auto begin = paths.successors_.begin() + first_new;
-    if (begin == paths.successors_.end() && !last) continue;
-    std::sort(begin, paths.successors_.end());
-    paths.successors_.erase(std::unique(begin, paths.successors_.end()), paths.successors_.end());
-    reduced_[node] = reduced(intervals_.cell_of(nodes_[node].slot), first_new, paths);
+// A layer.
+void OptimalPathsBuilder::Workspace::write_nodes(Time time, OptimalPaths& paths) {
+  NodeId node = paths.node_count();
+  paths.first_of_layer_.push_back(node);
+  for (const LabelId label : here_) {
+    paths.first_successor_.push_back(static_cast<std::int32_t>(paths.successors_.size()));
+    paths.cells_.push_back(cell(label));
+    if (time < cost_) write_successors(labels_[label], time, paths);
   }
-  for (NodeId node = first_made; node < paths.node_count(); ++node)
-    newest_at_[paths.cells_[node]] = kNoNode;
+  for (const LabelId label : here_) nodes_[label] = node++;
 }
 
-// The node with this cell and the successors from `first_new` on, which go if it is there already.
-OptimalPaths::NodeId OptimalPathsBuilder::Workspace::reduced(Cell cell, std::int32_t first_new,
-                                                             OptimalPaths& paths) {
-  const auto begin = paths.successors_.begin() + first_new;
-  for (NodeId known = newest_at_[cell]; known != kNoNode; known = older_[known]) {
-    const std::int32_t first = paths.first_successor_[known];
-    const std::int32_t end =
-        known + 1 < paths.node_count() ? paths.first_successor_[known + 1] : first_new;
-    if (!std::equal(paths.successors_.begin() + first, paths.successors_.begin() + end, begin,
-                    paths.successors_.end()))
-      continue;
-    paths.successors_.erase(begin, paths.successors_.end());
-    return known;
+void OptimalPathsBuilder::Workspace::write_successors(const Label& label, Time time,
+                                                      OptimalPaths& paths) const {
+  const Time then = time + 1;
+  if (then <= label.latest) paths.successors_.push_back(nodes_[&label - labels_.data()]);
+  for (std::int32_t i = label.first_move; i < label.end_move; ++i) {
+    const Move& move = moves_[i];
+    const bool leads_on =
+        then < cost_ ? then <= labels_[move.to].latest : nodes_[move.to] != kNoNode;
+    if (leads_on && then >= move.first && last_arrival(move, then) == then)
+      paths.successors_.push_back(nodes_[move.to]);
   }
-  const NodeId made = paths.node_count();
-  paths.cells_.push_back(cell);
-  paths.first_successor_.push_back(first_new);
-  older_.push_back(newest_at_[cell]);
-  newest_at_[cell] = made;
-  return made;
 }
 
 }  // namespace grove

@@ -227,15 +227,19 @@ Time SafeIntervals::next_begin(int slot) const {
 Time SafeIntervals::first_move(int from_slot, Cell to, Time earliest) const {
   if (unconstrained(to)) return earliest;
   const Group& group = groups_[group_of_[to]];
-  const Cell from = cell_of(from_slot);
   // One pass will do: the bars are in order of their begin.
-  for (int i = group.first_move; i < group.end_move; ++i) {
-    const Bar& bar = bars_[i];
-    if (bar.from == from && bar.begin <= earliest && earliest <= bar.end &&
-        (bar.copy == kFree || bar.copy == copy_of(from_slot)))
-      earliest = std::min(bar.end, kNever) + 1;
-  }
+  for (int i = group.first_move; i < group.end_move; ++i)
+    if (bars(bars_[i], from_slot, earliest)) earliest = std::min(bars_[i].end, kNever) + 1;
   return earliest;
+}
+
+Time SafeIntervals::last_move(int from_slot, Cell to, Time latest) const {
+  if (unconstrained(to)) return latest;
+  const Group& group = groups_[group_of_[to]];
+  // One pass will do here, too: the bars passed begin later than those to come.
+  for (int i = group.end_move - 1; i >= group.first_move; --i)
+    if (bars(bars_[i], from_slot, latest)) latest = bars_[i].begin - 1;
+  return latest;
 }
 
 }  // namespace grove

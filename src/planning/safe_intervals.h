@@ -67,6 +67,10 @@ class SafeIntervals {
   Cell cell_of(int slot) const { return slot < cells_ ? slot : interval(slot).cell; }
   Time begin_of(int slot) const { return slot < cells_ ? 0 : interval(slot).begin; }
   Time end_of(int slot) const { return slot < cells_ ? kNever : interval(slot).end; }
+  // Whoever comes to the cell later is in another slot.
+  Time last_arrival(int slot) const {
+    return slot < cells_ ? kNever : interval(slot).last_arrival;
+  }
   // May the agent, having arrived in this slot, stay for ever? The time of kRestBy is not looked
   // at.
   bool may_rest(int slot) const {
@@ -105,6 +109,8 @@ class SafeIntervals {
   // `to`; later than kNever when there is none. Whether `to` is safe then is another matter.
   // Not with reservations.
   Time first_move(int from_slot, Cell to, Time earliest) const;
+  // The last time up to `latest` at which it is not barred; negative when there is none.
+  Time last_move(int from_slot, Cell to, Time latest) const;
 
   // Calls arrive(slot, cell, time) for each slot next to `slot` that an agent in it at `from_time`
   // can move to, with the first time at which it can be there.
@@ -207,6 +213,10 @@ class SafeIntervals {
       }
     }
     return first;
+  }
+  bool bars(const Bar& bar, int from_slot, Time time) const {
+    return bar.from == cell_of(from_slot) && bar.begin <= time && time <= bar.end &&
+           (bar.copy == kFree || bar.copy == copy_of(from_slot));
   }
   void look_up(Cell cell);
   void forget();

@@ -57,7 +57,7 @@ class OptimalPathsBuilder {
   enum class Outcome : std::uint8_t {
     kBuilt,
     kNone,      // proven: no path costs exactly that
-    kTooLarge,  // more than `most_nodes` were met
+    kTooLarge,  // it would have more than `most_nodes`, or the agent more ways to look at
     kStopped,   // a limit struck
   };
 
@@ -72,7 +72,7 @@ class OptimalPathsBuilder {
   Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t most_nodes, const Limits& limits, OptimalPaths& paths);
 
-  // Nodes met so far, those that lead nowhere included.
+  // How much was done so far: nodes made, and (slot, state) pairs looked at for them.
   std::int64_t nodes() const;
 
  private:
