@@ -8,7 +8,8 @@
 // meeting the agents took. It ends within 1.5 times that where there is room, with plans much
 // cheaper than the configuration search's (1.1 to 3.5 times the sum of own costs). When the head
 // start is used up, it shares the work equally with the configuration search, until one of them has
-// a plan; until then a single call that takes long is put off, to be made with twice the patience.
+// a plan; a single call that takes long is put off, to be made with twice the patience: one that
+// proves that an agent is shut in can take longer than the tree needs for a small instance.
 // If the configuration search is first (mostly within twice the meeting's work), large
 // neighbourhood search takes its plan and its half of the work. Prioritised planning keeps the
 // other: where it has a plan in the end, that is mostly the cheaper one by far (room-64-64-8, 100
@@ -16,6 +17,10 @@
 // which large neighbourhood search had brought down to 30,964 by then), and taken if so. In
 // later rounds it shares with the large neighbourhood search of the round before in the same way,
 // so no round waits for a plan that never comes.
+//
+// The tree waits for that cheaper plan, but no longer than its root takes: that looks at all pairs
+// of agents, so it is taken to be meeting^2 / kMeetingOfRoot (5 agents on a map of 32x32 cells: half
+// the meeting; den312d with 200 agents: more than kLongPlanning times the meeting).
 //
 // The first order is by the agents' own costs, the cheapest first: an agent may not come to rest
 // where one before it still passes, so cheap agents planned late would wait for dear ones, while
@@ -49,6 +54,7 @@ constexpr std::int64_t kHeadStart = 4;  // of the work to meet all agents
 constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kJointStepsToPlan = 4096;
 constexpr std::int64_t kLongPlanning = 48;  // of the work to meet all agents
+constexpr std::int64_t kMeetingOfRoot = 2000;
 constexpr double kSpread = 0.5;  // of the costs by which later rounds sort, as a part of them
 
 }  // namespace
@@ -77,7 +83,8 @@ class PrimalSearch::Impl {
   bool expects_plan() const {
     if (!may_configure_) return false;
     if (best_ == kInfiniteCost) return joint_steps_ < kJointStepsToPlan;
-    return planning_now_ && first_round_ && planning_work_ < kLongPlanning * meeting_work_;
+    const std::int64_t meetings = std::min(kLongPlanning, meeting_work_ / kMeetingOfRoot);
+    return planning_now_ && first_round_ && planning_work_ < meetings * meeting_work_;
   }
   bool optimal() const { return met_ == agents_ && best_ <= own_costs_; }
   std::int64_t work() const {
@@ -95,7 +102,8 @@ class PrimalSearch::Impl {
   void advance(const Limits& limits);
   void meet(const Limits& limits);
   void begin_round(bool first);
-  bool first_plan_is_raced() const { return !improving_ && may_configure_; }
+  // Is there other work than prioritised planning?
+  bool is_raced() const { return improving_ || may_configure_; }
   bool planning_is_due() const;
   void plan(const Limits& limits);
   void take_over_planned();
@@ -208,7 +216,7 @@ void PrimalSearch::Impl::begin_round(bool first) {
 
 bool PrimalSearch::Impl::planning_is_due() const {
   if (!planning_now_) return false;
-  if (!improving_ && !may_configure_) return true;
+  if (!is_raced()) return true;
   const bool ahead =
       planning_.attempts() == attempts_before_ && planning_work_ < kHeadStart * meeting_work_;
   return ahead || planning_work_ <= other_work_;
@@ -216,7 +224,7 @@ bool PrimalSearch::Impl::planning_is_due() const {
 
 void PrimalSearch::Impl::plan(const Limits& limits) {
   using State = PrioritizedPlanning::State;
-  const std::int64_t patience = first_plan_is_raced() ? patience_ : kEndless;
+  const std::int64_t patience = is_raced() ? patience_ : kEndless;
   const State state = planning_.step(limits, patience);
   if (state == State::kDone) take_over_planned();
   if (state == State::kPutOff) patience_ *= 2;
