@@ -3,6 +3,8 @@
 // interval and state, the earliest: where a delay could be spent elsewhere, it does not see that.
 // The layered graph has every way, and a step's conflicts depend on its two cells and its time
 // alone: so the fewest from each node to the end come from the layer after it, last layer first.
+// What is asked of the table once for a node - who else is there, who comes there next - serves all
+// its steps.
 #include "grove/planning/fewest_conflicts.h"
 
 #include <limits>
@@ -16,24 +18,34 @@ void FewestConflicts::find(const OptimalPaths& paths, const ConflictAvoidanceTab
   best_.resize(static_cast<std::size_t>(paths.node_count()));
   for (Time time = cost; time >= 0; --time) {
     const auto layer = paths.layer(time);
-    for (OptimalPaths::NodeId node = layer.first; node < layer.end; ++node) {
+    for (NodeId node = layer.first; node < layer.end; ++node) {
       const Cell cell = paths.cell(node);
-      Best best{std::numeric_limits<std::int32_t>::max(), -1};
-      if (time == cost) best.conflicts = others.conflicts_of_resting(cell, time);
-      for (const OptimalPaths::NodeId next : paths.successors(node)) {
-        const std::int32_t conflicts =
-            best_[next].conflicts + others.conflicts(cell, paths.cell(next), time + 1);
-        if (conflicts < best.conflicts) best = {conflicts, next};
-      }
-      best_[node] = best;
+      Best& best = best_[node];
+      if (time == cost)
+        best = {others.conflicts_of_resting(cell, time), kNoNode};
+      else
+        best = best_step(paths, node, others.comers(cell, time + 1));
+      if (time > 0) best.conflicts += others.vertex_conflicts(cell, time);
     }
   }
   path.clear();
   const auto first = paths.layer(0);
-  OptimalPaths::NodeId node = first.first;
-  for (OptimalPaths::NodeId other = first.first; other < first.end; ++other)
+  NodeId node = first.first;
+  for (NodeId other = first.first; other < first.end; ++other)
     if (best_[other].conflicts < best_[node].conflicts) node = other;
-  for (; node >= 0; node = best_[node].next) path.push_back(paths.cell(node));
+  for (; node != kNoNode; node = best_[node].next) path.push_back(paths.cell(node));
+}
+
+FewestConflicts::Best FewestConflicts::best_step(const OptimalPaths& paths, NodeId node,
+                                                 ConflictAvoidanceTable::Comers comers) const {
+  Best best{std::numeric_limits<std::int32_t>::max(), kNoNode};
+  for (const NodeId next : paths.successors(node)) {
+    const Cell to = paths.cell(next);
+    const int swaps = to == paths.cell(node) ? 0 : comers.from(to);
+    if (const std::int32_t conflicts = best_[next].conflicts + swaps; conflicts < best.conflicts)
+      best = {conflicts, next};
+  }
+  return best;
 }
 
 }  // namespace grove

@@ -28,12 +28,35 @@ class ConflictAvoidanceTable {
   // Vertex and edge conflicts of arriving on `to` at time `time` coming from `from` (equal: a
   // wait).
   int conflicts(Cell from, Cell to, Time time) const {
-    int count = visits(to, time);
-    if (from != to && perhaps(from, time)) {
-      const Counts& left = counts_[slot(key(from, time))];
-      if (left.key == key(from, time)) count += left.moves[direction(to, from)];
+    const int count = vertex_conflicts(to, time);
+    return from == to ? count : count + comers(from, time).from(to);
+  }
+  // The vertex conflicts alone.
+  int vertex_conflicts(Cell cell, Time time) const {
+    const int count = visits(cell, time);
+    return time > first_rest_[cell] ? count + rests_before(cell, time) : count;
+  }
+  // The paths that come to a cell at a time; until the table is changed.
+  class Comers {
+   public:
+    // How many come from this neighbor: the edge conflicts of a move there.
+    int from(Cell neighbor) const {
+      return moves_ == nullptr ? 0 : (*moves_)[direction(neighbor, cell_)];
     }
-    return time > first_rest_[to] ? count + rests_before(to, time) : count;
+
+   private:
+    friend class ConflictAvoidanceTable;
+    using Moves = std::array<std::uint16_t, 4>;
+    const Moves* moves_ = nullptr;
+    Cell cell_ = kNoCell;
+  };
+  Comers comers(Cell cell, Time time) const {
+    Comers comers;
+    comers.cell_ = cell;
+    if (!perhaps(cell, time)) return comers;
+    const Counts& counts = counts_[slot(key(cell, time))];
+    if (counts.key == key(cell, time)) comers.moves_ = &counts.moves;
+    return comers;
   }
   // The same for waiting on `cell` from time `first` to time `last`, summed up.
   int conflicts_of_waiting(Cell cell, Time first, Time last) const;

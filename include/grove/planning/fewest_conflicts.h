@@ -22,10 +22,16 @@ class FewestConflicts {
   std::int64_t nodes() const { return nodes_; }
 
  private:
+  using NodeId = OptimalPaths::NodeId;
+  static constexpr NodeId kNoNode = -1;
   struct Best {
     std::int32_t conflicts;
-    OptimalPaths::NodeId next;
+    NodeId next;
   };
+
+  Best best_step(const OptimalPaths& paths, NodeId node,
+                 ConflictAvoidanceTable::Comers comers) const;
+
   std::vector<Best> best_;  // from each node to the end
   std::int64_t nodes_ = 0;
 };
