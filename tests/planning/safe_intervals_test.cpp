@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -80,6 +81,39 @@ TEST_F(SafeIntervalsTest, BarredMovesDelayOnlyThatMove) {
   EXPECT_EQ(intervals_.first_move(0, 1, 3), 9);
   EXPECT_EQ(intervals_.first_move(2, 1, 9), 10);
   EXPECT_GT(intervals_.first_move(0, 1, 20), kNever);
+  EXPECT_EQ(intervals_.last_move(0, 1, kNever), 19);
+  EXPECT_EQ(intervals_.last_move(0, 1, 8), 2);
+  EXPECT_EQ(intervals_.last_move(2, 1, 8), 8);
+  EXPECT_EQ(intervals_.last_move(2, 1, 9), 8);
+}
+
+// From any time on the first, and up to any time the last, that no bar holds.
+TEST_F(SafeIntervalsTest, FirstAndLastMovesAreThoseThatNoBarHolds) {
+  constexpr Time kEnd = 24;
+  std::mt19937 random(1);
+  const auto below = [&](int bound) {
+    return static_cast<Time>(random() % static_cast<unsigned>(bound));
+  };
+  for (int round = 0; round < 500; ++round) {
+    std::vector<Constraint> bars;
+    std::vector<bool> barred(kEnd, false);
+    for (int n = below(8); n >= 0; --n) {
+      const Time begin = below(kEnd - 4);
+      const Cell from = below(4) == 0 ? 2 : 0;
+      bars.push_back({1, from, begin, begin + below(5)});
+      if (from == 2) continue;
+      for (Time t = begin; t <= bars.back().end; ++t) barred[t] = true;
+    }
+    intervals_.assign(bars);
+    for (Time time = 0; time < kEnd; ++time) {
+      Time first = time;
+      while (first < kEnd && barred[first]) ++first;
+      Time last = time;
+      while (last >= 0 && barred[last]) --last;
+      EXPECT_EQ(intervals_.first_move(0, 1, time), first);
+      EXPECT_EQ(intervals_.last_move(0, 1, time), last);
+    }
+  }
 }
 
 TEST_F(SafeIntervalsTest, NoRestByTheLatestTimeSplitsTheLastIntervalByArrival) {
@@ -124,6 +158,8 @@ TEST_F(SafeIntervalsTest, ATraversalIsBarredToThoseWhoCameFromTheOtherEnd) {
   EXPECT_EQ(intervals_.first_move(enter(2), 2, 5), 5);
   EXPECT_EQ(intervals_.first_move(enter(0), 0, 5), 5);
   EXPECT_EQ(intervals_.first_move(intervals_.start_slot(1), 2, 5), 5);
+  EXPECT_EQ(intervals_.last_move(enter(0), 2, 6), 4);
+  EXPECT_EQ(intervals_.last_move(enter(2), 2, 6), 6);
   EXPECT_FALSE(intervals_.is_free_of_traversals(enter(0)));
   EXPECT_TRUE(intervals_.is_free_of_traversals(enter(2)));
   EXPECT_EQ(intervals_.next_begin(enter(0)), kNever);
