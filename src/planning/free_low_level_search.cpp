@@ -60,24 +60,8 @@
 // Deadlines. If a stop is barred for ever after time d, a label that has it left is of use only if
 // t + dist(cell, stop) <= d.
 //
-// Gates. Let G be a label that was expanded on stop u, just counted at time g in an interval [..,
-// b] of u's cell, coming from state s; and L another label of s. A path P through L counts some
-// stop next. If that is u, at a time in [g, b], then G could stand there as well, waiting, in the
-// same state after u: from there on P is open to G. L cannot count u before t + dist(L, u). So if
-// that is g or later, L is needed for u only in a later interval, which begins at n: such paths
-// cost n + onward(u) or more. For each way u on that has no such G the bound is t + dist(L, u) +
-// onward(u). The least of all these is what L is postponed to; if there is none, it is dropped.
-// (Ways that the graph does not know cost beyond() or more, see above; a label dropped with such a
-// way counts as dropped for its state.) Soundness is that of the gates in low_level_search.cpp:
-// when L is postponed beyond the optimal cost, an optimal path changes over to a G with fewer stops
-// left, so this ends. With a fixed sequence a gate holds for all earlier states; here for one,
-// since the others may count other stops on the way to u. The states before are cut off by gates of
-// their own.
-//
-// "Later interval" goes by the time of arrival: if u may not be rested on by t and G came by then,
-// P comes by t, and then it leaves u again, as G can, or it comes at n = t + 1 or later. And "stand
-// there as well" must leave open what P does next: if u has copies, a G in one that is barred from
-// leaving the chain makes no gate. One in the free copy does: it can do what the others can.
+// Gates. A label is put off, or dropped, if others that were expanded on stops stand for its ways
+// on (gates.cpp).
 //
 // Known sequences. A heuristic that wants any good path may do without the others: then the cap is
 // the cutoff itself, a path found is one of a known sequence, and none found proves nothing, unless
@@ -103,6 +87,7 @@
 #include <vector>
 
 #include "bucket_queue.h"
+#include "gates.h"
 #include "label_planes.h"
 #include "late_costs.h"
 #include "safe_intervals.h"
@@ -144,17 +129,10 @@ class FreeLowLevelSearch::Workspace {
     std::uint32_t stamp;
     std::uint16_t conflicts;
   };
-  using Planes = LabelPlanes<Label>;
   // A stop that is barred for ever after `time`.
   struct Deadline {
     int stop;
     Time time;
-  };
-  // Of one onward way: a label that reaches its stop at `from` or later need not be looked at for
-  // the sake of that way, unless the stop is visited at `until` or later.
-  struct Gate {
-    Time from = kNever;
-    Time until = 0;
   };
 
   static constexpr std::int32_t kNoSlot = -1;
@@ -184,7 +162,6 @@ class FreeLowLevelSearch::Workspace {
   bool is_finish(const Entry& entry) const;
   bool is_stale(const Entry& entry);
   bool postpone(const Entry& entry);
-  Time postponed_to(const Entry& entry) const;
   void close_gate(const Entry& entry);
   void expand(const Entry& entry);
   void arrive(const Entry& from, Cell from_cell, std::int32_t slot, Cell cell, Time time);
@@ -201,8 +178,8 @@ class FreeLowLevelSearch::Workspace {
   SafeIntervals intervals_;
   VisitCheck visit_check_;
   Queue queue_;
-  Planes planes_;
-  std::vector<Gate> gates_;
+  LabelPlanes<Label> planes_;
+  Gates gates_;
   std::vector<Deadline> deadlines_;
   std::int64_t expanded_ = 0;
 
@@ -358,7 +335,7 @@ FreeLowLevelSearch::Outcome FreeLowLevelSearch::Workspace::find_within(Time cap,
                                                                        Path& path) {
   cap_ = cap;
   over_ = outside_ = false;
-  gates_.clear();
+  gates_.begin_search();
   planes_.begin_search(intervals_.slot_limit());
   start();
   return run(limits, path);
@@ -470,13 +447,13 @@ bool FreeLowLevelSearch::Workspace::misses_deadline(StateId state, Cell cell, Ti
 }
 
 bool FreeLowLevelSearch::Workspace::postpone(const Entry& entry) {
-  if (planes_.gates(entry.progress) == Planes::kNoGates) return false;
-  const Time until = postponed_to(entry);
+  if (!gates_.any(entry.progress)) return false;
+  const Cell cell = intervals_.cell_of(entry.slot);
+  const Time until = gates_.least_cost(*goals_, entry.progress, cell, entry.time);
   if (until > cap_) {
     over_ |= until < kNever;
   } else {
-    const Time distance =
-        greed_percent_ == 0 ? 0 : goals_->distance(entry.progress, intervals_.cell_of(entry.slot));
+    const Time distance = greed_percent_ == 0 ? 0 : goals_->distance(entry.progress, cell);
     const Time layer = layer_of(until, distance);
     if (layer <= queue_.layer()) return false;
     queue_.push(layer, entry);
@@ -486,39 +463,12 @@ bool FreeLowLevelSearch::Workspace::postpone(const Entry& entry) {
   return true;
 }
 
-// The least f of a way on that no label expanded already stands for.
-Time FreeLowLevelSearch::Workspace::postponed_to(const Entry& entry) const {
-  const Gate* gate = &gates_[static_cast<std::size_t>(planes_.gates(entry.progress))];
-  const Time* to_stop = goals_->stops().distances_from(intervals_.cell_of(entry.slot));
-  Time until = kNever;
-  for (const FreeGoals::Onward& way : goals_->onward(goals_->state(entry.progress))) {
-    const Time there = entry.time + to_stop[way.stop];
-    const Time visit = there >= gate->from ? std::max(there, gate->until) : there;
-    if (visit < kNever) until = std::min(until, visit + way.cost);
-    ++gate;
-  }
-  return until;
-}
-
-// One gate is kept per way: the one that postpones furthest.
 void FreeLowLevelSearch::Workspace::close_gate(const Entry& entry) {
-  const Cell cell = intervals_.cell_of(entry.slot);
-  const int stop = goals_->stops().stop_at(cell);
+  const int stop = goals_->stops().stop_at(intervals_.cell_of(entry.slot));
   if (stop == AgentStops::kNoStop || !intervals_.is_free_of_traversals(entry.slot)) return;
   const Label& l = planes_.label(entry.slot, entry.progress);
   if (l.parent_slot == kNoSlot || l.parent_state == entry.progress) return;
-  const StateId from = l.parent_state;
-  const auto ways = goals_->onward(goals_->state(from));
-  const auto way = std::ranges::find(ways, stop, &FreeGoals::Onward::stop);
-  if (way == ways.end()) return;
-  if (planes_.gates(from) == Planes::kNoGates) {
-    planes_.set_gates(from, static_cast<std::int32_t>(gates_.size()));
-    gates_.resize(gates_.size() + ways.size());
-  }
-  Gate& gate = gates_[static_cast<std::size_t>(planes_.gates(from) + (way - ways.begin()))];
-  const Time until = intervals_.next_begin(entry.slot);
-  if (until > gate.until || (until == gate.until && entry.time < gate.from))
-    gate = {entry.time, until};
+  gates_.close(*goals_, l.parent_state, stop, entry.time, intervals_.next_begin(entry.slot));
 }
 
 void FreeLowLevelSearch::Workspace::expand(const Entry& entry) {

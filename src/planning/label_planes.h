@@ -17,14 +17,12 @@ namespace grove {
 // One *plane* of labels, by slot, for each state that a search touches; planes are made when first
 // needed and reused from search to search. Nothing is cleared: what an earlier search wrote has an
 // earlier stamp. Memory that no label was written to is never touched, so on a large map a plane
-// costs what the search sees of it. A label is what the search makes of it, with a `stamp`, which it
-// sets when it writes the others.
+// costs what the search sees of it. A label is what the search makes of it, with a `stamp`, to be
+// set when the others are.
 template <class Label>
-  requires std::is_trivial_v<Label> && std::same_as<decltype(Label::stamp), std::uint32_t>
+requires std::is_trivial_v<Label> && std::same_as<decltype(Label::stamp), std::uint32_t>
 class LabelPlanes {
  public:
-  static constexpr std::int32_t kNoGates = -1;
-
   // Forgets all labels.
   void begin_search(int slots) {
     if (static_cast<std::size_t>(slots) > capacity_) {
@@ -56,10 +54,6 @@ class LabelPlanes {
   bool is_current(const Label& label) const { return label.stamp == stamp_; }
   std::uint32_t stamp() const { return stamp_; }
 
-  // A number for the search's own use, kNoGates when the state is opened.
-  std::int32_t gates(std::int32_t state) const { return by_state_[state].gates; }
-  void set_gates(std::int32_t state, std::int32_t gates) { by_state_[state].gates = gates; }
-
  private:
   static constexpr std::size_t kSpare = 64;
   // Memory is asked for by the piece, of one or more planes.
@@ -73,7 +67,6 @@ class LabelPlanes {
   struct Use {
     Label* labels = nullptr;
     std::uint32_t stamp = 0;
-    std::int32_t gates = kNoGates;
   };
 
   bool add(std::int32_t state, const Limits& limits) {
@@ -84,7 +77,7 @@ class LabelPlanes {
     }
     if (static_cast<std::size_t>(state) >= by_state_.size())
       by_state_.resize(2 * static_cast<std::size_t>(state) + 1);
-    by_state_[state] = {pool_[used_++].get(), stamp_, kNoGates};
+    by_state_[state] = {pool_[used_++].get(), stamp_};
     return true;
   }
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Let G be a label that was expanded on stop u, just counted at time g in an interval [.., b] of
+// u's cell, coming from state s; and L another label of s. A path P through L counts some stop
+// next. If that is u, at a time in [g, b], then G could stand there as well, waiting, in the same
+// state after u: from there on P is open to G. L cannot count u before t + dist(L, u). So if that
+// is g or later, L is needed for u only in a later interval, which begins at n: such paths cost n +
+// onward(u) or more. For each way u on that has no such G the bound is t + dist(L, u) + onward(u).
+// The least of all these is what L is postponed to; if there is none, it is dropped. (Ways that the
+// graph does not know cost beyond() or more; a label dropped with such a way counts as dropped for
+// its state.) Soundness is that of the gates in low_level_search.cpp: when L is postponed beyond
+// the optimal cost, an optimal path changes over to a G with fewer stops left, so this ends. With a
+// fixed sequence a gate holds for all earlier states; here for one, since the others may count
+// other stops on the way to u. The states before are cut off by gates of their own.
+//
+// "Later interval" goes by the time of arrival: if u may not be rested on by t and G came by then,
+// P comes by t, and then it leaves u again, as G can, or it comes at n = t + 1 or later. And "stand
+// there as well" must leave open what P does next: if u has copies, a G in one that is barred from
+// leaving the chain makes no gate. One in the free copy does: it can do what the others can.
+#include "gates.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace grove {
+
+void Gates::begin_search() {
+  for (const StateId state : states_) by_state_[state] = kNone;
+  states_.clear();
+  gates_.clear();
+}
+
+// One gate is kept per way: the one that puts off furthest.
+void Gates::close(const FreeGoals& goals, StateId from, int stop, Time time, Time until) {
+  const auto ways = goals.onward(goals.state(from));
+  const auto way = std::ranges::find(ways, stop, &FreeGoals::Onward::stop);
+  if (way == ways.end()) return;
+  if (static_cast<std::size_t>(from) >= by_state_.size())
+    by_state_.resize(2 * static_cast<std::size_t>(from) + 1, kNone);
+  if (by_state_[from] == kNone) {
+    by_state_[from] = static_cast<std::int32_t>(gates_.size());
+    states_.push_back(from);
+    gates_.resize(gates_.size() + ways.size());
+  }
+  Gate& gate = gates_[static_cast<std::size_t>(by_state_[from] + (way - ways.begin()))];
+  if (until > gate.until || (until == gate.until && time < gate.from)) gate = {time, until};
+}
+
+Time Gates::least_cost(const FreeGoals& goals, StateId state, Cell cell, Time time) const {
+  const Gate* gate = &gates_[static_cast<std::size_t>(by_state_[state])];
+  const Time* to_stop = goals.stops().distances_from(cell);
+  Time least = kNever;
+  for (const FreeGoals::Onward& way : goals.onward(goals.state(state))) {
+    const Time there = time + to_stop[way.stop];
+    const Time visit = there >= gate->from ? std::max(there, gate->until) : there;
+    if (visit < kNever) least = std::min(least, visit + way.cost);
+    ++gate;
+  }
+  return least;
+}
+
+}  // namespace grove

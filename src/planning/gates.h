@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Which labels of free_low_level_search.cpp may wait, or are not needed at all, since one that was
+// expanded on a stop stands for them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grove/model/plan.h"
+#include "grove/planning/free_goals.h"
+
+namespace grove {
+
+// The gates of one search, by state and onward way (FreeGoals::onward). What a gate is, and why it
+// loses no path: gates.cpp.
+class Gates {
+ public:
+  using StateId = FreeGoals::StateId;
+
+  // Opens all.
+  void begin_search();
+
+  // A label in the state after `from` was expanded on `stop`, just counted at `time`. Whoever comes
+  // to that stop earlier than `until` could be where it is; kNever: whoever comes at all.
+  void close(const FreeGoals& goals, StateId from, int stop, Time time, Time until);
+
+  // Is any way on from this state closed?
+  bool any(StateId state) const {
+    return static_cast<std::size_t>(state) < by_state_.size() && by_state_[state] != kNone;
+  }
+  // What a path from here on costs that is of use: the least f of the ways on, each with the visit
+  // of its stop put off as its gate says; kNever or more: none is. There must be any().
+  Time least_cost(const FreeGoals& goals, StateId state, Cell cell, Time time) const;
+
+ private:
+  // A label that reaches the stop at `from` or later need not be looked at for the sake of this
+  // way, unless the stop is visited at `until` or later.
+  struct Gate {
+    Time from = kNever;
+    Time until = 0;
+  };
+  static constexpr std::int32_t kNone = -1;
+
+  std::vector<std::int32_t> by_state_;  // the first of its gates
+  std::vector<StateId> states_;         // those that have gates
+  std::vector<Gate> gates_;
+};
+
+}  // namespace grove
