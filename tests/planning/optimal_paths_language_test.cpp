@@ -1,0 +1,531 @@
+// SPDX-License-Identifier: MIT
+// All paths of one cost against a time-expanded graph that is written from the definitions of the
+// constraints alone. Two layered graphs have the same ways if, read side by side, no way of one
+// ends early in the other: so paths need not be listed, and maps, costs and windows may be larger
+// than in optimal_paths_test.cpp. The low level must find the least such cost.
+// GROVE_FUZZ_FACTOR multiplies the number of cases.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "grove/planning/chains.h"
+#include "grove/planning/free_low_level_search.h"
+#include "grove/planning/optimal_paths.h"
+#include "tests/planning/free_reference.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace optimal_paths_language_test {
+
+using testing::FreeProblem;
+using testing::grid_of;
+using testing::instance_of;
+
+constexpr std::size_t kPlenty = 1'000'000;
+constexpr std::size_t kMostReadings = 20'000;  // of one pair of graphs
+constexpr Time kLongest = 60;
+
+// What an agent must remember besides the time.
+struct Memory {
+  Cell cell;
+  std::uint32_t counted;  // stops
+  int last;               // the one counted last
+  Cell entered_from;      // inside a row of cells with two neighbors: from where, and whereto
+  Cell entered_at;
+  friend auto operator<=>(const Memory&, const Memory&) = default;
+};
+
+class TimeExpanded {
+ public:
+  explicit TimeExpanded(const FreeProblem& problem) : problem_(problem) {
+    std::set<Memory> first;
+    if (!barred(problem.start, 0)) arrive({problem.start, 0, -1, kNoCell, kNoCell}, first);
+    layers_.push_back(std::move(first));
+  }
+
+  // The least cost of a path, if at most `most`.
+  std::optional<Time> least_cost(Time most) {
+    for (Time cost = 0; cost <= most; ++cost)
+      if (ends_at(cost)) return cost;
+    return std::nullopt;
+  }
+
+  // The nodes from which a path of this cost goes on, by time.
+  std::vector<std::set<Memory>> nodes_of(Time cost) {
+    std::vector<std::set<Memory>> useful(static_cast<std::size_t>(cost) + 1);
+    grow(cost);
+    for (const Memory& m : layers_[cost])
+      if (cost == 0 && may_end(m, cost)) useful[cost].insert(m);
+    if (cost == 0) return useful;
+    for (Time time = cost - 1; time >= 0; --time)
+      for (const Memory& m : layers_[time])
+        for (const Memory& next : steps(m, time + 1)) {
+          const bool ends = time + 1 == cost && next.cell != m.cell && may_end(next, cost);
+          if (ends) useful[cost].insert(next);
+          if (ends || (time + 1 < cost && useful[time + 1].contains(next))) useful[time].insert(m);
+        }
+    return useful;
+  }
+
+  // Where it can be after a step that arrives at `time`.
+  std::vector<Memory> steps(const Memory& from, Time time) const {
+    std::set<Memory> there;
+    if (!barred(from.cell, time)) arrive(from, there);
+    for (const Cell to : problem_.grid->neighbors(from.cell)) {
+      if (barred(to, time) || move_barred(from, to, time)) continue;
+      Memory m = from;
+      m.cell = to;
+      if (!inner(to))
+        m.entered_from = m.entered_at = kNoCell;
+      else if (!inner(from.cell))
+        m.entered_from = from.cell, m.entered_at = to;
+      arrive(m, there);
+    }
+    return {there.begin(), there.end()};
+  }
+
+ private:
+  bool inner(Cell cell) const { return problem_.grid->neighbors(cell).size() == 2; }
+
+  void grow(Time time) {
+    while (static_cast<Time>(layers_.size()) <= time) {
+      std::set<Memory> next;
+      for (const Memory& m : layers_.back())
+        for (const Memory& there : steps(m, static_cast<Time>(layers_.size()))) next.insert(there);
+      layers_.push_back(std::move(next));
+    }
+  }
+  bool ends_at(Time cost) {
+    const auto useful = nodes_of(cost);
+    return !useful.front().empty();
+  }
+
+  void arrive(const Memory& m, std::set<Memory>& there) const {
+    there.insert(m);
+    const auto& prefix = problem_.work.prefix;
+    const auto many = static_cast<std::size_t>(std::popcount(m.counted));
+    for (int stop = 0; stop < static_cast<int>(problem_.stops.size()); ++stop) {
+      if (problem_.stops[stop] != m.cell || (m.counted >> stop & 1) != 0) continue;
+      if (many < prefix.size() && prefix[many] != stop) continue;
+      if (many == prefix.size() && (problem_.work.forbidden_next >> stop & 1) != 0) continue;
+      const bool remember = !problem_.destination;
+      there.insert(
+          {m.cell, m.counted | 1U << stop, remember ? stop : -1, m.entered_from, m.entered_at});
+    }
+  }
+  bool barred(Cell cell, Time time) const {
+    return std::ranges::any_of(problem_.constraints, [&](const Constraint& c) {
+      return c.kind == ConstraintKind::kBar && c.from == kNoCell && c.cell == cell &&
+             c.begin <= time && time <= c.end;
+    });
+  }
+  bool move_barred(const Memory& from, Cell to, Time time) const {
+    return std::ranges::any_of(problem_.constraints, [&](const Constraint& c) {
+      if (c.from != from.cell || c.cell != to || time < c.begin || c.end < time) return false;
+      if (c.kind == ConstraintKind::kBar) return true;
+      return c.kind == ConstraintKind::kNoTraversal && from.entered_from != kNoCell &&
+             !(from.entered_from == to && from.entered_at == from.cell);
+    });
+  }
+  // For ever, having just come.
+  bool may_end(const Memory& m, Time time) const {
+    if (std::popcount(m.counted) != static_cast<int>(problem_.stops.size())) return false;
+    const Cell rest = problem_.destination ? *problem_.destination : problem_.stops[m.last];
+    if (m.cell != rest) return false;
+    return std::ranges::none_of(problem_.constraints, [&](const Constraint& c) {
+      if (c.kind == ConstraintKind::kRestBy) return c.cell != rest || time > c.end;
+      if (c.cell != rest) return false;
+      if (c.kind == ConstraintKind::kNoRestBy) return time <= c.end;
+      return c.kind == ConstraintKind::kBar && c.from == kNoCell && c.begin <= c.end &&
+             c.end >= time;
+    });
+  }
+
+  const FreeProblem& problem_;
+  std::vector<std::set<Memory>> layers_;
+};
+
+// Reads both graphs side by side, by sets of nodes that one way leads to.
+class SideBySide {
+ public:
+  SideBySide(const TimeExpanded& reference, const std::vector<std::set<Memory>>& useful,
+             const OptimalPaths& graph)
+      : reference_(reference), useful_(useful), graph_(graph) {}
+
+  // Empty: the same; else what differs. Reads no more than kMostReadings.
+  std::string difference() {
+    const auto first = graph_.layer(0);
+    std::map<Cell, Reading> begin;
+    for (const Memory& m : useful_[0]) begin[m.cell].first.insert(m);
+    for (auto node = first.first; node < first.end; ++node)
+      begin[graph_.cell(node)].second.insert(node);
+    std::set<Reading> now;
+    if (!put(begin, now)) return "layer 0";
+    for (Time time = 1; time <= graph_.cost(); ++time) {
+      std::set<Reading> next;
+      for (const Reading& reading : now) {
+        if (++readings_ > kMostReadings) return {};
+        std::map<Cell, Reading> there;
+        for (const Memory& m : reading.first)
+          for (const Memory& step : reference_.steps(m, time))
+            if (useful_[time].contains(step) && (time < graph_.cost() || step.cell != m.cell))
+              there[step.cell].first.insert(step);
+        for (const auto node : reading.second)
+          for (const auto step : graph_.successors(node)) {
+            there[graph_.cell(step)].second.insert(step);
+            if (step < graph_.layer(time).first || step >= graph_.layer(time).end)
+              return "no step to the next layer";
+          }
+        if (!put(there, next)) return "a step to time " + std::to_string(time);
+      }
+      now = std::move(next);
+    }
+    return {};
+  }
+  bool complete() const { return readings_ <= kMostReadings; }
+
+ private:
+  using Reading = std::pair<std::set<Memory>, std::set<OptimalPaths::NodeId>>;
+
+  static bool put(const std::map<Cell, Reading>& by_cell, std::set<Reading>& readings) {
+    for (const auto& [cell, reading] : by_cell) {
+      if (reading.first.empty() || reading.second.empty()) return false;
+      readings.insert(reading);
+    }
+    return true;
+  }
+
+  const TimeExpanded& reference_;
+  const std::vector<std::set<Memory>>& useful_;
+  const OptimalPaths& graph_;
+  std::size_t readings_ = 0;
+};
+
+// Each node is on a way, and no step is written twice.
+bool is_tidy(const OptimalPaths& graph) {
+  std::vector<bool> entered(static_cast<std::size_t>(graph.node_count()), false);
+  for (auto node = graph.layer(0).first; node < graph.layer(0).end; ++node) entered[node] = true;
+  for (Time time = 0; time <= graph.cost(); ++time)
+    for (auto node = graph.layer(time).first; node < graph.layer(time).end; ++node) {
+      const auto steps = graph.successors(node);
+      if (!entered[node] || steps.empty() != (time == graph.cost())) return false;
+      if (std::set(steps.begin(), steps.end()).size() != steps.size()) return false;
+      for (const auto step : steps) entered[step] = true;
+    }
+  return true;
+}
+
+class Fuzzer {
+ public:
+  explicit Fuzzer(unsigned seed) : random_(seed) {}
+
+  void run() {
+    const Grid grid = random_grid();
+    make_problem(grid);
+    const Instance instance = instance_of(problem_);
+    const DistanceFields distances(instance);
+    AgentStops stops(instance, distances, 0);
+    FreeGoals goals(stops, problem_.work);
+    OptimalPathsBuilder builder(grid);
+    FreeLowLevelSearch search(grid);
+    for (int round = 0; round < 6; ++round) {
+      TimeExpanded reference(problem_);
+      const std::optional<Time> least = reference.least_cost(kLongest);
+      Path path;
+      const auto outcome =
+          search.find(goals, problem_.constraints, nullptr, kLongest, Limits(), path);
+      ASSERT_EQ(outcome == FreeLowLevelSearch::Outcome::kFound, least.has_value());
+      if (least) {
+        ASSERT_EQ(static_cast<Time>(path.size()) - 1, *least);
+      }
+      for (Time more = -2; more <= 4; ++more) {
+        const Time cost = least ? *least + more : below(20);
+        if (cost > kLongest) break;
+        check(reference, builder, goals, cost);
+        if (::testing::Test::HasFatalFailure()) return;
+      }
+      if (!least) return;
+      for (int n = 1 + below(4); n > 0; --n) constrain(path);
+    }
+  }
+
+  int compared = 0;
+  int incomplete = 0;
+  int none = 0;
+
+ private:
+  int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
+  template <class T>
+  const T& any_of(const std::vector<T>& choices) {
+    return choices[static_cast<std::size_t>(below(static_cast<int>(choices.size())))];
+  }
+
+  void check(TimeExpanded& reference, OptimalPathsBuilder& builder, FreeGoals& goals, Time cost) {
+    using Outcome = OptimalPathsBuilder::Outcome;
+    const auto useful = cost < 0 ? std::vector<std::set<Memory>>(1) : reference.nodes_of(cost);
+    OptimalPaths graph;
+    const Outcome outcome =
+        builder.build(goals, problem_.constraints, cost, kPlenty, Limits(), graph);
+    ASSERT_EQ(outcome, useful.front().empty() ? Outcome::kNone : Outcome::kBuilt) << cost;
+    ASSERT_EQ(graph.empty(), outcome == Outcome::kNone);
+    if (graph.empty()) {
+      ++none;
+      return;
+    }
+    ASSERT_EQ(graph.cost(), cost);
+    ASSERT_TRUE(is_tidy(graph));
+    SideBySide reading(reference, useful, graph);
+    ASSERT_EQ(reading.difference(), "") << "cost " << cost;
+    ++(reading.complete() ? compared : incomplete);
+    OptimalPaths small;
+    const auto nodes = static_cast<std::size_t>(graph.node_count());
+    ASSERT_NE(builder.build(goals, problem_.constraints, cost, nodes - 1, Limits(), small),
+              Outcome::kBuilt);
+    ASSERT_TRUE(small.empty());
+  }
+
+  Grid random_grid() {
+    static const std::vector<std::vector<std::string>> maps = {
+        {"..@@@@..", "........", "..@@@@.."},                     // a long corridor
+        {"......", ".@@@@.", "......", ".@@@@.", "......"},       // an eight
+        {"....", ".@@.", "...."},                                 // a ring
+        {"@....@", "@.@@.@", "......", "@@.@@@"},                 // loops and tails
+        {".......", "@@@@@@.", ".......", ".@@@@@@", "......."},  // a snake
+        {"..@...@..", ".........", "..@...@.."},                  // doors in a row
+    };
+    if (below(2) == 0) return grid_of(any_of(maps));
+    std::vector<std::string> rows(static_cast<std::size_t>(2 + below(4)));
+    const int width = 3 + below(5);
+    const int density = 1 + below(4);
+    for (std::string& row : rows)
+      for (int x = 0; x < width; ++x) row += below(9) < density ? '@' : '.';
+    rows[0][0] = rows[0][1] = '.';
+    return grid_of(rows);
+  }
+
+  void make_problem(const Grid& grid) {
+    std::vector<Cell> cells;
+    for (Cell cell = 0; cell < grid.cell_count(); ++cell)
+      if (grid.passable(cell)) cells.push_back(cell);
+    problem_ = {&grid, any_of(cells), {}, {}, {}, {}};
+    cells = {problem_.start};
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      for (const Cell next : grid.neighbors(cells[i]))
+        if (std::ranges::count(cells, next) == 0) cells.push_back(next);
+    // So many that a graph of sequences takes the place of a table; few of them free.
+    const bool many = below(8) == 0 && cells.size() > 18;
+    for (int n = many ? 15 + below(3) : below(6); n > 0; --n)
+      if (const Cell cell = any_of(cells); std::ranges::count(problem_.stops, cell) == 0)
+        problem_.stops.push_back(cell);
+      else if (many)
+        ++n;
+    const int stops = static_cast<int>(problem_.stops.size());
+    if (stops == 0 || below(2) == 0) problem_.destination = any_of(cells);
+    const int prefix = many ? stops - below(3) : below(3) == 0 ? below(stops + 1) : 0;
+    Sequence order;
+    for (int stop = 0; stop < stops; ++stop) order.push_back(static_cast<Stop>(stop));
+    std::shuffle(order.begin(), order.end(), random_);
+    if (many) order_nearest_first(order);
+    problem_.work.prefix.assign(order.begin(), order.begin() + prefix);
+    if (below(2) == 0)
+      for (int i = prefix; i < stops; ++i)
+        if (below(3) == 0) problem_.work.forbidden_next |= StopSet{1} << order[i];
+  }
+
+  // Lest it cost too much.
+  void order_nearest_first(Sequence& order) const {
+    std::map<Cell, int> found{{problem_.start, 0}};
+    std::vector<Cell> stack{problem_.start};
+    while (!stack.empty()) {
+      const Cell cell = stack.back();
+      stack.pop_back();
+      for (const Cell next : problem_.grid->neighbors(cell))
+        if (found.emplace(next, static_cast<int>(found.size())).second) stack.push_back(next);
+    }
+    std::ranges::sort(order, {}, [&](Stop stop) { return found[problem_.stops[stop]]; });
+  }
+
+  void constrain(const Path& path) {
+    const Grid& grid = *problem_.grid;
+    const auto cost = static_cast<Time>(path.size()) - 1;
+    std::vector<Cell> goals = problem_.stops;
+    if (problem_.destination) goals.push_back(*problem_.destination);
+    const Time t = below(cost + 3);
+    const Cell here = path[static_cast<std::size_t>(std::min(t, cost))];
+    const Cell before = path[static_cast<std::size_t>(std::clamp(t - 1, 0, cost))];
+    const Cell cell = below(3) == 0 ? any_of(goals) : here;
+    const Time end = t + below(below(3) == 0 ? 14 : 4);
+    auto& all = problem_.constraints;
+    switch (below(12)) {
+      case 0:
+      case 1:
+        all.push_back({cell, kNoCell, t - below(5), end});
+        break;
+      case 2:  // shut until late, but for a moment
+        all.push_back({cell, kNoCell, 1 + below(3), end});
+        all.push_back({cell, kNoCell, end + 1 + below(3), end + below(9)});
+        break;
+      case 3:
+      case 4:
+      case 5: {  // overlapping bars of moves
+        const auto ways = grid.neighbors(cell);
+        if (ways.empty()) break;
+        const Cell from =
+            before != cell && std::ranges::count(ways, before) > 0
+                ? before
+                : ways[static_cast<std::size_t>(below(static_cast<int>(ways.size())))];
+        for (int n = 1 + below(3); n > 0; --n)
+          all.push_back({cell, from, t - below(6), t + below(7)});
+        break;
+      }
+      case 6:
+      case 7:
+      case 8:
+      case 9: {
+        std::vector<std::pair<Cell, Cell>> mouths;
+        const Chains chains(grid);
+        for (int chain = 0; chain < chains.count(); ++chain) {
+          const auto row = chains.cells(chain);
+          mouths.emplace_back(row.front(), row[1]);
+          mouths.emplace_back(row.back(), row[row.size() - 2]);
+        }
+        if (mouths.empty()) break;
+        for (int n = 1 + below(3); n > 0; --n) {
+          const auto [out, inner] = any_of(mouths);
+          const Time last = below(8) == 0 ? kNever : end;
+          all.push_back({out, inner, t - below(8), last, ConstraintKind::kNoTraversal});
+        }
+        break;
+      }
+      case 10:
+        all.push_back({below(2) == 0 ? path.back() : any_of(goals), kNoCell, 0,
+                       below(12) == 0 ? kNever : cost - 2 + below(8), ConstraintKind::kNoRestBy});
+        break;
+      default:
+        if (below(3) == 0)
+          all.push_back({below(3) == 0 ? any_of(goals) : path.back(), kNoCell, 0, cost + below(9),
+                         ConstraintKind::kRestBy});
+        else if (below(4) == 0)
+          all.push_back({cell, kNoCell, t, kNever});
+    }
+  }
+
+  std::mt19937 random_;
+  FreeProblem problem_;
+};
+
+TEST(OptimalPathsLanguage, IsThatOfATimeExpandedGraph) {
+  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
+  const int seeds = 60 * (factor ? std::max(1, std::atoi(factor)) : 1);
+  int compared = 0;
+  int incomplete = 0;
+  int none = 0;
+  for (int seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Fuzzer fuzzer(static_cast<unsigned>(seed));
+    fuzzer.run();
+    if (::testing::Test::HasFailure()) return;
+    compared += fuzzer.compared;
+    incomplete += fuzzer.incomplete;
+    none += fuzzer.none;
+  }
+  EXPECT_GT(compared, 10 * seeds);
+  EXPECT_LT(incomplete, seeds / 4);
+  EXPECT_GT(none, 2 * seeds);
+}
+
+// The cells of each layer, in order.
+std::vector<std::vector<Cell>> cells_of(const OptimalPaths& graph) {
+  std::vector<std::vector<Cell>> layers;
+  for (Time time = 0; !graph.empty() && time <= graph.cost(); ++time) {
+    layers.emplace_back();
+    for (auto node = graph.layer(time).first; node < graph.layer(time).end; ++node)
+      layers.back().push_back(graph.cell(node));
+    std::ranges::sort(layers.back());
+  }
+  return layers;
+}
+
+// Asked for a cost that the graph of sequences does not know yet, or just not, against one that was
+// widened far beyond it.
+TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
+  int at_the_bound = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    const Grid grid = grid_of({".......@", ".@......", "....@...", ".@....@.", "........"});
+    std::vector<Cell> cells;
+    for (Cell cell = 0; cell < grid.cell_count(); ++cell)
+      if (grid.passable(cell)) cells.push_back(cell);
+    std::shuffle(cells.begin(), cells.end(), random);
+    FreeProblem problem{&grid, cells[0], {cells.begin() + 1, cells.begin() + 16}, {}, {}, {}};
+    if (seed % 2 == 0) problem.destination = cells[20];
+    const Instance instance = instance_of(problem);
+    const DistanceFields distances(instance);
+    OptimalPathsBuilder builder(grid);
+    AgentStops narrow(instance, distances, 0);
+    ASSERT_TRUE(narrow.completions().widen(0, Limits()));
+    for (int more = 0; more < 3; ++more) {
+      const Time cost = narrow.completions().beyond();
+      AgentStops wide(instance, distances, 0);
+      ASSERT_TRUE(wide.completions().widen(cost + 4, Limits()));
+      OptimalPaths graphs[2];
+      FreeGoals few(narrow, {});
+      FreeGoals all(wide, {});
+      const auto of_few = builder.build(few, {}, cost, kPlenty, Limits(), graphs[0]);
+      ASSERT_EQ(of_few, builder.build(all, {}, cost, kPlenty, Limits(), graphs[1])) << cost;
+      ASSERT_TRUE(cells_of(graphs[0]) == cells_of(graphs[1])) << cost;
+      at_the_bound += static_cast<int>(of_few == OptimalPathsBuilder::Outcome::kBuilt);
+      ASSERT_TRUE(narrow.completions().widen(cost, Limits()));
+    }
+  }
+  EXPECT_GT(at_the_bound, 10);
+}
+
+// A limit that strikes at any time is no proof that there is no path, nor is the graph in parts.
+TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
+  const Grid grid = grid_of(std::vector<std::string>(40, std::string(40, '.')));
+  FreeProblem problem{&grid, 0, {}, 1599, {}, {}};
+  for (const Cell cell : {95, 1300, 777, 610, 1499, 38, 444, 820}) problem.stops.push_back(cell);
+  const Instance instance = instance_of(problem);
+  const DistanceFields distances(instance);
+  AgentStops stops(instance, distances, 0);
+  FreeGoals goals(stops, {});
+  Path path;
+  FreeLowLevelSearch search(grid);
+  ASSERT_EQ(search.find(goals, {}, nullptr, kNever, Limits(), path),
+            FreeLowLevelSearch::Outcome::kFound);
+  const auto cost = static_cast<Time>(path.size()) + 3;
+  OptimalPaths whole;
+  ASSERT_EQ(OptimalPathsBuilder(grid).build(goals, {}, cost, kPlenty, Limits(), whole),
+            OptimalPathsBuilder::Outcome::kBuilt);
+  const auto is_sound = [&](const Limits& limits) {
+    OptimalPaths graph;
+    const auto outcome = OptimalPathsBuilder(grid).build(goals, {}, cost, kPlenty, limits, graph);
+    if (outcome == OptimalPathsBuilder::Outcome::kStopped) return graph.empty();
+    return outcome == OptimalPathsBuilder::Outcome::kBuilt &&
+           graph.node_count() == whole.node_count();
+  };
+  for (int step = 0; step < 60; ++step) {
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + step * std::chrono::microseconds(100));
+    EXPECT_TRUE(is_sound(limits)) << "time " << step;
+  }
+#ifndef __SANITIZE_ADDRESS__  // whose own memory would fill the limit
+  for (int step = 0; step < 16; ++step) {
+    Limits limits;
+    limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 18) * step);
+    EXPECT_TRUE(is_sound(limits)) << "memory " << step;
+  }
+#endif
+}
+
+}  // namespace optimal_paths_language_test
+}  // namespace grove
