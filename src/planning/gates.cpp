@@ -37,9 +37,9 @@ void Gates::close(const FreeGoals& goals, StateId from, int stop, Time time, Tim
   if (static_cast<std::size_t>(from) >= by_state_.size())
     by_state_.resize(2 * static_cast<std::size_t>(from) + 1, kNone);
   if (by_state_[from] == kNone) {
-    by_state_[from] = static_cast<std::int32_t>(gates_.size());
     states_.push_back(from);
     gates_.resize(gates_.size() + ways.size());
+    by_state_[from] = static_cast<std::int32_t>(gates_.size() - ways.size());
   }
   Gate& gate = gates_[static_cast<std::size_t>(by_state_[from] + (way - ways.begin()))];
   if (until > gate.until || (until == gate.until && time < gate.from)) gate = {time, until};

@@ -12,16 +12,18 @@
 //
 // *Claim: the ways are exactly the paths of cost C.* A move from label to label is open at its
 // first time, which is the earliest since the moves are asked for at the earliest time in the label
-// that they leave; its last is bounded by the ends of both slots; in between single times may be
-// barred. Whoever has counted as early as possible passes such states (free_goals.cpp: each touch
-// has one successor, or two, both followed), and the completions are widened until they know all
-// sequences of cost C, C < beyond(); so all states along a path of cost C are known, and it is in
-// them at times t with t + h <= C: no move of such a path is dropped. A path comes to rest at C by
-// a move at C, in a slot to rest in (or stands there at C = 0): the last step is no wait, and any
-// way to such an end obeys the constraints, since they are a matter of slots and moves alone.
+// that they leave; its last is when that slot ends, or after which arrivals are in another slot; in
+// between single times may be barred. Whoever has counted as early as possible passes such states
+// (free_goals.cpp: each touch has one successor, or two, both followed), and the completions that
+// the states are made of are widened until they know all sequences of cost C, C < beyond(); so all
+// states along a path of cost C are known, and it is in them at times t with t + h <= C: no move of
+// such a path is dropped. A path comes to rest at C by a move at C, in a slot to rest in (or stands
+// there at C = 0): the last step is no wait. And any way to such an end obeys the constraints,
+// since they are a matter of slots and moves alone, but for the time by which it must have come to
+// rest, which C is compared with first.
 //
-// Measured against layers made forward, time by time, and cleared of dead ends afterwards: those met
-// four nodes for each that they kept, and an instance of the paper's data set that takes Grove
+// Measured against layers made forward, time by time, and cleared of dead ends afterwards: those
+// met four nodes for each that they kept, and an instance of the paper's data set that takes Grove
 // seconds took half as long again.
 #include "grove/planning/optimal_paths.h"
 
@@ -137,7 +139,7 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::build(
   if (cost < 0 || cost >= kNever || cost > intervals_.latest_rest() || !goals.plausible())
     return Outcome::kNone;
   if (limits.stop_requested()) return Outcome::kStopped;
-  Completions& completions = goals.stops().completions();
+  Completions& completions = goals.completions();
   if (completions.beyond() <= cost && !completions.widen(cost, limits)) return Outcome::kStopped;
   goals_ = &goals;
   limits_ = &limits;
@@ -255,7 +257,7 @@ void OptimalPathsBuilder::Workspace::find_ends() {
     bool reached = cost_ == 0;
     for (std::int32_t in = first_in_[label]; in < first_in_[label + 1]; ++in) {
       const Move& move = moves_[into_[in]];
-      if (cost_ < move.first || last_arrival(move, cost_) != cost_) continue;
+      if (last_arrival(move, cost_) != cost_) continue;
       leave_by(move, cost_);
       reached = true;
     }

@@ -19,8 +19,8 @@
 // so no round waits for a plan that never comes.
 //
 // The tree waits for that cheaper plan, but no longer than its root takes: that looks at all pairs
-// of agents, so it is taken to be meeting^2 / kMeetingOfRoot (5 agents on a map of 32x32 cells: half
-// the meeting; den312d with 200 agents: more than kLongPlanning times the meeting).
+// of agents, so it is taken to be meeting^2 / kMeetingOfRoot (5 agents on a map of 32x32 cells:
+// half the meeting; den312d with 200 agents: more than kLongPlanning times the meeting).
 //
 // The first order is by the agents' own costs, the cheapest first: an agent may not come to rest
 // where one before it still passes, so cheap agents planned late would wait for dear ones, while
@@ -81,7 +81,7 @@ class PrimalSearch::Impl {
     return best_ < kInfiniteCost ? std::optional(best_) : std::nullopt;
   }
   bool expects_plan() const {
-    if (!may_configure_) return false;
+    if (!may_configure_ || optimal()) return false;
     if (best_ == kInfiniteCost) return joint_steps_ < kJointStepsToPlan;
     const std::int64_t meetings = std::min(kLongPlanning, meeting_work_ / kMeetingOfRoot);
     return planning_now_ && first_round_ && planning_work_ < meetings * meeting_work_;

@@ -34,25 +34,27 @@ int fewest(const OptimalPaths& paths, const ConflictAvoidanceTable& others,
   return best;
 }
 
-TEST(FewestConflicts, FindsAPathWithTheFewest) {
-  const Instance instance = testing::instance_of(
-      {".....", "..@..", "....."}, {{{0, 0}, Position{4, 2}, {{1, 1}, {3, 0}, {0, 2}}}});
+void expect_fewest(const Instance& instance, std::initializer_list<Time> costs) {
+  const Grid& grid = instance.grid();
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
   FreeGoals goals(stops, {});
-  OptimalPathsBuilder builder(instance.grid());
+  OptimalPathsBuilder builder(grid);
   FewestConflicts search;
   std::mt19937 random(11);
   int avoidable = 0;
-  for (const Time cost : {10, 11, 12}) {
+  int waits = 0;
+  for (const Time cost : costs) {
     OptimalPaths paths;
     const auto outcome = builder.build(goals, {}, cost, 1'000'000, Limits(), paths);
     if (outcome != OptimalPathsBuilder::Outcome::kBuilt) continue;
     for (int round = 0; round < 100; ++round) {
-      ConflictAvoidanceTable others(instance.grid());
-      for (int i = 0; i < 4; ++i) {
-        const Cell start = instance.grid().cell({static_cast<int>(random() % 5), 0});
-        others.add(random_walk(instance.grid(), random, start));
+      ConflictAvoidanceTable others(grid);
+      for (int i = 0; i < 2 + round / 10; ++i) {
+        Cell start = 0;
+        do start = static_cast<Cell>(random() % static_cast<unsigned>(grid.cell_count()));
+        while (!grid.passable(start));
+        others.add(random_walk(grid, random, start));
       }
       Path path;
       search.find(paths, others, path);
@@ -61,9 +63,22 @@ TEST(FewestConflicts, FindsAPathWithTheFewest) {
       const int least = fewest(paths, others, paths.layer(0).first, so_far);
       ASSERT_EQ(others.conflicts_of(path), least);
       avoidable += static_cast<int>(least == 0);
+      waits += static_cast<int>(std::ranges::adjacent_find(path) != path.end());
     }
   }
   EXPECT_GT(avoidable, 0);
+  EXPECT_GT(waits, 100);
+}
+
+TEST(FewestConflicts, FindsAPathWithTheFewest) {
+  expect_fewest(testing::instance_of({".....", "..@..", "....."},
+                                     {{{0, 0}, Position{4, 2}, {{1, 1}, {3, 0}, {0, 2}}}}),
+                {10, 11, 12, 13});
+}
+
+TEST(FewestConflicts, WaitsInPocketsOfACorridor) {
+  expect_fewest(testing::instance_of({"@.@.@", ".....", "@.@.@"}, {{{0, 1}, Position{4, 1}, {}}}),
+                {4, 5, 6, 7});
 }
 
 }  // namespace fewest_conflicts_test

@@ -18,6 +18,7 @@
 #include "grove/planning/chains.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/optimal_paths.h"
+#include "grove/sequencing/cost_matrix.h"
 #include "tests/planning/free_reference.h"
 #include "tests/support/instances.h"
 
@@ -487,6 +488,20 @@ TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
     }
   }
   EXPECT_GT(at_the_bound, 10);
+}
+
+// States may be made of other completions than those of their stops.
+TEST(OptimalPathsLanguage, WidensTheCompletionsThatItsStatesAreMadeOf) {
+  const Grid grid = grid_of({"....."});
+  FreeProblem problem{&grid, 0, {2}, 4, {}, {}};
+  const Instance instance = instance_of(problem);
+  const DistanceFields distances(instance);
+  AgentStops stops(instance, distances, 0);
+  Completions others(stops.completions().matrix());
+  FreeGoals goals(stops, {}, others);
+  OptimalPaths graph;
+  EXPECT_EQ(OptimalPathsBuilder(grid).build(goals, {}, 4, kPlenty, Limits(), graph),
+            OptimalPathsBuilder::Outcome::kBuilt);
 }
 
 // A limit that strikes at any time is no proof that there is no path, nor is the graph in parts.
