@@ -31,14 +31,10 @@
 
 #include "bucket_queue.h"
 #include "label_planes.h"
+#include "poll.h"
 #include "safe_intervals.h"
 
 namespace grove {
-namespace {
-
-constexpr std::size_t kLabelsPerPoll = 256;
-
-}  // namespace
 
 class OptimalPathsBuilder::Workspace {
  public:
@@ -167,13 +163,13 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::go_forward(std::siz
   planes_.begin_search(intervals_.slot_count());
   queue_.reset(0);
   start();
-  std::size_t polled = 0;
+  std::int64_t expanded = 0;
   BucketQueue::Entry entry;
   while (queue_.pop(entry) && entry.time < cost_) {
     if (labels_[entry.slot].earliest != entry.time) continue;
     expand(entry.slot);
     if (labels_.size() > most_labels) return Outcome::kTooLarge;
-    if (++polled % kLabelsPerPoll == 0 && limits_->stop_requested()) return Outcome::kStopped;
+    if (++expanded % kExpansionsPerPoll == 0 && limits_->stop_requested()) return Outcome::kStopped;
   }
   return planes_.exhausted() ? Outcome::kStopped : Outcome::kBuilt;
 }

@@ -23,7 +23,7 @@
 namespace grove {
 namespace {
 
-constexpr std::int32_t kNone = -1;
+constexpr std::int32_t kNoLabel = -1;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ BaselineSearch::Outcome VisitedSetSearch::search(AgentIndex agent, const AgentSt
                                                  Time cutoff, const Limits& limits, Path& path) {
   prepare(agent, stops, constraints);
   if (slot_at(intervals_, stops.start(), 0) < 0) return Outcome::kInfeasible;
-  reach(stops.start(), 0, stops.all(), kNone);
+  reach(stops.start(), 0, stops.all(), kNoLabel);
   return run(cutoff, limits, path);
 }
 
@@ -111,7 +111,7 @@ bool VisitedSetSearch::is_finish(const Label& label) const {
 
 void VisitedSetSearch::write_path(std::int32_t finish, Path& path) const {
   path.resize(static_cast<std::size_t>(labels_[finish].time) + 1);
-  for (std::int32_t id = finish; id != kNone; id = labels_[id].parent)
+  for (std::int32_t id = finish; id != kNoLabel; id = labels_[id].parent)
     path[labels_[id].time] = labels_[id].cell;
 }
 
