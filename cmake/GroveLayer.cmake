@@ -13,6 +13,11 @@ function(grove_bundle target size)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
+# Of a target that is in no hurry, but whose headers take long to optimise.
+function(grove_unhurried target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # What most sources include, compiled once, and the sources some at a time; but not in a Release
 # build, which so tells when a source uses what it does not include.
 add_library(grove_headers STATIC ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)

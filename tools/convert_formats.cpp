@@ -96,6 +96,12 @@ bool holds_tasks(InstanceFormat format) {
   return format != InstanceFormat::kLibmrp && format != InstanceFormat::kScen;
 }
 
+bool is_called_like_another_tools_instance(const std::string& file) {
+  return std::ranges::any_of(kInstanceSuffixes, [&](const Entry<InstanceFormat>& entry) {
+    return !names_a_map(entry.format) && file.ends_with(entry.name);
+  });
+}
+
 std::string without_suffix(const std::string& file) {
   for (const auto& entry : kInstanceSuffixes)
     if (file.ends_with(entry.name)) return file.substr(0, file.size() - entry.name.size());

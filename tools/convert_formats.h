@@ -20,6 +20,9 @@ PlanFormat plan_format(const std::string& option, const std::string& name, const
 bool names_a_map(InstanceFormat format);
 bool holds_tasks(InstanceFormat format);
 
+// Its suffix is that of a format that only 'grove convert' reads.
+bool is_called_like_another_tools_instance(const std::string& file);
+
 // `file` without the suffix of a format: "x" of "x.cts.json".
 std::string without_suffix(const std::string& file);
 

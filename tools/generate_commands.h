@@ -14,6 +14,7 @@
 namespace grove {
 
 inline constexpr IntegerRange kAgentNumbers{1, 100'000};
+inline constexpr IntegerRange kScenarioNumbers{1, 10'000};
 inline constexpr IntegerRange kTaskNumbers{0, 1'000'000};
 
 void add_generate_map_command(CLI::App& generate);

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr IntegerRange kScenarioNumbers{1, 10'000};
-
 struct DatasetArguments {
   std::string map;
   std::vector<std::string> scenario_files;

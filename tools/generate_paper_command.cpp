@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr IntegerRange kScenarioNumbers{1, 10'000};
 constexpr int kScenarios = 50;
 
 constexpr const char* kPaperFooter =
@@ -70,39 +69,54 @@ struct PaperArguments {
 
 constexpr std::int64_t kOfAKind = 25;
 
-std::string scenario_file(const std::string& map, std::int64_t k) {
-  return k <= kOfAKind ? fmt::format("{}-random-{}.scen", map, k)
-                       : fmt::format("{}-even-{}.scen", map, k - kOfAKind);
+fs::path scenario_file(const PaperArguments& arguments, const std::string& map, std::int64_t k) {
+  return fs::path(arguments.movingai) / (k <= kOfAKind
+                                             ? fmt::format("{}-random-{}.scen", map, k)
+                                             : fmt::format("{}-even-{}.scen", map, k - kOfAKind));
 }
 
-void require_scenario(const std::string& file, std::int64_t k) {
-  if (!fs::exists(file))
-    throw InputError(file, "",
-                     fmt::format("is not there; expected it, or --scenarios without {}", k));
+// Benchmarks are often downloaded in part: tells at once what there is.
+void require_scenarios(const PaperArguments& arguments) {
+  std::string missing;
+  std::vector<std::int64_t> there;
+  for (const std::int64_t k : arguments.scenarios) {
+    const auto without_k = std::ranges::find_if_not(arguments.maps, [&](const std::string& map) {
+      return fs::exists(scenario_file(arguments, map, k));
+    });
+    if (without_k == arguments.maps.end())
+      there.push_back(k);
+    else if (missing.empty())
+      missing = scenario_file(arguments, *without_k, k).string();
+  }
+  if (missing.empty()) return;
+  throw InputError(missing, "",
+                   fmt::format("is not there; expected it{}",
+                               there.empty() ? "" : ", or --scenarios " + ranges_text(there)));
 }
 
 MapSet load_map_set(const PaperArguments& arguments, const std::string& name) {
-  const fs::path folder = arguments.movingai;
-  const std::string map = (folder / (name + ".map")).string();
-  MapSet set{map, load_map(map), {}};
+  if (std::ranges::count(arguments.maps, name) > 1)
+    throw CLI::ValidationError("--maps", fmt::format("expected '{}' once", name));
+  const std::string map = (fs::path(arguments.movingai) / (name + ".map")).string();
+  return {map, load_map(map), {}};
+}
+
+void load_scenarios(const PaperArguments& arguments, const std::string& name, MapSet& set) {
   for (const std::int64_t k : arguments.scenarios) {
-    const std::string file = (folder / scenario_file(name, k)).string();
-    require_scenario(file, k);
+    const std::string file = scenario_file(arguments, name, k).string();
     set.scenarios.push_back(
-        {std::to_string(k), load_scenario(file, map, set.grid), arguments.seed + k});
+        {std::to_string(k), load_scenario(file, set.map, set.grid), arguments.seed + k});
   }
-  return set;
 }
 
 std::vector<MapSet> load_map_sets(const PaperArguments& arguments) {
   if (std::ranges::max(arguments.scenarios) > 2 * kOfAKind)
     throw CLI::ValidationError("--scenarios", "expected at most 50 with --movingai");
   std::vector<MapSet> sets;
-  for (const std::string& name : arguments.maps) {
-    if (std::ranges::count(arguments.maps, name) > 1)
-      throw CLI::ValidationError("--maps", fmt::format("expected '{}' once", name));
-    sets.push_back(load_map_set(arguments, name));
-  }
+  for (const std::string& name : arguments.maps) sets.push_back(load_map_set(arguments, name));
+  require_scenarios(arguments);
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    load_scenarios(arguments, arguments.maps[i], sets[i]);
   return sets;
 }
 

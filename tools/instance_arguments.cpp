@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "convert_formats.h"
 #include "grove/io/input_error.h"
 #include "options.h"
 #include "standard_error.h"
@@ -34,7 +35,7 @@ LoadedInstance InstanceArguments::read() const {
   if (path_.ends_with(".map"))
     throw InputError(
         path_, "", "a map; expected an instance, FILE.cts.json, which names its map, or FILE.scen");
-  if (path_.ends_with(".yaml") || path_.ends_with(".yml") || path_.ends_with(".mapfw.json"))
+  if (is_called_like_another_tools_instance(path_))
     throw InputError(path_, "",
                      "an instance of another tool; expected FILE.cts.json, which 'grove convert' "
                      "makes of it");

@@ -97,6 +97,17 @@ CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std:
   return app.add_option(name, read, description)->type_name("K-K,...")->default_str(shown);
 }
 
+std::string ranges_text(const std::vector<std::int64_t>& values) {
+  std::string text;
+  for (std::size_t first = 0, end = 0; first < values.size(); first = end) {
+    do ++end;
+    while (end < values.size() && values[end] == values[end - 1] + 1);
+    text += fmt::format("{}{}", text.empty() ? "" : ",", values[first]);
+    if (end - first > 1) text += fmt::format("-{}", values[end - 1]);
+  }
+  return text;
+}
+
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,
                         double most, const std::string& description) {
   const auto read = [&value, name, least, most](const CLI::results_t& results) {

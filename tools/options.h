@@ -29,6 +29,8 @@ CLI::Option* add_integers(CLI::App& app, const std::string& name, std::vector<st
 CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
                         IntegerRange range, const std::string& shown,
                         const std::string& description);
+// The shortest text that add_ranges() reads as `values`: "1-15,20".
+std::string ranges_text(const std::vector<std::int64_t>& values);
 // A decimal number from `least` to `most`.
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,
                         double most, const std::string& description);

@@ -19,8 +19,8 @@
 // so no round waits for a plan that never comes.
 //
 // The tree waits for that cheaper plan, but no longer than its root takes: that looks at all pairs
-// of agents, so it is taken to be meeting^2 / kMeetingOfRoot (5 agents on a map of 32x32 cells:
-// half the meeting; den312d with 200 agents: more than kLongPlanning times the meeting).
+// of agents, so it is taken to be as many meetings as go into the meeting's work by kMeetingOfRoot,
+// kLongPlanning at most. (5 agents on empty-32-32 met with a work of 735: the tree does not wait.)
 //
 // The first order is by the agents' own costs, the cheapest first: an agent may not come to rest
 // where one before it still passes, so cheap agents planned late would wait for dear ones, while
@@ -53,8 +53,8 @@ constexpr std::int64_t kLeastStallPerAgent_neighborhoods = 10;
 constexpr std::int64_t kHeadStart = 4;  // of the work to meet all agents
 constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kJointStepsToPlan = 4096;
-constexpr std::int64_t kLongPlanning = 48;  // of the work to meet all agents
-constexpr std::int64_t kMeetingOfRoot = 2000;
+constexpr std::int64_t kLongPlanning = 48;     // of the work to meet all agents
+constexpr std::int64_t kMeetingOfRoot = 2000;  // work
 constexpr double kSpread = 0.5;  // of the costs by which later rounds sort, as a part of them
 
 }  // namespace

@@ -5,22 +5,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 
 #include "grove/engine/destinations.h"
 #include "grove/engine/method.h"
 #include "grove/engine/run_observer.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/random_instance.h"
+#include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
 namespace grove::fuzz {
 namespace methods_test {
-
-std::uint64_t count(std::uint64_t seeds) {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  return factor ? seeds * std::strtoull(factor, nullptr, 10) : seeds;
-}
 
 // With agents that may end on any of their tasks, if they have one.
 Instance mg_instance(std::uint64_t seed) {
@@ -57,7 +52,8 @@ class ExactMethods : public ::testing::TestWithParam<Method> {};
 TEST_P(ExactMethods, FindTheOptimumOfMgInstances) {
   int solvable = 0;
   int ended = 0;
-  for (std::uint64_t seed = 0; seed < count(80); ++seed) {
+  const std::uint64_t seeds = testing::fuzz_rounds(80);
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = mg_instance(seed);
     const oracle::Answer truth = oracle::solve_jointly(instance);
@@ -120,7 +116,8 @@ Cost best_choice(const Instance& instance, AgentIndex agent, std::vector<Cell>& 
 TEST(Destinations, AreTheCheapestDistinctOnes) {
   int chosen = 0;
   int dearer = 0;  // than without the demand that they be distinct
-  for (std::uint64_t seed = 0; seed < count(80); ++seed) {
+  const std::uint64_t seeds = testing::fuzz_rounds(80);
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = mg_instance(seed);
     const Problem problem(instance, Limits());
@@ -198,7 +195,8 @@ class Adaptations : public ::testing::TestWithParam<Adaptation> {};
 TEST_P(Adaptations, ClaimNoMoreThanTheyProve) {
   int plans = 0;
   int feasible = 0;
-  for (std::uint64_t seed = 0; seed < count(60); ++seed) {
+  const std::uint64_t seeds = testing::fuzz_rounds(60);
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = mg_instance(seed);
     if (!has_free_end(instance)) continue;
@@ -257,7 +255,8 @@ TEST(AdaptationC, IsStoppedByWhatStoppedAIfBFindsNothing) {
 // B's plan is the best that ends there, no more and no less.
 TEST(AdaptationB, IsOptimalForItsDestinations) {
   int compared = 0;
-  for (std::uint64_t seed = 0; seed < count(60); ++seed) {
+  const std::uint64_t seeds = testing::fuzz_rounds(60);
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = mg_instance(seed);
     const Problem problem(instance, Limits());

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <random>
 
 #include "grove/io/expressible.h"
@@ -13,6 +12,7 @@
 #include "grove/io/libmrp_file.h"
 #include "grove/io/mapfw_file.h"
 #include "grove/model/fingerprint.h"
+#include "tests/support/fuzz_factor.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove {
@@ -89,9 +89,8 @@ class Mutator {
   std::mt19937 random_;
 };
 
-unsigned cases() {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  return 1000U * (factor ? static_cast<unsigned>(std::atoi(factor)) : 1U);
+int cases() {
+  return testing::fuzz_rounds(1000);
 }
 
 // Reads every mutation of `text`, and again what `write` makes of it. Tells how many were read.
@@ -99,8 +98,8 @@ template <typename Read, typename Write>
 int survivors(const std::string& text, Read read, Write write) {
   const TemporaryDirectory directory;
   int survived = 0;
-  for (unsigned seed = 0; seed < cases(); ++seed) {
-    const std::string broken = Mutator(seed).mutated(text);
+  for (int seed = 0; seed < cases(); ++seed) {
+    const std::string broken = Mutator(static_cast<unsigned>(seed)).mutated(text);
     SCOPED_TRACE(broken);
     try {
       const Instance instance = with_default_task_ids(read(directory.write("in", broken)));
@@ -125,20 +124,20 @@ Instance read_yaml(const std::string& path) {
 TEST(InterchangeFuzz, LibmrpInstances) {
   const int survived = survivors(kMapf, read_yaml, write_libmrp_instance);
   EXPECT_GT(survived, 10);
-  EXPECT_LT(survived, static_cast<int>(cases()));
+  EXPECT_LT(survived, cases());
 }
 
 TEST(InterchangeFuzz, MgcbsInstances) {
   const int survived = survivors(kMgMapf, read_yaml, write_mgcbs_instance);
   EXPECT_GT(survived, 10);
-  EXPECT_LT(survived, static_cast<int>(cases()));
+  EXPECT_LT(survived, cases());
 }
 
 TEST(InterchangeFuzz, MapfwProblems) {
   const auto read = [](const std::string& path) { return read_mapfw_problem(path); };
   const int survived = survivors(kMapfw, read, write_mapfw_problem);
   EXPECT_GT(survived, 10);
-  EXPECT_LT(survived, static_cast<int>(cases()));
+  EXPECT_LT(survived, cases());
 }
 
 }  // namespace interchange_fuzz_test

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -18,6 +17,7 @@
 #include "tests/planning/random_constraint.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove {
 namespace free_low_level_test {
@@ -31,11 +31,6 @@ using testing::members_of;
 using testing::path_error;
 using testing::Problem;
 using testing::SingleAgent;
-
-int rounds(int count) {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  return factor ? count * std::max(1, std::atoi(factor)) : count;
-}
 
 // One agent, its class and both searches.
 struct Agent {
@@ -260,7 +255,7 @@ class FreeLowLevelFuzz : public ::testing::TestWithParam<bool> {};
 TEST_P(FreeLowLevelFuzz, AgreesWithItsDefinition) {
   int checked = 0;
   int infeasible = 0;
-  const int seeds = rounds(1200);
+  const int seeds = testing::fuzz_rounds(1200);
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Fuzzer fuzzer(static_cast<unsigned>(seed), GetParam());
@@ -345,7 +340,7 @@ class ManyStops {
 };
 
 TEST(FreeLowLevel, IsExactWhereTheSequenceGraphIsBounded) {
-  for (int seed = 0; seed < rounds(6); ++seed) {
+  for (int seed = 0; seed < testing::fuzz_rounds(6); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     ManyStops(static_cast<unsigned>(seed), seed % 2 == 0).check();
     if (HasFailure()) return;

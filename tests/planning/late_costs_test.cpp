@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 
 #include "grove/planning/low_level_search.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/single_agent.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove {
 namespace late_costs_test {
@@ -18,11 +18,6 @@ namespace late_costs_test {
 using testing::grid_of;
 using testing::members_of;
 using testing::SingleAgent;
-
-int rounds(int count) {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  return factor ? count * std::max(1, std::atoi(factor)) : count;
-}
 
 class LateCosts {
  public:
@@ -145,7 +140,7 @@ class LateCostsFuzz {
 
 TEST(LateCosts, NoPathCostsLess) {
   int raised = 0;
-  for (int seed = 0; seed < rounds(400); ++seed) {
+  for (int seed = 0; seed < testing::fuzz_rounds(400); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     raised += LateCostsFuzz(static_cast<unsigned>(seed)).check(seed % 2 == 0);
     if (::testing::Test::HasFailure()) return;

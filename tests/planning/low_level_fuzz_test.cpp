@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 
 #include "grove/planning/low_level_search.h"
 #include "tests/planning/random_constraint.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove {
 namespace low_level_fuzz_test {
@@ -22,11 +22,6 @@ using testing::Problem;
 using testing::reference_conflicts;
 using testing::reference_cost;
 using testing::SingleAgent;
-
-int rounds(int count) {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  return factor ? count * std::max(1, std::atoi(factor)) : count;
-}
 
 // Random problems on tiny maps, each made harder one constraint at a time.
 class Fuzzer {
@@ -176,7 +171,7 @@ class LowLevelFuzz : public ::testing::TestWithParam<bool> {};
 TEST_P(LowLevelFuzz, AgreesWithATimeExpandedSearch) {
   int delayed = 0;
   int infeasible = 0;
-  const int seeds = rounds(2000);
+  const int seeds = testing::fuzz_rounds(2000);
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Fuzzer fuzzer(static_cast<unsigned>(seed), GetParam());

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <cstdlib>
 #include <map>
 #include <random>
 #include <set>
@@ -20,6 +19,7 @@
 #include "grove/planning/optimal_paths.h"
 #include "grove/sequencing/cost_matrix.h"
 #include "tests/planning/free_reference.h"
+#include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
 namespace grove {
@@ -423,8 +423,7 @@ class Fuzzer {
 };
 
 TEST(OptimalPathsLanguage, IsThatOfATimeExpandedGraph) {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  const int seeds = 60 * (factor ? std::max(1, std::atoi(factor)) : 1);
+  const int seeds = testing::fuzz_rounds(60);
   int compared = 0;
   int incomplete = 0;
   int none = 0;

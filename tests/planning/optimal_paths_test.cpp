@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <random>
 #include <set>
 
@@ -16,6 +15,7 @@
 #include "tests/planning/random_constraint.h"
 #include "tests/planning/single_agent.h"
 #include "tests/planning/step_rules.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove {
 namespace optimal_paths_test {
@@ -228,8 +228,7 @@ class Fuzzer {
 };
 
 TEST(OptimalPathsFuzz, AgreeWithTryingAll) {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  const int seeds = 1500 * (factor ? std::max(1, std::atoi(factor)) : 1);
+  const int seeds = testing::fuzz_rounds(1500);
   int fits = 0;
   int collides = 0;
   for (int seed = 0; seed < seeds; ++seed) {

@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "grove/planning/free_low_level_search.h"
+#include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
 namespace grove {
@@ -198,8 +198,7 @@ class Crowd {
 };
 
 TEST(Reservations, TheLowLevelFindsWhatItFindsUnderTheSameConstraints) {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  const int seeds = 1500 * (factor ? std::max(1, std::atoi(factor)) : 1);
+  const int seeds = testing::fuzz_rounds(1500);
   int compared = 0;
   int found = 0;
   for (int seed = 0; seed < seeds; ++seed) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 
@@ -14,6 +13,7 @@
 #include "grove/primal/visit_orders.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
+#include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
 namespace grove {
@@ -26,11 +26,6 @@ using testing::random_crowd;
 using Outcome = ConfigurationSearch::Outcome;
 
 constexpr std::int64_t kWithoutEnd = std::numeric_limits<std::int64_t>::max();
-
-std::uint64_t times_factor(std::uint64_t cases) {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  return factor ? cases * std::strtoull(factor, nullptr, 10) : cases;
-}
 
 // A search and what it needs.
 struct Trial {
@@ -122,7 +117,8 @@ TEST(ConfigurationSearch, RefusesOrdersThatAreNotComplete) {
 TEST(ConfigurationSearch, SolvesWhatTinyInstancesCanBeSolved) {
   int solved = 0;
   int impossible = 0;
-  for (std::uint64_t seed = 0; seed < times_factor(600); ++seed) {
+  const std::uint64_t cases = testing::fuzz_rounds(600);
+  for (std::uint64_t seed = 0; seed < cases; ++seed) {
     const Instance instance = fuzz::random_instance(seed).build();
     const oracle::Answer truth = oracle::solve_jointly(instance, 20'000);
     if (truth.verdict == oracle::Verdict::kTooLarge) continue;
@@ -143,7 +139,7 @@ class Crowds : public ::testing::TestWithParam<Crowd> {};
 
 // A few random crowds have no plan, or none that is found soon.
 TEST_P(Crowds, GetAValidPlan) {
-  const std::uint64_t cases = times_factor(10);
+  const std::uint64_t cases = testing::fuzz_rounds(10);
   std::uint64_t unsolved = 0;
   for (std::uint64_t seed = 0; seed < cases; ++seed) {
     const Instance instance = random_crowd(GetParam(), seed);

@@ -13,6 +13,7 @@
 #include "grove/sequencing/sequence_dag.h"
 #include "matrices.h"
 #include "src/sequencing/path_relaxation.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove::testing {
 namespace bounded_dp_test {

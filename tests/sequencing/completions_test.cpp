@@ -10,6 +10,7 @@
 
 #include "grove/sequencing/rtsp.h"
 #include "tests/sequencing/matrices.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove {
 namespace completions_test {

@@ -10,6 +10,7 @@
 
 #include "brute_force.h"
 #include "matrices.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove::testing {
 namespace k_best_joint_sequences_test {

@@ -8,6 +8,7 @@
 
 #include "brute_force.h"
 #include "matrices.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove::testing {
 namespace k_best_sequences_test {

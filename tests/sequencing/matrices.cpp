@@ -2,7 +2,6 @@
 #include "matrices.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <numeric>
 
@@ -112,11 +111,6 @@ SequenceClass random_class(int n, Random& random) {
   for (int stop = 0; stop < n; ++stop)
     if (below(3, random) == 0) work.forbidden_next |= StopSet{1} << stop;
   return work;
-}
-
-int fuzz_rounds(int rounds) {
-  const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
-  return factor != nullptr ? rounds * std::max(1, std::atoi(factor)) : rounds;
 }
 
 }  // namespace grove::testing

@@ -35,7 +35,4 @@ inline constexpr const char* kMaps[] = {"empty-32-32", "random-32-32-20", "room-
 // A class of sequences of n stops: a random prefix and a random set forbidden after it.
 SequenceClass random_class(int n, Random& random);
 
-// `rounds` times what the environment variable GROVE_FUZZ_FACTOR says (1 if unset).
-int fuzz_rounds(int rounds);
-
 }  // namespace grove::testing

@@ -6,6 +6,7 @@
 
 #include "brute_force.h"
 #include "matrices.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove::testing {
 namespace rtsp_test {

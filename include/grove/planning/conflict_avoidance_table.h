@@ -53,12 +53,10 @@ class ConflictAvoidanceTable {
   Comers comers(Cell cell, Time time) const {
     Comers comers;
     comers.cell_ = cell;
-    if (!perhaps(cell, time)) return comers;
-    const Counts& counts = counts_[slot(key(cell, time))];
-    if (counts.key == key(cell, time)) comers.moves_ = &counts.moves;
+    if (const Counts* counts = counts_of(cell, time)) comers.moves_ = &counts->moves;
     return comers;
   }
-  // The same for waiting on `cell` from time `first` to time `last`, summed up.
+  // The vertex conflicts of waiting on `cell` from time `first` to time `last`, summed up.
   int conflicts_of_waiting(Cell cell, Time first, Time last) const;
   // How many times a path passes `cell` after `time`, or rests there (which counts once): what
   // resting there from `time` on would run into.
@@ -105,10 +103,15 @@ class ConflictAvoidanceTable {
     while (counts_[at].key != key && is_current(counts_[at].key)) at = (at + 1) & mask_;
     return at;
   }
-  int visits(Cell cell, Time time) const {
-    if (!perhaps(cell, time)) return 0;
+  // Null: no path was there.
+  const Counts* counts_of(Cell cell, Time time) const {
+    if (!perhaps(cell, time)) return nullptr;
     const Counts& counts = counts_[slot(key(cell, time))];
-    return counts.key == key(cell, time) ? counts.visits : 0;
+    return counts.key == key(cell, time) ? &counts : nullptr;
+  }
+  int visits(Cell cell, Time time) const {
+    const Counts* counts = counts_of(cell, time);
+    return counts ? counts->visits : 0;
   }
   // Few cells are visited at a given time: one small array settles most questions. Bits of paths
   // that were removed may stay on for a while.

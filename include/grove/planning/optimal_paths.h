@@ -57,7 +57,7 @@ class OptimalPathsBuilder {
   enum class Outcome : std::uint8_t {
     kBuilt,
     kNone,      // proven: no path costs exactly that
-    kTooLarge,  // it would have more than `most_nodes`, or the agent more ways to look at
+    kTooLarge,  // more than `most_nodes` nodes, or (slot, state) pairs looked at for them
     kStopped,   // a limit struck
   };
 
