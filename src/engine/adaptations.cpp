@@ -75,12 +75,10 @@ class Stage : public RunObserver {
   explicit Stage(Told& told) : told_(told) { told.begin_search(); }
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {
-    told_.incumbent(of_whole(plan), source, progress);
+    told_.incumbent(of_whole(plan), source, of_whole(progress));
   }
   void on_event(RunEvent event, const Progress& progress) override {
-    Progress proven = progress;
-    proven.lower_bound = proven_by(progress.lower_bound);
-    told_.event(event, proven);
+    told_.event(event, of_whole(progress));
   }
   void on_infeasible(std::string_view reason) override { told_.infeasible(reason); }
 
@@ -88,6 +86,11 @@ class Stage : public RunObserver {
   virtual Plan of_whole(const Plan& plan) const { return plan; }
   // What a bound of this search proves of the instance.
   virtual Cost proven_by(Cost bound) const { return bound; }
+
+  Progress of_whole(Progress progress) const {
+    progress.lower_bound = proven_by(progress.lower_bound);
+    return progress;
+  }
 
   Told& told_;
 };

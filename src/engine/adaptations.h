@@ -12,7 +12,8 @@ namespace grove {
 Solution solve_with_destinations(const Instance& instance, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer);
 
-// C: A, and if it does not end in two thirds of the time, B in the rest.
+// C: A, and if that is stopped, B in the rest of the time. A is stopped after two thirds of it, or
+// before for want of memory or, with omega = inf, because its first tree holds no plan.
 Solution solve_with_destinations_last(const Instance& instance, const SolveOptions& options,
                                       const Limits& limits, RunObserver& observer);
 

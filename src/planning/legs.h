@@ -2,7 +2,9 @@
 // From one goal to the next: the lower level of HCBS and MGCBS.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "grove/model/limits.h"
@@ -12,6 +14,10 @@
 #include "safe_intervals.h"
 
 namespace grove {
+
+// As many labels as their numbers can tell apart; who needs more throws std::bad_alloc, as one does
+// who is refused memory.
+inline constexpr std::size_t kMostLabels = std::numeric_limits<std::int32_t>::max();
 
 // What one agent's legs take. Workspace of one thread.
 class Legs {

@@ -5,6 +5,7 @@
 #include "space_time_legs.h"
 
 #include <algorithm>
+#include <new>
 #include <stdexcept>
 
 #include "poll.h"
@@ -47,6 +48,7 @@ std::int32_t SpaceTimeLegs::find(Cell from, Time time, Target target, const Limi
   first_ = std::min(time, settled_);
   const auto rows = static_cast<std::size_t>(settled_ - first_) + 1;
   const std::size_t needed = rows * static_cast<std::size_t>(grid_.cell_count());
+  if (needed > kMostLabels) throw std::bad_alloc();
   if (labels_.size() < needed) labels_.resize(needed);
   queue_.reset(time);
   reach(from, time, kNone, target);

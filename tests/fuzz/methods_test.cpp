@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <random>
 
 #include "grove/engine/destinations.h"
 #include "grove/engine/method.h"
@@ -151,16 +152,20 @@ class Announced : public RunObserver {
   Announced(const Instance& instance, const oracle::Answer& truth)
       : instance_(instance), truth_(truth) {}
 
-  void on_incumbent(const Plan& plan, PlanSource, const Progress&) override {
+  void on_incumbent(const Plan& plan, PlanSource, const Progress& progress) override {
     Solution solution;
     solution.plan = plan;
     solution.status = status_of(plan.cost, 0, Omega::infinite());
     solution.omega = Omega::infinite();
     EXPECT_EQ(false_claims(instance_, truth_, Omega::infinite(), solution, true),
               std::vector<std::string>());
+    EXPECT_LE(progress.lower_bound, truth_.plan->cost);
+    EXPECT_GE(progress.lower_bound, bound_);
+    EXPECT_EQ(progress.incumbent, plan.cost);
     EXPECT_LT(plan.cost, best_);
     best_ = plan.cost;
   }
+  void on_infeasible(std::string_view reason) override { ADD_FAILURE() << reason; }
   void on_event(RunEvent event, const Progress& progress) override {
     EXPECT_FALSE(ended_);
     ended_ = event == RunEvent::kEnd;
@@ -174,6 +179,11 @@ class Announced : public RunObserver {
     }
   }
   bool ended() const { return ended_; }
+  // Is what was announced last what came out?
+  bool is_result(const Solution& solution) const {
+    return solution.lower_bound >= bound_ &&
+           (solution.plan ? solution.plan->cost : kInfiniteCost) == best_;
+  }
 
  private:
   const Instance& instance_;
@@ -191,6 +201,23 @@ struct Adaptation {
 };
 
 class Adaptations : public ::testing::TestWithParam<Adaptation> {};
+
+// B's own bound is 6: a1 must come before a0 rests on their task, or rest there itself.
+Instance worse_with_destinations() {
+  return testing::instance_of({"...."}, {{{0, 0}, std::nullopt, {{0, 0}, {1, 0}}},
+                                         {{3, 0}, std::nullopt, {{1, 0}, {3, 0}}}});
+}
+
+TEST_P(Adaptations, AnnounceNoBoundOfTheirDestinationsAlone) {
+  const Instance instance = worse_with_destinations();
+  const oracle::Answer truth = oracle::solve_jointly(instance);
+  ASSERT_EQ(truth.plan->cost, 4);
+  Announced announced(instance, truth);
+  const auto [solution, stopped] =
+      run(GetParam().method, instance, {}, GetParam().anytime, &announced);
+  EXPECT_EQ(solution.status,
+            GetParam().method == Method::kCtsCbsB ? Status::kFeasible : Status::kOptimal);
+}
 
 TEST_P(Adaptations, ClaimNoMoreThanTheyProve) {
   int plans = 0;
@@ -211,6 +238,7 @@ TEST_P(Adaptations, ClaimNoMoreThanTheyProve) {
     EXPECT_EQ(false_claims(instance, truth, options.omega, solution, true),
               std::vector<std::string>());
     EXPECT_TRUE(announced.ended() || !solution.plan);
+    EXPECT_TRUE(announced.is_result(solution));
     if (solution.status == Status::kOptimal || solution.status == Status::kBounded) {
       EXPECT_EQ(solution.stats.texts.count("remark"), 0u);
     }
@@ -272,6 +300,88 @@ TEST(AdaptationB, IsOptimalForItsDestinations) {
     ++compared;
   }
   EXPECT_GT(compared, 20);
+}
+
+// A crowd that hardly any search comes to an end with in a tenth of a second.
+Instance crowd(unsigned seed) {
+  constexpr int kSide = 8;
+  constexpr int kAgents = 16;
+  std::mt19937 random(seed);
+  std::vector<Position> cells;
+  for (int x = 0; x < kSide; ++x)
+    for (int y = 0; y < kSide; ++y) cells.push_back({x, y});
+  std::ranges::shuffle(cells, random);
+  std::vector<testing::AgentSpec> agents;
+  for (int agent = 0; agent < kAgents; ++agent) agents.push_back({cells[agent], std::nullopt});
+  for (int task = 0; task < 2 * kAgents; ++task)
+    for (int visitor = 0; visitor < 2; ++visitor)
+      agents[(task + visitor * 3) % kAgents].tasks.push_back(cells[kAgents + task]);
+  return testing::instance_of(std::vector<std::string>(kSide, std::string(kSide, '.')), agents);
+}
+
+// The best of what its searches announce.
+class Heard : public RunObserver {
+ public:
+  void on_incumbent(const Plan& plan, PlanSource, const Progress& progress) override {
+    best_ = std::min(best_, plan.cost);
+    hear(progress);
+  }
+  void on_event(RunEvent, const Progress& progress) override { hear(progress); }
+  void on_note(std::string_view note) override { notes_.emplace_back(note); }
+
+  Cost best() const { return best_; }
+  Cost bound() const { return bound_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  void hear(const Progress& progress) {
+    EXPECT_GE(progress.lower_bound, bound_);
+    bound_ = progress.lower_bound;
+  }
+
+  Cost best_ = kInfiniteCost;
+  Cost bound_ = 0;
+  std::vector<std::string> notes_;
+};
+
+TEST(AdaptationC, EndsWithTheBestOfBothSearches) {
+  int of_both = 0;
+  const int seeds = testing::fuzz_rounds(12);
+  for (int seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = crowd(static_cast<unsigned>(seed));
+    SolveOptions options;
+    options.omega = Omega::parse("0");
+    options.policy = seed % 4 < 2 ? Policy::kFixed : Policy::kFree;
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(60 + 20 * (seed % 4)));
+    Heard heard;
+    const Solution solution =
+        solve_by(Method::kCtsCbsC, seed % 2 == 0, instance, options, limits, &heard);
+    EXPECT_EQ(solution.lower_bound, heard.bound());
+    EXPECT_EQ(solution.plan ? solution.plan->cost : kInfiniteCost, heard.best());
+    of_both += heard.notes().size() == 2 ? 1 : 0;
+  }
+  EXPECT_GT(of_both, seeds * 3 / 4);
+}
+
+TEST(AdaptationC, SearchesOnceWhereThatSettlesIt) {
+  const Instance instance = testing::instance_of({"...."}, {{{0, 0}, std::nullopt, {{3, 0}}}});
+  for (const bool anytime : {false, true}) {
+    Heard heard;
+    const Solution solution = solve_by(Method::kCtsCbsC, anytime, instance, {}, Limits(), &heard);
+    EXPECT_EQ(solution.status, Status::kOptimal);
+    EXPECT_EQ(heard.notes().size(), 1u);
+  }
+}
+
+TEST(Method, HasTheLowLevelOfItsName) {
+  EXPECT_EQ(options_of(Method::kOptimalCbs, {}).low_level, LowLevel::kVisitedSets);
+  EXPECT_EQ(options_of(Method::kHcbs, {}).low_level, LowLevel::kSingleLegs);
+  EXPECT_EQ(options_of(Method::kMgcbs, {}).low_level, LowLevel::kTimeIntervalForest);
+  for (Method method :
+       {Method::kAuto, Method::kCtsCbsA, Method::kCtsCbsB, Method::kCtsCbsC, Method::kSCbs})
+    EXPECT_EQ(options_of(method, {}).low_level, LowLevel::kOwn);
 }
 
 TEST(Method, NamesAreReadBack) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <random>
 #include <stdexcept>
 
@@ -77,6 +78,43 @@ TEST_P(Baselines, SayNothingWhenStopped) {
   EXPECT_EQ(
       make_baseline_search(GetParam(), instance.grid())->find(0, stops, {}, kNever, limits, path_),
       Outcome::kStopped);
+}
+
+// A limit that strikes on the way proves nothing.
+TEST_P(Baselines, SayNothingWhenStoppedOnTheWay) {
+  using std::chrono::nanoseconds;
+  const Instance instance =
+      instance_of(std::vector<std::string>(16, std::string(16, '.')),
+                  {{{0, 0}, Position{15, 15}, {{15, 0}, {0, 15}, {8, 7}, {12, 3}}}});
+  const std::vector<Constraint> constraints = {{15 * 16 + 15, kNoCell, 50, 75}};
+  const Time truth = cost(instance, constraints);
+  const DistanceFields distances(instance);
+  const AgentStops stops(instance, distances, 0);
+  const auto search = make_baseline_search(GetParam(), instance.grid());
+  const auto start = Limits::Clock::now();
+  search->find(0, stops, constraints, kNever, Limits(), path_);
+  const nanoseconds whole = Limits::Clock::now() - start;
+  int stopped = 0;
+  constexpr int kRuns = 60;
+  for (int run = 0; run < kRuns; ++run) {
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() + whole * run / kRuns);
+    const Outcome outcome = search->find(0, stops, constraints, kNever, limits, path_);
+    if (outcome == Outcome::kStopped) {
+      ++stopped;
+    } else {
+      ASSERT_EQ(outcome, Outcome::kFound);
+      ASSERT_EQ(static_cast<Time>(path_.size()) - 1, truth);
+    }
+  }
+  EXPECT_GT(stopped, 0);
+}
+
+// From the last constraint on all times are one: of those the least counts.
+TEST_P(Baselines, KeepTheEarliestOfTheTimesThatAreOne) {
+  const Instance instance = instance_of({".....", ".....", "....."},
+                                        {{{3, 2}, Position{3, 1}, {{0, 1}, {3, 1}, {0, 0}}}});
+  EXPECT_EQ(cost(instance, {{0, kNoCell, 5, 8}, {8, 7, 9, kNever}, {5, 10, 7, kNever}}), 13);
 }
 
 // Many goals on a larger map, under constraints on the path time and again.

@@ -327,6 +327,22 @@ TEST_F(Incumbents, AreFilesThatTheCheckerAccepts) {
   EXPECT_EQ(plan(fmt::format("best-{}.plan.json", k - 1))["cost"], plan("p.json")["cost"]);
 }
 
+// What B proves of the ends it chose it does not prove of the instance: 4 is the optimum.
+TEST_F(Incumbents, OfBClaimNoMoreThanHoldsForTheInstance) {
+  directory_.write("line.map", "type octile\nheight 1\nwidth 4\nmap\n....\n");
+  directory_.write("line.json", R"({"map": "line.map", "agents": [
+    {"id": "a", "start": [0, 0]}, {"id": "b", "start": [3, 0]}], "tasks": [
+    {"id": "t", "cell": [0, 0], "agents": ["a"]}, {"id": "u", "cell": [1, 0], "agents": ["a", "b"]},
+    {"id": "v", "cell": [3, 0], "agents": ["b"]}]})");
+  ASSERT_EQ(solve({"line.json", "--omega", "0", "--output", "best.json"}).exit_code, 0);
+  EXPECT_EQ(plan("best.json")["cost"], 4);
+  const ProcessResult solved = solve({"line.json", "--omega", "0", "--method", "cts-cbs-b",
+                                      "--incumbents", "b", "--output", "b.json"});
+  EXPECT_EQ(plan("b.json")["status"], "feasible") << solved.err;
+  EXPECT_EQ(plan("b-1.plan.json")["status"], "feasible");
+  EXPECT_LE(plan("b-1.plan.json")["lower_bound"], 4);
+}
+
 TEST_F(Incumbents, AreMarkedInTheLogByWhereTheyCameFrom) {
   const ProcessResult solved = solve({"doors.json", "--omega", "0", "--threads", "1",
                                       "--time-limit", "0.5", "--output", "p.json"});

@@ -44,7 +44,7 @@ class BaselineSearch {
   // `constraints`, bars all of them (also while resting at the end), if that cost is at most
   // `cutoff`. The path ends when the agent comes to rest: its cost is path.size() - 1. Writes
   // `path` only on kFound. `stops` are those of `agent`, the same at every call. Throws
-  // std::invalid_argument for a constraint that is no bar.
+  // std::invalid_argument for a constraint that is no bar, std::bad_alloc for want of memory.
   Outcome find(AgentIndex agent, const AgentStops& stops, std::span<const Constraint> constraints,
                Time cutoff, const Limits& limits, Path& path);
 

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Destinations for agents with more tasks than a table of completions holds, so that the costs of
+// their ends are learnt bit by bit: against Held-Karp and every choice. (Fewer tasks:
+// tests/fuzz/methods_test.cpp.)
+#include "grove/engine/destinations.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "grove/model/distance_field.h"
+#include "src/sequencing/rtsp_backends.h"
+#include "tests/support/fuzz_factor.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace destinations_test {
+
+constexpr int kTasks = 15;
+constexpr int kFirstSeed = 230;  // 233: the best choice needs an end that the first look misses
+
+// Of the agent's best sequences, by the task that they end on.
+std::vector<Cost> costs_of_ends(const Instance& instance, AgentIndex agent) {
+  std::vector<std::vector<Time>> distances;
+  std::vector<Cell> cells;
+  for (TaskIndex task : instance.agent(agent).tasks) {
+    cells.push_back(instance.task(task).cell);
+    distances.push_back(distance_field(instance.grid(), cells.back()));
+  }
+  const std::size_t n = cells.size();
+  std::vector<Cost> least(n << n, kInfiniteCost);  // by the set visited, then the last
+  for (std::size_t i = 0; i < n; ++i)
+    least[(std::size_t{1} << i) * n + i] = distances[i][instance.agent(agent).start];
+  for (std::size_t set = 1; set < std::size_t{1} << n; ++set)
+    for (std::size_t last = 0; last < n; ++last)
+      for (std::size_t next = 0; next < n && least[set * n + last] < kInfiniteCost; ++next)
+        if ((set >> next & 1) == 0) {
+          Cost& there = least[(set | std::size_t{1} << next) * n + next];
+          there = std::min(there, least[set * n + last] + distances[last][cells[next]]);
+        }
+  return {least.end() - static_cast<std::ptrdiff_t>(n), least.end()};
+}
+
+// Two agents that share most of their tasks.
+Instance pair_of_agents(unsigned seed) {
+  std::mt19937 random(seed);
+  const int side = 7 + static_cast<int>(seed % 6);
+  std::vector<std::string> rows(side, std::string(side, '.'));
+  std::vector<Position> cells;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      if (y % 2 == 1 && x > 0 && random() % 3 == 0)
+        rows[y][x] = '@';
+      else
+        cells.push_back({x, y});
+  std::ranges::shuffle(cells, random);
+  std::vector<testing::AgentSpec> agents(2);
+  for (int agent = 0; agent < 2; ++agent) {
+    agents[agent].start = cells[agent];
+    const int own = static_cast<int>(seed % 4);
+    for (int task = 0; task < kTasks; ++task)
+      agents[agent].tasks.push_back(cells[2 + task + (task < own ? agent * kTasks : 0)]);
+  }
+  return testing::instance_of(rows, agents);
+}
+
+TEST(Destinations, OfManyTasksAreTheCheapestDistinctOnes) {
+  static_assert(kTasks > kTableStops);
+  const int end = kFirstSeed + testing::fuzz_rounds(8);
+  for (int seed = kFirstSeed; seed < end; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = pair_of_agents(static_cast<unsigned>(seed));
+    const Problem problem(instance, Limits());
+    const auto chosen = choose_destinations(problem, Limits());
+    ASSERT_TRUE(chosen);
+    const std::vector<Cost> ends[] = {costs_of_ends(instance, 0), costs_of_ends(instance, 1)};
+    const auto charged = [&](AgentIndex agent, int stop) {
+      const TaskIndex task = instance.agent(agent).tasks[stop];
+      return ends[agent][stop] + kStepsPerVisitor * (std::ssize(instance.task(task).agents) - 1);
+    };
+    Cost best = kInfiniteCost;
+    Cost cost = kInfiniteCost;  // of the choice
+    for (int i = 0; i < kTasks; ++i)
+      for (int j = 0; j < kTasks; ++j) {
+        const TaskIndex tasks[] = {instance.agent(0).tasks[i], instance.agent(1).tasks[j]};
+        if (tasks[0] == tasks[1]) continue;
+        best = std::min(best, charged(0, i) + charged(1, j));
+        if (std::ranges::equal(tasks, chosen->tasks)) cost = charged(0, i) + charged(1, j);
+      }
+    EXPECT_EQ(cost, best);
+    EXPECT_EQ(chosen->bound, std::ranges::min(ends[0]) + std::ranges::min(ends[1]));
+  }
+}
+
+}  // namespace destinations_test
+}  // namespace grove
