@@ -8,8 +8,8 @@
 
 namespace grove::testing {
 
-// `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument if that is no integer
-// of at least 1.
+// `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument or std::out_of_range
+// if that is no int of at least 1.
 inline int fuzz_rounds(int rounds) {
   const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
   if (factor == nullptr) return rounds;
