@@ -2,22 +2,26 @@
 // One switch for longer fuzzing: the environment variable GROVE_FUZZ_FACTOR.
 #pragma once
 
+#include <charconv>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 namespace grove::testing {
 
-// `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument or std::out_of_range
-// if that is no int of at least 1.
+// `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument if that is no int of
+// at least 1.
 inline int fuzz_rounds(int rounds) {
   const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
   if (factor == nullptr) return rounds;
-  std::size_t read = 0;
-  const std::string text = factor;
-  const int times = std::stoi(text, &read);
-  if (read != text.size() || times < 1)
-    throw std::invalid_argument("GROVE_FUZZ_FACTOR: found '" + text + "'; expected at least 1");
+  const std::string_view text = factor;
+  int times = 0;
+  const auto [end, error] = std::from_chars(text.begin(), text.end(), times);
+  if (error != std::errc() || end != text.end() || times < 1)
+    throw std::invalid_argument("GROVE_FUZZ_FACTOR: found '" + std::string(text) +
+                                "'; expected an integer of at least 1");
   return rounds * times;
 }
 
