@@ -1,4 +1,10 @@
 # SPDX-License-Identifier: MIT
+# Assertions in debug and sanitizer builds and wherever audits are
+# asked for. For all targets alike: headers hold some.
+add_compile_definitions(
+  $<$<OR:$<CONFIG:Debug>,$<BOOL:${GROVE_AUDIT}>>:GROVE_ASSERTIONS=1>
+  $<$<BOOL:${GROVE_AUDIT}>:GROVE_AUDIT=1>)
+
 add_library(grove_options INTERFACE)
 target_compile_options(grove_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
