@@ -2,8 +2,8 @@
 // The program: subcommands, and what becomes of their failures.
 #include <CLI/CLI.hpp>
 
-#include "commands.h"
-#include "program.h"
+#include "tools/common/commands.h"
+#include "tools/common/program.h"
 
 namespace grove {
 namespace {

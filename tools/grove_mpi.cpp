@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
-#include "commands.h"
 #include "mpi/mpi_session.h"
-#include "mpi_commands.h"
-#include "program.h"
-#include "signals.h"
-#include "together.h"
+#include "tools/common/commands.h"
+#include "tools/common/program.h"
+#include "tools/common/signals.h"
+#include "tools/mpi/mpi_commands.h"
+#include "tools/mpi/together.h"
 
 namespace grove {
 namespace {

@@ -9,19 +9,19 @@
 #include <string>
 #include <vector>
 
-#include "commands.h"
 #include "grove/engine/run_observer.h"
 #include "grove/io/atomic_file.h"
 #include "grove/io/input_error.h"
 #include "grove/primal/primal_search.h"
 #include "mpi/simulator/scaling_table.h"
 #include "mpi/simulator/simulation.h"
-#include "options.h"
-#include "program.h"
-#include "signals.h"
-#include "solve_arguments.h"
-#include "standard_error.h"
-#include "start_plan.h"
+#include "tools/common/commands.h"
+#include "tools/common/options.h"
+#include "tools/common/program.h"
+#include "tools/common/signals.h"
+#include "tools/common/standard_error.h"
+#include "tools/solve/solve_arguments.h"
+#include "tools/solve/start_plan.h"
 
 namespace grove {
 namespace {
@@ -132,7 +132,9 @@ double seconds_since(Clock::time_point start) {
 class Study {
  public:
   explicit Study(SimArguments& arguments)
-      : a_(arguments), options_(options_of_one_search(a_.solve)), loaded_(a_.solve.instance.load()) {
+      : a_(arguments),
+        options_(options_of_one_search(a_.solve)),
+        loaded_(a_.solve.instance.load()) {
     for (const auto& file : {a_.solve.output, a_.profile}) {
       if (file.empty()) continue;
       require_distinct_files(file, a_.solve.instance.path(), "the instance");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "components.h"
+#include "tools/generate/components.h"
 
 #include <algorithm>
 

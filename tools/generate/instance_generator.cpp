@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "instance_generator.h"
+#include "tools/generate/instance_generator.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "components.h"
 #include "grove/io/input_error.h"
-#include "random.h"
+#include "tools/generate/components.h"
+#include "tools/generate/random.h"
 
 namespace grove {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "map_generator.h"
+#include "tools/generate/map_generator.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "components.h"
-#include "random.h"
+#include "tools/generate/components.h"
+#include "tools/generate/random.h"
 
 namespace grove {
 namespace {

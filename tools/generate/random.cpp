@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "random.h"
+#include "tools/generate/random.h"
 
 namespace grove {
 namespace {

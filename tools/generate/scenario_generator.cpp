@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scenario_generator.h"
+#include "tools/generate/scenario_generator.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "components.h"
 #include "grove/io/input_error.h"
 #include "grove/model/distance_field.h"
-#include "random.h"
+#include "tools/generate/components.h"
+#include "tools/generate/random.h"
 
 namespace grove {
 

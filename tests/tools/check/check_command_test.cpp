@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_directory.h"
+#include "tests/tools/program.h"
+
+namespace grove {
+namespace check_command_test {
+
+// . . .   a goes from (0, 0) to (2, 0), b from (2, 1) by task t (1, 1) to (0, 1).
+// . . .
+class CheckCommand : public ::testing::Test {
+ protected:
+  CheckCommand() {
+    directory_.write("m.map", "type octile\nheight 2\nwidth 3\nmap\n...\n...\n");
+    directory_.write("m.scen",
+                     "version 1\n0\tm.map\t3\t2\t0\t0\t2\t0\t2\n0\tm.map\t3\t2\t2\t1\t0\t1\t2\n");
+    directory_.write("i.json",
+                     R"({"map": "m.map", "agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]},
+      {"id": "b", "start": [2, 1], "goal": [0, 1]}], "tasks": [{"id": "t", "cell": [1, 1], "agents": ["b"]}]})");
+  }
+
+  // A plan whose claims and agents are given as JSON.
+  ProcessResult check(const std::string& claims, const std::string& agents) const {
+    directory_.write("p.json", "{" + claims + ", \"agents\": [" + agents + "]}");
+    return run_grove({"check", directory_ / "i.json", directory_ / "p.json"});
+  }
+  // What is said on stderr, without the folder.
+  std::string said(const ProcessResult& result) const {
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.out, "");
+    const std::string folder = directory_.path().string() + "/";
+    std::string text = result.err;
+    for (auto at = text.find(folder); at != std::string::npos; at = text.find(folder))
+      text.erase(at, folder.size());
+    return text;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+const std::string kClaims = R"("status": "bounded", "cost": 4, "lower_bound": 3, "omega": 0.5)";
+const std::string kAgentA =
+    R"({"id": "a", "sequence": [], "cost": 2, "path": [[0,0],[1,0],[2,0]]})";
+const std::string kAgentB =
+    R"({"id": "b", "sequence": ["t"], "cost": 2, "path": [[2,1],[1,1],[0,1]]})";
+
+TEST_F(CheckCommand, AcceptsAValidPlan) {
+  const ProcessResult result = check(kClaims, kAgentA + ", " + kAgentB);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "valid: cost 4, lower bound 3, gap 33.33 %, 2 agents\n");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(CheckCommand, AcceptsAPlanForAScenario) {
+  directory_.write("p.json",
+                   R"({"status": "optimal", "cost": 4, "lower_bound": 4, "omega": "inf", "agents": [
+    {"id": "a0", "sequence": [], "cost": 2, "path": [[0,0],[1,0],[2,0]]},
+    {"id": "a1", "sequence": [], "cost": 2, "path": [[2,1],[1,1],[0,1]]}]})");
+  const ProcessResult result =
+      run_grove({"check", directory_ / "m.scen", "--map", directory_ / "m.map", "--agents", "2",
+                 directory_ / "p.json"});
+  EXPECT_EQ(result.out, "valid: cost 4, lower bound 4, gap 0.00 %, 2 agents\n") << result.err;
+}
+
+TEST_F(CheckCommand, NamesEveryViolationOnALineOfItsOwn) {
+  const std::string collides =
+      R"({"id": "b", "sequence": [], "cost": 3, "path": [[2,1],[1,1],[1,0],[0,1]]})";
+  EXPECT_EQ(said(check(kClaims, kAgentA + ", " + collides)),
+            "p.json: /agents/1/path/3: agent 'b' jumps from [1, 0] to [0, 1]; expected a wait or a "
+            "move to one of 4 neighbors\n"
+            "p.json: /agents/1/sequence: expected every task of agent 'b' exactly once\n"
+            "p.json: /cost: the agents' costs add up to 5, but the plan says 4\n"
+            "p.json: /status: found 'bounded'; expected 'feasible' with cost 5, lower bound 3 and "
+            "omega 0.5\n");
+}
+
+TEST_F(CheckCommand, RejectsEmptyAndPartialPlans) {
+  EXPECT_EQ(said(check(kClaims, kAgentA)),
+            "p.json: /agents/1: agent 'b' has no path; expected one for every agent\n");
+  EXPECT_EQ(said(check(R"("status": "optimal", "cost": 0, "lower_bound": 0, "omega": 0)", "")),
+            "p.json: /agents/0: agent 'a' has no path; expected one for every agent\n"
+            "p.json: /agents/1: agent 'b' has no path; expected one for every agent\n");
+  directory_.write("p.json", R"({"status": "unknown", "lower_bound": 3, "omega": 0})");
+  EXPECT_EQ(said(run_grove({"check", directory_ / "i.json", directory_ / "p.json"})),
+            "p.json: /status: there is no plan ('unknown'); expected a path for every agent\n");
+}
+
+TEST_F(CheckCommand, RefusesAPlanForAnotherInstance) {
+  EXPECT_EQ(said(check(kClaims, R"({"id": "z", "sequence": [], "cost": 0, "path": []})")),
+            "grove: error: p.json: /agents/0/id: there is no agent 'z' in the instance\n");
+}
+
+TEST_F(CheckCommand, PrintsWarnings) {
+  const ProcessResult result = check(kClaims + ", \"note\": 1", kAgentA + ", " + kAgentB);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err,
+            "grove: warning: " + (directory_ / "p.json") + ": /: unknown key 'note' is ignored\n");
+}
+
+}  // namespace check_command_test
+}  // namespace grove

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "grove/io/instance_file.h"
+#include "tests/support/temporary_directory.h"
+#include "tests/tools/program.h"
+
+namespace grove {
+namespace generate_command_test {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+// Runs the arguments, written as one string, in `directory`.
+ProcessResult generate(const TemporaryDirectory& directory, const std::string& arguments) {
+  ProcessOptions options;
+  options.directory = directory.path().string();
+  std::vector<std::string> words = words_of("generate " + arguments);
+  return run_grove(std::move(words), options);
+}
+
+TEST(ShippedData, IsWhatTheCommandsInItsReadmeMake) {
+  const TemporaryDirectory directory;
+  const fs::path data = GROVE_DATA;
+  const std::string command_start = "    grove generate ";
+  for (const std::string& line : lines_of(file_content(data / "README.md"))) {
+    if (!line.starts_with(command_start)) continue;
+    const ProcessResult result = generate(directory, line.substr(command_start.size()));
+    ASSERT_EQ(result.exit_code, 0) << line << "\n" << result.err;
+  }
+  EXPECT_GE(directory.files().size(), 12U);
+  for (const std::string& name : directory.files())
+    EXPECT_EQ(file_content(directory / name), file_content(data / name)) << name;
+}
+
+TEST(ShippedData, HoldsNothingThatTheReadmeDoesNotName) {
+  const std::string readme = file_content(fs::path(GROVE_DATA) / "README.md");
+  for (const auto& entry : fs::directory_iterator(GROVE_DATA))
+    EXPECT_NE((readme + "README.md").find(entry.path().filename().string()), std::string::npos)
+        << entry.path();
+}
+
+TEST(ShippedData, CanBeReadWithoutAWarning) {
+  int instances = 0;
+  for (const auto& entry : fs::directory_iterator(GROVE_DATA)) {
+    if (!entry.path().string().ends_with(".cts.json")) continue;
+    EXPECT_TRUE(read_instance(entry.path()).warnings.empty()) << entry.path();
+    ++instances;
+  }
+  EXPECT_GE(instances, 5);
+}
+
+TEST(GenerateCommand, MakesAnInstanceFromAMapAlone) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(generate(directory, "map random --seed 3 -o my.map").out,
+            "wrote my.map: 32 x 32 cells, 819 passable\n");
+  EXPECT_EQ(
+      generate(directory, "instance --map my.map --agents 5 --tasks 10 --mg -o my.cts.json").out,
+      "wrote my.cts.json: 5 agents, 15 tasks\n");
+  EXPECT_EQ(read_instance(directory / "my.cts.json").instance.agent_count(), 5);
+}
+
+TEST(GenerateCommand, StoresTheMapRelativeToTheInstance) {
+  const TemporaryDirectory directory;
+  fs::create_directories(directory / "maps");
+  fs::create_directories(directory / "sets/a");
+  generate(directory, "map empty -o maps/my.map");
+  generate(directory, "instance --map maps/my.map --agents 1 --tasks 1 -o sets/a/my.cts.json");
+  EXPECT_NE(file_content(directory / "sets/a/my.cts.json").find("\"map\": \"../../maps/my.map\""),
+            std::string::npos);
+  EXPECT_EQ(read_instance(directory / "sets/a/my.cts.json").instance.agent_count(), 1);
+}
+
+TEST(GenerateCommand, MakesADatasetWithItsManifest) {
+  const TemporaryDirectory directory;
+  generate(directory, "map rooms --seed 1 -o my.map");
+  generate(directory, "scenario --map my.map --rows 60 --seed 1 -o my-random-1.scen");
+  generate(directory, "scenario --map my.map --rows 60 --seed 7 -o my-random-7.scen");
+  const ProcessResult result =
+      generate(directory,
+               "dataset --map my.map --scen my-random-7.scen my-random-1.scen --agents 5,10 "
+               "--tasks 10,20,30 --seed 2 --output-dir out/set");
+  EXPECT_EQ(result.out, "wrote out/set/manifest.txt: 12 instances\n") << result.err;
+  const auto names = lines_of(file_content(directory / "out/set/manifest.txt"));
+  ASSERT_EQ(names.size(), 12U);
+  EXPECT_EQ(names[0], "my_s7_n5_m10.cts.json");
+  EXPECT_EQ(names[11], "my_s1_n10_m30.cts.json");
+  for (const std::string& name : names)
+    EXPECT_GT(read_instance(directory.path() / "out/set" / name).instance.task_count(), 0);
+
+  fs::create_directories(directory / "a/b");
+  generate(directory,
+           "instance --map my.map --scen my-random-1.scen --agents 10 --tasks 30 --seed 2 -o "
+           "a/b/one.cts.json");
+  EXPECT_EQ(file_content(directory / "a/b/one.cts.json"),
+            file_content(directory / "out/set/my_s1_n10_m30.cts.json"));
+}
+
+TEST(GenerateCommand, DrawsScenariosForADatasetFromAMapAlone) {
+  const TemporaryDirectory directory;
+  generate(directory, "map empty -o my.map");
+  EXPECT_EQ(generate(directory,
+                     "dataset --map my.map --scenarios 2 --agents 5 --tasks 10 --mg --output-dir .")
+                .exit_code,
+            0);
+  EXPECT_EQ(file_content(directory / "manifest.txt"),
+            "my_s1_n5_m10_mg.cts.json\nmy_s2_n5_m10_mg.cts.json\n");
+  EXPECT_NE(file_content(directory / "my_s1_n5_m10_mg.cts.json"),
+            file_content(directory / "my_s2_n5_m10_mg.cts.json"));
+}
+
+TEST(GeneratePaper, MakesOneSetOfThreeMapsAndBothProblems) {
+  const TemporaryDirectory directory;
+  const ProcessResult result = generate(
+      directory, "paper --scenarios 1-2,4 --agents 5,10 --tasks 10,30 --output-dir out/paper");
+  EXPECT_EQ(result.out, "wrote out/paper/manifest.txt: 72 instances\n") << result.err;
+  const auto names = lines_of(file_content(directory / "out/paper/manifest.txt"));
+  ASSERT_EQ(names.size(), 72U);
+  EXPECT_EQ(std::set(names.begin(), names.end()).size(), 72U);
+  EXPECT_EQ(names[0], "empty-32x32_s1_n5_m10.cts.json");
+  EXPECT_EQ(names[1], "empty-32x32_s1_n5_m10_mg.cts.json");
+  EXPECT_EQ(names[71], "rooms-32x32_s4_n10_m30_mg.cts.json");
+  for (const std::string& name : names) {
+    const Instance instance = read_instance(directory.path() / "out/paper" / name).instance;
+    EXPECT_EQ(instance.agent(0).goal.has_value(), !name.ends_with("_mg.cts.json"));
+  }
+  EXPECT_EQ(lines_of(file_content(directory / "out/paper/manifest-cts.txt")).size(), 36U);
+  const auto mg = lines_of(file_content(directory / "out/paper/manifest-mg.txt"));
+  EXPECT_EQ(mg.size(), 36U);
+  for (const std::string& name : mg) EXPECT_TRUE(name.ends_with("_mg.cts.json")) << name;
+  // Maps and instances are those of the data that comes with Grove.
+  const fs::path data = GROVE_DATA;
+  for (const char* map : {"empty-32x32.map", "random-32x32-20.map", "rooms-32x32.map"})
+    EXPECT_EQ(file_content(directory.path() / "out/paper" / map), file_content(data / map)) << map;
+  for (const char* map : {"empty-32x32", "rooms-32x32"})
+    EXPECT_EQ(
+        file_content(directory.path() / "out/paper" / (map + std::string("_s1_n5_m10.cts.json"))),
+        file_content(data / (map + std::string("_n5_m10.cts.json"))));
+}
+
+TEST(GeneratePaper, TakesScenariosOfBothKindsFromMovingAi) {
+  const TemporaryDirectory directory;
+  fs::create_directories(directory / "ai");
+  generate(directory, "map empty -o ai/m-1.map");
+  generate(directory, "scenario --map ai/m-1.map --rows 40 --seed 1 -o ai/m-1-random-3.scen");
+  generate(directory, "scenario --map ai/m-1.map --rows 40 --seed 2 -o ai/m-1-even-2.scen");
+  const std::string start = "paper --movingai ai --maps m-1 --agents 5 --tasks 10 --seed 2 ";
+  ASSERT_EQ(generate(directory, start + "--scenarios 3,27 --problem cts --output-dir out").out,
+            "wrote out/manifest.txt: 2 instances\n");
+  for (const char* one : {"random-3.scen --seed 5 -o s3", "even-2.scen --seed 29 -o s27"}) {
+    const std::string made = std::string(one).substr(std::string(one).rfind(' ') + 1);
+    generate(directory,
+             "instance --map ai/m-1.map --agents 5 --tasks 10 --scen ai/m-1-" + std::string(one));
+    const std::string text = file_content(directory / ("out/m-1_" + made + "_n5_m10.cts.json"));
+    const std::string map = "\"../ai/m-1.map\"";
+    ASSERT_NE(text.find(map), std::string::npos);
+    EXPECT_EQ(std::string(text).replace(text.find(map), map.size(), "\"ai/m-1.map\""),
+              file_content(directory / made));
+  }
+  const auto said = [&](const std::string& more) {
+    return complaint(generate(directory, start + more + " --output-dir no"));
+  };
+  EXPECT_EQ(said("--scenarios 3-4"),
+            "ai/m-1-random-4.scen: is not there; expected it, or --scenarios 3");
+  EXPECT_EQ(said("--scenarios 26"), "ai/m-1-even-1.scen: is not there; expected it");
+  generate(directory, "scenario --map ai/m-1.map --rows 40 --seed 3 -o ai/m-1-random-2.scen");
+  EXPECT_EQ(said("--scenarios 1-27"),
+            "ai/m-1-random-1.scen: is not there; expected it, or --scenarios 2-3,27");
+  EXPECT_TRUE(said("--scenarios 51").starts_with("--scenarios: expected at most 50"));
+  EXPECT_TRUE(said("--maps m-1").starts_with("--maps: expected 'm-1' once"));
+  EXPECT_FALSE(fs::exists(directory / "no"));
+}
+
+TEST(GeneratePaper, RefusesWhatMakesNoSense) {
+  const TemporaryDirectory directory;
+  const auto said = [&](const std::string& more) {
+    return complaint(generate(directory, "paper --output-dir out " + more));
+  };
+  const std::string hint = " (see 'grove generate paper --help')";
+  EXPECT_EQ(said("--maps a"), "--maps: expected only with --movingai" + hint);
+  EXPECT_EQ(said("--problem x"), "--problem: found 'x'; expected one of both, cts, mg" + hint);
+  EXPECT_EQ(said("--scenarios 3-1"),
+            "--scenarios: found '3-1'; expected the smaller number first" + hint);
+  EXPECT_EQ(said("--scenarios 1-3,2"),
+            "--scenarios: found '1-3,2'; expected distinct integers" + hint);
+  EXPECT_EQ(said("--scenarios 0-3"),
+            "--scenarios: found '0'; expected an integer from 1 to 10000" + hint);
+  EXPECT_EQ(said("--scenarios 1-"),
+            "--scenarios: found ''; expected an integer from 1 to 10000" + hint);
+  EXPECT_FALSE(fs::exists(directory / "out"));
+}
+
+TEST(GenerateCommand, RefusesCountsThatDoNotFitAndLeavesNothing) {
+  const TemporaryDirectory directory;
+  generate(directory, "map empty --width 10 --height 10 -o my.map");
+  generate(directory, "scenario --map my.map --rows 40 -o my.scen");
+  const auto said = [&](const std::string& arguments) {
+    return complaint(generate(directory, arguments));
+  };
+  EXPECT_EQ(
+      said("scenario --map my.map --rows 101 -o x"),
+      "my.map: has 100 connected passable cells; expected at least 101 for 101 scenario rows");
+  EXPECT_EQ(said("instance --map my.map --scen my.scen --agents 5 --tasks 21 -o x"),
+            "my.scen: has 40 rows, enough for 20 of 21 tasks; they are taken from row 21 on");
+  EXPECT_EQ(
+      said("instance --map my.map --agents 50 --tasks 51 -o x"),
+      "my.map: has 100 connected passable cells; expected at least 101 for 101 scenario rows");
+  EXPECT_EQ(said("instance --map my.map --agents 1 --tasks 70 -o x"),
+            "my.map: 70 tasks for 1 agents do not fit: agent 'a0' has more than 64 tasks; expected "
+            "at most 64");
+  EXPECT_EQ(said("dataset --map my.map --scen my.scen --agents 5 --tasks 10,30 --output-dir set")
+                .substr(0, 21),
+            "my.scen: has 40 rows,");
+  EXPECT_EQ(directory.files(), (std::vector<std::string>{"my.map", "my.scen"}));
+}
+
+TEST(GenerateCommand, RefusesAScenarioForAnotherMap) {
+  const TemporaryDirectory directory;
+  generate(directory, "map empty -o a.map");
+  generate(directory, "map empty -o b.map");
+  generate(directory, "scenario --map a.map --rows 30 -o a.scen");
+  EXPECT_EQ(complaint(generate(directory,
+                               "instance --map b.map --scen a.scen --agents 1 --tasks 1 -o x")),
+            "a.scen: line 2: the row is for map 'a.map'; expected 'b.map'");
+}
+
+TEST(GenerateCommand, RefusesOutputsThatCannotBeWritten) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(complaint(generate(directory, "map empty -o none/my.map")),
+            "none/my.map: cannot be written: No such file or directory");
+  EXPECT_EQ(complaint(generate(directory, "map empty -o .")),
+            ".: cannot be written: is a directory; expected a file name");
+  EXPECT_EQ(complaint(generate(directory, "map empty -o /dev/full")),
+            "/dev/full: cannot be written: No space left on device");
+  directory.write("file", "");
+  generate(directory, "map empty -o my.map");
+  EXPECT_TRUE(
+      complaint(generate(directory, "dataset --map my.map --agents 1 --tasks 1 --output-dir file"))
+          .starts_with("file: "));
+}
+
+}  // namespace generate_command_test
+}  // namespace grove

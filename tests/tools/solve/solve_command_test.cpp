@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "grove/model/omega.h"
+#include "tests/support/temporary_directory.h"
+#include "tests/tools/program.h"
+
+namespace grove {
+namespace solve_command_test {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+std::string data(const std::string& name) {
+  return std::string(GROVE_DATA) + "/" + name;
+}
+
+// Six agents in a room with too little space to get past each other: unsolvable in a way that
+// nothing sees beforehand, so a run ends only at a limit.
+constexpr const char* kPuzzleMap = "type octile\nheight 2\nwidth 4\nmap\n....\n@.@@\n";
+constexpr const char* kPuzzle = R"({"map": "puzzle.map", "agents": [
+  {"id": "a", "start": [0, 0], "goal": [3, 0]}, {"id": "b", "start": [1, 0], "goal": [1, 1]},
+  {"id": "c", "start": [2, 0], "goal": [0, 0]}, {"id": "d", "start": [3, 0], "goal": [2, 0]}], "tasks": []})";
+
+class SolveCommand : public ::testing::Test {
+ protected:
+  SolveCommand() {
+    directory_.write("puzzle.map", kPuzzleMap);
+    directory_.write("puzzle.json", kPuzzle);
+    options_.directory = directory_.path().string();
+  }
+
+  ProcessResult solve(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "solve");
+    return run_grove(arguments, options_);
+  }
+  json plan(const std::string& name) const {
+    std::ifstream file(directory_ / name);
+    return json::parse(file);
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(directory_ / name); }
+
+  TemporaryDirectory directory_;
+  ProcessOptions options_;
+};
+
+TEST_F(SolveCommand, WritesAPlanThatTheCheckerAccepts) {
+  for (const char* name : {"first", "empty-32x32_n5_m10", "random-32x32-20_n5_m10_mg"}) {
+    const std::string instance = data(std::string(name) + ".cts.json");
+    const ProcessResult solved = solve({instance, "--omega", "0"});
+    ASSERT_EQ(solved.exit_code, 0) << solved.err;
+    const std::string file = std::string(name) + ".plan.json";
+    EXPECT_EQ(plan(file)["status"], "optimal");
+    EXPECT_EQ(plan(file)["cost"], plan(file)["lower_bound"]);
+    const ProcessResult checked = run_grove({"check", instance, directory_ / file});
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  }
+}
+
+TEST_F(SolveCommand, SolvesTheFirstRowsOfAScenario) {
+  const ProcessResult solved = solve({data("empty-32x32.scen"), "--map", data("empty-32x32.map"),
+                                      "--agents", "10", "--output", "p.json"});
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_EQ(plan("p.json")["agents"].size(), 10u);
+}
+
+TEST_F(SolveCommand, LogsHeadTableAndSummary) {
+  const ProcessResult solved = solve({data("first.cts.json"), "--log", "run.log", "--seed", "4"});
+  EXPECT_EQ(solved.err, "");
+  for (const char* part :
+       {"grove 0.", "2 agents, 3 tasks", "9 x 5, 41 passable cells", "--seed 4",
+        "gap = (incumbent - lower bound) / lower bound", "lower bound     incumbent",
+        "Status        optimal", "Cost          33", "Plan file     first.plan.json"})
+    EXPECT_THAT(solved.out, HasSubstr(part));
+  std::ifstream file(directory_ / "run.log");
+  std::stringstream log;
+  log << file.rdbuf();
+  EXPECT_EQ(log.str(), solved.out);
+}
+
+TEST_F(SolveCommand, QuietSaysNothing) {
+  const ProcessResult solved = solve({data("first.cts.json"), "--quiet"});
+  EXPECT_EQ(solved.out + solved.err, "");
+  EXPECT_TRUE(exists("first.plan.json"));
+}
+
+TEST_F(SolveCommand, EveryBackendFindsTheSameOptimum) {
+  for (const char* backend : {"auto", "dp", "cbc"}) {
+    solve({data("first.cts.json"), "--omega", "0", "--policy", "fixed", "--rtsp", backend,
+           "--output", "p.json"});
+    EXPECT_EQ(plan("p.json")["cost"], 33) << backend;
+  }
+}
+
+TEST_F(SolveCommand, EveryPolicyFindsTheSameOptimum) {
+  for (const char* policy : {"auto", "fixed", "free"})
+    for (const char* name : {"first.cts.json", "random-32x32-20_n5_m10_mg.cts.json"}) {
+      solve(
+          {data(name), "--omega", "0", "--policy", policy, "--output", std::string(policy) + name});
+      EXPECT_EQ(plan(std::string(policy) + name)["status"], "optimal");
+      EXPECT_EQ(plan(std::string(policy) + name)["cost"], plan(std::string("auto") + name)["cost"]);
+    }
+}
+
+TEST_F(SolveCommand, EndsAtTheTimeLimitWithABound) {
+  const ProcessResult solved = solve({"puzzle.json", "--time-limit", "0.3", "--output", "p.json"});
+  EXPECT_EQ(solved.exit_code, 0);
+  EXPECT_THAT(solved.out, HasSubstr("unknown (stopped by: time limit)"));
+  const json result = plan("p.json");
+  EXPECT_EQ(result["status"], "unknown");
+  EXPECT_FALSE(result.contains("cost"));
+  EXPECT_FALSE(result.contains("agents"));
+  EXPECT_GT(result["lower_bound"], 0);
+  EXPECT_EQ(result["stats"]["stopped_by"], "time limit");
+}
+
+// The puzzle's tree would outgrow this in a second.
+TEST_F(SolveCommand, GoesOnAtTheMemoryLimit) {
+  const ProcessResult solved = solve({"puzzle.json", "--policy", "fixed", "--memory-limit", "0.03",
+                                      "--time-limit", "5", "--output", "p.json"});
+  EXPECT_EQ(solved.exit_code, 0) << solved.err;
+  const json stats = plan("p.json")["stats"];
+  EXPECT_EQ(stats["stopped_by"], "time limit");
+  EXPECT_GT(stats["nodes_evicted"], 0);
+  EXPECT_LT(stats["node_bytes"], 200);
+  EXPECT_LT(stats["peak_memory_mb"], 35);
+  EXPECT_THAT(solved.out, HasSubstr("bytes per node"));
+}
+
+TEST_F(SolveCommand, EndsWhereTheMemoryLimitCannotBeKept) {
+  const ProcessResult solved =
+      solve({"puzzle.json", "--memory-limit", "0.001", "--time-limit", "30", "--output", "p.json"});
+  EXPECT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_EQ(plan("p.json")["stats"]["stopped_by"], "memory limit");
+}
+
+TEST_F(SolveCommand, SignalsEndARunCleanly) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    options_.signal = signal;
+    options_.signal_after = std::chrono::milliseconds(500);
+    const ProcessResult solved = solve({"puzzle.json", "--time-limit", "30", "--output", "p.json"});
+    EXPECT_EQ(solved.exit_code, 0) << solved.err;
+    EXPECT_FALSE(solved.timed_out);
+    EXPECT_EQ(plan("p.json")["stats"]["stopped_by"], "interrupt");
+    EXPECT_GT(plan("p.json")["lower_bound"], 0);
+    std::filesystem::remove(directory_ / "p.json");
+  }
+}
+
+TEST_F(SolveCommand, SaysWhyThereIsNoPlan) {
+  directory_.write("wall.map", "type octile\nheight 1\nwidth 3\nmap\n.@.\n");
+  directory_.write(
+      "wall.json",
+      R"({"map": "wall.map", "agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]}], "tasks": []})");
+  const ProcessResult solved = solve({"wall.json", "--output", "p.json"});
+  EXPECT_EQ(solved.exit_code, 0);
+  EXPECT_THAT(solved.out, HasSubstr("agent 'a' cannot reach cell [2, 0]"));
+  EXPECT_EQ(plan("p.json")["status"], "infeasible");
+}
+
+TEST_F(SolveCommand, WithInfiniteOmegaSaysSo) {
+  solve({data("first.cts.json"), "--omega", "inf", "--output", "p.json"});
+  EXPECT_EQ(plan("p.json")["omega"], "inf");
+  EXPECT_EQ(plan("p.json")["stats"]["roots_generated"], 1);
+}
+
+// The log without what must differ: times and memory.
+// A log without times, memory, and what was asked for.
+std::string timeless(const std::string& log) {
+  return std::regex_replace(
+      log, std::regex(R"( +[0-9]+ MB +[0-9.]+s|[0-9.]+ s\n|Memory .*\n|Options .*\n|Threads .*\n)"),
+      "");
+}
+
+TEST_F(SolveCommand, DeterministicRunsLogAndPlanTheSameOnAnyNumberOfThreads) {
+  for (const std::string policy : {"fixed", "free"}) {
+    std::vector<std::string> logs;
+    std::vector<json> agents;
+    for (const std::string threads : {"1", "2", "4"}) {
+      logs.push_back(
+          timeless(solve({data("random-32x32-20_n10_m30.cts.json"), "--omega", "0", "--policy",
+                          policy, "--deterministic", "--threads", threads, "--output", "p.json"})
+                       .out));
+      agents.push_back(plan("p.json")["agents"]);
+    }
+    EXPECT_EQ(logs[1], logs[0]);
+    EXPECT_EQ(logs[2], logs[0]);
+    EXPECT_GT(std::ranges::count(logs[0], '\n'), 15);
+    EXPECT_EQ(agents[1], agents[0]);
+    EXPECT_EQ(agents[2], agents[0]);
+  }
+}
+
+TEST_F(SolveCommand, FindsUnwritableFilesBeforeItSearches) {
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--output", "nowhere/p.json"})),
+              HasSubstr("nowhere"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--output", directory_.path().string()})),
+              HasSubstr("directory"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--log", "nowhere/run.log"})), HasSubstr("nowhere"));
+  EXPECT_FALSE(exists("puzzle.plan.json"));
+}
+
+TEST_F(SolveCommand, DoesNotWriteOverItsInputs) {
+  for (const char* name : {"first.map", "first.cts.json"})
+    std::filesystem::copy(data(name), directory_.path());
+  EXPECT_THAT(complaint(solve({"first.cts.json", "--output", "first.cts.json"})),
+              HasSubstr("is the instance"));
+  EXPECT_THAT(complaint(solve({"first.cts.json", "--output", "./first.map"})),
+              HasSubstr("is the map"));
+  EXPECT_THAT(complaint(solve({"first.cts.json", "--log", "first.map"})), HasSubstr("is the map"));
+  EXPECT_THAT(complaint(solve({"first.cts.json", "--output", "x", "--log", "./x"})),
+              HasSubstr("is the plan file"));
+  EXPECT_EQ(solve({"first.cts.json"}).exit_code, 0);
+}
+
+TEST_F(SolveCommand, KeepsThePlanWhenNobodyReadsTheLog) {
+  const std::string pipeline =
+      std::string(GROVE_PROGRAM) + " solve " + data("rooms-32x32_n10_m30.cts.json") +
+      " --omega 0 --policy fixed --output p.json | true; exit ${PIPESTATUS[0]}";
+  const ProcessResult solved = run_program({"/bin/bash", "-c", pipeline}, options_);
+  EXPECT_EQ(solved.exit_code, 0);
+  EXPECT_THAT(solved.err, HasSubstr("warning: standard output cannot be written"));
+  EXPECT_EQ(plan("p.json")["status"], "optimal");
+}
+
+TEST_F(SolveCommand, GoesOnWhenNothingCanBeSaidAtAll) {
+  const std::string command = std::string(GROVE_PROGRAM) + " solve " + data("first.cts.json") +
+                              " --output p.json >/dev/full 2>/dev/full";
+  EXPECT_EQ(run_program({"/bin/sh", "-c", command}, options_).exit_code, 0);
+  EXPECT_EQ(plan("p.json")["status"], "optimal");
+}
+
+TEST_F(SolveCommand, SaysWhenTheLogFileIsFull) {
+  const ProcessResult solved = solve({data("first.cts.json"), "--quiet", "--log", "/dev/full"});
+  EXPECT_EQ(solved.exit_code, 0);
+  EXPECT_THAT(solved.err, HasSubstr("warning: the log file cannot be written"));
+}
+
+TEST_F(SolveCommand, NamesAScenariosPlanAfterItsAgents) {
+  solve({data("empty-32x32.scen"), "--map", data("empty-32x32.map"), "--agents", "3"});
+  EXPECT_TRUE(exists("empty-32x32-3.plan.json"));
+}
+
+// A table of time times cells would hold gigabytes here.
+TEST_F(SolveCommand, KeepsWithinTheMemoryLimitOnALargeMap) {
+  ASSERT_EQ(run_grove({"generate", "map", "empty", "--width", "600", "--height", "600", "-o",
+                       directory_ / "m.map"})
+                .exit_code,
+            0);
+  ASSERT_EQ(run_grove({"generate", "instance", "--map", directory_ / "m.map", "--agents", "5",
+                       "--tasks", "10", "-o", directory_ / "m.cts.json"})
+                .exit_code,
+            0);
+  const ProcessResult solved =
+      solve({"m.cts.json", "--memory-limit", "0.25", "--threads", "1", "--output", "p.json"});
+  EXPECT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_EQ(plan("p.json")["status"], "optimal");
+  EXPECT_LT(plan("p.json")["stats"]["peak_memory_mb"], 250);
+}
+
+TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--omega", "-1"})), HasSubstr("--omega"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--omega", "1%"})), HasSubstr("--omega"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--time-limit", "soon"})), HasSubstr("--time-limit"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--memory-limit", "-1"})),
+              HasSubstr("--memory-limit"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--threads", "0"})), HasSubstr("--threads"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--policy", "best"})),
+              HasSubstr("auto, fixed, free"));
+  EXPECT_THAT(complaint(solve({"other.yaml"})), HasSubstr("'grove convert' makes of it"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "gurobi"})), HasSubstr("auto, cbc, dp"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "cbc"})),
+              HasSubstr("expected --policy fixed with it, or no --rtsp cbc"));
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--omgea", "0"})), HasSubstr("--omgea"));
+  EXPECT_THAT(complaint(solve({"missing.json"})), HasSubstr("missing.json"));
+  EXPECT_THAT(complaint(solve({data("first.map")})), HasSubstr("expected an instance"));
+  EXPECT_THAT(complaint(solve({data("empty-32x32.scen")})), HasSubstr("--map"));
+  EXPECT_THAT(complaint(solve(
+                  {data("empty-32x32.scen"), "--map", data("empty-32x32.map"), "--agents", "900"})),
+              HasSubstr("900"));
+}
+
+// --- plans from the heuristics, from files, to files ---
+
+// Ten agents through two doors: many better plans in a second.
+std::string doors_instance() {
+  std::string agents;
+  for (int i = 0; i < 8; ++i)
+    agents += fmt::format(R"({}{{"id": "r{}", "start": [0, {}], "goal": [8, {}]}},
+      {{"id": "l{}", "start": [8, {}], "goal": [0, {}]}})",
+                          i == 0 ? "" : ",", i, i, 7 - i, i, i, 7 - i);
+  return R"({"map": "doors.map", "tasks": [], "agents": [)" + agents + "]}";
+}
+
+class Incumbents : public SolveCommand {
+ protected:
+  Incumbents() {
+    std::string map = "type octile\nheight 8\nwidth 9\nmap\n";
+    for (int row = 0; row < 8; ++row) map += row == 2 || row == 5 ? ".........\n" : "....@....\n";
+    directory_.write("doors.map", map);
+    directory_.write("doors.json", doors_instance());
+  }
+};
+
+TEST_F(Incumbents, AreFilesThatTheCheckerAccepts) {
+  const ProcessResult solved =
+      solve({"doors.json", "--omega", "0", "--time-limit", "1", "--threads", "1", "--incumbents",
+             "best", "--output", "p.json"});
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  int k = 1;
+  for (std::int64_t last = kInfiniteCost; exists(fmt::format("best-{}.plan.json", k)); ++k) {
+    const std::string file = fmt::format("best-{}.plan.json", k);
+    EXPECT_LT(plan(file)["cost"], last);
+    last = plan(file)["cost"];
+    EXPECT_EQ(run_grove({"check", "doors.json", file}, options_).exit_code, 0);
+  }
+  ASSERT_GT(k, 3);
+  EXPECT_EQ(plan(fmt::format("best-{}.plan.json", k - 1))["cost"], plan("p.json")["cost"]);
+}
+
+// What B proves of the ends it chose it does not prove of the instance: 4 is the optimum.
+TEST_F(Incumbents, OfBClaimNoMoreThanHoldsForTheInstance) {
+  directory_.write("line.map", "type octile\nheight 1\nwidth 4\nmap\n....\n");
+  directory_.write("line.json", R"({"map": "line.map", "agents": [
+    {"id": "a", "start": [0, 0]}, {"id": "b", "start": [3, 0]}], "tasks": [
+    {"id": "t", "cell": [0, 0], "agents": ["a"]}, {"id": "u", "cell": [1, 0], "agents": ["a", "b"]},
+    {"id": "v", "cell": [3, 0], "agents": ["b"]}]})");
+  ASSERT_EQ(solve({"line.json", "--omega", "0", "--output", "best.json"}).exit_code, 0);
+  EXPECT_EQ(plan("best.json")["cost"], 4);
+  const ProcessResult solved = solve({"line.json", "--omega", "0", "--method", "cts-cbs-b",
+                                      "--incumbents", "b", "--output", "b.json"});
+  EXPECT_EQ(plan("b.json")["status"], "feasible") << solved.err;
+  EXPECT_EQ(plan("b-1.plan.json")["status"], "feasible");
+  EXPECT_LE(plan("b-1.plan.json")["lower_bound"], 4);
+}
+
+TEST_F(Incumbents, AreMarkedInTheLogByWhereTheyCameFrom) {
+  const ProcessResult solved = solve({"doors.json", "--omega", "0", "--threads", "1",
+                                      "--time-limit", "0.5", "--output", "p.json"});
+  EXPECT_THAT(solved.out, HasSubstr("\nH  "));
+  EXPECT_THAT(solved.out, HasSubstr("\nL  "));
+  EXPECT_GT(plan("p.json")["stats"]["primal_neighborhoods"], 0);
+  EXPECT_THAT(solve({data("first.cts.json"), "--threads", "1"}).out, HasSubstr("\n*  "));
+  EXPECT_THAT(solve({"doors.json", "--time-limit", "0.5", "--start", "p.json"}).out,
+              HasSubstr("\nS  "));
+}
+
+TEST_F(Incumbents, CanStartTheNextRun) {
+  solve({"doors.json", "--time-limit", "0.3", "--output", "p.json"});
+  const ProcessResult solved = solve({"doors.json", "--time-limit", "0.3", "--policy", "fixed",
+                                      "--start", "p.json", "--output", "q.json"});
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_LE(plan("q.json")["cost"], plan("p.json")["cost"]);
+}
+
+TEST_F(Incumbents, AreRefusedAsAStartUnlessValid) {
+  solve({"doors.json", "--time-limit", "0.3", "--output", "p.json"});
+  const auto complaint_about = [&](const json& changed) {
+    directory_.write("bad.json", changed.dump());
+    return complaint(solve({"doors.json", "--start", "bad.json"}));
+  };
+  json changed = plan("p.json");
+  changed["agents"][1]["path"][0] = {1, 1};
+  EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /agents/1/path/0: "));
+  EXPECT_THAT(complaint_about(changed), HasSubstr("not a plan of this instance"));
+  changed = plan("p.json");
+  changed["cost"] = plan("p.json")["cost"].get<int>() - 1;
+  EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /cost: "));
+  changed = plan("p.json");
+  changed["agents"].erase(0);
+  EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /agents"));
+  changed = plan("p.json");
+  changed["agents"][0]["id"] = "someone";
+  EXPECT_THAT(complaint_about(changed), HasSubstr("there is no agent 'someone'"));
+  changed = plan("p.json");
+  changed.erase("agents");
+  changed.erase("cost");
+  changed["status"] = "unknown";
+  EXPECT_THAT(complaint_about(changed), HasSubstr("no plan (status unknown)"));
+  EXPECT_THAT(complaint(solve({"doors.json", "--start", "nowhere.json"})),
+              HasSubstr("nowhere.json"));
+  EXPECT_FALSE(exists("doors.plan.json"));
+}
+
+// What a start plan claims beside its paths does not count.
+TEST_F(Incumbents, BringNoBound) {
+  solve({"doors.json", "--time-limit", "0.3", "--output", "p.json"});
+  json changed = plan("p.json");
+  changed["lower_bound"] = changed["cost"];
+  changed["status"] = "optimal";
+  directory_.write("claim.json", changed.dump());
+  solve({"doors.json", "--omega", "0", "--time-limit", "0", "--start", "claim.json", "--output",
+         "q.json"});
+  EXPECT_LT(plan("q.json")["lower_bound"], plan("q.json")["cost"]);
+}
+
+TEST_F(Incumbents, DoNotReplaceOtherFilesOfTheRun) {
+  solve({"doors.json", "--time-limit", "0.3", "--output", "p-1.plan.json"});
+  EXPECT_THAT(complaint(solve({"doors.json", "--incumbents", "p", "--start", "p-1.plan.json"})),
+              HasSubstr("expected another prefix"));
+  EXPECT_THAT(complaint(solve({"doors.json", "--incumbents", "./p", "--output", "p-12.plan.json"})),
+              HasSubstr("expected another prefix"));
+  EXPECT_THAT(complaint(solve({"doors.json", "--incumbents", "nowhere/p"})), HasSubstr("nowhere"));
+  EXPECT_EQ(
+      solve({"doors.json", "--time-limit", "0.1", "--incumbents", "p", "--output", "p-x.plan.json"})
+          .exit_code,
+      0);
+}
+
+}  // namespace solve_command_test
+}  // namespace grove

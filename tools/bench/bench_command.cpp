@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// grove bench: methods x instances, a table of results.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "grove/batch/manifest.h"
+#include "tools/bench/bench_methods.h"
+#include "tools/bench/bench_run.h"
+#include "tools/bench/rehearsal.h"
+#include "tools/common/commands.h"
+#include "tools/common/machine.h"
+#include "tools/common/options.h"
+#include "tools/common/progress_style.h"
+#include "tools/common/signals.h"
+#include "tools/common/standard_error.h"
+#include "tools/common/version.h"
+
+namespace grove {
+namespace {
+
+constexpr double kShareOfMemory = 0.8;
+constexpr double kSmallestRoom_gb = 0.1;
+
+constexpr const char* kBenchFooter =
+    "INSTANCES is a list (a path on each line, relative to the list, or FILE.scen --map M --agents "
+    "K;\n"
+    "# begins a comment), as 'grove generate paper' writes it, or a folder, with all *.cts.json "
+    "below it.\n"
+    "\n"
+    "A run is 'NAME: OPTIONS OF grove solve'; NAME alone is short for 'NAME: --method NAME'. Each "
+    "is a\n"
+    "process of its own, on one thread and with omega 0.01 unless its options say otherwise. All "
+    "methods run on one "
+    "instance\n"
+    "before the next, and the first scenario (_s1_ in its name) of every kind comes before any "
+    "second:\n"
+    "what is done at any moment is balanced.\n"
+    "\n"
+    "DIR/results.jsonl gets a row when a run has ended and its plan was re-checked; "
+    "DIR/results.csv is\n"
+    "made from it. The same command goes on where an earlier one stopped, however it stopped: "
+    "Ctrl-C,\n"
+    "killed, or with more runs or instances to do. What ended in an error is tried again; rows of "
+    "the same\n"
+    "names with other options, limits, seed or instances are refused. A run counts as solved when "
+    "it ended\n"
+    "by itself with a plan, before any limit.\n"
+    "\n"
+    "A run that went on until its limit is not solved, even with a plan: so methods that improve "
+    "their\n"
+    "plan as long as they may (cts-cbs-c --anytime) fare worse here than they are. Exits with 130 "
+    "when\n"
+    "stopped with runs left.\n"
+    "\n"
+    "Examples:\n"
+    "  grove bench paper/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir "
+    "results\n"
+    "  grove bench instances/ --run 'exact: --omega 0' --run 'near: --omega 0.1' --time-limit 60 "
+    "\\\n"
+    "        --jobs 4 --output-dir results";
+
+struct BenchArguments {
+  std::string instances;
+  std::vector<std::string> runs;
+  std::string output_dir;
+  RunDefaults defaults;
+  double memory_limit_gb = 0;
+  std::int64_t jobs = 0;  // 0: as many as fit
+  bool keep_plans = false;
+  bool quiet = false;
+};
+
+int jobs_of(const BenchArguments& a, const std::vector<bench::Method>& methods) {
+  if (a.jobs > 0) return static_cast<int>(a.jobs);
+  const auto threads = std::ranges::max(methods, {}, &bench::Method::threads).threads;
+  return static_cast<int>(std::max<std::int64_t>(1, usable_cores() / threads));
+}
+
+// Runs that say nothing of memory get their share of the machine's. It does not count as a limit of
+// theirs: results do not depend on it as a rule.
+void share_memory(std::vector<bench::Method>& methods, int jobs) {
+  const double share = std::max(kSmallestRoom_gb,
+                                std::floor(10 * kShareOfMemory * physical_memory_gb() / jobs) / 10);
+  for (bench::Method& method : methods)
+    if (!method.memory_limit_gb)
+      method.arguments.insert(method.arguments.end(), {"--memory-limit", fmt::format("{}", share)});
+}
+
+void run(const CLI::App& app, BenchArguments& a) {
+  if (app.count("--memory-limit") > 0) a.defaults.memory_limit_gb = a.memory_limit_gb;
+  std::vector<bench::Method> methods = read_runs(a.runs, a.defaults);
+  const int jobs = jobs_of(a, methods);
+  share_memory(methods, jobs);
+  const auto instances = bench::balanced(batch::read_manifest(a.instances));
+
+  stop_on_signals();
+  batch::ProgressDisplay display(stderr_style());
+  bench::BenchOptions options;
+  options.program = "/proc/self/exe";  // this one, though another may stand in its place by now
+  options.folder = a.output_dir;
+  options.jobs = jobs;
+  options.keep_plans = a.keep_plans;
+  options.version = version_text();
+  options.machine = processor_text();
+  options.stopped = [] { return interrupted.load(); };
+  options.watch = [&](const bench::BenchState& state) {
+    if (!a.quiet && display.is_due(state.elapsed_s))
+      display.show(state.elapsed_s, progress_text(state));
+  };
+  rehearse(instances, methods, options);
+  const bench::BenchState state = run_bench(instances, methods, options);
+  if (!a.quiet) display.finish(progress_text(state));
+  for (const std::string& version : state.other_versions)
+    say_on_stderr(
+        fmt::format("grove: warning: {} holds rows of {}; they stay", a.output_dir, version));
+  if (state.work.left > 0)
+    say_on_stderr(fmt::format("grove: stopped with {} run{} left; the same command goes on",
+                              state.work.left, state.work.left == 1 ? "" : "s"));
+  fmt::print("{}", summary_table(state));
+  if (state.work.left > 0) throw CommandFailed(kExitInterrupted);
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& root) {
+  CLI::App* app =
+      root.add_subcommand("bench", "Run methods on many instances, tabulate the results");
+  app->footer(kBenchFooter);
+  const auto a = std::make_shared<BenchArguments>();
+  app->add_option("INSTANCES", a->instances, "a list of instances, or a folder of them")
+      ->required()
+      ->type_name("");
+  app->add_option("--run", a->runs,
+                  "a method: its name and its options of grove solve; once for each")
+      ->required()
+      ->type_name("'NAME: OPTIONS'")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--output-dir", a->output_dir, "the folder for the table; made if missing")
+      ->required()
+      ->type_name("DIR");
+  add_number(*app, "--time-limit", a->defaults.time_limit_s, 0, 1e9,
+             "seconds for each run whose options do not say otherwise")
+      ->type_name("S");
+  add_number(*app, "--memory-limit", a->memory_limit_gb, 0, 1e6,
+             "gigabytes for each run, likewise. By default 80 % of the machine's, divided by the "
+             "runs at a time")
+      ->type_name("GB")
+      ->default_str("");
+  add_integer(*app, "--jobs", a->jobs, {1, 1024},
+              "so many runs at a time. By default the cores that this process may use, divided by "
+              "the threads of a run")
+      ->type_name("J")
+      ->default_str("");
+  add_integer(*app, "--seed", a->defaults.seed, kSeeds, "the seed of runs that do not name one");
+  app->add_flag("--keep-plans", a->keep_plans,
+                "keep the plan files, as DIR/plans/NAME/ID.plan.json");
+  app->add_flag("--quiet", a->quiet, "no progress on the screen");
+  app->callback([app, a] { run(*app, *a); });
+}
+
+}  // namespace grove

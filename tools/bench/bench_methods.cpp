@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "tools/bench/bench_methods.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+#include "grove/io/input_error.h"
+#include "tools/common/parse_error.h"
+#include "tools/solve/solve_arguments.h"
+
+namespace grove {
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr const char* kInstance = "INSTANCE";  // stands for any
+
+Words words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+[[noreturn]] void refuse(const std::string& text, const std::string& why) {
+  throw CLI::ValidationError(fmt::format("--run '{}'", one_line(text)), why);
+}
+
+struct NameAndOptions {
+  std::string name;
+  Words words;
+};
+
+// The name is part of file names and of tables.
+NameAndOptions split(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const Words name = words_of(text.substr(0, colon));
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("-_.+=").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (name.size() != 1 || !std::ranges::all_of(name[0], is_plain) ||
+      std::isalnum(static_cast<unsigned char>(name[0][0])) == 0)
+    refuse(text,
+           "expected 'NAME: OPTIONS OF grove solve', the name of letters, digits and -_.+= without "
+           "blanks");
+  if (colon == std::string::npos) return {name[0], {"--method", name[0]}};
+  return {name[0], words_of(text.substr(colon + 1))};
+}
+
+// The options of grove solve that say which files a run reads and writes.
+std::set<std::string> file_options() {
+  CLI::App app;
+  SolveArguments unused;
+  unused.instance.add_to(app);
+  add_checkpoint_options(app, unused.checkpoints);
+  add_file_options(app, unused);
+  std::set<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_positional()) names.insert(option->get_name());
+  return names;
+}
+
+void refuse_file_options(const CLI::App& app, const std::string& text) {
+  for (const std::string& name : file_options())
+    if (app.count(name) > 0)
+      refuse(text, name + ": which files a run reads and writes is up to the bench");
+}
+
+// What was given, as one would type it, but for the time limit.
+Words given_arguments(const CLI::App& app) {
+  Words words;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || option->get_positional() || option->get_name() == "--time-limit")
+      continue;
+    words.push_back(option->get_name());
+    const bool is_flag = option->get_expected_max() == 0;
+    if (!is_flag) words.push_back(fmt::format("{}", fmt::join(option->results(), ",")));
+  }
+  return words;
+}
+
+void add_default(Words& words, const CLI::App& app, const std::string& option,
+                 const std::string& value) {
+  if (app.count(option) == 0) words.insert(words.end(), {option, value});
+}
+
+}  // namespace
+
+bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
+  const NameAndOptions given = split(text);
+  CLI::App app;
+  SolveArguments a;
+  a.time_limit_s = defaults.time_limit_s;
+  a.seed = defaults.seed;
+  a.threads = 1;
+  add_solve_options(app, a);
+  Words words{kInstance};
+  words.insert(words.end(), given.words.begin(), given.words.end());
+  std::ranges::reverse(words);  // as CLI11 wants them
+  bench::Method method{.name = given.name, .words = given.words};
+  try {
+    app.parse(words);
+  } catch (const CLI::CallForHelp&) {
+    refuse(text, "--help: expected options of a search");
+  } catch (const CLI::ParseError& error) {
+    refuse(text, parse_error_text(app, error));
+  }
+  refuse_file_options(app, text);
+  try {
+    method.omega = solve_options(a).omega.to_string();
+  } catch (const CLI::ValidationError& error) {  // they do not fit together
+    refuse(text, error.what());
+  }
+  method.seed = a.seed;
+  method.time_limit_s = a.time_limit_s;
+  method.threads = a.threads;
+  method.memory_limit_gb = defaults.memory_limit_gb;
+  if (app.count("--memory-limit") > 0) method.memory_limit_gb = a.memory_limit_gb;
+  method.arguments = given_arguments(app);
+  add_default(method.arguments, app, "--threads", "1");
+  add_default(method.arguments, app, "--seed", std::to_string(a.seed));
+  if (method.memory_limit_gb)
+    add_default(method.arguments, app, "--memory-limit",
+                fmt::format("{}", *method.memory_limit_gb));
+  return method;
+}
+
+std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
+                                     const RunDefaults& defaults) {
+  std::vector<bench::Method> methods;
+  std::set<std::string> names;
+  for (const std::string& text : texts) {
+    methods.push_back(read_run(text, defaults));
+    if (!names.insert(methods.back().name).second)
+      refuse(text, "a second run of that name; expected distinct ones");
+  }
+  return methods;
+}
+
+}  // namespace grove

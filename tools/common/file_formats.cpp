@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "tools/common/file_formats.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace grove {
+namespace {
+
+template <typename Format>
+struct Entry {
+  std::string_view name;  // of --from and --to, or a suffix
+  Format format;
+};
+
+constexpr std::array kInstanceNames = {
+    Entry{"grove", InstanceFormat::kGrove}, Entry{"libmrp", InstanceFormat::kLibmrp},
+    Entry{"mgcbs", InstanceFormat::kMgcbs}, Entry{"mapfw", InstanceFormat::kMapfw},
+    Entry{"scen", InstanceFormat::kScen},
+};
+// Longer ones first. Plain .json is no format: Grove's, MAPFW's and many others are called that.
+constexpr std::array kInstanceSuffixes = {
+    Entry{".mapfw.json", InstanceFormat::kMapfw}, Entry{".cts.json", InstanceFormat::kGrove},
+    Entry{".yaml", InstanceFormat::kLibmrp},      Entry{".yml", InstanceFormat::kLibmrp},
+    Entry{".scen", InstanceFormat::kScen},
+};
+constexpr std::array kPlanNames = {
+    Entry{"libmrp", PlanFormat::kLibmrp},
+    Entry{"mapf-visualizer", PlanFormat::kVisualizer},
+    Entry{"eecbs", PlanFormat::kEecbs},
+    Entry{"tracker", PlanFormat::kTracker},
+    Entry{"tracker-csv", PlanFormat::kTrackerCsv},
+};
+constexpr std::array kPlanSuffixes = {
+    Entry{".yaml", PlanFormat::kLibmrp},
+    Entry{".yml", PlanFormat::kLibmrp},
+    Entry{".csv", PlanFormat::kTrackerCsv},
+};
+
+template <typename Format>
+std::string listed(std::span<const Entry<Format>> entries) {
+  std::string text;
+  for (const auto& entry : entries)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", entry.name);
+  return text;
+}
+
+template <typename Format>
+Format find_format(const std::string& option, const std::string& name, const std::string& file,
+                   std::span<const Entry<Format>> names, std::span<const Entry<Format>> suffixes) {
+  for (const auto& entry : names)
+    if (entry.name == name) return entry.format;
+  if (!name.empty())
+    throw CLI::ValidationError(option,
+                               fmt::format("found '{}'; expected one of {}", name, listed(names)));
+  for (const auto& entry : suffixes)
+    if (file.ends_with(entry.name)) return entry.format;
+  throw CLI::ValidationError(
+      option,
+      fmt::format("required, for the name '{}' does not tell the format; expected one of {}", file,
+                  listed(names)));
+}
+
+}  // namespace
+
+InstanceFormat instance_format(const std::string& option, const std::string& name,
+                               const std::string& file) {
+  if (name.empty() && file.ends_with(".plan.json"))
+    throw CLI::ValidationError(option,
+                               fmt::format("'{}' is called like a plan; plans are converted "
+                                           "by --plan PLAN INSTANCE OUT",
+                                           file));
+  if (std::ranges::count(kPlanNames, name, &Entry<PlanFormat>::name) > 0 &&
+      std::ranges::count(kInstanceNames, name, &Entry<InstanceFormat>::name) == 0)
+    throw CLI::ValidationError(
+        option, fmt::format("{} is a format of plans; expected --plan PLAN to go with it", name));
+  return find_format<InstanceFormat>(option, name, file, kInstanceNames, kInstanceSuffixes);
+}
+
+PlanFormat plan_format(const std::string& option, const std::string& name,
+                       const std::string& file) {
+  return find_format<PlanFormat>(option, name, file, kPlanNames, kPlanSuffixes);
+}
+
+bool names_a_map(InstanceFormat format) {
+  return format == InstanceFormat::kGrove || format == InstanceFormat::kScen;
+}
+
+bool holds_tasks(InstanceFormat format) {
+  return format != InstanceFormat::kLibmrp && format != InstanceFormat::kScen;
+}
+
+bool is_called_like_another_tools_instance(const std::string& file) {
+  return std::ranges::any_of(kInstanceSuffixes, [&](const Entry<InstanceFormat>& entry) {
+    return !names_a_map(entry.format) && file.ends_with(entry.name);
+  });
+}
+
+std::string without_suffix(const std::string& file) {
+  for (const auto& entry : kInstanceSuffixes)
+    if (file.ends_with(entry.name)) return file.substr(0, file.size() - entry.name.size());
+  return std::filesystem::path(file).replace_extension().string();
+}
+
+}  // namespace grove

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "tools/common/options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <sstream>
+
+namespace grove {
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text,
+                         const std::string& expected) {
+  throw CLI::ValidationError(option, fmt::format("found '{}'; expected {}", text, expected));
+}
+
+// True if all of `text` is a number, which is then in `value`.
+template <typename Number>
+bool parse_all(const std::string& text, Number& value) {
+  const char* end = text.data() + text.size();
+  const auto [parsed_to, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && parsed_to == end;
+}
+
+std::string range_text(IntegerRange range) {
+  return range.most == INT64_MAX ? fmt::format("an integer of at least {}", range.least)
+                                 : fmt::format("an integer from {} to {}", range.least, range.most);
+}
+
+std::vector<std::int64_t> parse_integers(const std::string& option, const std::string& text,
+                                         IntegerRange range) {
+  std::vector<std::int64_t> values;
+  for (const std::string& part : CLI::detail::split(text, ',')) {
+    values.push_back(parse_integer(option, part, range));
+    if (std::ranges::count(values, values.back()) > 1) refuse(option, text, "distinct integers");
+  }
+  return values;
+}
+
+// "7" or "3-9".
+std::vector<std::int64_t> parse_range(const std::string& option, const std::string& text,
+                                      IntegerRange range) {
+  const std::size_t dash = text.find('-', 1);
+  const std::int64_t first = parse_integer(option, text.substr(0, dash), range);
+  const std::int64_t last =
+      dash == std::string::npos ? first : parse_integer(option, text.substr(dash + 1), range);
+  if (first > last) refuse(option, text, "the smaller number first");
+  std::vector<std::int64_t> values(static_cast<std::size_t>(last - first + 1));
+  std::iota(values.begin(), values.end(), first);
+  return values;
+}
+
+}  // namespace
+
+std::int64_t parse_integer(const std::string& option, const std::string& text, IntegerRange range) {
+  std::int64_t value = 0;
+  if (!parse_all(text, value) || value < range.least || value > range.most)
+    refuse(option, text, range_text(range));
+  return value;
+}
+
+CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t& value,
+                         IntegerRange range, const std::string& description) {
+  const auto read = [&value, name, range](const CLI::results_t& results) {
+    value = parse_integer(name, results.front(), range);
+    return true;
+  };
+  return app.add_option(name, read, description)
+      ->type_name("N")
+      ->default_str(std::to_string(value));
+}
+
+CLI::Option* add_integers(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
+                          IntegerRange range, const std::string& description) {
+  const auto read = [&values, name, range](const CLI::results_t& results) {
+    values = parse_integers(name, results.front(), range);
+    return true;
+  };
+  return app.add_option(name, read, description)->type_name("N,N,...");
+}
+
+CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
+                        IntegerRange range, const std::string& shown,
+                        const std::string& description) {
+  const auto read = [&values, name, range](const CLI::results_t& results) {
+    values.clear();
+    for (const std::string& part : CLI::detail::split(results.front(), ','))
+      for (const std::int64_t value : parse_range(name, part, range)) {
+        if (std::ranges::count(values, value) > 0)
+          refuse(name, results.front(), "distinct integers");
+        values.push_back(value);
+      }
+    return true;
+  };
+  return app.add_option(name, read, description)->type_name("K-K,...")->default_str(shown);
+}
+
+std::string ranges_text(const std::vector<std::int64_t>& values) {
+  std::string text;
+  for (std::size_t first = 0, end = 0; first < values.size(); first = end) {
+    do ++end;
+    while (end < values.size() && values[end] == values[end - 1] + 1);
+    text += fmt::format("{}{}", text.empty() ? "" : ",", values[first]);
+    if (end - first > 1) text += fmt::format("-{}", values[end - 1]);
+  }
+  return text;
+}
+
+CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,
+                        double most, const std::string& description) {
+  const auto read = [&value, name, least, most](const CLI::results_t& results) {
+    const std::string& text = results.front();
+    if (!parse_all(text, value) || !(value >= least && value <= most))
+      refuse(name, text, fmt::format("a number from {} to {}", least, most));
+    return true;
+  };
+  return app.add_option(name, read, description)
+      ->type_name("X")
+      ->default_str(fmt::format("{}", value));
+}
+
+}  // namespace grove

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "tools/common/program.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "grove/io/input_error.h"
+#include "tools/common/commands.h"
+#include "tools/common/help_formatter.h"
+#include "tools/common/parse_error.h"
+#include "tools/common/standard_error.h"
+#include "tools/common/version.h"
+
+namespace grove {
+namespace {
+
+// The subcommand that was reached last: "grove generate map" of "grove generate map --wrong".
+const CLI::App& reached_command(const CLI::App& app) {
+  const auto subcommands = app.get_subcommands();
+  return subcommands.empty() ? app : reached_command(*subcommands.back());
+}
+
+std::string full_name(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent ? full_name(*parent) + " " + command.get_name() : command.get_name();
+}
+
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = reached_command(app);
+  return fmt::format("{} (see '{} --help')", parse_error_text(command, error), full_name(command));
+}
+
+// A full disk or a closed pipe must not pass for success.
+int flush_output(const CLI::App& app) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kExitSuccess;
+  complain(app, "standard output: cannot be written");
+  return kExitInternalFailure;
+}
+
+}  // namespace
+
+void complain(const CLI::App& app, const std::string& message) {
+  say_on_stderr(fmt::format("{}: error: {}", app.get_name(), one_line(message)));
+}
+
+void prepare_program(CLI::App& app) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of write()
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+}
+
+int run_program(CLI::App& app, int argc, char** argv, bool speaks,
+                const std::function<void(const std::string& why)>& refused) {
+  const auto say = [&](const std::string& message) {
+    refused(message);
+    if (speaks) complain(app, message);
+    return kExitBadInput;
+  };
+  try {
+    app.parse(argc, argv);
+    return flush_output(app);
+  } catch (const CLI::Success& help_or_version) {
+    refused("was asked for help or its version alone");
+    if (speaks) app.exit(help_or_version);
+    return flush_output(app);
+  } catch (const CLI::ParseError& error) {
+    return say(usage_text(app, error));
+  } catch (const InputError& error) {
+    return say(error.what());
+  } catch (const CommandFailed& failure) {
+    return failure.exit_code();
+  }
+}
+
+int run_only_process(CLI::App& app, int argc, char** argv) {
+  try {
+    return run_program(app, argc, argv);
+  } catch (const std::exception& error) {
+    complain(app, fmt::format("internal failure: {}", error.what()));
+    return kExitInternalFailure;
+  }
+}
+
+}  // namespace grove

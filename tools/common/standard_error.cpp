@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "tools/common/standard_error.h"
+
+#include <cstdio>
+
+namespace grove {
+
+void say_on_stderr(std::string_view line) {
+  std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+}
+
+}  // namespace grove

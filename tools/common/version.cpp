@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "tools/common/version.h"
+
+#include "git_hash.h"
+
+namespace grove {
+
+std::string version_text() {
+  return "grove " GROVE_VERSION " (git " GROVE_GIT_HASH ")";
+}
+
+}  // namespace grove

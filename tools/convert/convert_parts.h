@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What one asks of grove convert, and the two things that it does.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "grove/io/instance_file.h"
+#include "tools/common/file_formats.h"
+#include "tools/common/options.h"
+
+namespace grove {
+
+// Of the first rows of a scenario.
+inline constexpr IntegerRange kRowCounts{1, 1'000'000};
+
+struct ConvertArguments {
+  std::string instance;
+  std::string output;
+  std::string plan;
+  std::string from;
+  std::string to;
+  std::string map;
+  std::string scenario;
+  std::int64_t agents = 0;
+  std::string drop;
+  bool flip_up_down = false;
+
+  bool drops(const std::string& what) const;
+};
+
+// Reads INSTANCE. Throws InputError; CLI::ValidationError when an option is missing.
+LoadedInstance load(const ConvertArguments& arguments, InstanceFormat from);
+
+// INSTANCE, or the plan of it, as OUT; prints what was written. Throw InputError, with the place in
+// INSTANCE of what OUT cannot hold; CLI::ValidationError when options do not fit together.
+void convert_instance(const ConvertArguments& arguments, InstanceFormat from, InstanceFormat to);
+void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to);
+
+// Runs `write`; of what OUT cannot hold it says where it is in `instance`, which was read from a
+// file of format `from`.
+void express(const ConvertArguments& arguments, const Instance& instance, InstanceFormat from,
+             const std::function<void()>& write);
+
+}  // namespace grove

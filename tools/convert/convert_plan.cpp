@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// grove convert --plan: a plan in another format.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "grove/io/atomic_file.h"
+#include "grove/io/input_error.h"
+#include "grove/io/plan_export.h"
+#include "grove/io/plan_file.h"
+#include "grove/io/tracker_file.h"
+#include "grove/model/check.h"
+#include "tools/common/commands.h"
+#include "tools/common/instance_arguments.h"
+#include "tools/convert/convert_parts.h"
+
+namespace grove {
+namespace {
+
+namespace fs = std::filesystem;
+
+TrackerScenario tracker_scenario(const ConvertArguments& arguments, const LoadedInstance& loaded) {
+  require_tracker_instance(loaded.instance);
+  if (loaded.map_path.empty())
+    throw CLI::ValidationError(
+        "--to",
+        "a row of MAPF Tracker names a map of Moving AI; expected an INSTANCE with a map file");
+  const std::string map = loaded.map_path.stem().string();
+  std::string scenario = arguments.scenario;
+  const std::string name = fs::path(arguments.instance).stem().string();
+  if (scenario.empty() && arguments.instance.ends_with(".scen") && name.starts_with(map + "-"))
+    scenario = name.substr(map.size() + 1);
+  if (const auto found = parse_tracker_scenario(map, scenario)) return *found;
+  throw CLI::ValidationError(
+      "--scenario", scenario.empty()
+                        ? "required; expected even-N or random-N: the scenario whose first "
+                          "rows are the agents"
+                        : fmt::format("found '{}'; expected even-N or random-N", scenario));
+}
+
+void write_plan_as(const ConvertArguments& arguments, const LoadedInstance& loaded,
+                   const Solution& solution, PlanFormat to) {
+  const Instance& instance = loaded.instance;
+  const fs::path map = loaded.map_path.empty()
+                           ? fs::path(without_suffix(arguments.instance) + ".map")
+                           : loaded.map_path;
+  switch (to) {
+    case PlanFormat::kLibmrp:
+      return write_libmrp_schedule(arguments.output, instance, solution);
+    case PlanFormat::kVisualizer:
+      return write_visualizer_text(arguments.output, instance, solution, map.filename().string());
+    case PlanFormat::kEecbs:
+      return write_path_lists(arguments.output, instance, solution);
+    case PlanFormat::kTracker:
+    case PlanFormat::kTrackerCsv:
+      return write_tracker_row(
+          arguments.output, instance, solution, tracker_scenario(arguments, loaded),
+          to == PlanFormat::kTracker ? TrackerLayout::kJson : TrackerLayout::kCsv,
+          arguments.flip_up_down ? TrackerUp::kAwayFromRowZero : TrackerUp::kTowardsRowZero);
+  }
+}
+
+}  // namespace
+
+void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to) {
+  const LoadedInstance loaded = load(arguments, from);
+  print_warnings(loaded.warnings);
+  std::vector<std::string> warnings;
+  const Solution solution = read_solution(arguments.plan, loaded.instance, &warnings);
+  print_warnings(warnings);
+  const auto violations = check(loaded.instance, solution, 1);
+  if (!violations.empty())
+    throw InputError(arguments.plan, violations.front().place, violations.front().message);
+  require_distinct_files(arguments.output, loaded.map_path, "the map");
+  express(arguments, loaded.instance, from,
+          [&] { write_plan_as(arguments, loaded, solution, to); });
+  fmt::print("wrote {}: {} paths, cost {}\n", arguments.output, loaded.instance.agent_count(),
+             solution.plan->cost);
+}
+
+}  // namespace grove

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The parts of `grove generate`.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "grove/model/grid.h"
+#include "tools/common/options.h"
+#include "tools/generate/instance_generator.h"
+
+namespace grove {
+
+inline constexpr IntegerRange kAgentNumbers{1, 100'000};
+inline constexpr IntegerRange kScenarioNumbers{1, 10'000};
+inline constexpr IntegerRange kTaskNumbers{0, 1'000'000};
+
+void add_generate_map_command(CLI::App& generate);
+void add_generate_scenario_command(CLI::App& generate);
+void add_generate_instance_command(CLI::App& generate);
+void add_generate_dataset_command(CLI::App& generate);
+void add_generate_paper_command(CLI::App& generate);
+
+// --output, required.
+void add_output(CLI::App& command, std::string& path, const std::string& type_name);
+
+// Reads a map, printing its warnings.
+Grid load_map(const std::string& map);
+
+// All rows of a scenario file, which must be for `map`.
+Scenario load_scenario(const std::string& file, const std::string& map, const Grid& grid);
+
+// A scenario of `rows` rows drawn for `map`.
+Scenario draw_scenario(const std::string& map, const Grid& grid, int rows, std::int64_t seed);
+
+// `map` as an instance file at `instance` must name it.
+std::string map_as_seen_from(const std::filesystem::path& instance, const std::string& map);
+
+}  // namespace grove

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// grove generate paper: the paper's whole data set (section V), with one list of it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "grove/batch/folder.h"
+#include "grove/io/input_error.h"
+#include "grove/io/map_file.h"
+#include "tools/generate/generate_commands.h"
+#include "tools/generate/generate_set.h"
+#include "tools/generate/map_generator.h"
+
+namespace grove {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kScenarios = 50;
+
+constexpr const char* kPaperFooter =
+    "Without further options: 3 maps, 50 scenarios, 5, 10 and 20 agents, 10 to 50 tasks, with "
+    "destinations\n"
+    "and without: 4,500 instances, and DIR/manifest.txt with them all, for 'grove bench'. Files "
+    "are "
+    "named\n"
+    "MAP_sS_nN_mM.cts.json; _mg is added to those without destinations. manifest-cts.txt and "
+    "manifest-mg.txt\n"
+    "list those with and those without, for methods that are for one of them.\n"
+    "\n"
+    "With --movingai the maps and scenarios are those of the Moving AI benchmark, in one folder: "
+    "MAP.map,\n"
+    "scenarios 1 to 25 from MAP-random-1.scen to MAP-random-25.scen, 26 to 50 from MAP-even-1.scen "
+    "to\n"
+    "MAP-even-25.scen. Without it Grove draws maps of the same kinds - empty, random and rooms, 32 "
+    "x "
+    "32\n"
+    "cells -, writes them to DIR, and draws the scenarios.\n"
+    "\n"
+    "An instance of scenario K is what 'grove generate instance' makes of it with --seed K, to "
+    "which\n"
+    "--seed is added.\n"
+    "\n"
+    "Examples:\n"
+    "  grove generate paper --movingai mapf/ --scenarios 1-25 --output-dir paper\n"
+    "  grove generate paper --scenarios 1-3 --agents 5 --problem cts --output-dir small\n"
+    "  grove bench small/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir "
+    "results";
+
+// What "--problem" makes: without destinations, or with.
+const std::map<std::string, std::vector<bool>> kProblems{
+    {"both", {false, true}}, {"cts", {false}}, {"mg", {true}}};
+
+struct PaperArguments {
+  std::string movingai;
+  std::vector<std::string> maps{"empty-32-32", "random-32-32-20", "room-32-32-4"};
+  std::vector<std::int64_t> scenarios;
+  std::vector<std::int64_t> agents{5, 10, 20};
+  std::vector<std::int64_t> tasks{10, 20, 30, 40, 50};
+  std::string problem = "both";
+  std::int64_t seed = 0;
+  std::string output_dir;
+};
+
+// --- Moving AI's maps ---
+
+constexpr std::int64_t kOfAKind = 25;
+
+fs::path scenario_file(const PaperArguments& arguments, const std::string& map, std::int64_t k) {
+  return fs::path(arguments.movingai) / (k <= kOfAKind
+                                             ? fmt::format("{}-random-{}.scen", map, k)
+                                             : fmt::format("{}-even-{}.scen", map, k - kOfAKind));
+}
+
+// Benchmarks are often downloaded in part: tells at once what there is.
+void require_scenarios(const PaperArguments& arguments) {
+  std::string missing;
+  std::vector<std::int64_t> there;
+  for (const std::int64_t k : arguments.scenarios) {
+    const auto without_k = std::ranges::find_if_not(arguments.maps, [&](const std::string& map) {
+      return fs::exists(scenario_file(arguments, map, k));
+    });
+    if (without_k == arguments.maps.end())
+      there.push_back(k);
+    else if (missing.empty())
+      missing = scenario_file(arguments, *without_k, k).string();
+  }
+  if (missing.empty()) return;
+  throw InputError(missing, "",
+                   fmt::format("is not there; expected it{}",
+                               there.empty() ? "" : ", or --scenarios " + ranges_text(there)));
+}
+
+MapSet load_map_set(const PaperArguments& arguments, const std::string& name) {
+  if (std::ranges::count(arguments.maps, name) > 1)
+    throw CLI::ValidationError("--maps", fmt::format("expected '{}' once", name));
+  const std::string map = (fs::path(arguments.movingai) / (name + ".map")).string();
+  return {map, load_map(map), {}};
+}
+
+void load_scenarios(const PaperArguments& arguments, const std::string& name, MapSet& set) {
+  for (const std::int64_t k : arguments.scenarios) {
+    const std::string file = scenario_file(arguments, name, k).string();
+    set.scenarios.push_back(
+        {std::to_string(k), load_scenario(file, set.map, set.grid), arguments.seed + k});
+  }
+}
+
+std::vector<MapSet> load_map_sets(const PaperArguments& arguments) {
+  if (std::ranges::max(arguments.scenarios) > 2 * kOfAKind)
+    throw CLI::ValidationError("--scenarios", "expected at most 50 with --movingai");
+  std::vector<MapSet> sets;
+  for (const std::string& name : arguments.maps) sets.push_back(load_map_set(arguments, name));
+  require_scenarios(arguments);
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    load_scenarios(arguments, arguments.maps[i], sets[i]);
+  return sets;
+}
+
+// --- maps of our own, the same as in benchmarks/data ---
+
+constexpr int kSide = 32;
+constexpr int kMapSeed = 1;
+
+MapSet draw_map_set(const PaperArguments& arguments, const std::string& name, Grid grid) {
+  const std::string map = (fs::path(arguments.output_dir) / (name + ".map")).string();
+  const InstanceRequest largest{.agents = static_cast<int>(std::ranges::max(arguments.agents)),
+                                .tasks = static_cast<int>(std::ranges::max(arguments.tasks))};
+  MapSet set{map, std::move(grid), {}};
+  for (const std::int64_t k : arguments.scenarios) {
+    const std::int64_t seed = arguments.seed + k;
+    set.scenarios.push_back(
+        {std::to_string(k), draw_scenario(map, set.grid, rows_needed(largest), seed), seed});
+  }
+  return set;
+}
+
+std::vector<MapSet> draw_map_sets(const PaperArguments& arguments) {
+  return {draw_map_set(arguments, "empty-32x32", empty_map(kSide, kSide)),
+          draw_map_set(arguments, "random-32x32-20", random_map(kSide, kSide, 0.2, kMapSeed)),
+          draw_map_set(arguments, "rooms-32x32", rooms_map(kSide, kSide, 4, 0.9, kMapSeed))};
+}
+
+void run(const CLI::App& app, const PaperArguments& arguments) {
+  const bool draws = arguments.movingai.empty();
+  if (draws && app.count("--maps") > 0)
+    throw CLI::ValidationError("--maps", "expected only with --movingai");
+  const std::vector<MapSet> maps = draws ? draw_map_sets(arguments) : load_map_sets(arguments);
+  const SetSizes sizes{arguments.agents, arguments.tasks, kProblems.at(arguments.problem)};
+  require_fitting(maps, sizes);
+  batch::make_folder(arguments.output_dir);
+  if (draws)
+    for (const MapSet& set : maps) write_map(set.map, set.grid);
+  write_set(arguments.output_dir, maps, sizes);
+}
+
+}  // namespace
+
+void add_generate_paper_command(CLI::App& generate) {
+  const auto arguments = std::make_shared<PaperArguments>();
+  arguments->scenarios.resize(kScenarios);
+  std::iota(arguments->scenarios.begin(), arguments->scenarios.end(), 1);
+  CLI::App* command =
+      generate.add_subcommand("paper", "The paper's whole data set, or a part of it");
+  command->footer(kPaperFooter);
+  command
+      ->add_option("--movingai", arguments->movingai,
+                   "a folder with maps and scenarios of Moving AI; by default Grove draws its own")
+      ->type_name("DIR");
+  command->add_option("--maps", arguments->maps, "with --movingai: names of other maps of it")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->default_str("empty-32-32,random-32-32-20,room-32-32-4");
+  add_ranges(*command, "--scenarios", arguments->scenarios, kScenarioNumbers, "1-50",
+             "numbers of scenarios");
+  add_integers(*command, "--agents", arguments->agents, kAgentNumbers, "numbers of agents")
+      ->default_str("5,10,20");
+  add_integers(*command, "--tasks", arguments->tasks, kTaskNumbers, "numbers of tasks")
+      ->default_str("10,20,30,40,50");
+  command
+      ->add_option("--problem", arguments->problem,
+                   "with destinations (cts: CTS-MAPF), without (mg: MG-MAPF), or both")
+      ->type_name("cts|mg|both")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return kProblems.contains(text)
+                       ? std::string()
+                       : fmt::format("found '{}'; expected one of both, cts, mg", text);
+          },
+          ""))
+      ->capture_default_str();
+  add_integer(*command, "--seed", arguments->seed, {0, 1'000'000'000}, "another set");
+  command->add_option("--output-dir", arguments->output_dir, "folder to write to; made if missing")
+      ->required()
+      ->type_name("DIR");
+  command->callback([command, arguments] { run(*command, *arguments); });
+}
+
+}  // namespace grove

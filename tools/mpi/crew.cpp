@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "tools/mpi/crew.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include "tools/common/machine.h"
+
+namespace grove {
+namespace {
+
+std::string host() {
+  char name[256] = {};
+  ::gethostname(name, sizeof name - 1);
+  return name;
+}
+
+std::vector<int> gather_numbers(const MpiSession& session, int mine) {
+  std::vector<int> all;
+  for (const std::string& text : session.gather(std::to_string(mine)))
+    all.push_back(std::stoi(text));
+  return all;
+}
+
+// All ranks: how many of them say the same as this one.
+int how_many_say(const MpiSession& session, const std::string& mine) {
+  return static_cast<int>(std::ranges::count(session.gather(mine), mine));
+}
+
+}  // namespace
+
+void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session) {
+  const int on_cores = how_many_say(session, host() + usable_cores_text());
+  const int on_host = how_many_say(session, host());
+  if (app.count("--threads") == 0) arguments.threads = std::max(1, usable_cores() / on_cores);
+  if (app.count("--memory-limit") == 0) arguments.memory_limit_gb /= on_host;
+}
+
+Crew gather_crew(const MpiSession& session, std::int64_t threads) {
+  return {session.gather(host()), gather_numbers(session, static_cast<int>(threads)),
+          gather_numbers(session, usable_cores()),
+          gather_numbers(session, static_cast<int>(std::thread::hardware_concurrency()))};
+}
+
+std::string workers_text(const Crew& crew) {
+  const bool same = std::set(crew.threads.begin(), crew.threads.end()).size() == 1;
+  const auto hosts = std::set(crew.hosts.begin(), crew.hosts.end()).size();
+  return fmt::format("{}{} on {} rank{}, {} host{}",
+                     same ? fmt::format("{}", crew.threads.front())
+                          : fmt::format("{}", fmt::join(crew.threads, ", ")),
+                     crew.threads.size() > 1 && same ? " each" : "", crew.threads.size(),
+                     crew.threads.size() == 1 ? "" : "s", hosts, hosts == 1 ? "" : "s");
+}
+
+std::vector<std::string> warnings(const Crew& crew) {
+  std::vector<std::string> found;
+  std::map<std::string, std::pair<int, int>> by_host;  // threads, cores
+  for (std::size_t rank = 0; rank < crew.hosts.size(); ++rank) {
+    auto& [threads, cores] = by_host[crew.hosts[rank]];
+    threads += crew.threads[rank];
+    cores = crew.machines[rank];
+    if (crew.threads[rank] > crew.cores[rank])
+      found.push_back(fmt::format(
+          "rank {} has {} threads and may use {} of {} cores; see mpirun's --bind-to none", rank,
+          crew.threads[rank], crew.cores[rank], crew.machines[rank]));
+  }
+  for (const auto& [name, counts] : by_host) {
+    const auto [threads, cores] = counts;
+    if (threads > cores)
+      found.push_back(fmt::format("host {} has {} cores for {} threads", name, cores, threads));
+    else if (threads < cores)
+      found.push_back(fmt::format(
+          "host {} has {} cores and {} will be used; for more see --threads and mpirun's "
+          "--bind-to none",
+          name, cores, threads));
+  }
+  return found;
+}
+
+}  // namespace grove

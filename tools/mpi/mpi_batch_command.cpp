@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// grove-mpi batch: many instances over all ranks.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "grove/batch/manifest.h"
+#include "grove/engine/run_observer.h"
+#include "grove/engine/solve.h"
+#include "grove/io/instance_file.h"
+#include "grove/model/fingerprint.h"
+#include "mpi/batch/farm_client.h"
+#include "mpi/batch/farm_master.h"
+#include "mpi/batch/gather.h"
+#include "mpi/solve_distributed.h"
+#include "tools/common/commands.h"
+#include "tools/common/options.h"
+#include "tools/common/program.h"
+#include "tools/common/progress_style.h"
+#include "tools/common/signals.h"
+#include "tools/common/standard_error.h"
+#include "tools/common/version.h"
+#include "tools/mpi/crew.h"
+#include "tools/mpi/mpi_commands.h"
+#include "tools/mpi/together.h"
+#include "tools/solve/solve_arguments.h"
+#include "tools/solve/solve_run.h"
+
+namespace grove {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Poll = std::function<void()>;
+
+constexpr double kNoLimit_s = 1e9;
+
+constexpr const char* kBatchFooter =
+    "INSTANCES is a folder, with all *.cts.json below it, or a list: a path on each line, relative "
+    "to\n"
+    "the list, or FILE.scen --map M --agents K; # begins a comment. The limits are for each "
+    "instance.\n"
+    "DIR/results.csv and DIR/results.jsonl have a row for each, DIR/plans the plans. The same "
+    "command\n"
+    "goes on where an earlier one stopped; what ended in an error is tried again.\n"
+    "\n"
+    "Examples:\n"
+    "  mpirun -np 8 grove-mpi batch instances/ --output results --time-limit 60\n"
+    "  mpirun -np 8 grove-mpi batch hard.txt --output results --ranks-per-instance 4";
+
+struct BatchArguments {
+  SolveArguments solve;  // of each instance
+  std::string instances;
+  std::string output;
+  std::int64_t ranks_per_instance = 1;
+  double total_time_limit_s = kNoLimit_s;
+  bool quiet = false;
+};
+
+// What results depend on. By default the machine decides about memory: then it does not count.
+batch::Settings settings_of(const CLI::App& app, const BatchArguments& a) {
+  const auto given = [&](const char* option) {
+    return app.count(option) == 0 ? std::string("default") : app[option]->as<std::string>();
+  };
+  return {{"omega", solve_options(a.solve).omega.to_string()},
+          {"time-limit", fmt::format("{}", a.solve.time_limit_s)},
+          {"memory-limit", given("--memory-limit")},
+          {"method", a.solve.method},
+          {"policy", a.solve.policy},
+          {"rtsp", a.solve.rtsp},
+          {"seed", std::to_string(a.solve.seed)},
+          {"with", fmt::format("{}", fmt::join(a.solve.with, " "))},
+          {"without", fmt::format("{}", fmt::join(a.solve.without, " "))},
+          {"ranks-per-instance", std::to_string(a.ranks_per_instance)}};
+}
+
+class FirstPlanClock : public RunObserver {
+ public:
+  explicit FirstPlanClock(Clock::time_point start) : start_(start) {}
+  void on_incumbent(const Plan&, PlanSource, const Progress&) override {
+    if (!first_s_) first_s_ = std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+  std::optional<double> first_s() const { return first_s_; }
+
+ private:
+  const Clock::time_point start_;
+  std::optional<double> first_s_;
+};
+
+class BatchRun {
+ public:
+  BatchRun(const CLI::App& app, BatchArguments& arguments, MpiSession& session)
+      : app_(app), a_(arguments), session_(session) {}
+
+  void run() {
+    share_machine(app_, a_.solve, session_);
+    options_ = options_of_one_search(a_.solve);
+    require_same(session_, "version", version_text());
+    require_same(session_, "options", options_text(app_));
+    const batch::Grouping grouping{session_.ranks(), static_cast<int>(a_.ranks_per_instance)};
+    const int group = grouping.group_of(session_.rank());
+    world_ = session_.connect();
+    farm_ = session_.connect(group);
+    agreement_ = session_.connect(group);
+    search_ = session_.connect(group);
+    together(session_, [&] {
+      if (session_.rank() == 0) open(grouping);
+    });
+    try {
+      batch::FarmClient client(
+          *world_, *farm_, interrupted,
+          {.solve = [this](const auto& entry, const Poll& poll) { return solve(entry, poll); },
+           .version = version_text(),
+           .threads = options_.threads,
+           .clock = batch::machine_clock(),
+           .idle = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }},
+          master_ ? &*master_ : nullptr);
+      client.run();
+    } catch (const InputError& error) {  // the others would wait for ever
+      complain(*app_.get_parent(), error.what());
+      session_.abort(kExitBadInput);
+    }
+    if (master_ && !a_.quiet) progress_.finish(master_->state());
+  }
+
+ private:
+  void open(batch::Grouping grouping) {
+    const auto entries = batch::read_manifest(a_.instances);
+    table_.emplace(a_.output, settings_of(app_, a_));
+    warn_of_other_versions();
+    master_.emplace(*world_, grouping, entries, *table_, interrupted, batch::machine_clock(),
+                    batch::MasterOptions{.total_time_limit_s = a_.total_time_limit_s,
+                                         .watch = [this](const batch::BatchState& state) {
+                                           if (!a_.quiet) progress_.show(state);
+                                         }});
+  }
+
+  void warn_of_other_versions() const {
+    const auto other = std::ranges::find_if(
+        table_->rows(), [](const auto& row) { return row.version != version_text(); });
+    if (other != table_->rows().end())
+      say_on_stderr(fmt::format("grove-mpi: warning: {} holds rows of {}; they stay", a_.output,
+                                other->version));
+  }
+
+  // What each rank of the group says, or throws what the first that fails says.
+  void agree(const std::string& error, const Poll& poll) {
+    for (const std::string& text : batch::gather(*agreement_, error, poll))
+      if (!text.empty()) throw std::runtime_error(text);
+  }
+
+  LoadedInstance load(const batch::Entry& entry, const Poll& poll) {
+    std::optional<LoadedInstance> loaded;
+    std::string error;
+    try {
+      loaded = entry.agents > 0 ? read_scenario_instance(entry.path, entry.map, entry.agents)
+                                : read_instance(entry.path);
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    agree(error, poll);
+    const auto prints =
+        batch::gather(*agreement_, fmt::format("{:016x}", fingerprint(loaded->instance)), poll);
+    if (std::ranges::count(prints, prints[0]) != farm_->ranks())
+      throw std::runtime_error(entry.path + " is not the same on all ranks");
+    return std::move(*loaded);
+  }
+
+  batch::Result solve(const batch::Entry& entry, const Poll& poll) {
+    const Clock::time_point start = Clock::now();
+    const LoadedInstance loaded = load(entry, poll);
+    Limits limits;
+    set_limits(limits, a_.solve, start);
+    FirstPlanClock observer(start);
+    auto solution = solve_with(loaded.instance, limits, observer, poll);
+    if (farm_->rank() != 0) return {};
+    add_run_facts(*solution, app_, a_.solve, start);
+    solution->stats.texts["instance"] = entry.path;
+    solution->stats.counts["ranks"] = farm_->ranks();
+    auto result = batch::result_of(*solution,
+                                   batch::write_plan(a_.output, entry, loaded.instance, *solution));
+    result.first_plan_s = observer.first_s();
+    return result;
+  }
+
+  std::optional<Solution> solve_with(const Instance& instance, const Limits& limits,
+                                     RunObserver& observer, const Poll& poll) {
+    const Problem problem(instance, limits, options_.low_level);
+    auto answer = answer_without_search(problem, options_, limits, observer);
+    const auto found = batch::gather(*agreement_, answer ? "an answer" : "", poll);
+    if (std::ranges::count(found, "") < farm_->ranks()) {
+      if (farm_->rank() != 0) return std::nullopt;
+      return answer ? std::move(answer) : grove::solve(instance, options_, limits, &observer);
+    }
+    try {
+      return solve_distributed(problem, options_, limits, *search_, observer, poll);
+    } catch (const std::exception& error) {
+      if (farm_->ranks() == 1) throw;  // a row
+      complain(*app_.get_parent(),
+               fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
+      session_.abort(kExitInternalFailure);  // the others would wait for ever
+    }
+  }
+
+  const CLI::App& app_;
+  BatchArguments& a_;
+  MpiSession& session_;
+  SolveOptions options_;
+  std::unique_ptr<Transport> world_, farm_, agreement_, search_;
+  batch::BatchProgress progress_{stderr_style()};
+  std::optional<batch::ResultTable> table_;
+  std::optional<batch::FarmMaster> master_;
+};
+
+}  // namespace
+
+void add_mpi_batch_command(CLI::App& root, MpiSession& session, CommandLines& lines) {
+  CLI::App* app = root.add_subcommand("batch", "Solve many instances, and tabulate the results");
+  app->footer(kBatchFooter);
+  const auto a = std::make_shared<BatchArguments>();
+  app->add_option("INSTANCES", a->instances, "a folder of instances, or a list of them")
+      ->required()
+      ->type_name("");
+  add_search_options(*app, a->solve);
+  add_integer(*app, "--ranks-per-instance", a->ranks_per_instance, {1, 1'000'000},
+              "so many ranks work on an instance together: 1 where there are many small ones")
+      ->type_name("G");
+  add_number(*app, "--total-time-limit", a->total_time_limit_s, 0, kNoLimit_s,
+             "begin no further instance after so many seconds")
+      ->type_name("S");
+  app->add_option("-o,--output", a->output, "the folder for plans and the table; made if need be")
+      ->required()
+      ->type_name("DIR");
+  app->add_flag("--quiet", a->quiet, "no progress on the screen");
+  app->callback([app, a, &session, &lines] {
+    lines.accept();
+    BatchRun(*app, *a, session).run();
+  });
+}
+
+}  // namespace grove

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The subcommands of grove-mpi; see commands.h of common. All ranks run the same command. `session`
+// and `lines` must outlive the parsing.
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "mpi/mpi_session.h"
+#include "tools/mpi/together.h"
+
+namespace grove {
+
+void add_mpi_solve_command(CLI::App& app, MpiSession& session, CommandLines& lines);
+void add_mpi_batch_command(CLI::App& app, MpiSession& session, CommandLines& lines);
+
+}  // namespace grove

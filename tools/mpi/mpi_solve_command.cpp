@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// grove-mpi solve: as grove solve, by all ranks.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "grove/engine/run_observer.h"
+#include "grove/io/input_error.h"
+#include "grove/io/plan_file.h"
+#include "grove/model/fingerprint.h"
+#include "mpi/solve_distributed.h"
+#include "tools/common/program.h"
+#include "tools/common/version.h"
+#include "tools/mpi/crew.h"
+#include "tools/mpi/mpi_commands.h"
+#include "tools/mpi/together.h"
+#include "tools/solve/incumbent_files.h"
+#include "tools/solve/run_log.h"
+#include "tools/solve/solve_arguments.h"
+#include "tools/solve/solve_run.h"
+#include "tools/solve/start_plan.h"
+
+namespace grove {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kSolveFooter =
+    "All ranks work on the one instance, each with --threads threads beside the one that talks to\n"
+    "the others. Every rank must be able to read the instance; rank 0 alone writes files and the "
+    "log.\n"
+    "The limits are those of every rank: --memory-limit is for each process.\n"
+    "\n"
+    "Examples:\n"
+    "  mpirun -np 2 grove-mpi solve benchmarks/data/first.cts.json\n"
+    "  mpirun -np 4 --map-by node --bind-to none grove-mpi solve INSTANCE.cts.json --threads 16";
+
+// What a rank has and does in a run.
+class Run {
+ public:
+  Run(const CLI::App& app, SolveArguments& arguments, MpiSession& session)
+      : app_(app), a_(arguments), session_(session) {}
+
+  void run() {
+    share_machine(app_, a_, session_);
+    options_ = options_of_one_search(a_);
+    require_same(session_, "version", version_text());
+    require_same(session_, "options", options_text(app_));
+    together(session_, [&] { loaded_.emplace(a_.instance.load(is_first())); });
+    require_same(session_, "an instance of fingerprint",
+                 fmt::format("{:016x}", fingerprint(loaded_->instance)));
+    set_limits(limits_, a_, start_);
+    const Crew crew = gather_crew(session_, a_.threads);
+    together(session_, [&] {
+      if (is_first()) prepare(crew);
+    });
+    if (is_first())
+      solve_and_write();
+    else
+      solve_with(silent_);
+  }
+
+ private:
+  bool is_first() const { return session_.rank() == 0; }
+
+  void prepare(const Crew& crew) {
+    prepare_outputs(a_, *loaded_);
+    if (!a_.start.empty()) options_.start = read_start_plan(a_.start, loaded_->instance);
+    resumed_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
+    sink_ = std::make_unique<LogSink>(!a_.quiet, a_.log, false);
+    log_head(*sink_, app_, a_, *loaded_, workers_text(crew));
+    for (const std::string& warning : warnings(crew)) sink_->line("Warning: " + warning);
+    if (resumed_) log_resumed(*sink_, resumed_->header());
+  }
+
+  void solve_and_write() {
+    RunLog log(*sink_, start_, a_.time_limit_s, false);
+    IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
+                            options_.omega, log);
+    Solution solution = *solve_with(observer);
+    add_run_facts(solution, app_, a_, start_);
+    solution.stats.counts["ranks"] = session_.ranks();
+    write_solution(a_.output, loaded_->instance, solution);
+    log.finish(solution, a_.output);
+  }
+
+  // All search or none does: rank 0 then says what there is to say.
+  std::optional<Solution> solve_with(RunObserver& observer) {
+    const Problem problem(loaded_->instance, limits_, options_.low_level);
+    const auto answer = answer_without_search(problem, options_, limits_, observer);
+    const auto found = session_.gather(answer ? "an answer" : "");
+    if (std::ranges::count(found, "") == session_.ranks()) {
+      return solve_by_all(problem, observer);
+    }
+    if (!is_first()) return std::nullopt;
+    return answer ? answer : solve(loaded_->instance, options_, limits_, &observer);
+  }
+
+  // What goes wrong here goes wrong on one rank alone, for which the others would wait for ever: a
+  // checkpoint may turn out to be damaged when rank 0 reads its nodes. Nor can the network be left
+  // while messages are under way.
+  std::optional<Solution> solve_by_all(const Problem& problem, RunObserver& observer) {
+    const auto network = session_.connect();
+    try {
+      return solve_distributed(problem, options_, limits_, *network, observer, [] {});
+    } catch (const InputError& error) {
+      complain(*app_.get_parent(), error.what());
+      session_.abort(kExitBadInput);
+    } catch (const std::exception& error) {
+      complain(*app_.get_parent(),
+               fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
+      session_.abort(kExitInternalFailure);
+    }
+  }
+
+  const Clock::time_point start_ = Clock::now();
+  const CLI::App& app_;
+  SolveArguments& a_;
+  MpiSession& session_;
+  SolveOptions options_;
+  std::optional<LoadedInstance> loaded_;
+  Limits limits_;
+  RunObserver silent_;
+  std::unique_ptr<CheckpointReader> resumed_;
+  std::unique_ptr<LogSink> sink_;
+};
+
+}  // namespace
+
+void add_mpi_solve_command(CLI::App& root, MpiSession& session, CommandLines& lines) {
+  CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
+  app->footer(kSolveFooter);
+  const auto arguments = std::make_shared<SolveArguments>();
+  arguments->instance.add_to(*app);
+  add_search_options(*app, *arguments);
+  add_checkpoint_options(*app, arguments->checkpoints);
+  add_file_options(*app, *arguments);
+  app->callback([app, arguments, &session, &lines] {
+    lines.accept();
+    Run(*app, *arguments, session).run();
+  });
+}
+
+}  // namespace grove

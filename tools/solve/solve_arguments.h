@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What one asks of a solve on the command line.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "grove/engine/method.h"
+#include "grove/model/limits.h"
+#include "tools/common/instance_arguments.h"
+#include "tools/common/machine.h"
+#include "tools/solve/checkpoint_arguments.h"
+
+namespace grove {
+
+struct SolveArguments {
+  InstanceArguments instance;
+  std::string omega;  // empty: not given
+  double time_limit_s = 180;
+  double memory_limit_gb = std::floor(8 * physical_memory_gb()) / 10;
+  std::int64_t threads = usable_cores();
+  std::string method = "auto";
+  bool anytime = false;
+  std::string policy = "auto";
+  std::string rtsp = "auto";
+  std::int64_t seed = 0;
+  std::vector<std::string> with;
+  std::vector<std::string> without;
+  bool deterministic = false;
+  CheckpointArguments checkpoints;
+  std::filesystem::path start;
+  std::string incumbents;
+  std::filesystem::path output;
+  std::filesystem::path log;
+  bool quiet = false;
+};
+
+// Adds the options of a search - names, ranges, defaults and the texts of the help, once - and
+// those that name the files of one run. `arguments` must outlive the parsing.
+void add_search_options(CLI::App& app, SolveArguments& arguments);
+// Parts of them: how good the plan must be, and by what means it is sought.
+void add_omega_option(CLI::App& app, SolveArguments& arguments);
+void add_method_options(CLI::App& app, SolveArguments& arguments);
+void add_file_options(CLI::App& app, SolveArguments& arguments);
+// All that `grove solve` knows.
+void add_solve_options(CLI::App& app, SolveArguments& arguments);
+
+// What was asked for that is not the default, as one types it.
+std::string options_text(const CLI::App& app);
+
+Method method_of(const SolveArguments& arguments);
+Omega omega_of(const SolveArguments& arguments);
+// For the engine, but for the start plan. Throws CLI::ValidationError when they do not fit
+// together.
+SolveOptions solve_options(const SolveArguments& arguments);
+// The same for programs that run solve()'s search themselves: not for all methods.
+SolveOptions options_of_one_search(const SolveArguments& arguments);
+// The limits of a run that began at `start`.
+void set_limits(Limits& limits, const SolveArguments& arguments,
+                std::chrono::steady_clock::time_point start);
+
+}  // namespace grove

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// grove solve: files in, log and plan file out.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "grove/engine/method.h"
+#include "grove/io/input_error.h"
+#include "grove/io/plan_file.h"
+#include "tools/common/commands.h"
+#include "tools/common/signals.h"
+#include "tools/solve/incumbent_files.h"
+#include "tools/solve/run_log.h"
+#include "tools/solve/solve_arguments.h"
+#include "tools/solve/solve_run.h"
+#include "tools/solve/start_plan.h"
+
+namespace grove {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kSolveFooter =
+    "The plan file says how the run ended: optimal, bounded (within omega), feasible (a plan "
+    "outside\n"
+    "omega), unknown (no plan when a limit struck) or infeasible (proven). Its lower_bound is "
+    "proven\n"
+    "whatever the status. Ctrl-C and SIGTERM end the run like a time limit: with the best plan so "
+    "far.\n"
+    "\n"
+    "Examples:\n"
+    "  grove solve benchmarks/data/first.cts.json\n"
+    "  grove solve INSTANCE.cts.json --omega 0 --time-limit 60 --output plan.json\n"
+    "  grove solve room-32-32-4-random-1.scen --map room-32-32-4.map --agents 20";
+
+void expect_fit(Method method, const Instance& instance, const SolveOptions& options,
+                const std::string& path) {
+  try {
+    require_fit(method, instance, options);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(path, "", error.what());
+  }
+}
+
+void run_solve(const CLI::App& app, SolveArguments& a) {
+  const Clock::time_point start = Clock::now();
+  stop_on_signals();
+  SolveOptions options = solve_options(a);
+  const LoadedInstance loaded = a.instance.load();
+  prepare_outputs(a, loaded);
+  if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
+  expect_fit(method_of(a), loaded.instance, options, a.instance.path());
+  const auto resumed = prepare_checkpoints(a.checkpoints, loaded.instance, options);
+  LogSink sink(!a.quiet, a.log);
+  log_head(sink, app, a, loaded, std::to_string(a.threads));
+  if (resumed) log_resumed(sink, resumed->header());
+
+  Limits limits;
+  set_limits(limits, a, start);
+  RunLog log(sink, start, a.time_limit_s, a.deterministic);
+  IncumbentFiles observer(a.incumbents, a.checkpoints.incumbent_file(), loaded.instance,
+                          options.omega, log);
+  Solution solution =
+      solve_by(method_of(a), a.anytime, loaded.instance, options, limits, &observer);
+
+  add_run_facts(solution, app, a, start);
+  write_solution(a.output, loaded.instance, solution);
+  log.finish(solution, a.output);
+}
+
+}  // namespace
+
+void add_solve_command(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
+  app->footer(kSolveFooter);
+  const auto arguments = std::make_shared<SolveArguments>();
+  add_solve_options(*app, *arguments);
+  app->callback([app, arguments] { run_solve(*app, *arguments); });
+}
+
+}  // namespace grove

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "tools/solve/start_plan.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grove/io/input_error.h"
+#include "grove/io/plan_file.h"
+#include "grove/model/check.h"
+#include "tools/common/instance_arguments.h"
+
+namespace grove {
+
+Plan read_start_plan(const std::filesystem::path& path, const Instance& instance) {
+  std::vector<std::string> warnings;
+  Solution solution = read_solution(path, instance, &warnings);
+  print_warnings(warnings);
+  if (!solution.plan)
+    throw InputError(path.string(), "/agents",
+                     fmt::format("no plan (status {}); expected a valid plan for this instance",
+                                 to_string(solution.status)));
+  solution.lower_bound = 0;
+  solution.status = status_of(solution.plan->cost, solution.lower_bound, solution.omega);
+  if (const auto violations = check(instance, solution, 1); !violations.empty())
+    throw InputError(path.string(), violations[0].place,
+                     fmt::format("not a plan of this instance: {}", violations[0].message));
+  return std::move(*solution.plan);
+}
+
+}  // namespace grove
