@@ -86,11 +86,11 @@
 #include <optional>
 #include <vector>
 
-#include "bucket_queue.h"
 #include "gates.h"
+#include "grove/planning/bucket_queue.h"
+#include "grove/planning/safe_intervals.h"
 #include "label_planes.h"
 #include "late_costs.h"
-#include "safe_intervals.h"
 #include "visit_check.h"
 
 namespace grove {

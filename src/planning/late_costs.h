@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "grove/planning/free_goals.h"
+#include "grove/planning/safe_intervals.h"
 #include "grove/sequencing/cost_matrix.h"
-#include "safe_intervals.h"
 
 namespace grove {
 

@@ -70,9 +70,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "bucket_queue.h"
-#include "poll.h"
-#include "safe_intervals.h"
+#include "grove/planning/bucket_queue.h"
+#include "grove/planning/poll.h"
+#include "grove/planning/safe_intervals.h"
 
 namespace grove {
 namespace {

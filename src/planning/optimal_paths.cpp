@@ -29,10 +29,10 @@
 
 #include <algorithm>
 
-#include "bucket_queue.h"
+#include "grove/planning/bucket_queue.h"
+#include "grove/planning/poll.h"
+#include "grove/planning/safe_intervals.h"
 #include "label_planes.h"
-#include "poll.h"
-#include "safe_intervals.h"
 
 namespace grove {
 

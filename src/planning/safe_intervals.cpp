@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "safe_intervals.h"
+#include "grove/planning/safe_intervals.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "bucket_queue.h"
-#include "safe_intervals.h"
+#include "grove/planning/bucket_queue.h"
+#include "grove/planning/safe_intervals.h"
 
 namespace grove {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "src/planning/bucket_queue.h"
+#include "grove/planning/bucket_queue.h"
 
 #include <gtest/gtest.h>
 

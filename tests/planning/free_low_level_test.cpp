@@ -9,7 +9,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "grove/planning/baseline_search.h"
+#include "grove/baselines/baseline_search.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/sequencing/k_best_sequences.h"

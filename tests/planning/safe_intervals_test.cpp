@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "src/planning/safe_intervals.h"
+#include "grove/planning/safe_intervals.h"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <optional>
 
+#include "grove/baselines/baseline_search.h"
 #include "grove/engine/checkpoints.h"
 #include "grove/model/limits.h"
 #include "grove/model/plan.h"
-#include "grove/planning/baseline_search.h"
 #include "grove/search/techniques.h"
 #include "grove/sequencing/rtsp.h"
 
@@ -35,7 +35,7 @@ struct SolveOptions {
   RtspBackend rtsp = RtspBackend::kAuto;  // of kFixed
   // Not with kFixed. With another one than Grove's own no technique is used: plain CBS.
   LowLevel low_level = LowLevel::kOwn;
-  int threads = 1;                        // at least 1
+  int threads = 1;  // at least 1
   // What happens depends on the work done alone, not on the threads or the clock: the same plan and
   // the same events for any number of threads, limits aside.
   bool deterministic = false;

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "grove/baselines/baseline_search.h"
 #include "grove/planning/agent_stops_store.h"
-#include "grove/planning/baseline_search.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/planning/optimal_paths.h"

@@ -2,9 +2,9 @@
 // What every part of the search reads and none changes.
 #pragma once
 
+#include "grove/baselines/baseline_search.h"
 #include "grove/model/distance_field.h"
 #include "grove/model/instance.h"
-#include "grove/planning/baseline_search.h"
 #include "grove/planning/chains.h"
 
 namespace grove {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bucket_queue.h"
+#include "grove/planning/bucket_queue.h"
 #include "legs.h"
 
 namespace grove {

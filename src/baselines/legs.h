@@ -11,7 +11,7 @@
 #include "grove/model/plan.h"
 #include "grove/planning/constraint.h"
 #include "grove/planning/free_goals.h"
-#include "safe_intervals.h"
+#include "grove/planning/safe_intervals.h"
 
 namespace grove {
 

@@ -2,7 +2,7 @@
 // The low levels of published methods where they are easily wrong, and on problems too large for a
 // reference: there they must agree with Grove's own. (free_low_level_test.cpp holds them against
 // the definition.)
-#include "grove/planning/baseline_search.h"
+#include "grove/baselines/baseline_search.h"
 
 #include <gtest/gtest.h>
 

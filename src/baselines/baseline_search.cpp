@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/baseline_search.h"
+#include "grove/baselines/baseline_search.h"
 
 #include <algorithm>
 #include <stdexcept>

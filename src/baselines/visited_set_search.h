@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "bucket_queue.h"
-#include "grove/planning/baseline_search.h"
+#include "grove/baselines/baseline_search.h"
+#include "grove/planning/bucket_queue.h"
+#include "grove/planning/safe_intervals.h"
 #include "grove/sequencing/sequence_dag.h"
-#include "safe_intervals.h"
 #include "spanning_tree_bound.h"
 
 namespace grove {

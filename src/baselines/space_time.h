@@ -6,7 +6,7 @@
 #include <span>
 
 #include "grove/planning/constraint.h"
-#include "safe_intervals.h"
+#include "grove/planning/safe_intervals.h"
 
 namespace grove {
 

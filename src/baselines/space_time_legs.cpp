@@ -8,7 +8,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "poll.h"
+#include "grove/planning/poll.h"
 #include "space_time.h"
 
 namespace grove {

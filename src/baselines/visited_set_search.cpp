@@ -17,7 +17,7 @@
 
 #include <algorithm>
 
-#include "poll.h"
+#include "grove/planning/poll.h"
 #include "space_time.h"
 
 namespace grove {
