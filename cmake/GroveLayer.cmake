@@ -7,7 +7,8 @@ add_compile_definitions(
 
 add_library(grove_options INTERFACE)
 target_compile_options(grove_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  $<$<BOOL:${GROVE_WERROR}>:-Werror>
   # GCC 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 

