@@ -48,8 +48,7 @@ void NeighborhoodSearch::step(const Limits& limits) {
 }
 
 NeighborhoodSearch::Way& NeighborhoodSearch::choose_way() {
-  if (random_.below(kNeighborhoodsPerTrial) == 0)
-    return ways_[static_cast<std::size_t>(random_.below(std::ssize(ways_)))];
+  if (random_.below(kNeighborhoodsPerTrial) == 0) return ways_[random_.below(ways_.size())];
   return *std::ranges::max_element(ways_, {},
                                    [](const Way& way) { return (way.gain + 1) / way.work; });
 }

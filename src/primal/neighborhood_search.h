@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "grove/model/random.h"
 #include "neighborhoods.h"
 #include "path_set.h"
-#include "random.h"
 #include "router.h"
 
 namespace grove {

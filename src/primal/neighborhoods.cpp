@@ -23,7 +23,7 @@ constexpr Time kAboutNow = 8;             // steps before and after, at one spot
 const std::vector<AgentIndex>& Neighborhoods::choose() {
   const int agents = problem_.instance.agent_count();
   chosen_.clear();
-  wanted_ = std::min<int>(agents, kFewest + static_cast<int>(random_.below(kMost - kFewest + 1)));
+  wanted_ = std::min(agents, kFewest + random_.below(kMost - kFewest + 1));
   kind_ = choose_kind();
   if (kind_ == kDelayed) add_delayed();
   if (kind_ == kOneSpot) add_around_spot();
@@ -54,7 +54,7 @@ void Neighborhoods::add(AgentIndex agent) {
 }
 
 void Neighborhoods::add_anyone() {
-  while (!full()) add(static_cast<AgentIndex>(random_.below(problem_.instance.agent_count())));
+  while (!full()) add(random_.below(problem_.instance.agent_count()));
 }
 
 void Neighborhoods::add_delayed() {
@@ -64,9 +64,8 @@ void Neighborhoods::add_delayed() {
   add_those_in_the_way(agent, 0);
   const Time delay = paths_.cost(agent) - router_.own_cost(agent);
   for (int tries = 0; tries < kDelayedStarts && !full(); ++tries) {
-    const AgentIndex member =
-        chosen_[static_cast<std::size_t>(random_.below(static_cast<std::int64_t>(chosen_.size())))];
-    add_those_in_the_way(member, static_cast<Time>(random_.below(delay + 1)));
+    const AgentIndex member = chosen_[random_.below(chosen_.size())];
+    add_those_in_the_way(member, random_.below(delay + 1));
   }
 }
 
@@ -106,9 +105,8 @@ void Neighborhoods::add_those_in_the_way(AgentIndex agent, Time late) {
 // Breadth first from a cell on somebody's path, about the time when it is there.
 void Neighborhoods::add_around_spot() {
   const Grid& grid = problem_.instance.grid();
-  const Path& path =
-      paths_.path(static_cast<AgentIndex>(random_.below(problem_.instance.agent_count())));
-  const Time time = static_cast<Time>(random_.below(static_cast<std::int64_t>(path.size())));
+  const Path& path = paths_.path(random_.below(problem_.instance.agent_count()));
+  const auto time = static_cast<Time>(random_.below(path.size()));
   seen_at_.resize(static_cast<std::size_t>(grid.cell_count()), 0);
   ++search_;
   queue_.assign(1, path[time]);

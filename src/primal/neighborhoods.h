@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "grove/model/random.h"
 #include "grove/search/problem.h"
 #include "path_set.h"
-#include "random.h"
 #include "router.h"
 
 namespace grove {

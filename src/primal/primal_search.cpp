@@ -34,12 +34,12 @@
 #include <utility>
 #include <vector>
 
+#include "grove/model/random.h"
 #include "grove/primal/configuration_search.h"
 #include "grove/primal/visit_orders.h"
 #include "neighborhood_search.h"
 #include "path_set.h"
 #include "prioritized_planning.h"
-#include "random.h"
 #include "router.h"
 
 namespace grove {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "grove/model/random.h"
 #include "path_set.h"
-#include "random.h"
 #include "router.h"
 
 namespace grove {

@@ -19,8 +19,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "bucket_queue.h"
 #include "grove/sequencing/cost_matrix.h"
+#include "keyed_stacks.h"
 
 namespace grove {
 
@@ -128,7 +128,7 @@ class KBestJointSequences::Queue {
   std::vector<KBestSequences> agents_;
   const Limits& limits_;
   std::vector<Returned> returned_;
-  BucketQueue<Cost, Entry> queue_;
+  KeyedStacks<Cost, Entry> queue_;
 };
 
 KBestJointSequences::KBestJointSequences(std::vector<KBestSequences> agents, const Limits& limits)

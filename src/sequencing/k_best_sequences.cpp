@@ -23,8 +23,8 @@
 #include <deque>
 #include <utility>
 
-#include "bucket_queue.h"
 #include "grove/sequencing/cost_matrix.h"
+#include "keyed_stacks.h"
 #include "stop_set.h"
 
 namespace grove {
@@ -117,7 +117,7 @@ class KBestSequences::Partition {
   std::unique_ptr<RtspSolver> solver_;
   const CostMatrix& matrix_;
   const Limits& limits_;
-  BucketQueue<Key, Entry> queue_;
+  KeyedStacks<Key, Entry> queue_;
   std::deque<Found> found_;  // by rank; a deque, so that sequences stay where they are
   SequenceClass class_;
   std::int64_t rtsp_calls_ = 0;

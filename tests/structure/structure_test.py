@@ -62,6 +62,30 @@ def has_license(text):
     return any("SPDX-License-Identifier: MIT" in line for line in text.splitlines()[:2])
 
 
+def named_types(text, is_header):
+    """The types that `text` defines in a namespace with a name, or in none: "grove::Grid". Of
+    aliases those in headers."""
+    code = re.sub(r"^\s*#(?:[^\n\\]|\\\n)*", "", without_comments_and_strings(text), flags=re.M)
+    found, scopes, start = [], [], 0
+    for token in re.finditer(r"[{};]", code):
+        head, start = code[start:token.start()].strip(), token.end()
+        in_namespace = None not in scopes
+        if token.group() == "}":
+            scopes[-1:] = []
+            continue
+        alias = re.search(r"^(?:template\s*<.*>\s*)?using\s+(\w+)\s*=", head, re.S)
+        if alias and is_header and in_namespace:
+            found.append("::".join([*scopes, alias.group(1)]))
+        if token.group() == "{":
+            namespace = re.search(r"\bnamespace\s+([\w:]+)$", head)
+            defined = re.search(r"(?:^|[>\s])(?:class|struct|union|enum(?:\s+class)?)\s+([\w:]+)"
+                                r"(?:\s+final)?(?:\s*:[^{]*)?$", head)
+            if defined and in_namespace:
+                found.append("::".join([*scopes, defined.group(1)]))
+            scopes.append(namespace.group(1) if namespace else None)
+    return found
+
+
 def declared_depends(cmake):
     """{layer: [layers it declares]} of the grove_layer() calls in a CMakeLists.txt."""
     code = re.sub(r"#[^\n]*", "", cmake)
@@ -127,6 +151,12 @@ class TheTree(unittest.TestCase):
             if (ROOT / "tests/mpi") not in path.parents:
                 self.assertFalse(names_mpi(text), path)
 
+    def test_no_two_files_define_one_type(self):
+        defined_in = {}
+        for path, text in self.sources("include", "src", "mpi", "tools", "tests", "benchmarks"):
+            for name in named_types(text, path.suffix == ".h"):
+                self.assertEqual(defined_in.setdefault(name, path), path, name)
+
     def test_libraries_neither_end_the_process_nor_print(self):
         for path, text in self.sources("include", "src"):
             self.assertFalse(forbidden(text), path)
@@ -163,6 +193,18 @@ class TheChecks(unittest.TestCase):
     def test_comments_and_strings(self):
         self.assertEqual(without_comments_and_strings('a "b\\"c" d /* e\n */ f // g\n1\'0\'h'),
                          'a "" d \n f \n1\'0\'h')
+
+    def test_types(self):
+        text = """#define X {
+            namespace grove { class A; class B final : public A { struct Inner {}; };
+            template <class T> requires std::is_trivial_v<T> struct C { int x{}; };
+            using D = B; enum class E : int { k }; void f() { struct Local {}; }
+            namespace { struct Hidden {}; using X = B; }
+            class B::F { }; struct B make() { return {}; } }
+            namespace grove::fuzz { class A {}; } struct G {};"""
+        types = ["grove::B", "grove::C", "grove::E", "grove::B::F", "grove::fuzz::A", "G"]
+        self.assertEqual(named_types(text, False), types)
+        self.assertEqual(named_types(text, True), types[:2] + ["grove::D"] + types[2:])
 
     def test_depends(self):
         cmake = "grove_layer(b SOURCES x.cpp DEPENDS a model\n LINK_PUBLIC y)\n# grove_layer(c)\n"

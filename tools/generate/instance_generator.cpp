@@ -27,7 +27,7 @@ class Generator {
         scenario_(scenario),
         request_(request),
         component_(components(grid)),
-        random_(request.seed, Random::Use::kTasks) {}
+        random_(random_for(RandomUse::kTasks, request.seed)) {}
 
   Instance run() {
     require_rows(request_.agents);

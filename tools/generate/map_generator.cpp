@@ -90,7 +90,7 @@ void connecting_walls_first(std::vector<Wall>& walls, int rooms) {
 
 Position random_cell(const Wall& wall, Random& random) {
   const int length = wall.last.x - wall.first.x + wall.last.y - wall.first.y + 1;
-  const auto step = static_cast<int>(random.below(static_cast<std::size_t>(length)));
+  const auto step = random.below(length);
   const bool is_row = wall.first.y == wall.last.y && wall.first.x != wall.last.x;
   return is_row ? Position{wall.first.x + step, wall.first.y}
                 : Position{wall.first.x, wall.first.y + step};
@@ -110,7 +110,7 @@ Grid random_map(int width, int height, double obstacles, std::uint64_t seed) {
     throw std::invalid_argument(
         fmt::format("{} obstacles on {} cells leave fewer than 2 passable ones", wanted, cells));
 
-  Random random(seed, Random::Use::kMap);
+  Random random = random_for(RandomUse::kMap, seed);
   std::vector<std::size_t> order(cells);
   std::iota(order.begin(), order.end(), std::size_t{0});
   random.shuffle(order);
@@ -144,7 +144,7 @@ Grid rooms_map(int width, int height, int room_size, double doors, std::uint64_t
       for (int y = rows.first[j]; y <= rows.last[j]; ++y)
         for (int x = columns.first[i]; x <= columns.last[i]; ++x) passable[cell(x, y)] = true;
 
-  Random random(seed, Random::Use::kMap);
+  Random random = random_for(RandomUse::kMap, seed);
   std::vector<Wall> walls = walls_between(columns, rows);
   random.shuffle(walls);
   const int rooms = columns.count() * rows.count();

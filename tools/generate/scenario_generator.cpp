@@ -23,7 +23,7 @@ std::vector<ScenarioRow> random_scenario(const Grid& grid, const std::string& ma
                                  "scenario rows",
                                  starts.size(), std::max(count, 2), count));
   std::vector<Cell> goals = starts;
-  Random random(seed, Random::Use::kScenario);
+  Random random = random_for(RandomUse::kScenario, seed);
   random.shuffle(starts);
   random.shuffle(goals);
   // A goal on its own start trades places with the next one, which then is on neither's start.

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "grove/io/input_error.h"
-#include "tools/generate/random.h"
 
 namespace grove {
 namespace scenario_generator_test {
@@ -45,20 +44,6 @@ TEST(ScenarioLengths, AreDistancesOnTheGrid) {
   const std::vector<ScenarioRow> rows{{2, "m.map", 5, 2, {0, 0}, {2, 1}},
                                       {3, "m.map", 5, 2, {1, 1}, {1, 1}}};
   EXPECT_EQ(scenario_lengths(two_parts(), rows), (std::vector<Time>{3, 0}));
-}
-
-TEST(Random, DrawsTheSameEverywhere) {
-  Random random(42, Random::Use::kMap);
-  std::vector<std::size_t> draws;
-  for (int k = 0; k < 8; ++k) draws.push_back(random.below(10));
-  EXPECT_EQ(draws, (std::vector<std::size_t>{9, 1, 1, 5, 3, 6, 7, 7}));
-}
-
-TEST(Random, DrawsEachNumberAboutEquallyOften) {
-  Random random(7, Random::Use::kTasks);
-  std::vector<int> counts(3);
-  for (int k = 0; k < 30'000; ++k) ++counts[random.below(3)];
-  for (int count : counts) EXPECT_NEAR(count, 10'000, 400);
 }
 
 }  // namespace scenario_generator_test

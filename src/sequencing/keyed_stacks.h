@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A priority queue for many small entries on few distinct keys, of any kind: a stack for each.
+#pragma once
+
+#include <map>
+#include <vector>
+
+namespace grove {
+
+// Pops an entry of the least key; among equals the last one pushed.
+template <class Key, class Entry>
+class KeyedStacks {
+ public:
+  bool empty() const { return stacks_.empty(); }
+  const Key& top_key() const { return stacks_.begin()->first; }
+
+  void push(const Key& key, const Entry& entry) { stacks_[key].push_back(entry); }
+
+  Entry pop() {
+    const auto top = stacks_.begin();
+    const Entry entry = top->second.back();
+    top->second.pop_back();
+    if (top->second.empty()) stacks_.erase(top);
+    return entry;
+  }
+
+ private:
+  std::map<Key, std::vector<Entry>> stacks_;  // none is empty
+};
+
+}  // namespace grove
