@@ -16,12 +16,12 @@ ProgressText text_of(const BatchState& state) {
 
 void BatchState::count(const Row& row) {
   solving_s += row.wall_s;
-  if (row.failed()) {
+  if (row.outcome.failed()) {
     ++failed;
-  } else if (row.result.status == Status::kFeasible || row.result.status == Status::kUnknown) {
-    ++limited;
-  } else {
+  } else if (row.outcome.solved || row.outcome.status == to_string(Status::kInfeasible)) {
     ++solved;
+  } else {
+    ++limited;
   }
 }
 

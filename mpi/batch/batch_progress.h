@@ -8,14 +8,14 @@
 #include <utility>
 
 #include "grove/batch/progress.h"
-#include "mpi/batch/row.h"
+#include "grove/batch/row.h"
 
 namespace grove::batch {
 
 // A batch at one moment. Instances that earlier runs finished count as done.
 struct BatchState {
   int total = 0;
-  int solved = 0;   // within omega, or proven infeasible
+  int solved = 0;   // before any limit, or proven infeasible
   int limited = 0;  // a limit struck first
   int failed = 0;
   int under_way = 0;

@@ -44,7 +44,7 @@ void FarmClient::lead() {
     tell_members(Assignment{*entry});
     Row row = solve(*entry);
     wait_for_members(row);
-    if (row.result.interrupted()) {
+    if (row.outcome.interrupted()) {
       tell_master(GaveUp{});
     } else {
       tell_master(Report{std::move(row)});
@@ -75,22 +75,20 @@ std::optional<Entry> FarmClient::next_entry() {
 }
 
 Row FarmClient::solve(const Entry& entry) {
-  Row row;
-  row.id = entry.id;
-  row.instance = entry.path;
-  row.digest = entry.digest;
-  row.version = options_.version;
+  Row row{.run = {entry.id, entry.digest, options_.settings}};
+  row.machine = options_.machine;
   row.ranks = group_.ranks();
   row.threads = options_.threads;
-  row.started_at = options_.clock.utc();
   const double start = options_.clock.seconds();
   try {
-    row.result = options_.solve(entry, [this] { poll(); });
+    options_.solve(entry, row, [this] { poll(); });
   } catch (const std::exception& error) {
-    row.error = error_text(error);
+    row.outcome = {.error = error_text(error)};
   }
   if (broken_) std::rethrow_exception(broken_);  // no fault of the instance
+  row.outcome.version = options_.version;
   row.wall_s = options_.clock.seconds() - start;
+  row.ended_at = options_.clock.utc();
   return row;
 }
 
@@ -117,10 +115,8 @@ void FarmClient::wait_for_members(Row& row) {
     }
     --left;
     const std::string& error = std::get<Ended>(*message).error;
-    if (!error.empty() && !row.failed() && !row.result.interrupted()) {
-      row.result = {};
-      row.error = error;
-    }
+    if (!error.empty() && !row.outcome.failed())
+      row.outcome = {.version = options_.version, .error = error};
   }
 }
 
@@ -134,7 +130,8 @@ void FarmClient::follow() {
     if (std::holds_alternative<Dismissal>(*message)) return;
     Ended ended;
     try {
-      options_.solve(std::get<Assignment>(*message).entry, [] {});
+      Row unused;
+      options_.solve(std::get<Assignment>(*message).entry, unused, [] {});
     } catch (const std::exception& error) {
       ended.error = fmt::format("rank {} of the world: {}", world_.rank(), error_text(error));
     }

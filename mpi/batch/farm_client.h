@@ -12,23 +12,25 @@
 #include "grove/batch/entry.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/batch/farm_messages.h"
-#include "mpi/batch/row.h"
 #include "mpi/transport.h"
 
 namespace grove::batch {
 
-// Solves an instance; called on all ranks of the group together, and what it returns counts on the
-// leader, which is rank 0 of the group. It writes the plan file before it returns. `poll` must be
+// Solves an instance; called on all ranks of the group together. What it says in `row` - facts,
+// outcome, plan file - counts on the leader, which is rank 0 of the group. It writes the plan file
+// before it returns. `poll` must be
 // called about every millisecond, from the thread that called; what it throws must be passed on. An
 // exception (std::exception) on any rank makes a row with that error; ranks that wait for one that
 // threw must come to know of it by themselves (gather.h). No rank begins the next instance before
 // all ranks of its group have ended this one.
-using Solve = std::function<Result(const Entry& entry, const std::function<void()>& poll)>;
+using Solve = std::function<void(const Entry& entry, Row& row, const std::function<void()>& poll)>;
 
 struct ClientOptions {
   Solve solve;
-  std::string version;  // of the program, for the rows
-  int threads = 1;      // of this rank, for the rows
+  Settings settings = {};  // of all runs
+  int threads = 1;         // of this rank, for the rows
+  std::string version = {};
+  std::string machine = {};
   BatchClock clock;
   std::function<void()> idle;  // called while there is nothing to do: sleeps for a moment, say
 };

@@ -9,9 +9,15 @@ namespace {
 
 constexpr double kCsvInterval_s = 10;  // the whole file is written each time
 
+std::vector<Run> runs_of(const std::vector<Entry>& entries, const Settings& settings) {
+  std::vector<Run> runs;
+  for (const Entry& entry : entries) runs.push_back({entry.id, entry.digest, settings});
+  return runs;
+}
+
 }  // namespace
 
-FarmMaster::FarmMaster(Transport& world, Grouping grouping, const std::vector<Entry>& entries,
+FarmMaster::FarmMaster(Transport& world, Grouping grouping, std::vector<Entry> entries,
                        ResultTable& table, std::atomic<bool>& interrupted, BatchClock clock,
                        MasterOptions options)
     : world_(world),
@@ -21,11 +27,13 @@ FarmMaster::FarmMaster(Transport& world, Grouping grouping, const std::vector<En
       clock_(std::move(clock)),
       options_(std::move(options)),
       start_(clock_.seconds()),
-      todo_(table.begin(entries)) {
-  state_.total = static_cast<int>(entries.size());
+      entries_(std::move(entries)),
+      runs_(runs_of(entries_, options_.settings)),
+      todo_(table.begin(runs_)) {
+  state_.total = static_cast<int>(entries_.size());
   state_.groups = grouping_.groups();
-  for (const Entry& entry : entries)
-    if (const Row* row = table_.find(entry.id)) state_.count(*row);
+  for (const Run& run : runs_)
+    if (const Row* row = table_.find(run)) state_.count(*row);
 }
 
 void FarmMaster::poll() {
@@ -49,7 +57,7 @@ void FarmMaster::on(int from, AskForWork&) {
 }
 
 void FarmMaster::on(int from, Report& report) {
-  end_assignment(from, &report.row.id);
+  end_assignment(from, &report.row.run.instance);
   finished_.push_back(std::move(report.row));
 }
 
@@ -88,6 +96,7 @@ void FarmMaster::stop_if_interrupted() {
 void FarmMaster::record() {
   if (finished_.empty()) return;
   table_.append(finished_);
+  table_.flush();
   for (const Row& row : finished_) state_.count(row);
   finished_.clear();
   if (seconds() < next_csv_s_) return;
@@ -111,8 +120,9 @@ void FarmMaster::answer() {
 }
 
 void FarmMaster::assign_next(int leader) {
-  const Entry& entry = todo_[next_++];
-  table_.note_begun(entry);
+  const std::size_t run = todo_[next_++];
+  const Entry& entry = entries_[run];
+  table_.note_begun(runs_[run]);
   under_way_[leader] = {entry.id, seconds()};
   tell(leader, Assignment{entry});
 }

@@ -13,15 +13,16 @@
 
 #include "grove/batch/batch_clock.h"
 #include "grove/batch/entry.h"
+#include "grove/batch/result_table.h"
 #include "mpi/batch/batch_progress.h"
 #include "mpi/batch/farm_messages.h"
 #include "mpi/batch/grouping.h"
-#include "mpi/batch/result_table.h"
 #include "mpi/transport.h"
 
 namespace grove::batch {
 
 struct MasterOptions {
+  Settings settings;  // of all runs
   // Since the master was made. Then nothing more is handed out; what is under way goes on.
   double total_time_limit_s = std::numeric_limits<double>::infinity();
   // Told at every poll(); may be empty. BatchProgress::show, say.
@@ -36,9 +37,8 @@ struct MasterOptions {
 class FarmMaster {
  public:
   // Begins `table` with `entries`. `world`, `table` and `interrupted` must outlive this.
-  FarmMaster(Transport& world, Grouping grouping, const std::vector<Entry>& entries,
-             ResultTable& table, std::atomic<bool>& interrupted, BatchClock clock,
-             MasterOptions options = {});
+  FarmMaster(Transport& world, Grouping grouping, std::vector<Entry> entries, ResultTable& table,
+             std::atomic<bool>& interrupted, BatchClock clock, MasterOptions options);
 
   // Does what there is to do and never waits for messages; a row costs a write to disk. To be
   // called about every millisecond. Throws InputError when the table cannot be written, and
@@ -84,13 +84,15 @@ class FarmMaster {
   const BatchClock clock_;
   const MasterOptions options_;
   const double start_;
-  std::vector<Entry> todo_;
-  std::size_t next_ = 0;               // of todo_
-  std::map<int, UnderWay> under_way_;  // by leader
-  std::vector<Row> finished_;          // not yet on disk
-  std::deque<int> asking_;             // leaders
-  std::deque<FarmMessage> own_;        // for the leader on this rank
-  BatchState state_;                   // what can be counted
+  const std::vector<Entry> entries_;
+  const std::vector<Run> runs_;          // of entries_
+  const std::vector<std::size_t> todo_;  // of runs_
+  std::size_t next_ = 0;                 // of todo_
+  std::map<int, UnderWay> under_way_;    // by leader
+  std::vector<Row> finished_;            // not yet on disk
+  std::deque<int> asking_;               // leaders
+  std::deque<FarmMessage> own_;          // for the leader on this rank
+  BatchState state_;                     // what can be counted
   bool stopping_ = false;
   int dismissed_ = 0;
   double next_csv_s_ = 0;

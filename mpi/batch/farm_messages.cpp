@@ -3,7 +3,6 @@
 
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/common.hpp>
-#include <cereal/types/optional.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/variant.hpp>
 #include <sstream>
@@ -16,21 +15,14 @@ void serialize(Archive& archive, Entry& entry) {
   archive(entry.id, entry.path, entry.map, entry.agents, entry.digest);
 }
 
+// As it will stand in the table.
 template <typename Archive>
-void serialize(Archive& archive, Result& result) {
-  archive(result.status, result.cost, result.lower_bound, result.nodes_expanded,
-          result.first_plan_s, result.stopped_by, result.plan_file);
+std::string save_minimal(const Archive&, const Report& report) {
+  return json_line(report.row);
 }
-
 template <typename Archive>
-void serialize(Archive& archive, Row& row) {
-  archive(row.id, row.instance, row.digest, row.result, row.error, row.version, row.ranks,
-          row.threads, row.wall_s, row.started_at);
-}
-
-template <typename Archive>
-void serialize(Archive& archive, Report& report) {
-  archive(report.row);
+void load_minimal(const Archive&, Report& report, const std::string& line) {
+  report.row = parse_json_line(line);
 }
 
 template <typename Archive>

@@ -18,7 +18,7 @@
 #include <variant>
 
 #include "grove/batch/entry.h"
-#include "mpi/batch/row.h"
+#include "grove/batch/row.h"
 
 namespace grove::batch {
 

@@ -35,14 +35,18 @@ std::string without_suffix(std::string name) {
   return name;
 }
 
-// Neither upward steps nor the root: what names files below the output folder must stay there.
+// No upward steps: what names files below the output folder must stay there. Of an instance that
+// lies elsewhere the file and the folder it is in, and not the whole way there, which says more of
+// the machine than of the instance.
 std::string id_of(const fs::path& path, const fs::path& folder, int agents) {
   const fs::path base = folder.empty() ? fs::current_path() : fs::absolute(folder);
   const fs::path seen =
       fs::absolute(path).lexically_normal().lexically_relative(base.lexically_normal());
-  fs::path inside;
-  for (const fs::path& step : seen)
-    if (step != "..") inside /= step;
+  fs::path inside = seen;
+  if (*seen.begin() == "..") {
+    const fs::path in = seen.parent_path().filename();
+    inside = (in == ".." ? fs::path() : in) / seen.filename();
+  }
   return without_suffix(inside.generic_string()) + (agents > 0 ? fmt::format("-{}", agents) : "");
 }
 
@@ -51,6 +55,15 @@ Entry plain_entry(const fs::path& path, const fs::path& folder) {
   entry.id = id_of(path, folder, 0);
   entry.path = path.string();
   return entry;
+}
+
+// What is wrong with an instance is for its own row to tell.
+std::string digest_of(const Entry& entry) {
+  try {
+    return instance_digest(load(entry).instance);
+  } catch (const InputError&) {
+    return "";
+  }
 }
 
 // Collects entries and refuses what must not be.
@@ -69,7 +82,7 @@ class Collector {
     require_new(files_, fmt::format("{} {}", file.string(), entry.agents), place,
                 "is the same instance as");
     require_new(ids_, entry.id, place, fmt::format("names its files '{}', as does", entry.id));
-    entry.digest = digests_.of(entry);
+    entry.digest = digest_of(entry);
     entries_.push_back(std::move(entry));
   }
 
@@ -91,7 +104,6 @@ class Collector {
   std::vector<Entry> entries_;
   Places files_;
   Places ids_;
-  InstanceDigests digests_;
 };
 
 // --- folders ---

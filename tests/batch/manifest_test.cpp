@@ -81,6 +81,18 @@ TEST_F(Manifests, GiveIdsThatDoNotDependOnHowTheyAreNamed) {
   fs::current_path(before);
 }
 
+// An id is no path of the machine.
+TEST_F(Manifests, NameWhatLiesElsewhereByItsFolder) {
+  add_file("far/away/set/b.cts.json");
+  add_file("far/away/x.scen");
+  add_file("far/away/m.map");
+  add_file("c.cts.json");
+  add_file("lists/list.txt", "../far/away/set/b.cts.json\n../c.cts.json\n" +
+                                 (directory_ / "far/away/x.scen") +
+                                 " --map ../far/away/m.map --agents 2");
+  EXPECT_EQ(ids(read_manifest(directory_ / "lists/list.txt")), (Ids{"set/b", "c", "away/x-2"}));
+}
+
 TEST_F(Manifests, RefuseWithLineAndExpectation) {
   add_file("a.cts.json");
   add_file("a.json");
@@ -134,29 +146,43 @@ TEST_F(Manifests, RefuseWhatIsNoManifest) {
             std::string::npos);
 }
 
-// A digest changes with the instance and with its map, and with nothing else.
+// A digest changes with what the instance says and what its map holds, and with nothing else.
 TEST_F(Manifests, TellWhenAnInstanceHasChanged) {
-  add_file("m.map", "one");
-  add_file("n.map", "one");
-  add_file("a.cts.json", R"({"map": "m.map"})");
-  add_file("x.scen", "rows");
-  const std::string list = "a.cts.json\nx.scen --map m.map --agents 2\n";
+  const std::string map = "type octile\nheight 1\nwidth 3\nmap\n...\n";
+  const auto instance = [](const std::string& file, const std::string& id, int goal) {
+    return R"({"map": ")" + file + R"(", "agents": [{"id": ")" + id +
+           R"(", "start": [0, 0], "goal": [)" + std::to_string(goal) + R"(, 0]}], "tasks": []})";
+  };
+  const std::string rows = "version 1\n0\tm.map\t3\t1\t0\t0\t2\t0\t2\n";
+  add_file("m.map", map);
+  add_file("a.cts.json", instance("m.map", "a", 2));
+  add_file("x.scen", rows);
+  const std::string list = "a.cts.json\nx.scen --map m.map --agents 1\n";
   const auto before = read(list);
-  EXPECT_NE(before[0].digest, before[1].digest);
-  EXPECT_EQ(read(list), before);
-  add_file("m.map", "two");
-  EXPECT_NE(read(list)[0].digest, before[0].digest);
-  EXPECT_NE(read(list)[1].digest, before[1].digest);
-  add_file("m.map", "one");
-  EXPECT_EQ(read(list), before);
-  add_file("a.cts.json", R"({"map": "n.map"})");
-  EXPECT_NE(read(list)[0].digest, before[0].digest);
-  add_file("x.scen", "others");
-  EXPECT_NE(read(list)[1].digest, before[1].digest);
-  for (const char* broken : {"", "{", "[]", "{\"map\": 3}", "{\"map\": \"none.map\"}"}) {
-    add_file("a.cts.json", broken);
-    EXPECT_EQ(read(list)[0].digest.size(), 16u) << broken;
-  }
+  EXPECT_NE(before[0].digest, before[1].digest);  // another id
+  const auto digests_after = [&](const std::string& name, const std::string& content) {
+    add_file(name, content);
+    const auto after = read(list);
+    return std::pair(after[0].digest, after[1].digest);
+  };
+  const std::pair same(before[0].digest, before[1].digest);
+  EXPECT_EQ(digests_after("a.cts.json", "\n" + instance("./m.map", "a", 2)), same);
+  EXPECT_EQ(digests_after("m.map", "type octile\nheight 1\nwidth 3\nmap\n.G.\n"), same);
+  EXPECT_EQ(digests_after("x.scen", rows + rows.substr(rows.find('0'))), same);  // a further row
+  const auto other_map = digests_after("m.map", "type octile\nheight 2\nwidth 3\nmap\n...\n...\n");
+  EXPECT_NE(other_map.first, same.first);
+  EXPECT_NE(other_map.second, same.second);
+  EXPECT_EQ(digests_after("m.map", map), same);
+  EXPECT_NE(digests_after("a.cts.json", instance("m.map", "a", 1)).first, same.first);
+  EXPECT_NE(digests_after("a.cts.json", instance("m.map", "b", 2)).first, same.first);
+  EXPECT_NE(digests_after("x.scen", "version 1\n0\tm.map\t3\t1\t0\t0\t1\t0\t1\n").second,
+            same.second);
+
+  add_file("elsewhere/maps/m.map", map);
+  add_file("elsewhere/b.cts.json", instance("maps/m.map", "a", 2));
+  EXPECT_EQ(read("elsewhere/b.cts.json")[0].digest, same.first);
+  for (const char* broken : {"", "{", "[]", "{\"map\": 3}", "{\"map\": \"none.map\"}"})
+    EXPECT_EQ(digests_after("a.cts.json", broken).first, "") << broken;
 }
 
 }  // namespace manifest_test

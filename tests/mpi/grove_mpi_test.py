@@ -205,7 +205,7 @@ class Batches(Program):
 
     def rows(self):
         with open(self.folder / "results/results.csv", encoding="utf-8", newline="") as table:
-            return {row["id"]: row for row in csv.DictReader(table)}
+            return {row["instance"]: row for row in csv.DictReader(table)}
 
     def batch(self, *more):
         return ["batch", "instances", "--output", "results", "--omega", 0, "--threads", 1, *more]
@@ -215,11 +215,14 @@ class Batches(Program):
         (folder / "broken.cts.json").write_text("{")
         said = self.run_well(mpirun(3, *self.batch("--ranks-per-instance", 2)))
         self.assertIn("6/6", said)
+        self.assertIn("table: results/results.csv\n", said)
         rows = self.rows()
         self.assertEqual(len(rows), 6)
         self.assertIn("broken.cts.json", rows.pop("broken")["error"])
         for name, row in rows.items():
-            self.assertEqual(row["status"], "optimal")
+            self.assertEqual((row["status"], row["solved"]), ("optimal", "true"))
+            self.assertEqual((row["map"], row["problem"], row["agents"]), ("rooms-32x32", "cts", "4"))
+            self.assertEqual((row["method"], row["options"]), ("auto", "--omega 0 --ranks-per-instance 2"))
             self.run_well([GROVE, "check", folder / f"{name}.cts.json",
                            self.folder / "results" / row["plan_file"]])
 

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "grove/batch/manifest.h"
+#include "grove/batch/result_table.h"
 #include "tools/bench/bench_methods.h"
 #include "tools/bench/bench_run.h"
 #include "tools/bench/rehearsal.h"
@@ -86,7 +87,7 @@ void share_memory(std::vector<bench::Method>& methods, int jobs) {
   const double share = std::max(kSmallestRoom_gb,
                                 std::floor(10 * kShareOfMemory * physical_memory_gb() / jobs) / 10);
   for (bench::Method& method : methods)
-    if (!method.memory_limit_gb)
+    if (!method.settings.memory_limit_gb)
       method.arguments.insert(method.arguments.end(), {"--memory-limit", fmt::format("{}", share)});
 }
 
@@ -120,7 +121,7 @@ void run(const CLI::App& app, BenchArguments& a) {
   if (state.work.left > 0)
     say_on_stderr(fmt::format("grove: stopped with {} run{} left; the same command goes on",
                               state.work.left, state.work.left == 1 ? "" : "s"));
-  fmt::print("{}", summary_table(state));
+  fmt::print("{}table: {}\n", summary_table(state), batch::csv_file(a.output_dir).string());
   if (state.work.left > 0) throw CommandFailed(kExitInterrupted);
 }
 

@@ -103,7 +103,7 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   Words words{kInstance};
   words.insert(words.end(), given.words.begin(), given.words.end());
   std::ranges::reverse(words);  // as CLI11 wants them
-  bench::Method method{.name = given.name, .words = given.words};
+  bench::Method method;
   try {
     app.parse(words);
   } catch (const CLI::CallForHelp&) {
@@ -113,21 +113,23 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   }
   refuse_file_options(app, text);
   try {
-    method.omega = solve_options(a).omega.to_string();
+    method.settings = {.method = given.name,
+                       .options = fmt::format("{}", fmt::join(given.words, " ")),
+                       .omega = solve_options(a).omega.to_string(),
+                       .seed = a.seed,
+                       .time_limit_s = a.time_limit_s,
+                       .memory_limit_gb = defaults.memory_limit_gb};
   } catch (const CLI::ValidationError& error) {  // they do not fit together
     refuse(text, error.what());
   }
-  method.seed = a.seed;
-  method.time_limit_s = a.time_limit_s;
   method.threads = a.threads;
-  method.memory_limit_gb = defaults.memory_limit_gb;
-  if (app.count("--memory-limit") > 0) method.memory_limit_gb = a.memory_limit_gb;
+  std::optional<double>& memory_limit_gb = method.settings.memory_limit_gb;
+  if (app.count("--memory-limit") > 0) memory_limit_gb = a.memory_limit_gb;
   method.arguments = given_arguments(app);
   add_default(method.arguments, app, "--threads", "1");
   add_default(method.arguments, app, "--seed", std::to_string(a.seed));
-  if (method.memory_limit_gb)
-    add_default(method.arguments, app, "--memory-limit",
-                fmt::format("{}", *method.memory_limit_gb));
+  if (memory_limit_gb)
+    add_default(method.arguments, app, "--memory-limit", fmt::format("{}", *memory_limit_gb));
   return method;
 }
 
@@ -137,7 +139,7 @@ std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
   std::set<std::string> names;
   for (const std::string& text : texts) {
     methods.push_back(read_run(text, defaults));
-    if (!names.insert(methods.back().name).second)
+    if (!names.insert(methods.back().settings.method).second)
       refuse(text, "a second run of that name; expected distinct ones");
   }
   return methods;

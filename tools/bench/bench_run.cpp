@@ -18,10 +18,10 @@
 #include <thread>
 
 #include "grove/batch/batch_clock.h"
+#include "grove/batch/result_table.h"
 #include "grove/io/input_error.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/judge.h"
-#include "tools/bench/result_table.h"
 #include "tools/bench/root_costs.h"
 
 namespace grove::bench {
@@ -42,8 +42,8 @@ class Bench {
       : instances_(instances),
         methods_(methods),
         options_(options),
-        table_(options.folder),
-        runs_(identities()),
+        table_(options.folder, batch::TableOf::kMethods),
+        runs_(runs()),
         todo_(table_.begin(runs_)),
         root_costs_(instances.size(), options.root_cost_s,
                     static_cast<std::size_t>(options.root_cost_gb * 1e9)) {
@@ -77,17 +77,11 @@ class Bench {
 
   // --- which runs there are ---
 
-  std::vector<RunIdentity> identities() const {
-    std::vector<RunIdentity> runs;
+  std::vector<batch::Run> runs() const {
+    std::vector<batch::Run> runs;
     for (const BenchInstance& instance : instances_)
       for (const Method& method : methods_)
-        runs.push_back({.instance = instance.entry.id,
-                        .method = method.name,
-                        .options = method.options(),
-                        .seed = method.seed,
-                        .time_limit_s = method.time_limit_s,
-                        .memory_limit_gb = method.memory_limit_gb,
-                        .digest = instance.entry.digest});
+        runs.push_back({instance.entry.id, instance.entry.digest, method.settings});
     return runs;
   }
   const Method& method_of(std::size_t run) const { return methods_[run % methods_.size()]; }
@@ -97,11 +91,11 @@ class Bench {
     state_.work.left = static_cast<int>(runs_.size());
     state_.work.workers = static_cast<int>(std::max<std::size_t>(1, workers()));
     for (const Method& method : methods_) {
-      state_.methods.push_back(method.name);
-      state_.counts[method.name];
+      state_.methods.push_back(method.settings.method);
+      state_.counts[method.settings.method];
     }
-    for (const RunIdentity& run : runs_)
-      if (const Row* row = table_.find(run)) {
+    for (const batch::Run& run : runs_)
+      if (const batch::Row* row = table_.find(run)) {
         state_.count(*row);
         if (row->outcome.version != options_.version)
           state_.other_versions.insert(row->outcome.version);
@@ -138,52 +132,53 @@ class Bench {
   void do_run(std::size_t run, std::size_t worker) {
     const BenchInstance& instance = instances_[instance_index(run)];
     const Method& method = method_of(run);
+    const double time_limit_s = method.settings.time_limit_s;
     const fs::path plan = scratch() / fmt::format("{}.plan.json", worker);
     const fs::path said = scratch() / fmt::format("{}.txt", worker);
     fs::remove(plan);
-    const ChildEnd end = run_child(
-        solve_command(options_.program, instance.entry, method, method.time_limit_s, plan), said,
-        {.seconds = method.time_limit_s * options_.grace_factor + options_.grace_s,
-         .cancelled = [this] { return must_stop(); }});
+    const ChildEnd end =
+        run_child(solve_command(options_.program, instance.entry, method, time_limit_s, plan), said,
+                  {.seconds = time_limit_s * options_.grace_factor + options_.grace_s,
+                   .cancelled = [this] { return must_stop(); }});
     if (end.kind == ChildEnd::Kind::kCancelled) return;
 
-    Row row{.run = runs_[run],
-            .instance = instance.facts,
-            .threads = method.threads,
-            .wall_s = end.wall_s,
-            .machine = options_.machine,
-            .ended_at = batch::machine_clock().utc()};
+    batch::Row row{.run = runs_[run],
+                   .facts = instance.facts,
+                   .wall_s = end.wall_s,
+                   .machine = options_.machine,
+                   .ended_at = batch::machine_clock().utc(),
+                   .threads = method.threads};
     judge(row, end, run, plan, said);
-    if (was_interrupted(row.outcome) && must_stop()) return;  // the signal was for us all
+    if (row.outcome.interrupted() && must_stop()) return;  // the signal was for us all
     if (row.outcome.version.empty()) row.outcome.version = options_.version;
-    if (row.outcome.omega.empty()) row.outcome.omega = method.omega;
-    if (options_.keep_plans) keep(plan, method, instance.entry);
+    if (options_.keep_plans) keep(plan, row);
     record(row);
   }
 
   // Reads the instance anew: what is re-checked depends on the files alone.
-  void judge(Row& row, const ChildEnd& end, std::size_t run, const fs::path& plan,
+  void judge(batch::Row& row, const ChildEnd& end, std::size_t run, const fs::path& plan,
              const fs::path& said) {
     const std::size_t index = instance_index(run);
     try {
       const LoadedInstance loaded = load(instances_[index].entry);
-      row.outcome = judged(end, row.run.time_limit_s, loaded.instance, plan, said);
+      row.outcome = judged(end, row.run.settings.time_limit_s, loaded.instance, plan, said);
       row.root_cost = root_costs_.of(index, loaded.instance);
     } catch (const InputError& error) {
       row.outcome = {.error = error.what()};
     }
   }
 
-  void keep(const fs::path& plan, const Method& method, const batch::Entry& entry) const {
-    const fs::path kept = options_.folder / "plans" / method.name / (entry.id + ".plan.json");
+  void keep(const fs::path& plan, batch::Row& row) const {
     if (!fs::exists(plan)) return;
+    row.plan_file = batch::plan_file(row.run.settings.method + "/" + row.run.instance);
+    const fs::path kept = options_.folder / row.plan_file;
     batch::make_folder(kept.parent_path());
     fs::rename(plan, kept);
   }
 
-  void record(const Row& row) {
+  void record(const batch::Row& row) {
     const std::lock_guard lock(mutex_);
-    table_.append(row);
+    table_.append({&row, 1});
     state_.count(row);
     if (seconds() >= next_flush_s_) {
       table_.flush();
@@ -214,8 +209,8 @@ class Bench {
   const std::vector<Method>& methods_;
   const BenchOptions& options_;
   const Clock::time_point start_ = Clock::now();
-  ResultTable table_;
-  const std::vector<RunIdentity> runs_;
+  batch::ResultTable table_;
+  const std::vector<batch::Run> runs_;
   const std::vector<std::size_t> todo_;  // of runs_
   RootCosts root_costs_;
 
@@ -231,10 +226,6 @@ class Bench {
 };
 
 }  // namespace
-
-std::string Method::options() const {
-  return fmt::format("{}", fmt::join(words, " "));
-}
 
 std::vector<std::string> solve_command(const std::string& program, const batch::Entry& entry,
                                        const Method& method, double time_limit_s,

@@ -6,27 +6,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "tools/bench/instance_facts.h"
+#include "tools/bench/bench_instances.h"
 #include "tools/bench/progress_text.h"
 
 namespace grove::bench {
 
 struct Method {
-  std::string name;                // unique; names files
-  std::vector<std::string> words;  // the options as given, one word each
-  std::string omega = {};          // what they amount to, for runs that end without a plan file
-  std::int64_t seed = 0;
-  double time_limit_s = 0;
-  std::optional<double> memory_limit_gb = {};  // none: by the machine
+  batch::Settings settings;  // the method's name is unique and names files
   std::int64_t threads = 1;
   // What `grove solve INSTANCE` is called with, but for the time limit and the plan file.
   std::vector<std::string> arguments = {};
-
-  std::string options() const;  // the words in one line
 };
 
 struct BenchOptions {

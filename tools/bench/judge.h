@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
+#include "grove/batch/outcome.h"
 #include "grove/model/instance.h"
 #include "tools/bench/child_process.h"
-#include "tools/bench/row.h"
 
 namespace grove::bench {
 
@@ -16,13 +16,10 @@ namespace grove::bench {
 // what the run did wrong: that is an outcome. Not for runs that were cancelled.
 // A run that took longer than `time_limit_s` is not solved, though it may think so: it looks at the
 // clock now and then, and a process takes some time to begin and to end.
-Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
-               const std::filesystem::path& plan_file, const std::filesystem::path& said);
+batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
+                      const std::filesystem::path& plan_file, const std::filesystem::path& said);
 
 // The last line that grove said, after a colon and a blank; empty if it said nothing.
 std::string last_words(const std::filesystem::path& said);
-
-// A run that was stopped from outside, and not by a limit of its own.
-bool was_interrupted(const Outcome& outcome);
 
 }  // namespace grove::bench

@@ -19,15 +19,15 @@ std::string median_text(std::vector<double> values) {
 
 }  // namespace
 
-void MethodCount::count(const Row& row) {
+void MethodCount::count(const batch::Row& row) {
   ++runs;
   errors += row.outcome.failed() ? 1 : 0;
   solved += row.outcome.solved ? 1 : 0;
   runtimes_s.push_back(row.runtime_s());
 }
 
-void BenchState::count(const Row& row) {
-  counts[row.run.method].count(row);
+void BenchState::count(const batch::Row& row) {
+  counts[row.run.settings.method].count(row);
   ++work.done;
   --work.left;
   work.done_s += row.wall_s;

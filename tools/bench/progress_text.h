@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grove/batch/progress.h"
-#include "tools/bench/row.h"
+#include "grove/batch/row.h"
 
 namespace grove::bench {
 
@@ -19,7 +19,7 @@ struct MethodCount {
   int errors = 0;
   std::vector<double> runtimes_s = {};  // of those not solved the time limit
 
-  void count(const Row& row);
+  void count(const batch::Row& row);
 };
 
 // A bench at one moment. Runs of earlier commands count as done.
@@ -30,7 +30,7 @@ struct BenchState {
   double elapsed_s = 0;                       // since this command began
   std::set<std::string> other_versions = {};  // of the program, that made rows which stand
 
-  void count(const Row& row);
+  void count(const batch::Row& row);
 };
 
 // "41/135 done; 2:05 gone, about 4:10 left; solved: cts-cbs-a 20/21, auto 20/20; 1 error"

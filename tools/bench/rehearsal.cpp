@@ -63,7 +63,7 @@ void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Met
                     scratch / "said", {.seconds = kPatience_s, .cancelled = options.stopped});
       if (end.kind == ChildEnd::Kind::kExited && end.code == kRefused)
         throw InputError(instance->entry.path, "",
-                         fmt::format("is not for the run '{}'{}", method.name,
+                         fmt::format("is not for the run '{}'{}", method.settings.method,
                                      reason(scratch / "said", instance->entry.path)));
     }
   }

@@ -6,22 +6,26 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
+#include "grove/batch/folder.h"
 #include "grove/batch/manifest.h"
 #include "grove/engine/run_observer.h"
 #include "grove/engine/solve.h"
-#include "grove/io/instance_file.h"
+#include "grove/io/plan_file.h"
 #include "grove/model/fingerprint.h"
 #include "mpi/batch/farm_client.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/batch/gather.h"
 #include "mpi/solve_distributed.h"
 #include "tools/common/commands.h"
+#include "tools/common/machine.h"
 #include "tools/common/options.h"
 #include "tools/common/program.h"
 #include "tools/common/progress_style.h"
@@ -66,19 +70,27 @@ struct BatchArguments {
 
 // What results depend on. By default the machine decides about memory: then it does not count.
 batch::Settings settings_of(const CLI::App& app, const BatchArguments& a) {
-  const auto given = [&](const char* option) {
-    return app.count(option) == 0 ? std::string("default") : app[option]->as<std::string>();
+  std::string options;
+  const auto add = [&](const char* option, const std::string& value, const std::string& usual) {
+    if (value != usual)
+      options += fmt::format("{}{} {}", options.empty() ? "" : " ", option, value);
   };
-  return {{"omega", solve_options(a.solve).omega.to_string()},
-          {"time-limit", fmt::format("{}", a.solve.time_limit_s)},
-          {"memory-limit", given("--memory-limit")},
-          {"method", a.solve.method},
-          {"policy", a.solve.policy},
-          {"rtsp", a.solve.rtsp},
-          {"seed", std::to_string(a.solve.seed)},
-          {"with", fmt::format("{}", fmt::join(a.solve.with, " "))},
-          {"without", fmt::format("{}", fmt::join(a.solve.without, " "))},
-          {"ranks-per-instance", std::to_string(a.ranks_per_instance)}};
+  const SolveArguments usual;
+  const std::string omega = solve_options(a.solve).omega.to_string();
+  add("--omega", omega, solve_options(usual).omega.to_string());
+  add("--policy", a.solve.policy, usual.policy);
+  add("--rtsp", a.solve.rtsp, usual.rtsp);
+  add("--with", fmt::format("{}", fmt::join(a.solve.with, ",")), "");
+  add("--without", fmt::format("{}", fmt::join(a.solve.without, ",")), "");
+  add("--ranks-per-instance", std::to_string(a.ranks_per_instance), "1");
+  return {.method = a.solve.method,
+          .options = options,
+          .omega = omega,
+          .seed = a.solve.seed,
+          .time_limit_s = a.solve.time_limit_s,
+          .memory_limit_gb = app.count("--memory-limit") > 0
+                                 ? std::optional(a.solve.memory_limit_gb)
+                                 : std::nullopt};
 }
 
 class FirstPlanClock : public RunObserver {
@@ -116,9 +128,12 @@ class BatchRun {
     try {
       batch::FarmClient client(
           *world_, *farm_, interrupted,
-          {.solve = [this](const auto& entry, const Poll& poll) { return solve(entry, poll); },
-           .version = version_text(),
+          {.solve = [this](const auto& entry, auto& row,
+                           const Poll& poll) { solve(entry, row, poll); },
+           .settings = settings_of(app_, a_),
            .threads = options_.threads,
+           .version = version_text(),
+           .machine = processor_text(),
            .clock = batch::machine_clock(),
            .idle = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }},
           master_ ? &*master_ : nullptr);
@@ -127,16 +142,21 @@ class BatchRun {
       complain(*app_.get_parent(), error.what());
       session_.abort(kExitBadInput);
     }
-    if (master_ && !a_.quiet) progress_.finish(master_->state());
+    if (!master_) return;
+    if (!a_.quiet) progress_.finish(master_->state());
+    fmt::print("table: {}\n", batch::csv_file(a_.output).string());
   }
 
  private:
   void open(batch::Grouping grouping) {
-    const auto entries = batch::read_manifest(a_.instances);
-    table_.emplace(a_.output, settings_of(app_, a_));
+    auto entries = batch::read_manifest(a_.instances);
+    table_.emplace(a_.output, batch::TableOf::kPlans);
     warn_of_other_versions();
-    master_.emplace(*world_, grouping, entries, *table_, interrupted, batch::machine_clock(),
-                    batch::MasterOptions{.total_time_limit_s = a_.total_time_limit_s,
+    for (const batch::Entry& entry : entries) batch::make_folder(plan_path(entry).parent_path());
+    master_.emplace(*world_, grouping, std::move(entries), *table_, interrupted,
+                    batch::machine_clock(),
+                    batch::MasterOptions{.settings = settings_of(app_, a_),
+                                         .total_time_limit_s = a_.total_time_limit_s,
                                          .watch = [this](const batch::BatchState& state) {
                                            if (!a_.quiet) progress_.show(state);
                                          }});
@@ -144,10 +164,10 @@ class BatchRun {
 
   void warn_of_other_versions() const {
     const auto other = std::ranges::find_if(
-        table_->rows(), [](const auto& row) { return row.version != version_text(); });
+        table_->rows(), [](const auto& row) { return row.outcome.version != version_text(); });
     if (other != table_->rows().end())
       say_on_stderr(fmt::format("grove-mpi: warning: {} holds rows of {}; they stay", a_.output,
-                                other->version));
+                                other->outcome.version));
   }
 
   // What each rank of the group says, or throws what the first that fails says.
@@ -160,8 +180,7 @@ class BatchRun {
     std::optional<LoadedInstance> loaded;
     std::string error;
     try {
-      loaded = entry.agents > 0 ? read_scenario_instance(entry.path, entry.map, entry.agents)
-                                : read_instance(entry.path);
+      loaded = batch::load(entry);
     } catch (const std::exception& failure) {
       error = failure.what();
     }
@@ -173,21 +192,26 @@ class BatchRun {
     return std::move(*loaded);
   }
 
-  batch::Result solve(const batch::Entry& entry, const Poll& poll) {
+  std::filesystem::path plan_path(const batch::Entry& entry) const {
+    return std::filesystem::path(a_.output) / batch::plan_file(entry.id);
+  }
+
+  void solve(const batch::Entry& entry, batch::Row& row, const Poll& poll) {
     const Clock::time_point start = Clock::now();
     const LoadedInstance loaded = load(entry, poll);
+    row.facts = facts_of(entry, loaded);
     Limits limits;
     set_limits(limits, a_.solve, start);
     FirstPlanClock observer(start);
     auto solution = solve_with(loaded.instance, limits, observer, poll);
-    if (farm_->rank() != 0) return {};
+    if (farm_->rank() != 0) return;
     add_run_facts(*solution, app_, a_.solve, start);
     solution->stats.texts["instance"] = entry.path;
     solution->stats.counts["ranks"] = farm_->ranks();
-    auto result = batch::result_of(*solution,
-                                   batch::write_plan(a_.output, entry, loaded.instance, *solution));
-    result.first_plan_s = observer.first_s();
-    return result;
+    write_solution(plan_path(entry), loaded.instance, *solution);
+    row.plan_file = batch::plan_file(entry.id);
+    row.outcome = batch::outcome_of(loaded.instance, *solution);
+    row.outcome.first_plan_s = observer.first_s();
   }
 
   std::optional<Solution> solve_with(const Instance& instance, const Limits& limits,

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "grove/io/instance_file.h"
+
 namespace grove::batch {
 
 // Where to find an instance, and what to call it. Paths lead there from the working directory.
@@ -13,9 +15,12 @@ struct Entry {
   std::string path;         // FILE.cts.json, or FILE.scen with the two below
   std::string map = {};     // of a .scen file; else empty
   int agents = 0;           // the first so many rows of a .scen file; else 0
-  std::string digest = {};  // of the content of the files, see instance_digest.h
+  std::string digest = {};  // instance_digest(); empty: the instance cannot be read
 
   friend bool operator==(const Entry&, const Entry&) = default;
 };
+
+// The instance that `entry` names. Throws InputError.
+LoadedInstance load(const Entry& entry);
 
 }  // namespace grove::batch

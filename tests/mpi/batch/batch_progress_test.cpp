@@ -26,10 +26,11 @@ TEST(BatchState, CountsRows) {
   row.wall_s = 2;
   for (const Status status : {Status::kOptimal, Status::kBounded, Status::kInfeasible,
                               Status::kFeasible, Status::kUnknown}) {
-    row.result.status = status;
+    row.outcome.status = to_string(status);
+    row.outcome.solved = status == Status::kOptimal || status == Status::kBounded;
     state.count(row);
   }
-  row.error = "broken";
+  row.outcome = {.error = "broken"};
   state.count(row);
   EXPECT_EQ(state.solved, 3);
   EXPECT_EQ(state.limited, 2);

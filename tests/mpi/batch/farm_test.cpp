@@ -13,10 +13,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "grove/batch/result_table.h"
 #include "grove/io/input_error.h"
 #include "mpi/batch/farm_client.h"
 #include "mpi/batch/farm_master.h"
-#include "mpi/batch/result_table.h"
 #include "mpi/simulated_network.h"
 #include "simulated_ranks.h"
 #include "tests/support/temporary_directory.h"
@@ -135,16 +135,17 @@ class Simulation {
       if (std::holds_alternative<Assignment>(decode(bytes))) expect_on_disk(run_.finished[to]);
     });
     if (rank == 0) {
-      table.emplace(folder_, Settings{{"omega", "0"}});
+      table.emplace(folder_, TableOf::kPlans);
+      fs::create_directory(fs::path(folder_) / "plans");
       master.emplace(world, grouping_, run_.entries, *table, interrupted_[0], clock,
-                     MasterOptions{run_.total_time_limit_s, run_.watch});
+                     MasterOptions{{}, run_.total_time_limit_s, run_.watch});
     }
     Transport& group = groups_[grouping_.group_of(rank)]->at(grouping_.rank_in_group(rank));
     const ClientOptions options{
-        .solve = [this, rank](const Entry& entry,
-                              const auto& poll) { return solve(rank, entry, poll); },
-        .version = "v",
+        .solve = [this, rank](const Entry& entry, Row& row,
+                              const auto& poll) { solve(rank, entry, row, poll); },
         .threads = 2,
+        .version = "v",
         .clock = clock,
         .idle = [this, rank] { ranks_.pause(rank); }};
     FarmClient client(world, group, interrupted_[rank], options, master ? &*master : nullptr);
@@ -168,7 +169,7 @@ class Simulation {
     return std::uniform_real_distribution<double>(0, 0.05)(random);
   }
 
-  Result solve(int rank, const Entry& entry, const std::function<void()>& poll) {
+  void solve(int rank, const Entry& entry, Row& row, const std::function<void()>& poll) {
     const bool leads = grouping_.rank_in_group(rank) == 0;
     if (rank == 0) expect_on_disk(run_.finished[0]);  // its own, which it does not send for
     run_.begun[rank].push_back(entry.id);
@@ -176,19 +177,23 @@ class Simulation {
     while (ranks_.now() < end) {
       poll();
       ranks_.pause(rank);
-      if (group_is_interrupted(rank)) return {.stopped_by = "interrupt"};
+      if (group_is_interrupted(rank)) {
+        row.outcome.error = "interrupt";
+        return;
+      }
     }
     if (run_.work) run_.work(rank, entry);
     run_.finished[rank].push_back(entry.id);
-    if (leads) std::ofstream(fs::path(folder_) / plan_file(entry)) << entry.id;
-    return {.status = Status::kOptimal, .cost = 3, .lower_bound = 3, .plan_file = plan_file(entry)};
+    row.plan_file = plan_file(entry.id);
+    if (leads) std::ofstream(fs::path(folder_) / row.plan_file) << entry.id;
+    row.outcome = {.status = "optimal", .solved = true, .cost = 3, .lower_bound = 3};
   }
 
   // A row is on disk before its group gets the next instance.
   void expect_on_disk(const Ids& ids) const {
     const std::string text = file_content(fs::path(folder_) / "results.jsonl");
     for (const std::string& id : ids)
-      EXPECT_NE(text.find("{\"id\":\"" + id + "\""), std::string::npos) << id;
+      EXPECT_NE(text.find("{\"instance\":\"" + id + "\""), std::string::npos) << id;
   }
 
   const std::string folder_;
@@ -210,18 +215,21 @@ class Farms : public ::testing::Test {
 
   // The rows on disk, each of which must be the only one of its instance.
   std::vector<Row> rows() const {
-    const ResultTable table(folder_, {{"omega", "0"}});
+    const ResultTable table(folder_, TableOf::kPlans);
     std::vector<Row> rows = table.rows();
-    std::ranges::sort(rows, {}, &Row::id);
-    EXPECT_TRUE(std::ranges::adjacent_find(rows, {}, &Row::id) == rows.end());
+    const auto id = [](const Row& row) { return id_of(row); };
+    std::ranges::sort(rows, {}, id);
+    EXPECT_TRUE(std::ranges::adjacent_find(rows, {}, id) == rows.end());
     const std::string text = file_content(fs::path(folder_) / "results.jsonl");
     EXPECT_EQ(std::ranges::count(text, '\n'), static_cast<int>(rows.size()));
     return rows;
   }
 
+  static const std::string& id_of(const Entry& entry) { return entry.id; }
+  static const std::string& id_of(const Row& row) { return row.run.instance; }
   static Ids sorted_ids(const auto& items) {
     Ids ids;
-    for (const auto& item : items) ids.push_back(item.id);
+    for (const auto& item : items) ids.push_back(id_of(item));
     std::ranges::sort(ids);
     return ids;
   }
@@ -268,12 +276,11 @@ TEST_F(Farms, SolveEveryInstanceOnce) {
     const auto table = rows();
     EXPECT_EQ(sorted_ids(table), sorted_ids(run.entries));
     for (const Row& row : table) {
-      EXPECT_EQ(row.result.cost, 3);
-      EXPECT_EQ(row.instance, row.id + ".cts.json");
-      EXPECT_EQ(row.digest, "d" + row.id);
-      EXPECT_EQ(row.version, "v");
+      EXPECT_EQ(row.outcome.cost, 3);
+      EXPECT_EQ(row.run.digest, "d" + row.run.instance);
+      EXPECT_EQ(row.outcome.version, "v");
       EXPECT_EQ(row.threads, 2);
-      EXPECT_EQ(row.started_at, "now");
+      EXPECT_EQ(row.ended_at, "now");
       EXPECT_GE(row.wall_s, 0);
       EXPECT_LE(row.ranks, std::min(run.ranks, run.per_group));
     }
@@ -347,7 +354,7 @@ TEST_F(Farms, GoOnAfterBeingKilled) {
       const auto table = rows();
       EXPECT_GE(table.size(), before);
       before = table.size();
-      for (const Row& row : table) EXPECT_TRUE(fs::exists(folder_ + "/" + row.result.plan_file));
+      for (const Row& row : table) EXPECT_TRUE(fs::exists(folder_ + "/" + row.plan_file));
     }
     EXPECT_EQ(sorted_ids(rows()), sorted_ids(run.entries));
   });
@@ -362,9 +369,9 @@ TEST_F(Farms, MakeRowsOfFailures) {
     };
     simulate(broken);
     for (const Row& row : rows()) {
-      const bool fails = row.id == "i0" || row.id == "i5";
-      EXPECT_EQ(row.error, fails ? "cannot\\ndo " + row.id : "");
-      EXPECT_EQ(row.version, "v");
+      const bool fails = id_of(row) == "i0" || id_of(row) == "i5";
+      EXPECT_EQ(row.outcome.error, fails ? "cannot\\ndo " + id_of(row) : "");
+      EXPECT_EQ(row.outcome.version, "v");
     }
     EXPECT_EQ(broken.end_state->failed, 2);
     EXPECT_EQ(broken.end_state->solved, 9);
@@ -382,11 +389,12 @@ TEST_F(Farms, TellWhichRankFailed) {
   };
   simulate(run);
   for (const Row& row : rows()) {
-    if (!row.failed()) continue;
-    EXPECT_TRUE(row.error == "rank 3 of the world: no memory" ||
-                (row.id == "i0" && row.error == "rank 1 of the world: no memory"))
-        << row.error;
-    EXPECT_FALSE(row.result.cost);
+    if (!row.outcome.failed()) continue;
+    const std::string& error = row.outcome.error;
+    EXPECT_TRUE(error == "rank 3 of the world: no memory" ||
+                (id_of(row) == "i0" && error == "rank 1 of the world: no memory"))
+        << error;
+    EXPECT_FALSE(row.outcome.cost);
   }
   EXPECT_GT(run.end_state->failed, 0);
 }
@@ -447,7 +455,7 @@ TEST_F(Farms, EndWhenTheTableBreaks) {
       throw InputError("results.csv", "", "cannot be written");
     };
     EXPECT_THROW(simulate(run), InputError);
-    for (const Row& row : rows()) EXPECT_FALSE(row.failed());
+    for (const Row& row : rows()) EXPECT_FALSE(row.outcome.failed());
     EXPECT_LT(rows().size(), 11u);
   }
 }

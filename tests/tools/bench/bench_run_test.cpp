@@ -17,6 +17,8 @@
 namespace grove::bench {
 namespace bench_run_test {
 
+using batch::Row;
+
 namespace fs = std::filesystem;
 
 // A plan for a corridor of three cells.
@@ -56,17 +58,18 @@ class Benches : public ::testing::Test {
   }
   void methods(int count) {
     for (int k = 0; k < count; ++k)
-      methods_.push_back({.name = "m" + std::to_string(k),
-                          .words = {"--k", std::to_string(k)},
-                          .omega = "0.5",
-                          .time_limit_s = 60,
+      methods_.push_back({.settings = {.method = "m" + std::to_string(k),
+                                       .options = "--k " + std::to_string(k),
+                                       .omega = "0.5",
+                                       .time_limit_s = 60},
                           .arguments = {"--k", std::to_string(k)}});
   }
   BenchState run() { return run_bench(instances_, methods_, options_); }
   std::vector<Row> rows() const {
     std::vector<Row> rows;
     const std::string text = file_content(directory_ / "out/results.jsonl");
-    for (const std::string_view line : split_lines(text)) rows.push_back(parse_json_line(line));
+    for (const std::string_view line : split_lines(text))
+      rows.push_back(batch::parse_json_line(line));
     return rows;
   }
 
@@ -86,10 +89,10 @@ TEST_F(Benches, HaveOneRowForEveryPairWhateverTheNumberOfWorkers) {
   EXPECT_EQ(state.work.left, 0);
   std::set<std::pair<std::string, std::string>> pairs;
   for (const Row& row : rows()) {
-    pairs.emplace(row.run.instance, row.run.method);
+    pairs.emplace(row.run.instance, row.run.settings.method);
     EXPECT_TRUE(row.outcome.solved) << row.outcome.error;
     EXPECT_EQ(row.outcome.cost, 2);
-    EXPECT_EQ(row.outcome.omega, "0");
+    EXPECT_EQ(row.run.settings.omega, "0.5");
     EXPECT_EQ(row.outcome.version, "v");
     EXPECT_EQ(row.root_cost, 2);
   }
@@ -119,7 +122,7 @@ TEST_F(Benches, RunAllMethodsOnOneInstanceAfterTheOther) {
 TEST_F(Benches, CountWhatComesTooLateAsUnsolved) {
   instances(1);
   methods(1);
-  methods_[0].time_limit_s = 0.1;
+  methods_[0].settings.time_limit_s = 0.1;
   solver("sleep 0.2; cp '" + (directory_ / "good") + "' \"$plan\"");
   run();
   ASSERT_EQ(rows().size(), 1U);
@@ -139,7 +142,6 @@ TEST_F(Benches, TakeNothingOverFromTheRunBefore) {
   EXPECT_TRUE(rows()[1].outcome.failed());
   EXPECT_TRUE(rows()[1].outcome.error.starts_with("the plan file is wrong"))
       << rows()[1].outcome.error;
-  EXPECT_EQ(rows()[1].outcome.omega, "0.5");
   EXPECT_EQ(rows()[1].outcome.version, "mine");
 }
 
@@ -158,7 +160,7 @@ TEST_F(Benches, RefuseWrongPlans) {
 TEST_F(Benches, KillWhatDoesNotEnd) {
   instances(1);
   methods(1);
-  methods_[0].time_limit_s = 0.1;
+  methods_[0].settings.time_limit_s = 0.1;
   options_.grace_s = 0.1;
   solver("exec sleep 60");
   run();
@@ -174,6 +176,11 @@ TEST_F(Benches, KeepPlansOnRequest) {
   run();
   EXPECT_EQ(file_content(directory_ / "out/plans/m0/set/i.plan.json"), kPlan);
   EXPECT_EQ(file_content(directory_ / "out/plans/m1/set/i.plan.json"), kPlan);
+  EXPECT_EQ(rows()[1].plan_file, "plans/m1/set/i.plan.json");
+  fs::remove(fs::path(options_.folder) / rows()[1].plan_file);
+  run();  // what is gone
+  EXPECT_EQ(file_content(directory_ / "out/plans/m1/set/i.plan.json"), kPlan);
+  EXPECT_EQ(rows().size(), 2U);
 }
 
 TEST_F(Benches, LeaveNoRowOfWhatWasUnderWayWhenStopped) {

@@ -110,10 +110,12 @@ class Results(Program):
         said = self.run_well(*self.bench("--keep-plans", "--seed", 3))
         self.assertRegex(said, r"exact +3/3 +\d+\.\d\d +0\n")
         self.assertRegex(said, r"paper +3/3 +\d+\.\d\d +0\n")
+        self.assertTrue(said.endswith("\ntable: out/results.csv\n"), said)
         rows = self.rows()
         self.assertEqual(len(rows), 6)
         for (instance, method), row in rows.items():
-            file = self.folder / f"out/plans/{method}/{instance}.plan.json"
+            self.assertEqual(row["plan_file"], f"plans/{method}/{instance}.plan.json")
+            file = self.folder / "out" / row["plan_file"]
             plan = json.loads(file.read_text())
             self.run_well("check", self.folder / f"instances/{instance}.cts.json", file)
             stats = plan["stats"]
@@ -231,7 +233,10 @@ class Refusals(Program):
         self.refuses(self.bench("--seed", 1), "seed '0' there, '1' here")
         self.refuses(self.bench(limit=11), "time limit '10' there, '11' here")
         self.refuses(self.bench("--memory-limit", 1), "memory limit")
-        path.write_text(path.read_text() + "\n")
+        text = path.read_text()
+        path.write_text(text + "\n")  # the same instance
+        self.run_well(*self.bench())
+        path.write_text(text.replace('"a0"', '"robot"'))
         self.refuses(self.bench(), "has changed since")
         self.assertEqual(self.lines(), before)
 

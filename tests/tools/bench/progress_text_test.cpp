@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "rows.h"
+#include "tests/support/result_rows.h"
 
 namespace grove::bench {
 namespace progress_text_test {
+
+using batch::Row;
+using grove::testing::failed_row;
+using grove::testing::solved_row;
 
 BenchState counted() {
   BenchState state{.methods = {"auto", "paper"}, .counts = {{"auto", {}}, {"paper", {}}}};

@@ -75,6 +75,14 @@ class Reading(Folder):
         self.file("results.jsonl", NEEDED, NEEDED | {"instance": "j"})
         self.assertEqual(read_results([self.folder]).files, [(f"{self.folder}/results.jsonl", 2)])
 
+    def test_rows_of_instances_that_cannot_be_read_are_left_out(self):
+        lost = NEEDED | dict.fromkeys(("map", "agents", "tasks", "problem", "cost")) | {
+            "instance": "broken", "solved": False, "status": "error", "error": "x.cts.json: no map"}
+        for name in ("a.jsonl", "a.csv"):
+            results = read_results([self.file(name, NEEDED, lost)])
+            self.assertEqual((len(results.rows), results.unreadable), (1, ["broken"]))
+        self.assertIn("column map: nothing there", self.complaint(self.file("a.jsonl", lost | {"status": "unknown"})))
+
     def test_a_last_line_that_is_cut_off_is_left_out(self):
         good = json.dumps(NEEDED)
         results = read_results([self.text("a.jsonl", good + "\n" + good[:20])])
@@ -127,7 +135,7 @@ class Refusals(Folder):
         self.assertEqual(self.complaint(self.text("a.txt", "")),
                          "a.txt: unknown kind of file; expected .csv, .jsonl or a folder")
         self.assertTrue(self.complaint(self.folder).endswith(
-            ": no results.jsonl and no results.csv in this folder; expected what grove bench writes"))
+            ": no results.jsonl and no results.csv in this folder; expected what grove bench or grove-mpi batch writes"))
         self.assertEqual(self.complaint(self.text("a.csv", "")),
                          "a.csv: empty; expected a line with the columns' names")
         self.assertEqual(self.complaint(self.text("a.jsonl", "\n")),

@@ -13,9 +13,9 @@ from pathlib import Path
 
 COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks", "problem", "omega",
            "seed", "time_limit_s", "solved", "status", "cost", "lower_bound", "gap", "root_cost", "sqr",
-           "runtime_s", "wall_s", "roots", "rtsp_calls", "nodes", "low_level_calls", "peak_memory_mb",
+           "runtime_s", "wall_s", "first_plan_s", "roots", "rtsp_calls", "nodes", "low_level_calls", "peak_memory_mb",
            "version", "machine", "ended_at", "error",
-           "threads", "memory_limit_gb", "instance_digest"]
+           "ranks", "threads", "memory_limit_gb", "plan_file", "instance_digest"]
 MAPS = {"empty-32-32": 0.5, "random-32-32-20": 1.5, "room-32-32-4": 2.6}  # how hard
 AGENTS = (5, 10, 20)
 TASKS = (10, 20, 30, 40, 50)
@@ -64,7 +64,7 @@ def _row(dice, instance, method, options, omega, shape):
         "nodes": int(spent * 900), "low_level_calls": int(spent * 1800),
         "peak_memory_mb": round(20 + spent, 1), "version": "grove 0.1.0 (git 0123456789ab)",
         "machine": "Example processor, 2 cores", "ended_at": "2026-01-02T03:04:05Z",
-        "error": None if solved else "time limit", "threads": 1, "memory_limit_gb": None,
+        "error": None if solved else "time limit", "ranks": 1, "threads": 1, "memory_limit_gb": None,
         "instance_digest": f"{scenario:02x}{agents:02x}{tasks:02x}{problem}"}
 
 

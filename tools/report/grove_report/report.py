@@ -279,6 +279,7 @@ def _notes(results, rows, lines, problems):
                "stands for its instance.")
     for what, values in (("versions", {row.version for row in rows} - {""}),
                          ("machines", {row.machine for row in rows} - {""}),
+                         ("numbers of ranks", {str(row.ranks) for row in rows if row.ranks is not None}),
                          ("numbers of threads", {str(row.threads) for row in rows
                                                  if row.threads is not None})):
         if len(values) > 1:
@@ -295,6 +296,9 @@ def _notes(results, rows, lines, problems):
     for path in results.cut_off:
         yield (f"{path}: the last line is cut off and was left out; the bench was killed, or still "
                "runs.")
+    if results.unreadable:
+        yield (f"Instances that could not be read: {_listed(results.unreadable)}. Their rows were left "
+               "out.")
     if results.repeated:
         yield (f"{results.repeated} rows were left out: a later row repeats the run (the same instance, "
                "method, ω, time limit and seed).")

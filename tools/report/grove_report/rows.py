@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reading results: CSV or JSON lines of `grove bench`, or folders that hold them."""
+"""Reading results: CSV or JSON lines of `grove bench`, `grove-mpi batch` or experiments.py, or folders that hold
+them."""
 import csv
 import json
 import math
@@ -47,6 +48,7 @@ class Row(NamedTuple):
     machine: str
     ended_at: str
     error: str
+    ranks: Optional[int]
     threads: Optional[int]
     instance_digest: str  # of the files of the instance: the same id may mean two
 
@@ -136,8 +138,8 @@ COLUMNS = {
     "sqr": (_number, None), "runtime_s": (_number, NEEDED), "wall_s": (_number, None),
     "roots": (_integer, None), "rtsp_calls": (_integer, None), "nodes": (_integer, None),
     "low_level_calls": (_integer, None), "peak_memory_mb": (_number, None), "version": (_text, ""),
-    "machine": (_text, ""), "ended_at": (_text, ""), "error": (_text, ""), "threads": (_integer, None),
-    "instance_digest": (_text, ""),
+    "machine": (_text, ""), "ended_at": (_text, ""), "error": (_text, ""), "ranks": (_integer, None),
+    "threads": (_integer, None), "instance_digest": (_text, ""),
 }
 assert tuple(COLUMNS) == Row._fields
 _NAMES = tuple(COLUMNS)
@@ -151,8 +153,22 @@ def _shown(value):
     return "'" + text.encode("unicode_escape").decode("ascii") + "'"
 
 
+class Unreadable(NamedTuple):
+    """In place of a row: the instance could not be read, so nobody knows what it is."""
+    instance: str
+
+
+class CutOff(NamedTuple):
+    """In place of a last line that is cut off: of a bench that was killed, or that still runs."""
+
+
+_OF_INSTANCE = tuple(_NAMES.index(name) for name in ("map", "agents", "tasks", "problem"))
+
+
 def _row(values, place):
     """`values`: one for each column, in their order; None or "": absent."""
+    if values[_NAMES.index("status")] == "error" and not any(values[at] for at in _OF_INSTANCE):
+        return Unreadable(_text(str(values[0])))
     read = []
     for name, reader, absent, value in zip(_NAMES, _READERS, _ABSENT, values):
         if value is None or value == "":
@@ -210,7 +226,6 @@ def _read_csv(path, file):
 
 
 def _read_json_lines(path, file):
-    """Yields None for a last line that is cut off: of a bench that was killed, or that still runs."""
     for number, line in enumerate(file, 1):
         place = f"{path}: row {number}"
         if not line.strip():
@@ -219,7 +234,7 @@ def _read_json_lines(path, file):
             found = json.loads(line)
         except (ValueError, RecursionError):
             if not line.endswith("\n"):
-                yield None
+                yield CutOff()
                 return
             raise BadInput(f"{place}: not JSON; expected one object a line") from None
         if not isinstance(found, dict):
@@ -242,7 +257,7 @@ def _files(argument):
         if (path / name).exists():
             return path / name
     raise BadInput(f"{path}: no results.jsonl and no results.csv in this folder; "
-                   "expected what grove bench writes")
+                   "expected what grove bench or grove-mpi batch writes")
 
 
 def _read_file(path):
@@ -271,16 +286,18 @@ class Results(NamedTuple):
     files: list     # (path as text, rows in it)
     cut_off: list   # paths of files whose last line was, and was left out
     repeated: int   # rows left out because a later one repeats their run
+    unreadable: list  # instances of the rows left out because these could not be read
 
 
 def read_results(arguments):
     files = list(dict.fromkeys(_files(argument) for argument in arguments))
-    rows, counts, cut_off = [], [], []
+    rows, counts, cut_off, unreadable = [], [], [], []
     for path in files:
         read = _read_file(path)
-        found = [row for row in read if row]
+        found = [row for row in read if isinstance(row, Row)]
         counts.append((printable(str(path)), len(found)))
-        cut_off += [counts[-1][0]] if len(found) < len(read) else []
+        cut_off += [counts[-1][0] for row in read if isinstance(row, CutOff)]
+        unreadable += [row.instance for row in read if isinstance(row, Unreadable)]
         rows += found
     if not rows:
         raise BadInput(f"{', '.join(path for path, _ in counts)}: no rows; expected at least one")
@@ -289,4 +306,4 @@ def read_results(arguments):
     kept.sort(key=lambda row: (row.problem, row.map, row.agents, row.tasks, row.scenario or 0,
                                row.instance, row.method, row.omega, row.time_limit_s,
                                -1 if row.seed is None else row.seed))
-    return Results(kept, counts, cut_off, repeated)
+    return Results(kept, counts, cut_off, repeated, sorted(set(unreadable)))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/bench/instance_facts.h"
+#include "grove/batch/instance_facts.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace grove::bench {
+namespace grove::batch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,12 +52,7 @@ std::string problem_of(const Instance& instance) {
 
 }  // namespace
 
-LoadedInstance load(const batch::Entry& entry) {
-  return entry.agents > 0 ? read_scenario_instance(entry.path, entry.map, entry.agents)
-                          : read_instance(entry.path);
-}
-
-InstanceFacts facts_of(const batch::Entry& entry, const LoadedInstance& loaded) {
+InstanceFacts facts_of(const Entry& entry, const LoadedInstance& loaded) {
   const Instance& instance = loaded.instance;
   const NamedNumbers named = numbers_in(fs::path(entry.id).filename().string());
   return {.map = loaded.map_path.stem().string(),
@@ -67,14 +62,4 @@ InstanceFacts facts_of(const batch::Entry& entry, const LoadedInstance& loaded) 
           .problem = problem_of(instance)};
 }
 
-std::vector<BenchInstance> balanced(const std::vector<batch::Entry>& entries) {
-  std::vector<BenchInstance> instances;
-  for (const batch::Entry& entry : entries)
-    instances.push_back({entry, facts_of(entry, load(entry))});
-  std::ranges::stable_sort(instances, {}, [](const BenchInstance& instance) {
-    return instance.facts.scenario.value_or(0);
-  });
-  return instances;
-}
-
-}  // namespace grove::bench
+}  // namespace grove::batch

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "tools/bench/instance_facts.h"
+#include "grove/batch/instance_facts.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/instances.h"
-#include "tests/support/refusal.h"
-#include "tests/support/temporary_directory.h"
 
-namespace grove::bench {
+namespace grove::batch {
 namespace instance_facts_test {
 
 using grove::testing::AgentSpec;
@@ -47,36 +45,5 @@ TEST(InstanceFacts, KnowAScenarioWhenTheySeeOne) {
     EXPECT_EQ(facts(other, {agent}).scenario, std::nullopt) << other;
 }
 
-class Orders : public ::testing::Test {
- protected:
-  batch::Entry entry(const std::string& id) {
-    directory_.write("a.map", "type octile\nheight 1\nwidth 2\nmap\n..\n");
-    return {.id = id,
-            .path = directory_.write(
-                id + ".cts.json",
-                R"({"map": "a.map", "agents": [{"id": "a", "start": [0, 0], "goal": [1, 0]}],
-                    "tasks": []})")};
-  }
-
-  TemporaryDirectory directory_;
-};
-
-TEST_F(Orders, AreBalanced) {
-  std::vector<std::string> ids;
-  for (const BenchInstance& instance :
-       balanced({entry("b_s2_n5"), entry("b_s10_n5"), entry("b_s1_n5"), entry("a_s1_n5"),
-                 entry("a_s2_n5"), entry("other")}))
-    ids.push_back(instance.entry.id);
-  EXPECT_EQ(ids, (std::vector<std::string>{"other", "b_s1_n5", "a_s1_n5", "b_s2_n5", "a_s2_n5",
-                                           "b_s10_n5"}));
-}
-
-TEST_F(Orders, RefuseABrokenInstance) {
-  EXPECT_NE(refusal([&] {
-              balanced({entry("good"), {.id = "x", .path = directory_.write("x.cts.json", "{")}});
-            }).find("x.cts.json"),
-            std::string::npos);
-}
-
 }  // namespace instance_facts_test
-}  // namespace grove::bench
+}  // namespace grove::batch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/bench/row.h"
+#include "grove/batch/row.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "grove/batch/csv.h"
-#include "grove/model/plan.h"
 
-namespace grove::bench {
+namespace grove::batch {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -45,39 +44,46 @@ Json gap(const Outcome& outcome) {
 
 // The columns, once for all formats.
 std::vector<std::pair<std::string, Json>> columns(const Row& row) {
+  const Settings& settings = row.run.settings;
+  const InstanceFacts& facts = row.facts;
   const Outcome& outcome = row.outcome;
-  return {{"instance", row.run.instance},
-          {"method", row.run.method},
-          {"options", row.run.options},
-          {"map", row.instance.map},
-          {"scenario", optional_json(row.instance.scenario)},
-          {"agents", row.instance.agents},
-          {"tasks", row.instance.tasks},
-          {"problem", row.instance.problem},
-          {"omega", outcome.omega},
-          {"seed", row.run.seed},
-          {"time_limit_s", row.run.time_limit_s},
-          {"solved", outcome.solved},
-          {"status", outcome.status},
-          {"cost", optional_json(outcome.cost)},
-          {"lower_bound", optional_json(outcome.lower_bound)},
-          {"gap", gap(outcome)},
-          {"root_cost", optional_json(row.root_cost)},
-          {"sqr", outcome.solved ? ratio(row.root_cost, outcome.cost) : Json(nullptr)},
-          {"runtime_s", rounded(row.runtime_s())},
-          {"wall_s", rounded(row.wall_s)},
-          {"roots", optional_json(outcome.roots)},
-          {"rtsp_calls", optional_json(outcome.rtsp_calls)},
-          {"nodes", optional_json(outcome.nodes)},
-          {"low_level_calls", optional_json(outcome.low_level_calls)},
-          {"peak_memory_mb", optional_json(outcome.peak_memory_mb)},
-          {"version", outcome.version},
-          {"machine", row.machine},
-          {"ended_at", row.ended_at},
-          {"error", text_or_null(outcome.error)},
-          {"threads", row.threads},
-          {"memory_limit_gb", optional_json(row.run.memory_limit_gb)},
-          {"instance_digest", row.run.digest}};
+  const bool is_known = !facts.problem.empty();
+  return {
+      {"instance", row.run.instance},
+      {"method", settings.method},
+      {"options", settings.options},
+      {"map", text_or_null(facts.map)},
+      {"scenario", optional_json(facts.scenario)},
+      {"agents", is_known ? Json(facts.agents) : Json(nullptr)},
+      {"tasks", is_known ? Json(facts.tasks) : Json(nullptr)},
+      {"problem", text_or_null(facts.problem)},
+      {"omega", settings.omega},
+      {"seed", settings.seed},
+      {"time_limit_s", settings.time_limit_s},
+      {"solved", outcome.solved},
+      {"status", outcome.status},
+      {"cost", optional_json(outcome.cost)},
+      {"lower_bound", optional_json(outcome.lower_bound)},
+      {"gap", gap(outcome)},
+      {"root_cost", optional_json(row.root_cost)},
+      {"sqr", outcome.solved ? ratio(row.root_cost, outcome.cost) : Json(nullptr)},
+      {"runtime_s", rounded(row.runtime_s())},
+      {"wall_s", rounded(row.wall_s)},
+      {"first_plan_s", outcome.first_plan_s ? Json(rounded(*outcome.first_plan_s)) : Json(nullptr)},
+      {"roots", optional_json(outcome.roots)},
+      {"rtsp_calls", optional_json(outcome.rtsp_calls)},
+      {"nodes", optional_json(outcome.nodes)},
+      {"low_level_calls", optional_json(outcome.low_level_calls)},
+      {"peak_memory_mb", optional_json(outcome.peak_memory_mb)},
+      {"version", outcome.version},
+      {"machine", row.machine},
+      {"ended_at", row.ended_at},
+      {"error", text_or_null(outcome.error)},
+      {"ranks", row.ranks},
+      {"threads", row.threads},
+      {"memory_limit_gb", optional_json(settings.memory_limit_gb)},
+      {"plan_file", text_or_null(row.plan_file)},
+      {"instance_digest", row.run.digest}};
 }
 
 template <typename Value>
@@ -87,22 +93,25 @@ std::optional<Value> optional_member(const nlohmann::json& json, const char* key
   return value.get<Value>();
 }
 
-RunIdentity identity_of(const nlohmann::json& json) {
-  return {.instance = json.at("instance").get<std::string>(),
-          .method = json.at("method").get<std::string>(),
+std::string text_member(const nlohmann::json& json, const char* key) {
+  return optional_member<std::string>(json, key).value_or("");
+}
+
+Settings settings_of(const nlohmann::json& json) {
+  return {.method = json.at("method").get<std::string>(),
           .options = json.at("options").get<std::string>(),
+          .omega = json.at("omega").get<std::string>(),
           .seed = json.at("seed").get<std::int64_t>(),
           .time_limit_s = json.at("time_limit_s").get<double>(),
-          .memory_limit_gb = optional_member<double>(json, "memory_limit_gb"),
-          .digest = json.at("instance_digest").get<std::string>()};
+          .memory_limit_gb = optional_member<double>(json, "memory_limit_gb")};
 }
 
 InstanceFacts facts_of(const nlohmann::json& json) {
-  return {.map = json.at("map").get<std::string>(),
+  return {.map = text_member(json, "map"),
           .scenario = optional_member<std::int64_t>(json, "scenario"),
-          .agents = json.at("agents").get<std::int64_t>(),
-          .tasks = json.at("tasks").get<std::int64_t>(),
-          .problem = json.at("problem").get<std::string>()};
+          .agents = optional_member<std::int64_t>(json, "agents").value_or(0),
+          .tasks = optional_member<std::int64_t>(json, "tasks").value_or(0),
+          .problem = text_member(json, "problem")};
 }
 
 Outcome outcome_of(const nlohmann::json& json) {
@@ -110,22 +119,24 @@ Outcome outcome_of(const nlohmann::json& json) {
                   .solved = json.at("solved").get<bool>(),
                   .cost = optional_member<Cost>(json, "cost"),
                   .lower_bound = optional_member<Cost>(json, "lower_bound"),
+                  .first_plan_s = optional_member<double>(json, "first_plan_s"),
                   .roots = optional_member<std::int64_t>(json, "roots"),
                   .rtsp_calls = optional_member<std::int64_t>(json, "rtsp_calls"),
                   .nodes = optional_member<std::int64_t>(json, "nodes"),
                   .low_level_calls = optional_member<std::int64_t>(json, "low_level_calls"),
                   .peak_memory_mb = optional_member<double>(json, "peak_memory_mb"),
-                  .omega = json.at("omega").get<std::string>(),
                   .version = json.at("version").get<std::string>(),
-                  .error = optional_member<std::string>(json, "error").value_or("")};
+                  .error = text_member(json, "error")};
   if (!outcome.failed() && !parse_status(outcome.status))
     throw std::invalid_argument(fmt::format("status '{}'", outcome.status));
+  if (outcome.failed() && (outcome.error.empty() || outcome.solved))
+    throw std::invalid_argument("status 'error' without one");
   return outcome;
 }
 
 std::string csv_cell(const Json& value) {
   if (value.is_null()) return "";
-  if (value.is_string()) return batch::csv_quoted(value.get<std::string>());
+  if (value.is_string()) return csv_quoted(value.get<std::string>());
   return value.dump();
 }
 
@@ -140,14 +151,18 @@ std::string json_line(const Row& row) {
 Row parse_json_line(std::string_view line) {
   try {
     const auto json = nlohmann::json::parse(line);
-    return {.run = identity_of(json),
-            .instance = facts_of(json),
-            .threads = json.at("threads").get<std::int64_t>(),
+    return {.run = {.instance = json.at("instance").get<std::string>(),
+                    .digest = json.at("instance_digest").get<std::string>(),
+                    .settings = settings_of(json)},
+            .facts = facts_of(json),
             .outcome = outcome_of(json),
             .root_cost = optional_member<Cost>(json, "root_cost"),
             .wall_s = json.at("wall_s").get<double>(),
             .machine = json.at("machine").get<std::string>(),
-            .ended_at = json.at("ended_at").get<std::string>()};
+            .ended_at = json.at("ended_at").get<std::string>(),
+            .ranks = json.at("ranks").get<std::int64_t>(),
+            .threads = json.at("threads").get<std::int64_t>(),
+            .plan_file = text_member(json, "plan_file")};
   } catch (const nlohmann::json::exception& error) {
     throw std::invalid_argument(error.what());
   }
@@ -165,4 +180,4 @@ std::string csv_line(const Row& row) {
   return fmt::format("{}\n", fmt::join(cells, ","));
 }
 
-}  // namespace grove::bench
+}  // namespace grove::batch

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "grove/batch/result_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <system_error>
+
+#include "grove/io/atomic_file.h"
+#include "grove/io/input_error.h"
+#include "grove/io/text_file.h"
+
+namespace grove::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path made(fs::path folder) {
+  make_folder(folder);
+  return folder;
+}
+
+std::string limit_text(std::optional<double> gigabytes) {
+  return gigabytes ? fmt::format("{} GB", *gigabytes) : "by the machine";
+}
+
+// "seed '1' there, '2' here; time limit '60' there, '180' here"; empty: none that matter.
+std::string differences(const Run& there, const Run& here, TableOf table) {
+  std::vector<std::string> texts;
+  const auto compare = [&](const char* what, const auto& a, const auto& b) {
+    if (a != b) texts.push_back(fmt::format("{} '{}' there, '{}' here", what, a, b));
+  };
+  const Settings& a = there.settings;
+  const Settings& b = here.settings;
+  compare("method", a.method, b.method);
+  compare("options", a.options, b.options);
+  compare("omega", a.omega, b.omega);
+  compare("seed", a.seed, b.seed);
+  compare("time limit", a.time_limit_s, b.time_limit_s);
+  compare("memory limit", limit_text(a.memory_limit_gb), limit_text(b.memory_limit_gb));
+  if (table == TableOf::kMethods && there.digest != here.digest)
+    texts.push_back("the instance or its map has changed since");
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+}  // namespace
+
+ResultTable::ResultTable(fs::path folder, TableOf what)
+    : folder_(made(std::move(folder))), what_(what), lock_(folder_) {
+  read();
+}
+
+void ResultTable::read() {
+  if (!fs::exists(file())) return;
+  const std::string text = read_text(file());
+  torn_ = !text.empty() && text.back() != '\n';
+  int number = 0;
+  for (const std::string_view line : whole_lines(text)) {
+    ++number;
+    if (line.empty()) continue;  // people edit
+    try {
+      rows_.push_back(parse_json_line(line));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(file().string(), fmt::format("line {}", number),
+                       fmt::format("expected a row as this version writes them, another folder, or "
+                                   "the line deleted to run it again ({})",
+                                   error.what()));
+    }
+  }
+  index_rows();
+}
+
+void ResultTable::index_rows() {
+  index_.clear();
+  for (std::size_t i = 0; i < rows_.size(); ++i) index_[pair_of(rows_[i].run)] = i;
+}
+
+const Row* ResultTable::find(const Run& run) const {
+  const auto it = index_.find(pair_of(run));
+  return it == index_.end() ? nullptr : &rows_[it->second];
+}
+
+void ResultTable::require_same(const Row& row, const Run& run) const {
+  const std::string found = differences(row.run, run, what_);
+  if (found.empty()) return;
+  throw InputError(file().string(), "",
+                   fmt::format("holds a row of another run of {} on {} ({}); expected the same, "
+                               "another folder, or that row deleted",
+                               row.run.settings.method, row.run.instance, found));
+}
+
+bool ResultTable::stands(const Run& run) const {
+  const Row* row = find(run);
+  if (row == nullptr || row->outcome.failed()) return false;
+  require_same(*row, run);
+  std::error_code error;
+  const bool has_plan = row->plan_file.empty() || fs::exists(folder_ / row->plan_file, error);
+  return has_plan && row->run.digest == run.digest;
+}
+
+std::vector<std::size_t> ResultTable::begin(const std::vector<Run>& runs) {
+  std::vector<std::size_t> left;
+  std::vector<Pair> pairs;
+  if (what_ == TableOf::kPlans && !runs.empty())
+    for (const Row& row : rows_) require_same(row, runs.front());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    order_.emplace(pair_of(runs[i]), i);
+    if (stands(runs[i])) continue;
+    left.push_back(i);
+    pairs.push_back(pair_of(runs[i]));
+  }
+  keep_rows_but_of(pairs);
+  put_last_what_was_begun(left, runs);
+  return left;
+}
+
+// Of two rows of a pair, which only people can make, the later stands.
+void ResultTable::keep_rows_but_of(const std::vector<Pair>& pairs) {
+  for (const Pair& pair : pairs) index_.erase(pair);
+  std::vector<Row> kept;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto it = index_.find(pair_of(rows_[i].run));
+    if (it != index_.end() && it->second == i) kept.push_back(std::move(rows_[i]));
+  }
+  const bool as_in_file = !torn_ && kept.size() == rows_.size() && fs::exists(file());
+  rows_ = std::move(kept);
+  index_rows();
+  if (!as_in_file) {
+    std::string text;
+    for (const Row& row : rows_) text += json_line(row) + "\n";
+    write_file_atomically(file(), text);
+  }
+  lines_.emplace(file());
+}
+
+void ResultTable::put_last_what_was_begun(std::vector<std::size_t>& left,
+                                          const std::vector<Run>& runs) {
+  if (!fs::exists(begun_file())) return;
+  std::map<std::string, int, std::less<>> times;
+  for (const std::size_t i : left) times[runs[i].instance] = 0;
+  std::string kept;
+  const std::string text = read_text(begun_file());
+  for (const std::string_view id : whole_lines(text))
+    if (const auto it = times.find(id); it != times.end()) {
+      ++it->second;
+      kept += it->first + "\n";
+    }
+  std::ranges::stable_sort(left, {}, [&](std::size_t i) { return times[runs[i].instance]; });
+  if (kept != text) write_file_atomically(begun_file(), kept);
+}
+
+// Not flushed: a crash of the whole machine is not the instance's fault.
+void ResultTable::note_begun(const Run& run) {
+  if (!begun_) begun_.emplace(begun_file());
+  begun_->append(run.instance + "\n");
+}
+
+void ResultTable::append(std::span<const Row> rows) {
+  std::string text;
+  for (const Row& row : rows) {
+    if (!index_.emplace(pair_of(row.run), rows_.size()).second)
+      throw std::logic_error("a second row of " + row.run.settings.method + " on " +
+                             row.run.instance);
+    rows_.push_back(row);
+    text += json_line(row) + "\n";
+  }
+  lines_->append(text);
+}
+
+void ResultTable::flush() {
+  lines_->flush();
+}
+
+void ResultTable::write_csv() const {
+  std::vector<const Row*> rows;
+  for (const Row& row : rows_) rows.push_back(&row);
+  std::ranges::stable_sort(rows, {}, [&](const Row* row) {
+    const auto it = order_.find(pair_of(row->run));
+    return it == order_.end() ? order_.size() : it->second;
+  });
+  std::string text = csv_header();
+  for (const Row* row : rows) text += csv_line(*row);
+  write_file_atomically(csv_file(folder_), text, Outlives::kProcess);
+}
+
+void ResultTable::end() {
+  begun_.reset();
+  std::error_code ignored;
+  fs::remove(begun_file(), ignored);
+}
+
+fs::path csv_file(const fs::path& folder) {
+  return folder / "results.csv";
+}
+
+std::string plan_file(const std::string& id) {
+  return fmt::format("plans/{}.plan.json", id);
+}
+
+}  // namespace grove::batch
