@@ -41,7 +41,7 @@ class Search {
       : problem_(instance, limits_),
         forest_(problem_, pool_, RtspBackend::kAuto, limits_),
         stops_(instance, problem_.distances),
-        expander_(problem_, stops_, Techniques(), 0) {
+        expander_(problem_, stops_, {Techniques(), 0}) {
     frontier_.push(forest_.next_root());
   }
   ~Search() { frontier_.abandon(); }

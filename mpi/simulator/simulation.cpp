@@ -80,7 +80,7 @@ class Simulation {
  public:
   explicit Simulation(World& world, int ranks)
       : world_(world),
-        expander_(world.problem, world.stops, techniques_of(world.options), world.options.seed) {
+        expander_(world.problem, world.stops, search_options_of(world.options)) {
     for (int rank = 0; rank < ranks; ++rank) ranks_.emplace_back(world, rank);
     talked(0, 0);
   }

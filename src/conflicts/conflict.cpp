@@ -6,12 +6,6 @@
 #include <algorithm>
 
 namespace grove {
-std::optional<Constraint> demand_on(AgentIndex agent, const AgentConstraint& added) {
-  const Constraint& c = added.constraint;
-  if (agent == added.agent) return c;
-  if (added.agent < 0 || c.kind != ConstraintKind::kRestBy) return std::nullopt;
-  return Constraint{c.cell, kNoCell, c.end, kNever};
-}
 
 Split split(const Conflict& c) {
   if (!c.is_swap()) {

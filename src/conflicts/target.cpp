@@ -12,11 +12,12 @@
 // *No plan is lost*: the two are each other's negation, whatever the agents' orders of visits and
 // whether a has a destination or may end on any of its tasks. *Both children differ from the
 // parent*: a's path breaks the first, b's what follows from the second.
-#include "grove/conflicts/target.h"
+#include "grove/conflicts/reasoning.h"
 
 namespace grove {
 
-std::optional<Split> target_split(const Conflict& conflict, std::span<const Path> paths) {
+std::optional<Split> target_split(const Conflict& conflict, std::span<const Path> paths,
+                                  const Chains& /*chains*/) {
   if (conflict.is_swap()) return std::nullopt;
   const auto rests = [&](AgentIndex agent) {
     return static_cast<Time>(paths[agent].size()) - 1 <= conflict.time;

@@ -24,9 +24,9 @@
 // Turning round inside, and starting inside, are no traversals and stay allowed; nothing is said
 // about the order of visits or about other passages. Both paths of the conflict break their side.
 // "Who passes first" as a statement about time alone, without labels.
-#include "grove/conflicts/traversal.h"
-
 #include <array>
+
+#include "grove/conflicts/reasoning.h"
 
 namespace grove {
 namespace {

@@ -61,8 +61,8 @@ PrimalSearch& Worker::primal() {
 
 Expander& Worker::expander() {
   if (!expander_)
-    expander_ = std::make_unique<Expander>(problem_, expander_stops_, techniques_of(options_),
-                                           options_.seed, shared_.memory());
+    expander_ = std::make_unique<Expander>(problem_, expander_stops_,
+                                           search_options_of(options_), shared_.memory());
   return *expander_;
 }
 

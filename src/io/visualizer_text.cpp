@@ -18,10 +18,6 @@ void add_position(std::string& text, const Grid& grid, Cell cell) {
   fmt::format_to(std::back_inserter(text), "({},{}),", p.x, p.y);
 }
 
-Cell position_at(const Path& path, Time time) {
-  return path[std::min<std::size_t>(time, path.size() - 1)];
-}
-
 // Steps that are no rest on the cell where the agent ends, whether it leaves that again or not.
 Cost loss(const Path& path) {
   Cost steps = 0;

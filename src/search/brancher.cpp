@@ -28,8 +28,8 @@
 #include <array>
 #include <utility>
 
-#include "grove/conflicts/target.h"
-#include "grove/conflicts/traversal.h"
+#include "audit.h"
+#include "grove/search/splits.h"
 
 namespace grove {
 namespace {
@@ -37,10 +37,6 @@ namespace {
 // Each bypass saves conflicts, but by a count in which two rests on one cell are not symmetric, so
 // that alone does not prove that bypasses end.
 constexpr int kMostBypasses = 64;
-
-// A split that takes longer to price is not considered: with time windows, which is what cells
-// barred for ever make, the low level is NP-hard, and one call could take all the time there is.
-constexpr std::int64_t kMostLabelsForAPrice = 1 << 18;
 
 // A hash of the pair (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
@@ -53,308 +49,178 @@ std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
 
 }  // namespace
 
-Brancher::Brancher(const Problem& problem, Techniques techniques, std::uint64_t seed,
-                   PathPlanner& planner, Memory& memory)
+Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
+                   Memory& memory)
     : problem_(problem),
-      techniques_(techniques),
-      seed_(seed),
+      options_(options),
       planner_(planner),
       memory_(memory),
-      finder_(problem.instance.grid()),
+      prices_(planner, memory),
       others_(problem.instance.grid()),
       shown_(problem.instance.agent_count()) {}
 
-void Brancher::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
-  node_ = node;
-  scope_.assign(scope.begin(), scope.end());
-  bypassed_.clear();
-  node->paths(problem_, scope_, paths_);
-  node->constraints(constraints_);
-  for (AgentIndex agent : scope_) canonical(constraints_[agent]);
-  find_conflicts();
-}
-
-void Brancher::find_conflicts() {
-  finder_.all(paths_, scope_, conflicts_);
-  for (const AgentIndex agent : scope_) steps_ += std::ssize(paths_[agent]);
-}
-
-Situations::Id Brancher::situation(AgentIndex agent) {
-  return memory_.id(agent, order(agent), constraints_[agent]);
-}
-
-Brancher::Outcome Brancher::branch(Cost cutoff, std::span<const Split> last_resorts,
+Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff, std::span<const Split> last_resorts,
                                    const Limits& limits, std::vector<NodePtr>& children) {
-  const Cost slack = cutoff - node_->cost() - 1;  // a child's cost may rise by so much
-  if (slack < 0) return Outcome::kBranched;
-  for (int round = 0; !conflict_free(); ++round) {
-    show_others();
+  const Task task{view, cutoff - view.node()->cost() - 1, limits};
+  if (task.slack < 0) return Outcome::kBranched;
+  for (int round = 0; !view.conflict_free(); ++round) {
+    show_others(view);
     Split split;
-    if (choose(slack, last_resorts, limits, split) == Step::kStopped) return Outcome::kStopped;
+    if (!choose(task, last_resorts, split)) return Outcome::kStopped;
     for (int i = 0; i < 2; ++i)
-      if (make_side(split[i], slack, limits, sides_[i]) == Step::kStopped) return Outcome::kStopped;
-    if (round < kMostBypasses && (bypass(sides_[0]) || bypass(sides_[1]))) continue;
-    const NodePtr parent = with_bypasses();
+      if (!make_side(task, split[i], sides_[i])) return Outcome::kStopped;
+    if (round < kMostBypasses && (bypass(view, sides_[0]) || bypass(view, sides_[1]))) continue;
+    const NodePtr parent = view.node_as_routed();
     for (int i = 0; i < 2; ++i)
-      if (sides_[i].open) children.push_back(child(parent, split[i], sides_[i]));
+      if (sides_[i].open) children.push_back(child(view, parent, split[i], sides_[i]));
     return Outcome::kBranched;
   }
   return Outcome::kConflictFree;
 }
 
 // Brings the table up to the paths in scope. Most are those of the node before.
-void Brancher::show_others() {
-  for (std::size_t agent = 0; agent < paths_.size(); ++agent) {
-    if (shown_[agent] == paths_[agent]) continue;
+void Brancher::show_others(const NodeView& view) {
+  for (std::size_t agent = 0; agent < shown_.size(); ++agent) {
+    const Path& path = view.paths()[agent];
+    if (shown_[agent] == path) continue;
     others_.remove(shown_[agent]);
-    others_.add(paths_[agent]);
-    shown_[agent] = paths_[agent];
+    others_.add(path);
+    shown_[agent] = path;
   }
-}
-
-// Every split that a conflict allows.
-void Brancher::collect_splits() {
-  splits_.clear();
-  for (const Conflict& conflict : conflicts_) {
-    splits_.push_back(split(conflict));
-    if (techniques_.has(Technique::kTarget))
-      if (const auto by_target = target_split(conflict, paths_)) splits_.push_back(*by_target);
-    if (techniques_.has(Technique::kTraversal))
-      if (const auto by_traversal = traversal_split(conflict, paths_, problem_.chains))
-        splits_.push_back(*by_traversal);
-  }
-}
-
-bool Brancher::in_conflict(AgentIndex a, AgentIndex b) const {
-  return std::ranges::any_of(conflicts_, [&](const Conflict& c) {
-    return c.first == std::min(a, b) && c.second == std::max(a, b);
-  });
+  if (options_.audit) audit(problem_, others_, view.paths());
 }
 
 // The split to make: the one that raises the bounds most, or that of a conflict of least time.
-Brancher::Step Brancher::choose(Cost slack, std::span<const Split> last_resorts,
-                                const Limits& limits, Split& chosen) {
-  if (!techniques_.has(Technique::kStrongBranching)) {
-    chosen = earliest();
-    return Step::kDone;
+bool Brancher::choose(const Task& task, std::span<const Split> last_resorts, Split& chosen) {
+  const Techniques techniques = options_.techniques;
+  if (!techniques.has(Technique::kStrongBranching)) {
+    chosen = earliest(task.view);
+    return true;
   }
-  collect_splits();
+  splits_.clear();
+  for (const Conflict& conflict : task.view.conflicts())
+    splits_of(conflict, task.view.paths(), problem_, techniques, splits_);
   Choice best;
   for (const Split& split : splits_)
-    if (improve(best, split, slack, limits) == Step::kStopped) return Step::kStopped;
+    if (!improve(best, split, task)) return false;
   for (const Split& split : last_resorts) {
     if (best.gain.second > 0) break;
-    if (!in_conflict(split[0].agent, split[1].agent)) continue;
-    if (improve(best, split, slack, limits) == Step::kStopped) return Step::kStopped;
+    if (!task.view.in_conflict(split[0].agent, split[1].agent)) continue;
+    if (!improve(best, split, task)) return false;
   }
-  if (techniques_.has(Technique::kSequenceSplits) && best.gain.first == 0)
-    if (improve_by_sequences(best, slack, limits) == Step::kStopped) return Step::kStopped;
-  chosen = best.gain.first >= 0 ? best.split : earliest();
-  return Step::kDone;
+  if (techniques.has(Technique::kSequenceSplits) && best.gain.first == 0)
+    if (!improve_by_sequences(best, task)) return false;
+  chosen = best.gain.first >= 0 ? best.split : earliest(task.view);
+  return true;
 }
 
 // The same with splits on the next stops of the agents in conflict, where no conflict raises the
 // cost of both sides. Not usual: on 19 rooms and random maps of 10 and 20 agents it took up to
 // twice as many nodes; only where no conflict raises the cost of either side, as many as without.
-Brancher::Step Brancher::improve_by_sequences(Choice& choice, Cost slack, const Limits& limits) {
+bool Brancher::improve_by_sequences(Choice& choice, const Task& task) {
+  const NodeView& view = task.view;
   in_conflict_.clear();
-  for (const Conflict& c : conflicts_) in_conflict_.insert(in_conflict_.end(), {c.first, c.second});
+  for (const Conflict& c : view.conflicts())
+    in_conflict_.insert(in_conflict_.end(), {c.first, c.second});
   std::ranges::sort(in_conflict_);
   in_conflict_.erase(std::ranges::unique(in_conflict_).begin(), in_conflict_.end());
   for (AgentIndex agent : in_conflict_) {
-    const auto split =
-        planner_.sequence_split(agent, order(agent), constraints_[agent], paths_[agent]);
-    if (split && improve(choice, *split, slack, limits) == Step::kStopped) return Step::kStopped;
+    const auto split = planner_.sequence_split(agent, view.order(agent), view.constraints(agent),
+                                               view.path(agent));
+    if (split && !improve(choice, *split, task)) return false;
   }
-  return Step::kDone;
+  return true;
 }
 
-Brancher::Step Brancher::improve(Choice& choice, const Split& split, Cost slack,
-                                 const Limits& limits) {
+bool Brancher::improve(Choice& choice, const Split& split, const Task& task) {
   std::array<Cost, 2> increases{};
-  for (int i = 0; i < 2; ++i)
-    if (const Step step = estimate(split[i], slack, limits, increases[i]); step != Step::kDone)
-      return step == Step::kTooHard ? Step::kDone : step;
+  for (int i = 0; i < 2; ++i) {
+    const auto outcome =
+        prices_.increase(task.view, split[i], task.slack, task.limits, increases[i]);
+    if (outcome != Prices::Outcome::kDone) return outcome == Prices::Outcome::kTooHard;
+  }
   const std::pair<Cost, Cost> gain = std::minmax(increases[0], increases[1]);
   if (gain > choice.gain) choice = {gain, split};
-  return Step::kDone;
+  return true;
 }
 
-Split Brancher::earliest() const {
-  const Conflict* best = &conflicts_.front();
-  for (const Conflict& conflict : conflicts_) {
+Split Brancher::earliest(const NodeView& view) {
+  const Conflict* best = &view.conflicts().front();
+  for (const Conflict& conflict : view.conflicts()) {
     if (conflict.time > best->time) break;
-    if (priority(conflict, seed_) < priority(*best, seed_)) best = &conflict;
+    if (priority(conflict, options_.seed) < priority(*best, options_.seed)) best = &conflict;
   }
-  if (techniques_.has(Technique::kTarget))
-    if (const auto by_target = target_split(*best, paths_)) return *by_target;
-  if (techniques_.has(Technique::kTraversal))
-    if (const auto by_traversal = traversal_split(*best, paths_, problem_.chains))
-      return *by_traversal;
-  return split(*best);
-}
-
-// By how much the sum of costs rises when `demand` is made; kInfiniteCost if by more than `slack`.
-Brancher::Step Brancher::estimate(const AgentConstraint& demand, Cost slack, const Limits& limits,
-                                  Cost& increase) {
-  increase = 0;
-  if (demand.constraint.kind == ConstraintKind::kStopIs) return Step::kDone;  // the path obeys it
-  affected(demand, affected_);
-  for (AgentIndex agent : affected_) {
-    const Time cutoff =
-        static_cast<Time>(std::min<Cost>(cost_of(agent) + slack - increase, kNever - 1));
-    Time cost = 0;
-    const Step step =
-        least_cost(agent, *demand_on(agent, demand), cutoff, kMostLabelsForAPrice, limits, cost);
-    if (step != Step::kDone) return step;
-    if (cost > cutoff) {
-      increase = kInfiniteCost;
-      break;
-    }
-    increase += cost - cost_of(agent);
-  }
-  return Step::kDone;
-}
-
-// What the agent costs under one constraint more; if that is above `cutoff`, anything above it.
-Brancher::Step Brancher::least_cost(AgentIndex agent, const Constraint& more, Time cutoff,
-                                    std::int64_t most_labels, const Limits& limits, Time& cost) {
-  const auto constraints = constraints_with(agent, more);
-  const Situations::Id id = memory_.id(agent, order(agent), constraints);
-  Situations::Known known = memory_.known(id);
-  if (!known.exact && known.at_least <= cutoff) {
-    if (known.hard && most_labels < FreeLowLevelSearch::kUnlimited) return Step::kTooHard;
-    switch (planner_.find(agent, order(agent), constraints, nullptr, cutoff, limits, path_,
-                          most_labels)) {
-      case PathPlanner::Outcome::kFound:
-        known = {static_cast<Time>(path_.size()) - 1, true};
-        break;
-      case PathPlanner::Outcome::kAbove:
-        known = {cutoff + 1, false};
-        break;
-      case PathPlanner::Outcome::kInfeasible:
-        known = {kNever, true};
-        break;
-      case PathPlanner::Outcome::kStopped:
-        if (limits.stop_requested()) return Step::kStopped;
-        known.hard = true;
-        break;
-    }
-    memory_.learn(id, known);
-    if (known.hard) return Step::kTooHard;
-  }
-  cost = known.at_least;
-  return Step::kDone;
-}
-
-// Who in scope must go another way: whose path does not obey what `demand` asks of it.
-void Brancher::affected(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const {
-  agents.clear();
-  const Constraint& c = demand.constraint;
-  if (c.kind != ConstraintKind::kRestBy) {
-    agents.push_back(demand.agent);
-    return;
-  }
-  for (AgentIndex agent : scope_) {
-    const Path& path = paths_[agent];
-    const auto begin = path.begin() + std::min<std::ptrdiff_t>(c.end, std::ssize(path) - 1);
-    if (agent != demand.agent && std::find(begin, path.end(), c.cell) != path.end())
-      agents.push_back(agent);
-  }
-}
-
-// The agent's constraints at the node and one more, in canonical order; until the next call.
-std::span<const Constraint> Brancher::constraints_with(AgentIndex agent, const Constraint& more) {
-  extended_ = constraints_[agent];
-  extended_.push_back(more);
-  canonical(extended_);
-  return extended_;
+  splits_.clear();
+  splits_of(*best, view.paths(), problem_, options_.techniques, splits_);
+  return splits_[splits_.size() > 1 ? 1 : 0];
 }
 
 // The paths of one side of the split, around those of the others.
-Brancher::Step Brancher::make_side(const AgentConstraint& demand, Cost slack, const Limits& limits,
-                                   Side& side) {
+bool Brancher::make_side(const Task& task, const AgentConstraint& demand, Side& side) {
   side.open = true;
   side.increase = 0;
   side.conflicts = 0;
   side.paths.clear();
-  affected(demand, side.agents);
+  task.view.disturbed(demand, side.agents);
   for (AgentIndex agent : side.agents) {
-    others_.remove(paths_[agent]);
-    side.conflicts -= others_.conflicts_of(paths_[agent]);
+    others_.remove(task.view.path(agent));
+    side.conflicts -= others_.conflicts_of(task.view.path(agent));
   }
-  const Step step = replan(demand, slack, limits, side);
+  const bool done = replan(task, demand, side);
   for (const Path& path : side.paths) others_.remove(path);
-  for (AgentIndex agent : side.agents) others_.add(paths_[agent]);
-  return step;
+  for (AgentIndex agent : side.agents) others_.add(task.view.path(agent));
+  return done;
 }
 
-Brancher::Step Brancher::replan(const AgentConstraint& demand, Cost slack, const Limits& limits,
-                                Side& side) {
+bool Brancher::replan(const Task& task, const AgentConstraint& demand, Side& side) {
   for (AgentIndex agent : side.agents) {
-    const Time cutoff =
-        static_cast<Time>(std::min<Cost>(cost_of(agent) + slack - side.increase, kNever - 1));
-    const Step step = replan_one(agent, *demand_on(agent, demand), cutoff, limits, side.open);
-    if (step == Step::kStopped || !side.open) return step;
-    side.increase += static_cast<Cost>(path_.size()) - static_cast<Cost>(paths_[agent].size());
+    const Time cutoff = cutoff_for(task.view, agent, task.slack - side.increase);
+    if (!replan_one(task, agent, *demand_on(agent, demand), cutoff, side.open)) return false;
+    if (!side.open) return true;
+    side.increase += static_cast<Cost>(path_.size()) - 1 - task.view.cost_of(agent);
     side.conflicts += others_.conflicts_of(path_);
     others_.add(path_);
     side.paths.push_back(path_);
   }
-  return Step::kDone;
-}
-
-// Writes a cheapest path under one constraint more to path_, if it costs at most `cutoff`.
-Brancher::Step Brancher::replan_one(AgentIndex agent, const Constraint& more, Time cutoff,
-                                    const Limits& limits, bool& found) {
-  if (techniques_.has(Technique::kFewestConflicts)) {
-    Time cost = 0;
-    if (least_cost(agent, more, cutoff, FreeLowLevelSearch::kUnlimited, limits, cost) !=
-        Step::kDone)
-      return Step::kStopped;
-    found = cost <= cutoff;
-    if (!found) return Step::kDone;
-    const auto constraints = constraints_with(agent, more);
-    const Situations::Id id = memory_.id(agent, order(agent), constraints);
-    const OptimalPaths* paths = memory_.paths(id, agent, order(agent), constraints, cost, limits);
-    if (!paths) return Step::kStopped;
-    if (!paths->empty()) {
-      fewest_conflicts_.find(*paths, others_, path_);
-      return Step::kDone;
-    }
-  }
-  const auto constraints = constraints_with(agent, more);
-  const auto outcome =
-      planner_.find(agent, order(agent), constraints, &others_, cutoff, limits, path_);
-  found = outcome == PathPlanner::Outcome::kFound;
-  return outcome == PathPlanner::Outcome::kStopped ? Step::kStopped : Step::kDone;
-}
-
-// Takes the paths of a side for the node's own, if that costs nothing and saves conflicts.
-bool Brancher::bypass(const Side& side) {
-  if (!techniques_.has(Technique::kBypass)) return false;
-  if (!side.open || side.increase > 0 || side.conflicts >= 0) return false;
-  for (std::size_t i = 0; i < side.agents.size(); ++i) {
-    const AgentIndex agent = side.agents[i];
-    paths_[agent] = side.paths[i];
-    if (std::ranges::count(bypassed_, agent) == 0) bypassed_.push_back(agent);
-  }
-  find_conflicts();
   return true;
 }
 
-// The node as it is after the bypasses.
-NodePtr Brancher::with_bypasses() const {
-  if (bypassed_.empty()) return node_;
-  std::vector<NewPath> paths;
-  for (AgentIndex agent : bypassed_) paths.push_back({agent, &paths_[agent]});
-  Change change;
-  change.paths = paths;
-  change.cost = node_->cost();
-  return Node::child(node_, problem_.instance.grid(), change);
+// Writes a cheapest path under one constraint more to path_, if it costs at most `cutoff`.
+bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& more, Time cutoff,
+                          bool& found) {
+  const AgentOrder& order = task.view.order(agent);
+  if (options_.techniques.has(Technique::kFewestConflicts)) {
+    Time cost = 0;
+    if (prices_.cost(task.view, agent, more, cutoff, FreeLowLevelSearch::kUnlimited, task.limits,
+                     cost) != Prices::Outcome::kDone)
+      return false;
+    found = cost <= cutoff;
+    if (!found) return true;
+    const auto constraints = task.view.constraints_with(agent, more);
+    const Situations::Id id = memory_.id(agent, order, constraints);
+    const OptimalPaths* paths = memory_.paths(id, agent, order, constraints, cost, task.limits);
+    if (!paths) return false;
+    if (!paths->empty()) {
+      fewest_conflicts_.find(*paths, others_, path_);
+      return true;
+    }
+  }
+  const auto constraints = task.view.constraints_with(agent, more);
+  const auto outcome =
+      planner_.find(agent, order, constraints, &others_, cutoff, task.limits, path_);
+  found = outcome == PathPlanner::Outcome::kFound;
+  return outcome != PathPlanner::Outcome::kStopped;
 }
 
-NodePtr Brancher::child(const NodePtr& parent, const AgentConstraint& demand,
+// Takes the paths of a side for the node's own, if that costs nothing and saves conflicts.
+bool Brancher::bypass(NodeView& view, const Side& side) const {
+  if (!options_.techniques.has(Technique::kBypass)) return false;
+  if (!side.open || side.increase > 0 || side.conflicts >= 0) return false;
+  view.reroute(side.agents, side.paths);
+  return true;
+}
+
+NodePtr Brancher::child(const NodeView& view, const NodePtr& parent, const AgentConstraint& demand,
                         const Side& side) const {
   std::vector<NewPath> paths;
   for (std::size_t i = 0; i < side.agents.size(); ++i)
@@ -362,9 +228,9 @@ NodePtr Brancher::child(const NodePtr& parent, const AgentConstraint& demand,
   Change change;
   change.added = demand;
   change.paths = paths;
-  change.cost = node_->cost() + side.increase;
-  change.conflicts =
-      static_cast<std::uint32_t>(std::max(0, static_cast<int>(conflicts_.size()) + side.conflicts));
+  change.cost = view.node()->cost() + side.increase;
+  const int conflicts = static_cast<int>(view.conflicts().size()) + side.conflicts;
+  change.conflicts = static_cast<std::uint32_t>(std::max(0, conflicts));
   return Node::child(parent, problem_.instance.grid(), change);
 }
 

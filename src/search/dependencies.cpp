@@ -54,18 +54,19 @@ constexpr std::size_t kMostPairs = 50'000;         // of nodes, in a comparison
 
 }  // namespace
 
-Dependencies::Dependencies(const Problem& problem, Techniques techniques, std::uint64_t seed,
+Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
                            PathPlanner& planner, Memory& memory)
     : instance_(problem.instance),
       planner_(planner),
       agents_(problem.instance.agent_count()),
-      techniques_(techniques),
+      techniques_(options.techniques),
       memory_(memory),
-      pair_view_(problem, techniques, seed, planner, memory),
+      pair_view_(problem, options, memory),
+      pair_brancher_(problem, options, planner, memory),
       pair_dependency_(problem.instance.grid()),
       situation_(static_cast<std::size_t>(agents_)) {}
 
-Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, Brancher& view, Cost cutoff,
+Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
                                                const Limits& limits, Cost& bound) {
   bound = cutoff;
   const Cost slack = cutoff - node->cost() - 1;
@@ -86,7 +87,7 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, Brancher& vi
   return Outcome::kDone;
 }
 
-bool Dependencies::help(const NodePtr& node, Brancher& view, Cost cutoff, double share,
+bool Dependencies::help(const NodePtr& node, NodeView& view, Cost cutoff, double share,
                         const Limits& limits) {
   const Cost slack = cutoff - node->cost() - 1;
   if (slack < 0) return false;
@@ -97,12 +98,12 @@ bool Dependencies::help(const NodePtr& node, Brancher& view, Cost cutoff, double
   return planner_.work() > before;
 }
 
-void Dependencies::look_at(Brancher& view) {
+void Dependencies::look_at(NodeView& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) situation_[agent] = view.situation(agent);
 }
 
 // Looks into every pair that conflicts at the node.
-Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, Brancher& view,
+Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, NodeView& view,
                                                       Cost slack, double share,
                                                       const Limits& limits) {
   std::vector<std::pair<AgentIndex, AgentIndex>> pairs;
@@ -130,7 +131,7 @@ Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, Branc
 }
 
 // Can both keep their costs? None: a limit struck.
-std::optional<Dependence> Dependencies::compare(Brancher& view, AgentIndex a, AgentIndex b,
+std::optional<Dependence> Dependencies::compare(NodeView& view, AgentIndex a, AgentIndex b,
                                                 const Limits& limits) {
   const OptimalPaths* of_a = optimal_paths(view, a, limits);
   const OptimalPaths* of_b = optimal_paths(view, b, limits);
@@ -141,15 +142,15 @@ std::optional<Dependence> Dependencies::compare(Brancher& view, AgentIndex a, Ag
   return dependence;
 }
 
-const OptimalPaths* Dependencies::optimal_paths(Brancher& view, AgentIndex agent,
+const OptimalPaths* Dependencies::optimal_paths(NodeView& view, AgentIndex agent,
                                                 const Limits& limits) {
-  const Time cost = static_cast<Time>(view.path(agent).size()) - 1;
+  const Time cost = view.cost_of(agent);
   return memory_.paths(situation_[agent], agent, view.order(agent), view.constraints(agent), cost,
                        limits);
 }
 
 // Looks into every group that conflicts among itself though no pair of it has to cost more.
-Dependencies::Outcome Dependencies::solve_groups(const NodePtr& node, Brancher& view, Cost slack,
+Dependencies::Outcome Dependencies::solve_groups(const NodePtr& node, NodeView& view, Cost slack,
                                                  const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
     if (group.size() < 3 || group.size() > kMostInGroup) continue;
@@ -164,7 +165,7 @@ Dependencies::Outcome Dependencies::solve_groups(const NodePtr& node, Brancher& 
 }
 
 // The components of the graph of such conflicts, each in ascending order.
-std::vector<std::vector<AgentIndex>> Dependencies::groups_in_conflict(const Brancher& view) const {
+std::vector<std::vector<AgentIndex>> Dependencies::groups_in_conflict(const NodeView& view) const {
   std::vector<AgentIndex> leader(static_cast<std::size_t>(agents_));
   std::iota(leader.begin(), leader.end(), 0);
   for (const Conflict& c : view.conflicts()) {
@@ -198,7 +199,7 @@ bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group,
     known.excess = std::max(known.excess, next.cost - base);
     pair_view_.enter(next.node, group);
     children_.clear();
-    const auto outcome = pair_view_.branch(base + slack + 1, {}, limits, children_);
+    const auto outcome = pair_brancher_.branch(pair_view_, base + slack + 1, {}, limits, children_);
     if (outcome == Brancher::Outcome::kStopped) return false;
     ++expansions_;
     ++known.expansions;
@@ -244,10 +245,10 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) {
   statements.erase(repeated.begin(), repeated.end());
 }
 
-void Dependencies::splits(Brancher& view, std::vector<Split>& splits) {
+void Dependencies::splits(NodeView& view, std::vector<Split>& splits) {
   look_at(view);
   const auto later = [&](AgentIndex agent) {
-    const Time cost = static_cast<Time>(view.path(agent).size()) - 1;
+    const Time cost = view.cost_of(agent);
     return AgentConstraint{
         agent, {*instance_.agent(agent).goal, kNoCell, 0, cost, ConstraintKind::kNoRestBy}};
   };

@@ -11,19 +11,20 @@ namespace grove {
 struct Expander::Leaving {
   Expander& expander;
   ~Leaving() {
-    expander.brancher_.leave();
+    expander.view_.leave();
     expander.dependencies_.leave();
   }
 };
 
-Expander::Expander(const Problem& problem, AgentStopsStore& stops, Techniques techniques,
-                   std::uint64_t seed, std::shared_ptr<CommonMemory> memory)
+Expander::Expander(const Problem& problem, AgentStopsStore& stops, const SearchOptions& options,
+                   std::shared_ptr<CommonMemory> memory)
     : problem_(problem),
-      techniques_(techniques),
+      techniques_(options.techniques),
       planner_(problem, stops),
       memory_(planner_, std::move(memory)),
-      brancher_(problem, techniques, seed, planner_, memory_),
-      dependencies_(problem, techniques, seed, planner_, memory_),
+      view_(problem, options, memory_),
+      brancher_(problem, options, planner_, memory_),
+      dependencies_(problem, options, planner_, memory_),
       all_(static_cast<std::size_t>(problem.instance.agent_count())) {
   std::iota(all_.begin(), all_.end(), 0);
 }
@@ -36,14 +37,14 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
     nothing.stopped = true;
     return nothing;
   };
-  brancher_.enter(node, all_);
-  if (brancher_.conflict_free()) {
+  view_.enter(node, all_);
+  if (view_.conflict_free()) {
     expansion.plan = plan(*node);
     return expansion;
   }
   if (techniques_.has(Technique::kDependencies) && !node->is_bounded()) {
     Cost bound = 0;
-    switch (dependencies_.find_bound(node, brancher_, cutoff, limits, bound)) {
+    switch (dependencies_.find_bound(node, view_, cutoff, limits, bound)) {
       case Dependencies::Outcome::kStopped:
         return stopped();
       case Dependencies::Outcome::kUnfinished:
@@ -64,8 +65,8 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
     }
   }
   splits_.clear();
-  if (techniques_.has(Technique::kCostSplits)) dependencies_.splits(brancher_, splits_);
-  switch (brancher_.branch(cutoff, splits_, limits, expansion.children)) {
+  if (techniques_.has(Technique::kCostSplits)) dependencies_.splits(view_, splits_);
+  switch (brancher_.branch(view_, cutoff, splits_, limits, expansion.children)) {
     case Brancher::Outcome::kStopped:
       return stopped();
     case Brancher::Outcome::kConflictFree:
@@ -79,15 +80,15 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
 
 bool Expander::help(const NodePtr& node, Cost cutoff, double share, const Limits& limits) {
   const Leaving at_last{*this};
-  brancher_.enter(node, all_);
-  return dependencies_.help(node, brancher_, cutoff, share, limits);
+  view_.enter(node, all_);
+  return dependencies_.help(node, view_, cutoff, share, limits);
 }
 
-// The plan of the brancher's paths, which are conflict-free.
+// The plan of the view's paths, which are conflict-free.
 Plan Expander::plan(const Node& node) {
   Plan plan;
   for (AgentIndex i = 0; i < problem_.instance.agent_count(); ++i) {
-    const Path& path = brancher_.path(i);
+    const Path& path = view_.path(i);
     const Sequence sequence = planner_.sequence(i, *node.tree().orders[i], {}, path);
     const auto cost = static_cast<Time>(path.size() - 1);
     plan.cost += cost;
@@ -97,15 +98,14 @@ Plan Expander::plan(const Node& node) {
 }
 
 ExpansionCounts Expander::counts() const {
-  const Brancher& pairs = dependencies_.pair_view();
   return {planner_.calls(),
           planner_.expanded(),
           dependencies_.expansions(),
-          planner_.optimal_nodes() + brancher_.optimal_nodes() + pairs.optimal_nodes(),
+          planner_.optimal_nodes() + brancher_.optimal_nodes() + dependencies_.optimal_nodes(),
           dependencies_.joint_pairs(),
           memory_.asked(),
           memory_.groups_asked(),
-          brancher_.steps() + pairs.steps()};
+          view_.steps() + dependencies_.steps()};
 }
 
 }  // namespace grove

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <ranges>
 #include <utility>
 
 namespace grove {
@@ -93,19 +94,13 @@ void Node::constraints(AgentIndex agent, std::vector<Constraint>& constraints) c
 }
 
 void Node::constraints(std::vector<std::vector<Constraint>>& constraints) const {
-  const auto agents = static_cast<AgentIndex>(tree_->orders.size());
   constraints.resize(tree_->orders.size());
   for (auto& list : constraints) list.clear();
-  for (const Node* node = this; !node->is_root(); node = node->parent_.get()) {
-    const AgentConstraint& added = node->added_;
-    if (added.agent < 0) continue;
-    if (added.constraint.kind != ConstraintKind::kRestBy) {
-      constraints[added.agent].push_back(added.constraint);
-      continue;
-    }
-    for (AgentIndex agent = 0; agent < agents; ++agent)
-      constraints[agent].push_back(*demand_on(agent, added));
-  }
+  const auto agents = std::views::iota(AgentIndex{0}, static_cast<AgentIndex>(constraints.size()));
+  for (const Node* node = this; !node->is_root(); node = node->parent_.get())
+    for_each_demand(node->added_, agents, [&](AgentIndex agent, const Constraint& demand) {
+      constraints[agent].push_back(demand);
+    });
 }
 
 std::vector<TaskIndex> tasks_in_order(const Agent& agent, const Sequence& sequence) {

@@ -6,8 +6,7 @@
 #include <array>
 #include <random>
 
-#include "grove/conflicts/target.h"
-#include "grove/conflicts/traversal.h"
+#include "grove/conflicts/reasoning.h"
 #include "tests/support/instances.h"
 #include "tests/support/obeys.h"
 
@@ -65,7 +64,7 @@ TEST_P(SplitsTest, LoseNoCollisionFreePairAndChangeBothSides) {
     if (conflicts.empty()) apart.push_back(pair);
     for (const Conflict& conflict : conflicts)
       for (const auto& split :
-           {target_split(conflict, pair), traversal_split(conflict, pair, chains)})
+           {target_split(conflict, pair, chains), traversal_split(conflict, pair, chains)})
         if (split) {
           const bool target = (*split)[0].constraint.kind == ConstraintKind::kNoRestBy;
           ++(target ? by_target : by_traversal);

@@ -75,7 +75,7 @@ class Search {
   AgentStopsStore stops_{instance_, problem_.distances};
   NodePool pool_;
   SequenceForest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
-  Expander expander_{problem_, stops_, Techniques(), 0};
+  Expander expander_{problem_, stops_, {Techniques(), 0}};
   std::vector<const Tree*> trees_;
   std::vector<NodePtr> nodes_;
 };

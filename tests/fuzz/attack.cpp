@@ -239,8 +239,9 @@ Techniques random_techniques(Random& random) {
   return any;
 }
 
-Solution solve_for(const Instance& instance, const SolveOptions& options, double seconds,
+Solution solve_for(const Instance& instance, SolveOptions options, double seconds,
                    RunObserver* observer = nullptr) {
+  options.audit = true;
   Limits limits;
   limits.set_deadline(Limits::Clock::now() +
                       std::chrono::microseconds(static_cast<std::int64_t>(seconds * 1e6)));
@@ -335,7 +336,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
   NodePool pool;
   SingleTree forest(problem, stops, pool, limits);
   const auto expander_seed = static_cast<std::uint64_t>(random.below(100));
-  Expander expander(problem, stops, techniques, expander_seed);
+  Expander expander(problem, stops, {techniques, expander_seed});
   const NodePtr root = forest.next_root();
   std::vector<NodePtr> reached{root};  // nodes to begin descents at, whatever they hold
   const auto end =
@@ -374,7 +375,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
       ++counts.expansions;
       if (compare_histories && depth % 4 == 0) {
         AgentStopsStore fresh_stops(instance, problem.distances);
-        Expander fresh(problem, fresh_stops, techniques, expander_seed);
+        Expander fresh(problem, fresh_stops, {techniques, expander_seed});
         Expansion other = fresh.expand(node, cutoff, limits);
         while (other.unfinished) other = fresh.expand(node, cutoff, limits);
         const auto said = [](const Expansion& e) {

@@ -37,7 +37,7 @@ enum class Strike : std::uint8_t {
 // in which every line may be missing.
 struct FuzzCase {
   TinyInstance instance;
-  SolveOptions options;
+  SolveOptions options{.audit = true};
   Strike strike = Strike::kNothing;
 
   std::string to_text() const;

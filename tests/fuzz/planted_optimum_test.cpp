@@ -31,7 +31,7 @@ class PlantedInABay : public ::testing::Test {
   NodePool pool_;
   SequenceForest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
   AgentStopsStore stops_{instance_, problem_.distances};
-  Expander expander_{problem_, stops_, Techniques(), 0};
+  Expander expander_{problem_, stops_, {Techniques(), 0}};
   PlantedOptimum planted_{instance_, optimum_};
   const NodePtr root_ = forest_.next_root();
 
@@ -147,7 +147,8 @@ void follow_optima(std::uint64_t seeds, std::chrono::milliseconds patience, Choo
     PlantedOptimum planted(instance, *truth.plan);
     Limits limits;
     limits.set_deadline(Limits::Clock::now() + patience);
-    const SolveOptions options = choose(fuzz_case.options);
+    SolveOptions options = choose(fuzz_case.options);
+    options.audit = true;
     const Solution solution = solve(instance, options, limits, &planted);
     EXPECT_THAT(planted.complaints(), IsEmpty()) << fuzz_case.to_text();
     EXPECT_THAT(false_claims(instance, truth, options.omega, solution, true), IsEmpty());

@@ -29,7 +29,7 @@ class RankWithRoot {
         problem_(instance_, limits_),
         stops_(instance_, problem_.distances),
         rank_(problem_, options_, limits_, network_, stops_),
-        expander_(problem_, stops_, techniques_of(options_), options_.seed) {
+        expander_(problem_, stops_, search_options_of(options_)) {
     Coordinator(problem_, options_, limits_, observer_, network_).begin();
     for (message::Message& message : network_.take()) rank_.handle(0, std::move(message));
     bound_ = rank_.nodes().bound();

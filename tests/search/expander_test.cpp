@@ -20,7 +20,7 @@ struct Search {
         problem(instance, limits),
         forest(problem, pool, RtspBackend::kAuto, limits),
         stops(instance, problem.distances),
-        expander(problem, stops, Techniques(), 0),
+        expander(problem, stops, {Techniques(), 0}),
         root(forest.next_root()) {}
 
   Limits limits;
@@ -110,7 +110,7 @@ TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
 
   int turns = 0;
   Expansion in_turns;
-  Expander expander(problem, stops, Techniques::usual(), 0);
+  Expander expander(problem, stops, {Techniques::usual(), 0});
   do {
     in_turns = expander.expand(root, kInfiniteCost, limits);
     expander.publish();
@@ -119,7 +119,7 @@ TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
   EXPECT_GT(turns, 2);
 
   // Who once had to forget leaves nothing for later.
-  Expander other(problem, stops, Techniques::usual(), 0);
+  Expander other(problem, stops, {Techniques::usual(), 0});
   other.turn_to(std::make_shared<CommonMemory>(CommonMemory::Successor{}));
   const Expansion at_once = other.expand(root, kInfiniteCost, limits);
   ASSERT_FALSE(at_once.unfinished);

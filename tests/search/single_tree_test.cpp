@@ -50,7 +50,7 @@ TEST_F(SingleTreeTest, ALimitLeavesTheTreeWithItsBound) {
 
 TEST_F(SingleTreeTest, ItsPlansNameTheSequencesThatWereChosen) {
   SingleTree forest(problem_, stops_, pool_, limits_);
-  Expander expander(problem_, stops_, Techniques(), 0);
+  Expander expander(problem_, stops_, {Techniques(), 0});
   const Expansion expansion = expander.expand(forest.next_root(), kInfiniteCost, limits_);
   ASSERT_TRUE(expansion.plan);
   EXPECT_EQ(expansion.plan->agents[0].sequence.size(), 3u);

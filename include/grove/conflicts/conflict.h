@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,27 +25,11 @@ struct Conflict {
   bool is_swap() const { return from != kNoCell; }
 };
 
-// One agent and what it is forbidden.
-struct AgentConstraint {
-  AgentIndex agent = -1;
-  Constraint constraint;
-  friend bool operator==(const AgentConstraint&, const AgentConstraint&) = default;
-};
-
-// What `added`, a constraint of a constraint-tree node, demands of `agent`; none if nothing. A
-// kRestBy of one agent bars every other from the cell from its end on: that is where the one rests.
-std::optional<Constraint> demand_on(AgentIndex agent, const AgentConstraint& added);
-
 // Two demands of which every conflict-free plan meets at least one.
 using Split = std::array<AgentConstraint, 2>;
 
 // Standard CBS splitting: every pair of paths without this conflict obeys at least one of the two.
 Split split(const Conflict& conflict);
-
-// Where an agent with this path (not empty) is at `time`: it rests on the last cell for ever.
-inline Cell position_at(const Path& path, Time time) {
-  return time < static_cast<Time>(path.size()) ? path[time] : path.back();
-}
 
 // Finds conflicts among paths. Workspace of one thread: reuse it, do not share it.
 class ConflictFinder {

@@ -95,9 +95,9 @@ template <class Archive>
 void serialize(Archive& archive, Constraint& c) {
   auto kind = static_cast<std::uint8_t>(c.kind);
   archive(c.cell, c.from, c.begin, c.end, kind);
-  if (kind > static_cast<std::uint8_t>(ConstraintKind::kStopIsNot))
-    throw cereal::Exception("a constraint of no known kind");
-  c.kind = static_cast<ConstraintKind>(kind);
+  const auto known = constraint_kind(kind);
+  if (!known) throw cereal::Exception("a constraint of no known kind");
+  c.kind = *known;
 }
 
 template <class Archive>

@@ -11,7 +11,7 @@
 #include "grove/engine/checkpoints.h"
 #include "grove/model/limits.h"
 #include "grove/model/plan.h"
-#include "grove/search/techniques.h"
+#include "grove/search/search_options.h"
 #include "grove/sequencing/rtsp.h"
 
 namespace grove {
@@ -52,6 +52,8 @@ struct SolveOptions {
   // The most that open nodes and their ancestors may hold, in bytes; beyond, the worst are given
   // up. Without a word from here the memory limit of the run decides.
   std::size_t node_memory = kUnlimited;
+  // See SearchOptions::audit.
+  bool audit = false;
 };
 
 // Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The techniques of a run.
+// How a run searches its constraint trees.
 #pragma once
 
 #include "grove/engine/solve.h"
@@ -10,6 +10,10 @@ namespace grove {
 inline Techniques techniques_of(const SolveOptions& options) {
   const bool plain = options.policy == Policy::kFixed || options.low_level != LowLevel::kOwn;
   return plain ? Techniques() : options.techniques;
+}
+
+inline SearchOptions search_options_of(const SolveOptions& options) {
+  return {techniques_of(options), options.seed, options.audit};
 }
 
 }  // namespace grove

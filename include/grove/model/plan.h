@@ -17,6 +17,11 @@ namespace grove {
 // Where an agent is at times 0, 1, ...: path[0] is its start and it rests on path.back() for ever.
 using Path = std::vector<Cell>;
 
+// Where an agent with this path (not empty) is at `time`: it rests on the last cell for ever.
+inline Cell position_at(const Path& path, Time time) {
+  return time < static_cast<Time>(path.size()) ? path[time] : path.back();
+}
+
 struct AgentPlan {
   Time cost = 0;                    // when it comes to rest for ever with its tasks visited
   std::vector<TaskIndex> sequence;  // all its tasks, in an order in which the path visits them

@@ -20,8 +20,8 @@ namespace grove {
 class Dependencies {
  public:
   // All must outlive this.
-  Dependencies(const Problem& problem, Techniques techniques, std::uint64_t seed,
-               PathPlanner& planner, Memory& memory);
+  Dependencies(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
+               Memory& memory);
 
   enum class Outcome : std::uint8_t {
     kDone,
@@ -32,27 +32,27 @@ class Dependencies {
 
   // Helps others that bound the same node with the same common memory: solves pairs, beginning at
   // this `share` in [0, 1) of them. False: nothing was left to do.
-  bool help(const NodePtr& node, Brancher& view, Cost cutoff, double share, const Limits& limits);
+  bool help(const NodePtr& node, NodeView& view, Cost cutoff, double share, const Limits& limits);
 
   // A proven lower bound on every plan that obeys the constraints of `node`, which `view` has
   // entered with all agents; or `cutoff`, if none of them is cheaper. Sets `bound` only on kDone.
-  Outcome find_bound(const NodePtr& node, Brancher& view, Cost cutoff, const Limits& limits,
+  Outcome find_bound(const NodePtr& node, NodeView& view, Cost cutoff, const Limits& limits,
                      Cost& bound);
 
   // Splits on the costs of two agents that conflict at the node that `view` has entered and are
   // known not to be able to keep both their costs: "the one comes to rest later | the other does".
   // Appended.
-  void splits(Brancher& view, std::vector<Split>& splits);
+  void splits(NodeView& view, std::vector<Split>& splits);
 
   // Lets all nodes go.
   void leave();
 
-  // Expansions in pairs so far.
+  // So far: expansions in pairs; pairs of places compared in sets of optimal paths; and what their
+  // view and brancher counted.
   std::int64_t expansions() const { return expansions_; }
-  // Pairs of places compared in sets of optimal paths, so far.
   std::int64_t joint_pairs() const { return pair_dependency_.pairs(); }
-  // What looks at the pairs.
-  const Brancher& pair_view() const { return pair_view_; }
+  std::int64_t steps() const { return pair_view_.steps(); }
+  std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }
 
  private:
   using Known = Excesses::Known;
@@ -62,17 +62,17 @@ class Dependencies {
     NodePtr node;
   };
 
-  void look_at(Brancher& view);
+  void look_at(NodeView& view);
   Known known(AgentIndex a, AgentIndex b) const {
     return memory_.of_pair(situation_[a], situation_[b]);
   }
-  Outcome solve_conflicting(const NodePtr& node, Brancher& view, Cost slack, double share,
+  Outcome solve_conflicting(const NodePtr& node, NodeView& view, Cost slack, double share,
                             const Limits& limits);
-  std::optional<Dependence> compare(Brancher& view, AgentIndex a, AgentIndex b,
+  std::optional<Dependence> compare(NodeView& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
-  const OptimalPaths* optimal_paths(Brancher& view, AgentIndex agent, const Limits& limits);
-  Outcome solve_groups(const NodePtr& node, Brancher& view, Cost slack, const Limits& limits);
-  std::vector<std::vector<AgentIndex>> groups_in_conflict(const Brancher& view) const;
+  const OptimalPaths* optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits);
+  Outcome solve_groups(const NodePtr& node, NodeView& view, Cost slack, const Limits& limits);
+  std::vector<std::vector<AgentIndex>> groups_in_conflict(const NodeView& view) const;
   std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;
   bool solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
              std::int32_t most_expansions, const Limits& limits, Known& known);
@@ -83,7 +83,8 @@ class Dependencies {
   const int agents_;
   const Techniques techniques_;
   Memory& memory_;
-  Brancher pair_view_;
+  NodeView pair_view_;  // of a pair or group
+  Brancher pair_brancher_;
   PairDependency pair_dependency_;
   std::vector<Situations::Id> situation_;  // by AgentIndex, at the node
   std::vector<Open> open_;                 // a heap: least cost first

@@ -13,8 +13,9 @@
 #include "grove/search/dependencies.h"
 #include "grove/search/memory.h"
 #include "grove/search/node.h"
+#include "grove/search/node_view.h"
 #include "grove/search/path_planner.h"
-#include "grove/search/techniques.h"
+#include "grove/search/search_options.h"
 
 namespace grove {
 
@@ -49,9 +50,8 @@ struct ExpansionCounts {
 class Expander {
  public:
   // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same
-  // thread. `seed` breaks ties among conflicts.
-  Expander(const Problem& problem, AgentStopsStore& stops, Techniques techniques,
-           std::uint64_t seed,
+  // thread.
+  Expander(const Problem& problem, AgentStopsStore& stops, const SearchOptions& options,
            std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>());
 
   // Holds no node afterwards: how much memory nodes take would depend on who expanded which last.
@@ -84,6 +84,7 @@ class Expander {
   const Techniques techniques_;
   PathPlanner planner_;
   Memory memory_;
+  NodeView view_;
   Brancher brancher_;
   Dependencies dependencies_;
   std::vector<AgentIndex> all_;

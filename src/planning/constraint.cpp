@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "grove/planning/constraint.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "grove/planning/chains.h"
+
+namespace grove {
+namespace {
+
+struct Named {
+  ConstraintKind kind;
+  std::string_view name;
+};
+
+constexpr std::array kNames = {
+    Named{ConstraintKind::kBar, "bar"},        Named{ConstraintKind::kNoRestBy, "no-rest-by"},
+    Named{ConstraintKind::kRestBy, "rest-by"}, Named{ConstraintKind::kNoTraversal, "no-traversal"},
+    Named{ConstraintKind::kStopIs, "stop-is"}, Named{ConstraintKind::kStopIsNot, "stop-is-not"},
+};
+
+// One step of rest stands for all: after it the path changes no more.
+bool keeps_off(const Path& path, const Constraint& bar) {
+  const Time last = std::min(bar.end, std::max(static_cast<Time>(path.size()), bar.begin));
+  for (Time t = std::max(bar.begin, 0); t <= last; ++t) {
+    if (position_at(path, t) != bar.cell) continue;
+    if (!bar.is_move() || (t > 0 && position_at(path, t - 1) == bar.from)) return false;
+  }
+  return true;
+}
+
+// When the agent moved for the last time, onto the cell where it rests.
+Time last_arrival(const Path& path) {
+  const auto moved =
+      std::ranges::adjacent_find(path.rbegin(), path.rend(), std::ranges::not_equal_to());
+  return moved == path.rend() ? 0 : static_cast<Time>(path.rend() - moved) - 1;
+}
+
+bool rests_by(const Path& path, const Constraint& c) {
+  return path.back() == c.cell && last_arrival(path) <= c.end;
+}
+
+// Is the move to path[arrival], out of a chain, the end of a traversal?
+bool ends_traversal(const Path& path, Time arrival, const Chains& chains) {
+  const int chain = chains.chain_of(path[arrival - 1]);
+  Time before = arrival - 1;  // the last time before it was inside
+  while (before >= 0 && chains.chain_of(path[before]) == chain) --before;
+  if (before < 0) return false;
+  return path[before] != path[arrival] || path[before + 1] != path[arrival - 1];
+}
+
+bool traverses(const Path& path, const Constraint& c, const Chains& chains) {
+  const Time last = std::min(c.end, static_cast<Time>(path.size()) - 1);
+  for (Time t = std::max(c.begin, 1); t <= last; ++t)
+    if (path[t] == c.cell && path[t - 1] == c.from && ends_traversal(path, t, chains)) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string_view name_of(ConstraintKind kind) {
+  return std::ranges::find(kNames, kind, &Named::kind)->name;
+}
+
+std::optional<ConstraintKind> constraint_kind(std::uint8_t number) {
+  const auto kind = static_cast<ConstraintKind>(number);
+  const bool known = std::ranges::find(kNames, kind, &Named::kind) != kNames.end();
+  return known ? std::optional(kind) : std::nullopt;
+}
+
+bool obeys(const Path& path, const Constraint& c, const Chains& chains) {
+  switch (c.kind) {
+    case ConstraintKind::kBar:
+      return keeps_off(path, c);
+    case ConstraintKind::kNoRestBy:
+      return !rests_by(path, c);
+    case ConstraintKind::kRestBy:
+      return rests_by(path, c);
+    case ConstraintKind::kNoTraversal:
+      return !traverses(path, c, chains);
+    case ConstraintKind::kStopIs:
+    case ConstraintKind::kStopIsNot:
+      break;
+  }
+  throw std::invalid_argument("a constraint on the sequence is not about the path");
+}
+
+std::optional<Constraint> demand_on(AgentIndex agent, const AgentConstraint& added) {
+  const Constraint& c = added.constraint;
+  if (agent == added.agent) return c;
+  if (added.agent < 0 || !concerns_all(c)) return std::nullopt;
+  return Constraint{c.cell, kNoCell, c.end, kNever};
+}
+
+}  // namespace grove

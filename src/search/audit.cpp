@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "grove/model/assert.h"
+
+namespace grove {
+namespace {
+
+template <class... Args>
+void require(bool holds, fmt::format_string<Args...> what, Args&&... args) {
+  if (!holds) throw AssertionFailed("audit: " + fmt::format(what, std::forward<Args>(args)...));
+}
+
+bool is_step(const Grid& grid, Cell from, Cell to) {
+  return from == to || std::ranges::count(grid.neighbors(from), to) > 0;
+}
+
+void audit_walk(const Instance& instance, AgentIndex index, const Path& path) {
+  const Agent& agent = instance.agent(index);
+  const Grid& grid = instance.grid();
+  require(!path.empty() && path.front() == agent.start, "agent {} begins elsewhere", index);
+  for (std::size_t t = 1; t < path.size(); ++t)
+    require(is_step(grid, path[t - 1], path[t]), "agent {} makes no step at time {}", index, t);
+  const auto visited = [&](TaskIndex task) {
+    return std::ranges::count(path, instance.task(task).cell) > 0;
+  };
+  require(std::ranges::all_of(agent.tasks, visited), "agent {} leaves a task out", index);
+  const auto ends_on = [&](TaskIndex task) { return instance.task(task).cell == path.back(); };
+  const bool ends_well = agent.goal
+                             ? path.back() == *agent.goal
+                             : agent.tasks.empty() || std::ranges::any_of(agent.tasks, ends_on);
+  require(ends_well, "agent {} ends where it may not", index);
+}
+
+}  // namespace
+
+void audit(const Problem& problem, const Node& node, std::span<const AgentIndex> scope) {
+  std::vector<Path> paths;
+  std::vector<std::vector<Constraint>> constraints;
+  node.paths(problem, paths);
+  node.constraints(constraints);
+  Cost cost = 0;
+  for (AgentIndex agent = 0; agent < static_cast<AgentIndex>(paths.size()); ++agent) {
+    audit_walk(problem.instance, agent, paths[agent]);
+    cost += static_cast<Cost>(paths[agent].size()) - 1;
+  }
+  for (const AgentIndex agent : scope)
+    for (const Constraint& c : constraints[agent])
+      require(is_about_sequence(c) || obeys(paths[agent], c, problem.chains),
+              "agent {} does not obey '{}' on cell {}, times {} to {}", agent, name_of(c.kind),
+              c.cell, c.begin, c.end);
+  require(node.cost() == cost, "a node says that it costs {}, its paths {}", node.cost(), cost);
+  require(node.bound() >= cost, "a node's bound {} is below its cost {}", node.bound(), cost);
+  if (!node.is_root())
+    require(node.bound() >= node.parent()->bound(), "the bound falls from a parent's {} to {}",
+            node.parent()->bound(), node.bound());
+}
+
+void audit(const Problem& problem, const ConflictAvoidanceTable& table,
+           std::span<const Path> paths) {
+  ConflictAvoidanceTable anew(problem.instance.grid());
+  for (const Path& path : paths) anew.add(path);
+  for (std::size_t agent = 0; agent < paths.size(); ++agent) {
+    if (paths[agent].empty()) continue;
+    const int shown = table.conflicts_of(paths[agent]);
+    const int there = anew.conflicts_of(paths[agent]);
+    require(shown == there, "the table of paths sees {} conflicts of agent {}, there are {}", shown,
+            agent, there);
+  }
+}
+
+}  // namespace grove

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/node_view.h"
+
+#include <algorithm>
+
+#include "audit.h"
+
+namespace grove {
+
+NodeView::NodeView(const Problem& problem, const SearchOptions& options, Memory& memory)
+    : problem_(problem), audit_(options.audit), memory_(memory), finder_(problem.instance.grid()) {}
+
+void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
+  if (audit_) audit(problem_, *node, scope);
+  node_ = node;
+  scope_.assign(scope.begin(), scope.end());
+  rerouted_.clear();
+  node->paths(problem_, scope_, paths_);
+  node->constraints(constraints_);
+  for (AgentIndex agent : scope_) canonical(constraints_[agent]);
+  find_conflicts();
+}
+
+void NodeView::find_conflicts() {
+  finder_.all(paths_, scope_, conflicts_);
+  for (const AgentIndex agent : scope_) steps_ += std::ssize(paths_[agent]);
+}
+
+Situations::Id NodeView::situation(AgentIndex agent) {
+  return memory_.id(agent, order(agent), constraints_[agent]);
+}
+
+std::span<const Constraint> NodeView::constraints_with(AgentIndex agent, const Constraint& more) {
+  extended_ = constraints_[agent];
+  extended_.push_back(more);
+  canonical(extended_);
+  return extended_;
+}
+
+bool NodeView::in_conflict(AgentIndex a, AgentIndex b) const {
+  return std::ranges::any_of(conflicts_, [&](const Conflict& c) {
+    return c.first == std::min(a, b) && c.second == std::max(a, b);
+  });
+}
+
+void NodeView::disturbed(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const {
+  agents.clear();
+  for_each_demand(demand, scope_, [&](AgentIndex agent, const Constraint& c) {
+    if (is_about_sequence(c) || !obeys(paths_[agent], c, problem_.chains)) agents.push_back(agent);
+  });
+}
+
+void NodeView::reroute(std::span<const AgentIndex> agents, std::span<const Path> paths) {
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    paths_[agents[i]] = paths[i];
+    if (std::ranges::count(rerouted_, agents[i]) == 0) rerouted_.push_back(agents[i]);
+  }
+  find_conflicts();
+}
+
+NodePtr NodeView::node_as_routed() const {
+  if (rerouted_.empty()) return node_;
+  std::vector<NewPath> paths;
+  for (AgentIndex agent : rerouted_) paths.push_back({agent, &paths_[agent]});
+  Change change;
+  change.paths = paths;
+  change.cost = node_->cost();
+  return Node::child(node_, problem_.instance.grid(), change);
+}
+
+}  // namespace grove

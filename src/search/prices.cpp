@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/prices.h"
+
+namespace grove {
+namespace {
+
+// A split that takes longer to price is not considered: with time windows, which is what cells
+// barred for ever make, the low level is NP-hard, and one call could take all the time there is.
+constexpr std::int64_t kMostLabelsForAPrice = 1 << 18;
+
+}  // namespace
+
+Prices::Outcome Prices::increase(NodeView& view, const AgentConstraint& demand, Cost slack,
+                                 const Limits& limits, Cost& increase) {
+  increase = 0;
+  view.disturbed(demand, disturbed_);
+  for (AgentIndex agent : disturbed_) {
+    const Time cutoff = cutoff_for(view, agent, slack - increase);
+    Time least = 0;
+    const Outcome outcome =
+        cost(view, agent, *demand_on(agent, demand), cutoff, kMostLabelsForAPrice, limits, least);
+    if (outcome != Outcome::kDone) return outcome;
+    if (least > cutoff) {
+      increase = kInfiniteCost;
+      break;
+    }
+    increase += least - view.cost_of(agent);
+  }
+  return Outcome::kDone;
+}
+
+Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint& more, Time cutoff,
+                             std::int64_t most_labels, const Limits& limits, Time& cost) {
+  const auto constraints = view.constraints_with(agent, more);
+  const Situations::Id id = memory_.id(agent, view.order(agent), constraints);
+  Situations::Known known = memory_.known(id);
+  if (!known.exact && known.at_least <= cutoff) {
+    if (known.hard && most_labels < FreeLowLevelSearch::kUnlimited) return Outcome::kTooHard;
+    switch (planner_.find(agent, view.order(agent), constraints, nullptr, cutoff, limits, path_,
+                          most_labels)) {
+      case PathPlanner::Outcome::kFound:
+        known = {static_cast<Time>(path_.size()) - 1, true};
+        break;
+      case PathPlanner::Outcome::kAbove:
+        known = {cutoff + 1, false};
+        break;
+      case PathPlanner::Outcome::kInfeasible:
+        known = {kNever, true};
+        break;
+      case PathPlanner::Outcome::kStopped:
+        if (limits.stop_requested()) return Outcome::kStopped;
+        known.hard = true;
+        break;
+    }
+    memory_.learn(id, known);
+    if (known.hard) return Outcome::kTooHard;
+  }
+  cost = known.at_least;
+  return Outcome::kDone;
+}
+
+}  // namespace grove

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/splits.h"
+
+#include <array>
+#include <optional>
+
+#include "grove/conflicts/reasoning.h"
+
+namespace grove {
+namespace {
+
+struct Rule {
+  Technique technique;
+  std::optional<Split> (*split)(const Conflict&, std::span<const Path>, const Chains&);
+};
+
+constexpr std::array kRules = {
+    Rule{Technique::kTarget, target_split},
+    Rule{Technique::kTraversal, traversal_split},
+};
+
+}  // namespace
+
+void splits_of(const Conflict& conflict, std::span<const Path> paths, const Problem& problem,
+               Techniques techniques, std::vector<Split>& splits) {
+  splits.push_back(split(conflict));
+  for (const Rule& rule : kRules)
+    if (techniques.has(rule.technique))
+      if (const auto split = rule.split(conflict, paths, problem.chains)) splits.push_back(*split);
+}
+
+}  // namespace grove

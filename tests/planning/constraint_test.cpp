@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// What a constraint asks of a path is written twice, in the library and in tests/support/obeys: the
+// two must agree.
+#include "grove/planning/constraint.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include "grove/planning/chains.h"
+#include "tests/planning/random_constraint.h"
+#include "tests/planning/single_agent.h"
+#include "tests/support/obeys.h"
+
+namespace grove {
+namespace constraint_test {
+
+constexpr std::array kOnPaths{ConstraintKind::kBar, ConstraintKind::kNoRestBy,
+                              ConstraintKind::kRestBy, ConstraintKind::kNoTraversal};
+
+Path random_walk(const Grid& grid, std::mt19937& random) {
+  Path path;
+  do path = {static_cast<Cell>(random() % grid.cell_count())};
+  while (!grid.passable(path[0]));
+  for (auto steps = random() % 16; steps > 0; --steps) {
+    const auto neighbors = grid.neighbors(path.back());
+    const bool waits = neighbors.empty() || random() % 5 == 0;
+    path.push_back(waits ? path.back() : neighbors[random() % neighbors.size()]);
+  }
+  return path;
+}
+
+Constraint random_bar(const Path& path, std::mt19937& random) {
+  const std::size_t at = random() % path.size();
+  const auto begin = static_cast<Time>(at + random() % 5) - 2;
+  const Time end = random() % 6 == 0 ? kNever : begin + static_cast<Time>(random() % 4);
+  const Cell from = random() % 2 == 0 ? kNoCell : path[at > 0 ? at - 1 : 0];
+  return {path[at], from, begin, end};
+}
+
+TEST(Constraint, IsObeyedAsTheTestsSay) {
+  std::mt19937 random(5);
+  std::map<std::pair<ConstraintKind, bool>, int> seen;
+  for (int round = 0; round < 300; ++round) {
+    const Grid grid = testing::random_corridor_map(random);
+    const Chains chains(grid);
+    for (int i = 0; i < 40; ++i) {
+      const Path path = random_walk(grid, random);
+      const Constraint c = random() % 3 == 0 ? random_bar(path, random)
+                                             : testing::random_conditional_constraint(
+                                                   grid, path, {path[0], path.back()}, random);
+      const bool obeyed = obeys(path, c, chains);
+      ++seen[{c.kind, obeyed}];
+      ASSERT_EQ(obeyed, testing::obeys(grid, path, c))
+          << name_of(c.kind) << " " << c.cell << " " << c.from << " " << c.begin << " " << c.end;
+    }
+  }
+  for (const ConstraintKind kind : kOnPaths) {
+    const int obeyed = seen[{kind, true}];
+    const int broken = seen[{kind, false}];
+    EXPECT_GT(obeyed, 100) << name_of(kind);
+    EXPECT_GT(broken, 100) << name_of(kind);
+  }
+}
+
+TEST(Constraint, OnTheSequenceIsNotObeyedByAPathAlone) {
+  const Grid grid = testing::grid_of({".."});
+  const Constraint next{1, kNoCell, 0, 0, ConstraintKind::kStopIs};
+  EXPECT_TRUE(is_about_sequence(next));
+  EXPECT_THROW(obeys({0, 1}, next, Chains(grid)), std::invalid_argument);
+}
+
+// Files and other processes know kinds by these numbers.
+TEST(Constraint, KindsHaveNumbersAndNames) {
+  const std::array names{"bar", "no-rest-by", "rest-by", "no-traversal", "stop-is", "stop-is-not"};
+  for (std::uint8_t number = 0; number < names.size(); ++number) {
+    const auto kind = constraint_kind(number);
+    ASSERT_TRUE(kind);
+    EXPECT_EQ(static_cast<std::uint8_t>(*kind), number);
+    EXPECT_EQ(name_of(*kind), names[number]);
+  }
+  EXPECT_FALSE(constraint_kind(names.size()));
+  EXPECT_FALSE(constraint_kind(255));
+}
+
+// Three agents; what each of them is asked, by either function.
+TEST(Constraint, ConcernsItsAgentAndOfRestsTheOthersToo) {
+  const std::array<AgentIndex, 3> all{0, 1, 2};
+  const auto asked = [&](const AgentConstraint& added) {
+    std::array<std::optional<Constraint>, 3> demands;
+    for_each_demand(added, all, [&](AgentIndex agent, const Constraint& c) { demands[agent] = c; });
+    for (const AgentIndex agent : all) EXPECT_EQ(demands[agent], demand_on(agent, added));
+    return demands;
+  };
+  for (const ConstraintKind kind : kOnPaths) {
+    const Constraint c{7, kNoCell, 0, 5, kind};
+    const auto demands = asked({1, c});
+    EXPECT_EQ(demands[1], c);
+    EXPECT_EQ(demands[0].has_value(), kind == ConstraintKind::kRestBy);
+    EXPECT_EQ(demands[2], demands[0]);
+    if (demands[0]) EXPECT_EQ(*demands[0], (Constraint{7, kNoCell, 5, kNever}));
+    for (const auto& demand : asked({-1, c})) EXPECT_FALSE(demand);
+  }
+}
+
+}  // namespace constraint_test
+}  // namespace grove
