@@ -57,9 +57,9 @@ void Excesses::learn_group(const std::vector<AgentIndex>& agents, const std::vec
                            Known known) {
   const std::lock_guard lock(groups_mutex_);
   groups_.insert(agents);
-  Known& entry = known_groups_[situations];
-  entry = join(entry, known);
-  bytes_ += kBytesPerGroup;
+  const auto [entry, is_new] = known_groups_.try_emplace(situations, known);
+  if (is_new) bytes_ += kBytesPerGroup;
+  entry->second = join(entry->second, known);
 }
 
 void Excesses::groups(std::vector<std::vector<AgentIndex>>& groups) const {

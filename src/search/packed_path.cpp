@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 namespace {
 
@@ -28,6 +30,7 @@ void pack(const Grid& grid, const Path& path, std::uint64_t* words) {
     if (step % kMovesPerWord == 0) words[step / kMovesPerWord] = 0;
     const Cell offset = path[step + 1] - path[step];
     const auto code = static_cast<std::uint64_t>(std::ranges::find(moves, offset) - moves.begin());
+    GROVE_ASSERT(code < moves.size(), "a path makes at most one move each step");
     words[step / kMovesPerWord] |= code << (step % kMovesPerWord * kBitsPerMove);
   }
 }
@@ -40,6 +43,7 @@ void PackedSteps::unpack(const Grid& grid, Cell start, Path& path) const {
   std::uint64_t word = 0;
   for (std::uint32_t step = 0; step < steps; ++step) {
     if (step % kMovesPerWord == 0) word = words[step / kMovesPerWord];
+    GROVE_ASSERT((word & 7) < moves.size(), "what is unpacked is a walk");
     cell += moves[word & 7];
     word >>= kBitsPerMove;
     path[step + 1] = cell;

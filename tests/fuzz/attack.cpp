@@ -234,7 +234,7 @@ TinyInstance make(std::uint64_t seed, bool tiny) {
 Techniques random_techniques(Random& random) {
   if (random.percent(40)) return Techniques::usual();
   Techniques any = Techniques::all();
-  for (Technique t : all_techniques())
+  for (const auto& [t, name] : kTechniques)
     if (random.percent(35)) any = any.without(t);
   return any;
 }
@@ -285,8 +285,8 @@ bool compare_histories = false;
                        std::uint64_t seed) {
   std::string text =
       fmt::format("# seed {}: {}\n{}options\nomega 0\npolicy free\n", seed, what, tiny.to_text());
-  for (Technique t : all_techniques())
-    if (!techniques.has(t)) text += fmt::format("without {}\n", name_of(t));
+  for (const auto& [t, name] : kTechniques)
+    if (!techniques.has(t)) text += fmt::format("without {}\n", name);
   throw std::logic_error(text);
 }
 

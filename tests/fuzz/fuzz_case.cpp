@@ -95,8 +95,7 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
 
 // All, none, all but one, one alone, or any.
 Techniques random_techniques(Random& random) {
-  const auto all = all_techniques();
-  const Technique one = all[random.below(static_cast<int>(all.size()))];
+  const Technique one = kTechniques[random.below(std::ssize(kTechniques))].technique;
   switch (random.below(6)) {
     case 0:
       return Techniques();
@@ -106,7 +105,7 @@ Techniques random_techniques(Random& random) {
       return Techniques{one};
     case 3: {
       Techniques any = Techniques::all();
-      for (Technique t : all)
+      for (const auto& [t, name] : kTechniques)
         if (random.below(2) == 0) any = any.without(t);
       return any;
     }
@@ -147,10 +146,10 @@ std::string FuzzCase::to_text() const {
     text += fmt::format("low-level {}\n", name_of(kLowLevels, options.low_level));
   if (options.threads != 1) text += fmt::format("threads {}\n", options.threads);
   if (options.deterministic) text += "deterministic yes\n";
-  for (Technique t : all_techniques())
+  for (const auto& [t, name] : kTechniques)
     if (options.techniques.has(t) != Techniques::usual().has(t))
       text +=
-          fmt::format("{} {}\n", options.techniques.has(t) ? "with" : "without", grove::name_of(t));
+          fmt::format("{} {}\n", options.techniques.has(t) ? "with" : "without", name);
   if (options.node_memory != SolveOptions::kUnlimited)
     text += fmt::format("node-memory {}\n", options.node_memory);
   return text;

@@ -52,8 +52,8 @@ CLI::Validator one_of(const std::map<std::string, Value>& table) {
 
 std::string names_of(Techniques techniques) {
   std::string names;
-  for (Technique t : all_techniques())
-    if (techniques.has(t)) names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(t));
+  for (const auto& [t, name] : kTechniques)
+    if (techniques.has(t)) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
   return names;
 }
 

@@ -2,10 +2,10 @@
 // What the search may use beyond plain CBS, each of which can be switched off.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -27,6 +27,28 @@ enum class Technique : std::uint8_t {
   kCostSplits,      // split on which of two such agents costs more
   kClusters,        // the same for groups that conflict though no pair of them must cost more
   kEstimates,       // with w > 0, while there is no plan: every other node by what it promises
+};
+
+struct NamedTechnique {
+  Technique technique;
+  std::string_view name;  // on the command line: lower case, words joined by '-'
+};
+
+// All of them.
+constexpr std::array kTechniques = {
+    NamedTechnique{Technique::kPrimal, "primal"},
+    NamedTechnique{Technique::kConfigurations, "configurations"},
+    NamedTechnique{Technique::kStrongBranching, "strong-branching"},
+    NamedTechnique{Technique::kBypass, "bypass"},
+    NamedTechnique{Technique::kFewestConflicts, "fewest-conflicts"},
+    NamedTechnique{Technique::kTarget, "target"},
+    NamedTechnique{Technique::kTraversal, "traversal"},
+    NamedTechnique{Technique::kSequenceSplits, "sequence-splits"},
+    NamedTechnique{Technique::kDependencies, "dependencies"},
+    NamedTechnique{Technique::kJointPaths, "joint-paths"},
+    NamedTechnique{Technique::kCostSplits, "cost-splits"},
+    NamedTechnique{Technique::kClusters, "clusters"},
+    NamedTechnique{Technique::kEstimates, "estimates"},
 };
 
 // A set of techniques; a value.
@@ -52,8 +74,6 @@ class Techniques {
   std::uint32_t bits_ = 0;
 };
 
-// Every technique, and its name on the command line: lower case, words joined by '-'.
-std::span<const Technique> all_techniques();
 std::string_view name_of(Technique technique);
 std::optional<Technique> parse_technique(std::string_view name);
 

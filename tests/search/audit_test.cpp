@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Each audit sees the defect that it is there for.
+#include "src/search/audit.h"
+
+#include <gtest/gtest.h>
+
+#include "grove/model/assert.h"
+#include "tests/search/node_at_hand.h"
+
+namespace grove {
+namespace audit_test {
+
+struct TwoAgents : testing::NodeAtHand {
+  TwoAgents()
+      : NodeAtHand({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}}) {}
+
+  // A child in which agent 0 takes this path, at what the node says to cost.
+  NodePtr child(const Path& path, Cost cost, const AgentConstraint& added = {}) {
+    const NewPath taken{0, &path};
+    Change change;
+    change.added = added;
+    change.paths = {&taken, 1};
+    change.cost = cost;
+    return Node::child(root, instance.grid(), change);
+  }
+  void audit_child(const NodePtr& node) { audit(problem, *node, all); }
+};
+
+TEST(Audit, AcceptsWhatIsTrue) {
+  TwoAgents s;
+  EXPECT_NO_THROW(s.audit_child(s.root));
+  EXPECT_NO_THROW(s.audit_child(s.child({0, 0, 1, 2, 3}, 7, {0, {1, kNoCell, 1, 1}})));
+}
+
+TEST(Audit, SeesACostThatIsNotThatOfThePaths) {
+  TwoAgents s;
+  EXPECT_THROW(s.audit_child(s.child({0, 0, 1, 2, 3}, 6)), AssertionFailed);
+  EXPECT_THROW(s.audit_child(s.child({0, 1, 2, 3}, 7)), AssertionFailed);
+}
+
+TEST(Audit, SeesAPathThatBreaksAConstraint) {
+  TwoAgents s;
+  const NodePtr broken = s.child({0, 1, 2, 3}, 6, {0, {1, kNoCell, 1, 1}});
+  EXPECT_THROW(s.audit_child(broken), AssertionFailed);
+  // The other agent's obedience is none of this scope's business.
+  const std::array<AgentIndex, 1> other{1};
+  EXPECT_NO_THROW(audit(s.problem, *broken, other));
+  EXPECT_THROW(s.view.enter(broken, s.all), AssertionFailed);
+}
+
+TEST(Audit, SeesAPathThatEndsElsewhere) {
+  TwoAgents s;
+  EXPECT_THROW(s.audit_child(s.child({0, 1, 2}, 5)), AssertionFailed);
+}
+
+TEST(Audit, SeesATableThatWasNotBroughtUp) {
+  TwoAgents s;
+  ConflictAvoidanceTable table(s.instance.grid());
+  const std::array<Path, 2> paths{Path{0, 1, 2, 3}, Path{4, 5, 1, 5, 6, 7}};
+  for (const Path& path : paths) table.add(path);
+  EXPECT_NO_THROW(audit(s.problem, table, paths));
+  table.remove(paths[1]);
+  EXPECT_THROW(audit(s.problem, table, paths), AssertionFailed);
+  table.add({4, 0, 1, 2, 3});
+  EXPECT_THROW(audit(s.problem, table, paths), AssertionFailed);
+}
+
+#ifdef GROVE_ASSERTIONS
+// What was packed so unpacked to cells, or memory, that are not the path's.
+TEST(Assertion, SeesAStepThatIsNone) {
+  TwoAgents s;
+  EXPECT_THROW(s.child({0, 2, 3}, 5), AssertionFailed);
+}
+#endif
+
+}  // namespace audit_test
+}  // namespace grove

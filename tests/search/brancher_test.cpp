@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/brancher.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/search/node_at_hand.h"
+
+namespace grove {
+namespace brancher_test {
+
+using testing::AgentSpec;
+using testing::NodeAtHand;
+
+const Techniques kCardinal{Technique::kStrongBranching};
+
+struct Branched : NodeAtHand {
+  using NodeAtHand::NodeAtHand;
+
+  Brancher::Outcome branch(Cost cutoff = kInfiniteCost, std::span<const Split> last_resorts = {}) {
+    children.clear();
+    return brancher.branch(view, cutoff, last_resorts, limits, children);
+  }
+  // Who is asked something by the children, in ascending order.
+  std::vector<AgentIndex> asked() const {
+    std::vector<AgentIndex> agents;
+    for (const NodePtr& child : children) agents.push_back(child->added().agent);
+    std::ranges::sort(agents);
+    return agents;
+  }
+
+  Brancher brancher{problem, options, planner, memory};
+  std::vector<NodePtr> children;
+};
+
+// Agents 0 and 1 cross in the open at time 1, where each can go another way as short; 2 and 3 at
+// time 3, each in an aisle of one cell's width, where one of them must wait.
+const std::vector<std::string> kOpenAndAisles{"...@@@.@@@",  //
+                                              "...@@@.@@@",  //
+                                              "...@@@.@@@",  //
+                                              "@@@.......",  //
+                                              "@@@@@@.@@@",  //
+                                              "@@@@@@.@@@"};
+const std::vector<AgentSpec> kFour{{{0, 1}, Position{2, 2}},
+                                   {{1, 0}, Position{0, 2}},
+                                   {{3, 3}, Position{9, 3}},
+                                   {{6, 0}, Position{6, 5}}};
+
+TEST(Brancher, PrefersTheConflictThatRaisesBothSides) {
+  Branched s(kOpenAndAisles, kFour, {kCardinal, 0, true});
+  ASSERT_GE(s.view.conflicts().size(), 1u);
+  ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);
+  EXPECT_EQ(s.asked(), std::vector<AgentIndex>({2, 3}));
+  for (const NodePtr& child : s.children) EXPECT_EQ(child->cost(), s.root->cost() + 1);
+}
+
+// A door: whoever gives way loses two steps, the other none.
+const std::vector<std::string> kDoor{"..@..", ".....", "..@.."};
+const std::vector<AgentSpec> kHeadOn{{{0, 1}, Position{4, 1}}, {{4, 1}, Position{0, 1}}};
+
+TEST(Brancher, ClosesSidesThatReachTheCutoff) {
+  Branched s(kDoor, kHeadOn, {kCardinal, 0, true});
+  ASSERT_EQ(s.branch(s.root->cost() + 2), Brancher::Outcome::kBranched);
+  const std::size_t open = s.children.size();
+  for (const NodePtr& child : s.children) EXPECT_LT(child->cost(), s.root->cost() + 2);
+  s.view.enter(s.root, s.all);
+  ASSERT_EQ(s.branch(s.root->cost() + 1), Brancher::Outcome::kBranched);
+  EXPECT_LE(s.children.size(), open);
+  EXPECT_TRUE(s.children.empty());  // each way out costs one step at least
+  s.view.enter(s.root, s.all);
+  ASSERT_EQ(s.branch(s.root->cost()), Brancher::Outcome::kBranched);
+  EXPECT_TRUE(s.children.empty());
+}
+
+TEST(Brancher, StopsWithoutChildrenWhenALimitStrikes) {
+  Branched s(kDoor, kHeadOn, {kCardinal, 0, true});
+  s.limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  EXPECT_EQ(s.branch(), Brancher::Outcome::kStopped);
+  EXPECT_TRUE(s.children.empty());
+}
+
+// Two that cross on open ground go round each other for free.
+const std::vector<std::string> kOpen{"...", "...", "..."};
+const std::vector<AgentSpec> kCrossing{{{0, 0}, Position{2, 2}}, {{0, 2}, Position{2, 0}}};
+
+TEST(Brancher, GoesRoundForFreeInsteadOfSplitting) {
+  Branched with(kOpen, kCrossing, {{Technique::kStrongBranching, Technique::kBypass}, 0, true});
+  ASSERT_FALSE(with.view.conflict_free());
+  EXPECT_EQ(with.branch(), Brancher::Outcome::kConflictFree);
+  EXPECT_TRUE(with.children.empty());
+  EXPECT_TRUE(with.view.conflict_free());
+  EXPECT_EQ(with.view.cost_of(0) + with.view.cost_of(1), with.root->cost());
+  std::vector<Path> before;
+  with.root->paths(with.problem, before);
+  EXPECT_TRUE(with.view.path(0) != before[0] || with.view.path(1) != before[1]);
+
+  Branched without(kOpen, kCrossing, {kCardinal, 0, true});
+  EXPECT_EQ(without.branch(), Brancher::Outcome::kBranched);
+  EXPECT_EQ(without.children.size(), 2u);
+}
+
+// Below the node as it is routed now hang the children of a split, with all paths the view showed.
+TEST(Brancher, KeepsTheWaysRoundInTheChildren) {
+  Branched s(kOpenAndAisles, kFour, {{Technique::kStrongBranching, Technique::kBypass}, 0, true});
+  ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);
+  for (const NodePtr& child : s.children) {
+    std::vector<Path> paths;
+    child->paths(s.problem, paths);
+    for (const AgentIndex agent : s.all)
+      if (agent != child->added().agent) EXPECT_EQ(paths[agent], s.view.path(agent));
+    EXPECT_EQ(child->parent()->cost(), s.root->cost());
+  }
+}
+
+// Agent 1 rests in the passage of agent 0 from time 1 on, which therefore comes to rest later, or
+// sooner for good.
+TEST(Brancher, SplitsOnWhenAnAgentComesToRest) {
+  Branched s({"......", "@@.@@@"}, {{{0, 0}, Position{5, 0}}, {{4, 0}, Position{3, 0}}},
+             {{Technique::kTarget}, 0, true});
+  ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);
+  ASSERT_FALSE(s.children.empty());
+  for (const NodePtr& child : s.children) {
+    EXPECT_EQ(child->added().agent, 1);
+    EXPECT_EQ(child->added().constraint.kind, ConstraintKind::kNoRestBy);
+  }
+  // The other side bars agent 0 from its only way.
+  EXPECT_EQ(s.children.size(), 1u);
+}
+
+TEST(Brancher, TakesALastResortOnlyOfAgentsInConflict) {
+  const auto later = [](AgentIndex agent, Cell goal, Time by) {
+    return AgentConstraint{agent, {goal, kNoCell, 0, by, ConstraintKind::kNoRestBy}};
+  };
+  const Split ours{later(0, 8, 4), later(1, 2, 4)};
+  Branched s(kOpen, kCrossing, {kCardinal, 0, true});
+  ASSERT_EQ(s.branch(kInfiniteCost, std::array{ours}), Brancher::Outcome::kBranched);
+  for (const NodePtr& child : s.children) {
+    EXPECT_EQ(child->added().constraint.kind, ConstraintKind::kNoRestBy);
+    EXPECT_GT(child->cost(), s.root->cost());
+  }
+  Branched apart({"...", "...", "...", "..."},
+                 {kCrossing[0], kCrossing[1], {{0, 3}, Position{2, 3}}}, {kCardinal, 0, true});
+  const Split others{later(0, 8, 4), later(2, 11, 2)};
+  ASSERT_EQ(apart.branch(kInfiniteCost, std::array{others}), Brancher::Outcome::kBranched);
+  EXPECT_EQ(apart.asked(), std::vector<AgentIndex>({0, 1}));
+}
+
+// Two conflicts at one time: which of them is split depends on the seed alone.
+TEST(Brancher, BreaksTiesBySeed) {
+  const std::vector<AgentSpec> twice{{{0, 0}, Position{2, 2}},
+                                     {{0, 2}, Position{2, 0}},
+                                     {{4, 0}, Position{6, 2}},
+                                     {{4, 2}, Position{6, 0}}};
+  const std::vector<std::string> rows{"...@...", "...@...", "...@..."};
+  std::set<std::vector<AgentIndex>> seen;
+  for (std::uint64_t seed = 0; seed < 16; ++seed) {
+    Branched s(rows, twice, {Techniques(), seed, true});
+    Branched again(rows, twice, {Techniques(), seed, true});
+    ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);
+    ASSERT_EQ(again.branch(), Brancher::Outcome::kBranched);
+    EXPECT_EQ(s.asked(), again.asked());
+    seen.insert(s.asked());
+  }
+  EXPECT_EQ(seen, (std::set<std::vector<AgentIndex>>{{0, 1}, {2, 3}}));
+}
+
+// A pair's search looks at two agents and leaves the others where they are.
+TEST(NodeView, SeesItsScopeAlone) {
+  NodeAtHand s(kOpenAndAisles, kFour);
+  const std::array<AgentIndex, 2> pair{2, 3};
+  s.view.enter(s.root, pair);
+  ASSERT_FALSE(s.view.conflict_free());
+  for (const Conflict& c : s.view.conflicts()) {
+    EXPECT_EQ(c.first, 2);
+    EXPECT_EQ(c.second, 3);
+  }
+  EXPECT_TRUE(s.view.path(0).empty());
+  EXPECT_TRUE(s.view.in_conflict(3, 2));
+  EXPECT_EQ(s.view.node_as_routed(), s.root);
+}
+
+TEST(NodeView, TellsWhomADemandDisturbs) {
+  NodeAtHand s({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}});
+  std::vector<AgentIndex> agents;
+  const auto disturbed = [&](AgentIndex agent, const Constraint& c) {
+    s.view.disturbed({agent, c}, agents);
+    return agents;
+  };
+  const Cell on_first = s.view.path(0)[1];
+  EXPECT_EQ(disturbed(0, {on_first, kNoCell, 1, 1}), std::vector<AgentIndex>({0}));
+  EXPECT_EQ(disturbed(0, {on_first, kNoCell, 2, 2}), std::vector<AgentIndex>());
+  // That agent 0 rests on its goal by 3 it does; agent 1 must keep off, and does.
+  EXPECT_EQ(disturbed(0, {3, kNoCell, 0, 3, ConstraintKind::kRestBy}), std::vector<AgentIndex>());
+  // If it were to rest where the other passes, both would be disturbed.
+  EXPECT_EQ(disturbed(0, {5, kNoCell, 0, 1, ConstraintKind::kRestBy}),
+            std::vector<AgentIndex>({0, 1}));
+}
+
+}  // namespace brancher_test
+}  // namespace grove

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "grove/search/dependencies.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/search/node_at_hand.h"
+
+namespace grove {
+namespace dependencies_test {
+
+using testing::AgentSpec;
+using testing::NodeAtHand;
+using Outcome = Dependencies::Outcome;
+
+struct Bounded : NodeAtHand {
+  using NodeAtHand::NodeAtHand;
+
+  // By how much the bound is above the root's cost.
+  Cost excess(Cost cutoff = kInfiniteCost) {
+    Cost bound = -1;
+    EXPECT_EQ(dependencies.find_bound(root, view, cutoff, limits, bound), Outcome::kDone);
+    return bound - root->cost();
+  }
+  std::vector<Split> splits() {
+    std::vector<Split> found;
+    dependencies.splits(view, found);
+    return found;
+  }
+
+  Dependencies dependencies{problem, options, planner, memory};
+};
+
+// Whoever gives way in the door waits two steps before it, or goes aside and back.
+const std::vector<std::string> kDoor{"..@..", ".....", "..@.."};
+const std::vector<AgentSpec> kHeadOn{{{0, 1}, Position{4, 1}}, {{4, 1}, Position{0, 1}}};
+
+TEST(Dependencies, KnowWhatAPairCostsMore) {
+  Bounded s(kDoor, kHeadOn);
+  EXPECT_EQ(s.excess(), 2);
+  const std::int64_t work = s.dependencies.expansions();
+  EXPECT_GT(work, 0);
+  EXPECT_EQ(s.excess(), 2);  // remembered
+  EXPECT_EQ(s.dependencies.expansions(), work);
+}
+
+TEST(Dependencies, SayNothingOfAgentsThatGoRoundEachOther) {
+  Bounded s({"...", "...", "..."}, {{{0, 0}, Position{2, 2}}, {{0, 2}, Position{2, 0}}});
+  ASSERT_FALSE(s.view.conflict_free());
+  EXPECT_EQ(s.excess(), 0);
+  EXPECT_TRUE(s.splits().empty());
+}
+
+TEST(Dependencies, GiveTheCutoffWhereNothingIsCheaper) {
+  Bounded s(kDoor, kHeadOn);
+  EXPECT_EQ(s.excess(s.root->cost() + 1), 1);
+  EXPECT_EQ(s.excess(s.root->cost() + 2), 2);
+}
+
+// Two pairs of doors: what they cost more adds up. Two pairs that share an agent: only the dearer
+// counts for sure.
+TEST(Dependencies, AddUpPairsThatShareNobody) {
+  const std::vector<std::string> twice{"..@..", ".....", "..@..", "@@@@@",
+                                       "..@..", ".....", "..@.."};
+  Bounded apart(twice,
+                {kHeadOn[0], kHeadOn[1], {{0, 5}, Position{4, 5}}, {{4, 5}, Position{0, 5}}});
+  EXPECT_EQ(apart.excess(), 4);
+}
+
+TEST(Dependencies, SplitOnTheCostsOfAPairThatCannotKeepThem) {
+  Bounded s(kDoor, kHeadOn);
+  EXPECT_TRUE(s.splits().empty());  // before anything is known of them
+  s.excess();
+  const auto splits = s.splits();
+  ASSERT_EQ(splits.size(), 1u);
+  for (const AgentIndex agent : s.all) {
+    const auto& [who, demand] = splits[0][agent];
+    EXPECT_EQ(who, agent);
+    EXPECT_EQ(demand.kind, ConstraintKind::kNoRestBy);
+    EXPECT_EQ(demand.cell, *s.instance.agent(agent).goal);
+    EXPECT_EQ(demand.end, s.view.cost_of(agent));
+  }
+}
+
+// An agent that may rest on any of its tasks does not only come to rest later.
+TEST(Dependencies, SplitNoCostsOfAgentsWithoutADestination) {
+  Bounded s(kDoor, {{{0, 1}, std::nullopt, {{4, 1}}}, {{4, 1}, std::nullopt, {{0, 1}}}});
+  EXPECT_GT(s.excess(), 0);
+  EXPECT_TRUE(s.splits().empty());
+}
+
+// Three that meet in the middle of a plus: any two pass for one step, all three take more.
+TEST(Dependencies, KnowWhatAGroupCostsMore) {
+  const std::vector<std::string> rows{"....", "....", "...."};
+  const std::vector<AgentSpec> three{
+      {{0, 0}, Position{3, 1}}, {{0, 1}, Position{3, 0}}, {{3, 2}, Position{0, 1}}};
+  Bounded with(rows, three);
+  Bounded without(rows, three, {Techniques::usual().without(Technique::kClusters), 0, true});
+  EXPECT_GE(with.excess(), without.excess());
+}
+
+TEST(Dependencies, StopAtALimit) {
+  Bounded s(kDoor, kHeadOn);
+  s.limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  Cost bound = -1;
+  EXPECT_EQ(s.dependencies.find_bound(s.root, s.view, kInfiniteCost, s.limits, bound),
+            Outcome::kStopped);
+}
+
+TEST(Dependencies, HelpUntilNothingIsLeft) {
+  Bounded s(kDoor, kHeadOn);
+  EXPECT_TRUE(s.dependencies.help(s.root, s.view, kInfiniteCost, 0.5, s.limits));
+  const std::int64_t work = s.dependencies.expansions();
+  EXPECT_FALSE(s.dependencies.help(s.root, s.view, kInfiniteCost, 0.5, s.limits));
+  EXPECT_EQ(s.excess(), 2);
+  EXPECT_EQ(s.dependencies.expansions(), work);
+}
+
+}  // namespace dependencies_test
+}  // namespace grove

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// A root and what it takes to look at it, for the tests of those who do.
+#pragma once
+
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "grove/search/memory.h"
+#include "grove/search/node_view.h"
+#include "grove/search/single_tree.h"
+#include "tests/support/instances.h"
+
+namespace grove::testing {
+
+struct NodeAtHand {
+  NodeAtHand(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents,
+             const SearchOptions& search_options = {Techniques::usual(), 0, true})
+      : options(search_options),
+        instance(instance_of(rows, agents)),
+        problem(instance, limits),
+        stops(instance, problem.distances),
+        forest(problem, stops, pool, limits),
+        root(forest.next_root()),
+        planner(problem, stops),
+        memory(planner, std::make_shared<CommonMemory>()),
+        view(problem, options, memory),
+        all(agents.size()) {
+    std::iota(all.begin(), all.end(), 0);
+    view.enter(root, all);
+  }
+
+  SearchOptions options;
+  Limits limits;
+  Instance instance;
+  Problem problem;
+  AgentStopsStore stops;
+  NodePool pool;
+  SingleTree forest;
+  NodePtr root;
+  PathPlanner planner;
+  Memory memory;
+  NodeView view;
+  std::vector<AgentIndex> all;
+};
+
+}  // namespace grove::testing
