@@ -5,9 +5,12 @@
 
 #include <algorithm>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 
 Split split(const Conflict& c) {
+  GROVE_ASSERT(c.first >= 0 && c.first < c.second, "two agents conflict");
   if (!c.is_swap()) {
     const Constraint here{c.cell, kNoCell, c.time, c.time};
     return {{{c.first, here}, {c.second, here}}};

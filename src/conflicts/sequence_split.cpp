@@ -14,12 +14,15 @@
 
 #include <bit>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 
 Split sequence_split(AgentIndex agent, const AgentStops& stops, const SequenceClass& work,
                      const Sequence& sequence) {
   const std::size_t number = work.prefix.size();
   const auto at = static_cast<Time>(number);
+  GROVE_ASSERT(number < sequence.size(), "a class that is split leaves stops open");
   const Cell cell = stops.cell(sequence.at(number));
   return {{{agent, {cell, kNoCell, at, at, ConstraintKind::kStopIs}},
            {agent, {cell, kNoCell, at, at, ConstraintKind::kStopIsNot}}}};

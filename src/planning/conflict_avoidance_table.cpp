@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 namespace {
 
@@ -73,12 +75,14 @@ void ConflictAvoidanceTable::remove(const Path& path) {
   const auto since = static_cast<Time>(path.size() - 1);
   for (Time t = 0; t <= std::min(since, kLastTime); ++t) {
     Counts& counts = counts_[slot(key(path[t], t))];
+    GROVE_ASSERT(counts.key == key(path[t], t) && counts.visits > 0, "a path that goes was there");
     --counts.visits;
     if (t > 0 && path[t - 1] != path[t]) --counts.moves[direction(path[t - 1], path[t])];
   }
   const Cell end = path.back();
   const auto gone = std::ranges::find_if(
       rests_, [&](const Rest& rest) { return rest.cell == end && rest.since == since; });
+  GROVE_ASSERT(gone != rests_.end(), "a path that goes was there");
   *gone = rests_.back();
   rests_.pop_back();
   first_rest_[end] = kNever;
@@ -120,6 +124,7 @@ int ConflictAvoidanceTable::conflicts_of_resting(Cell cell, Time time) const {
 }
 
 int ConflictAvoidanceTable::conflicts_of(const Path& path) const {
+  GROVE_ASSERT(!path.empty(), "an agent is somewhere");
   int count = 0;
   for (std::size_t t = 1; t < path.size(); ++t)
     count += conflicts(path[t - 1], path[t], static_cast<Time>(t));

@@ -5,6 +5,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "grove/model/assert.h"
 #include "grove/planning/chains.h"
 
 namespace grove {
@@ -71,6 +72,7 @@ std::optional<ConstraintKind> constraint_kind(std::uint8_t number) {
 }
 
 bool obeys(const Path& path, const Constraint& c, const Chains& chains) {
+  GROVE_ASSERT(!path.empty(), "an agent is somewhere");
   switch (c.kind) {
     case ConstraintKind::kBar:
       return keeps_off(path, c);

@@ -9,10 +9,13 @@
 
 #include <limits>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 
 void FewestConflicts::find(const OptimalPaths& paths, const ConflictAvoidanceTable& others,
                            Path& path) {
+  GROVE_ASSERT(!paths.empty(), "there are paths to choose from");
   nodes_ += paths.node_count();
   const Time cost = paths.cost();
   best_.resize(static_cast<std::size_t>(paths.node_count()));

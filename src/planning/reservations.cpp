@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 namespace {
 
@@ -26,15 +28,22 @@ void for_each_stay(AgentIndex agent, const Path& path, See see) {
 void Reservations::add(AgentIndex agent, const Path& path) {
   for_each_stay(agent, path, [this](Cell cell, const Stay& stay) {
     std::vector<Stay>& stays = stays_[cell];
-    stays.insert(std::ranges::upper_bound(stays, stay.first, {}, &Stay::first), stay);
+    const auto after = std::ranges::upper_bound(stays, stay.first, {}, &Stay::first);
+    GROVE_ASSERT(after == stays.end() || stay.last < after->first, "reserved paths do not collide");
+    GROVE_ASSERT(after == stays.begin() || std::prev(after)->last < stay.first,
+                 "reserved paths do not collide");
+    stays.insert(after, stay);
     ++count_;
   });
 }
 
 void Reservations::remove(AgentIndex agent, const Path& path) {
-  for_each_stay(agent, path, [this](Cell cell, const Stay& stay) {
+  for_each_stay(agent, path, [this, agent](Cell cell, const Stay& stay) {
     std::vector<Stay>& stays = stays_[cell];
-    stays.erase(std::ranges::lower_bound(stays, stay.first, {}, &Stay::first));
+    const auto at = std::ranges::lower_bound(stays, stay.first, {}, &Stay::first);
+    GROVE_ASSERT(at != stays.end() && at->first == stay.first && at->agent == agent,
+                 "a path that goes was reserved");
+    stays.erase(at);
     --count_;
   });
 }

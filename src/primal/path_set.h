@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "grove/model/assert.h"
 #include "grove/planning/reservations.h"
 
 namespace grove {
@@ -24,6 +25,7 @@ class PathSet {
 
   // The agent must have none; `path` must collide with no other.
   void put(AgentIndex agent, Path path) {
+    GROVE_ASSERT(paths_[agent].empty() && !path.empty(), "an agent has one path at most");
     reservations_.add(agent, path);
     paths_[agent] = std::move(path);
     cost_ += cost(agent);
@@ -31,6 +33,7 @@ class PathSet {
   }
   // The agent must have one.
   Path take(AgentIndex agent) {
+    GROVE_ASSERT(!paths_[agent].empty(), "a path that is taken was there");
     cost_ -= cost(agent);
     steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
     reservations_.remove(agent, paths_[agent]);

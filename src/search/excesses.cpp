@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 namespace {
 
@@ -55,6 +57,8 @@ Excesses::Known Excesses::of_group(const std::vector<Id>& situations) const {
 
 void Excesses::learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                            Known known) {
+  GROVE_ASSERT(agents.size() == situations.size() && std::ranges::is_sorted(agents),
+               "a group is its agents in ascending order, and their situations");
   const std::lock_guard lock(groups_mutex_);
   groups_.insert(agents);
   const auto [entry, is_new] = known_groups_.try_emplace(situations, known);

@@ -19,6 +19,8 @@
 #include <iterator>
 #include <utility>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 
 void Frontier::push(NodePtr node) {
@@ -114,6 +116,8 @@ void Frontier::give_back(NodePtr node) {
 
 void Frontier::release_locked(const NodePtr& node) {
   const auto it = taken_.find(rank(node));
+  GROVE_ASSERT(it != taken_.end() && std::ranges::count(in_hand_, node) > 0,
+               "what is settled or given back was taken");
   if (--it->second == 0) taken_.erase(it);
   std::swap(*std::ranges::find(in_hand_, node), in_hand_.back());
   in_hand_.pop_back();
@@ -161,6 +165,7 @@ Cost Frontier::evicted_bound() const {
 // At one go: in between there would be neither nodes nor a bound.
 void Frontier::restart(std::span<const NodePtr> roots, Cost proven) {
   const std::lock_guard lock(mutex_);
+  GROVE_ASSERT(open_.empty() && taken_.empty(), "a search begins anew when no node is live");
   proven_ = proven;
   for (const NodePtr& root : roots) push_locked(root);
   evicted_ = kInfiniteCost;

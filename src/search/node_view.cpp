@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "audit.h"
+#include "grove/model/assert.h"
 
 namespace grove {
 
@@ -11,6 +12,7 @@ NodeView::NodeView(const Problem& problem, const SearchOptions& options, Memory&
     : problem_(problem), audit_(options.audit), memory_(memory), finder_(problem.instance.grid()) {}
 
 void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
+  GROVE_ASSERT(node && std::ranges::is_sorted(scope), "a scope is in ascending order");
   if (audit_) audit(problem_, *node, scope);
   node_ = node;
   scope_.assign(scope.begin(), scope.end());

@@ -25,6 +25,7 @@ std::size_t packed_words(std::uint32_t steps) {
 }
 
 void pack(const Grid& grid, const Path& path, std::uint64_t* words) {
+  GROVE_ASSERT(!path.empty(), "an agent is somewhere");
   const auto moves = offsets(grid);
   for (std::uint32_t step = 0; step + 1 < path.size(); ++step) {
     if (step % kMovesPerWord == 0) words[step / kMovesPerWord] = 0;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 namespace {
 
@@ -47,6 +49,8 @@ void canonical(std::vector<Constraint>& constraints) {
 
 Situations::Id Situations::id(AgentIndex agent, const AgentOrder& order,
                               std::span<const Constraint> constraints) {
+  GROVE_ASSERT(std::ranges::is_sorted(constraints, {}, key_of),
+               "constraints are in canonical order");
   const std::uint64_t hash = hash_of(agent, order, constraints);
   const std::size_t number = hash >> (64 - Sharded<Part>::kBits);
   const Entry key{hash, &order, agent, 0, static_cast<std::uint32_t>(constraints.size()), {}};

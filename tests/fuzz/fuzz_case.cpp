@@ -95,7 +95,7 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
 
 // All, none, all but one, one alone, or any.
 Techniques random_techniques(Random& random) {
-  const Technique one = kTechniques[random.below(std::ssize(kTechniques))].technique;
+  const Technique one = kTechniques[random.below(static_cast<int>(kTechniques.size()))].technique;
   switch (random.below(6)) {
     case 0:
       return Techniques();
@@ -148,8 +148,7 @@ std::string FuzzCase::to_text() const {
   if (options.deterministic) text += "deterministic yes\n";
   for (const auto& [t, name] : kTechniques)
     if (options.techniques.has(t) != Techniques::usual().has(t))
-      text +=
-          fmt::format("{} {}\n", options.techniques.has(t) ? "with" : "without", name);
+      text += fmt::format("{} {}\n", options.techniques.has(t) ? "with" : "without", name);
   if (options.node_memory != SolveOptions::kUnlimited)
     text += fmt::format("node-memory {}\n", options.node_memory);
   return text;

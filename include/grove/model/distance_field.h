@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "grove/model/assert.h"
 #include "grove/model/instance.h"
 #include "grove/model/limits.h"
 
@@ -29,7 +30,10 @@ class DistanceFields {
   bool complete() const { return complete_; }
 
   // `target` must be the cell of a task or of a destination.
-  const DistanceField& to(Cell target) const { return *fields_[target]; }
+  const DistanceField& to(Cell target) const {
+    GROVE_ASSERT(fields_[target], "distances are asked for to a task or a destination");
+    return *fields_[target];
+  }
 
  private:
   std::vector<std::unique_ptr<DistanceField>> fields_;  // by cell; null where nobody must go

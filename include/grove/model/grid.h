@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 
 // A cell of a grid as one number: y * width + x. Meaningful only together with its grid.
@@ -40,7 +42,10 @@ class Grid {
 
   bool contains(Position p) const { return p.x >= 0 && p.x < width_ && p.y >= 0 && p.y < height_; }
   bool passable(Cell cell) const { return passable_[cell] != 0; }
-  Cell cell(Position p) const { return p.y * width_ + p.x; }
+  Cell cell(Position p) const {
+    GROVE_ASSERT(contains(p), "a position is on the grid");
+    return p.y * width_ + p.x;
+  }
   Position position(Cell cell) const { return {cell % width_, cell / width_}; }
 
   // The passable cells one move away from `cell` (up to 4; none for a blocked cell).

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grove/model/assert.h"
 #include "grove/model/instance.h"
 #include "grove/model/omega.h"
 
@@ -19,6 +20,7 @@ using Path = std::vector<Cell>;
 
 // Where an agent with this path (not empty) is at `time`: it rests on the last cell for ever.
 inline Cell position_at(const Path& path, Time time) {
+  GROVE_ASSERT(!path.empty() && time >= 0, "an agent is somewhere from time 0 on");
   return time < static_cast<Time>(path.size()) ? path[time] : path.back();
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "grove/conflicts/conflict.h"
+#include "grove/model/assert.h"
 #include "grove/model/omega.h"
 #include "grove/planning/goal_sequence.h"
 #include "grove/search/node_pool.h"
@@ -51,8 +52,11 @@ class NodePtr {
   }
   ~NodePtr();
 
-  const Node& operator*() const { return *node_; }
-  const Node* operator->() const { return node_; }
+  const Node& operator*() const { return *operator->(); }
+  const Node* operator->() const {
+    GROVE_ASSERT(node_, "there is a node");
+    return node_;
+  }
   const Node* get() const { return node_; }
   explicit operator bool() const { return node_ != nullptr; }
   friend bool operator==(const NodePtr& a, const NodePtr& b) { return a.node_ == b.node_; }

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <mutex>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 
 // Parts of one kind that threads use side by side; what belongs to one key is in one part, and so
@@ -20,6 +22,7 @@ class Sharded {
 
   // Of a key that is not negative.
   static constexpr std::size_t part_of(std::integral auto key) {
+    GROVE_ASSERT(key >= 0, "keys are not negative");
     return static_cast<std::size_t>(key) % kParts;
   }
 

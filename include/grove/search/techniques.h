@@ -35,7 +35,7 @@ struct NamedTechnique {
 };
 
 // All of them.
-constexpr std::array kTechniques = {
+inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kPrimal, "primal"},
     NamedTechnique{Technique::kConfigurations, "configurations"},
     NamedTechnique{Technique::kStrongBranching, "strong-branching"},
