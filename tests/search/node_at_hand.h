@@ -31,6 +31,21 @@ struct NodeAtHand {
     view.enter(root, all);
   }
 
+  // Turns to a node below the root in which the first agents take these ways, each as short.
+  void take(const std::vector<std::vector<Position>>& ways) {
+    std::vector<Path> paths;
+    for (const auto& way : ways) {
+      paths.emplace_back();
+      for (const Position at : way) paths.back().push_back(instance.grid().cell(at));
+    }
+    std::vector<NewPath> taken;
+    for (const Path& path : paths) taken.push_back({static_cast<AgentIndex>(taken.size()), &path});
+    Change change;
+    change.paths = taken;
+    change.cost = root->cost();
+    view.enter(Node::child(root, instance.grid(), change), all);
+  }
+
   SearchOptions options;
   Limits limits;
   Instance instance;
