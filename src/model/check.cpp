@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The definition of a valid plan (design, section 1), written down a second time. It is meant to be
-// compared with that section line by line, so it is direct rather than clever. First every agent's
-// path is walked by itself: start, cells, steps, end, visits, cost. Then all agents are moved
-// through time together on one map of who is where, so that the work grows with agents * time and
-// not with agents^2. Last, the claims: a plan's cost is what its paths add up to, and its status
-// is what cost, bound and omega deserve.
+// The definition of a valid plan (docs/design.md, section 1), written down a second time. It is
+// meant to be compared with that section line by line, so it is direct rather than clever. First
+// every agent's path is walked by itself: start, cells, steps, end, visits, cost. Then all agents
+// are moved through time together on one map of who is where, so that the work grows with agents *
+// time and not with agents^2. Last, the claims: a plan's cost is what its paths add up to, and its
+// status is what cost, bound and omega deserve.
 #include "grove/model/check.h"
 
 #include <fmt/format.h>

@@ -22,7 +22,7 @@ struct Answer {
   std::size_t states = 0;    // joint states generated
 };
 
-// The optimum of `instance` as section 1 of the design defines it.
+// The optimum of `instance` as docs/design.md, section 1, defines it.
 Answer solve_jointly(const Instance& instance, std::size_t state_cap = 2'000'000);
 
 }  // namespace grove::oracle

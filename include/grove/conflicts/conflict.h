@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where two plans collide (design, section 1; vertex and edge conflicts of CBS, Sharon et al.
-// 2015).
+// Where two plans collide (docs/design.md, section 1; vertex and edge conflicts of CBS, Sharon et
+// al. 2015).
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Instances as files: *.cts.json with its map beside it, or Moving AI .scen + .map (design, section
-// 5). Every reader throws InputError on anything malformed; it never returns half an instance.
+// Instances as files: *.cts.json with its map beside it, or Moving AI .scen + .map (docs/design.md,
+// section 5). Every reader throws InputError on anything malformed; it never returns half an
+// instance.
 #pragma once
 
 #include <filesystem>

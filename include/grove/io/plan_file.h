@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plan files (design, section 5).
+// Plan files (docs/design.md, section 5).
 #pragma once
 
 #include <filesystem>

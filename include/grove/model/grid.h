@@ -26,8 +26,8 @@ struct Position {
   friend bool operator==(const Position&, const Position&) = default;
 };
 
-// A rectangular 4-connected grid of passable and blocked cells (design, section 1). Immutable after
-// construction, so any number of threads may read one.
+// A rectangular 4-connected grid of passable and blocked cells (docs/design.md, section 1).
+// Immutable after construction, so any number of threads may read one.
 class Grid {
  public:
   // `passable` holds width * height entries, row by row from the top.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A CTS-MAPF instance: a grid, agents, and the cells each must visit (design, section 1).
+// A CTS-MAPF instance: a grid, agents, and the cells each must visit (docs/design.md, section 1).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run ends with: a status, perhaps a plan, always a bound (design, section 5).
+// What a run ends with: a status, perhaps a plan, always a bound (docs/design.md, section 5).
 #pragma once
 
 #include <cstdint>

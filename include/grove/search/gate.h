@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bound ledger and every decision that rests on it (design, section 2).
+// The bound ledger and every decision that rests on it (docs/design.md, section 2).
 #pragma once
 
 #include <mutex>
