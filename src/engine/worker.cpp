@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "grove/engine/worker.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "grove/engine/techniques_of.h"
@@ -12,6 +14,13 @@ namespace {
 constexpr std::int64_t kRootWorkPerPair = 8;   // of agents
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 constexpr std::int64_t kStepsPerWork = 4;      // of the paths of a node that is looked through
+
+// What the answer's statistics call the splits of this kind.
+std::string count_of_splits(ConstraintKind kind) {
+  std::string name = "splits_" + std::string(name_of(kind));
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
 
 }  // namespace
 
@@ -61,8 +70,8 @@ PrimalSearch& Worker::primal() {
 
 Expander& Worker::expander() {
   if (!expander_)
-    expander_ = std::make_unique<Expander>(problem_, expander_stops_,
-                                           search_options_of(options_), shared_.memory());
+    expander_ = std::make_unique<Expander>(problem_, expander_stops_, search_options_of(options_),
+                                           shared_.memory());
   return *expander_;
 }
 
@@ -126,6 +135,14 @@ void Worker::add_counts(Stats& stats) const {
   counts["low_level_calls"] += tree.low_level_calls;
   counts["low_level_expanded"] += tree.low_level_expanded;
   counts["pair_expansions"] += tree.pair_expansions;
+  counts["joint_pairs"] += tree.joint_pairs;
+  for (std::uint8_t kind = 0; kind < kConstraintKinds; ++kind)
+    if (tree.splits[kind] > 0) counts[count_of_splits(*constraint_kind(kind))] += tree.splits[kind];
+  counts["bypasses"] += tree.bypasses;
+  counts["prices_asked"] += tree.prices_asked;
+  counts["prices_known"] += tree.prices_known;
+  counts["path_sets_asked"] += tree.sets_asked;
+  counts["path_sets_known"] += tree.sets_known;
   counts["helps"] += helps_;
   counts["primal_steps"] += primal.steps;
   counts["primal_attempts"] += primal.attempts;

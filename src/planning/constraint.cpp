@@ -16,11 +16,14 @@ struct Named {
   std::string_view name;
 };
 
-constexpr std::array kNames = {
-    Named{ConstraintKind::kBar, "bar"},        Named{ConstraintKind::kNoRestBy, "no-rest-by"},
-    Named{ConstraintKind::kRestBy, "rest-by"}, Named{ConstraintKind::kNoTraversal, "no-traversal"},
-    Named{ConstraintKind::kStopIs, "stop-is"}, Named{ConstraintKind::kStopIsNot, "stop-is-not"},
-};
+constexpr std::array<Named, kConstraintKinds> kNames = {{
+    {ConstraintKind::kBar, "bar"},
+    {ConstraintKind::kNoRestBy, "no-rest-by"},
+    {ConstraintKind::kRestBy, "rest-by"},
+    {ConstraintKind::kNoTraversal, "no-traversal"},
+    {ConstraintKind::kStopIs, "stop-is"},
+    {ConstraintKind::kStopIsNot, "stop-is-not"},
+}};
 
 // One step of rest stands for all: after it the path changes no more.
 bool keeps_off(const Path& path, const Constraint& bar) {

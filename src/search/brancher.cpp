@@ -70,6 +70,7 @@ Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff, std::span<const 
     for (int i = 0; i < 2; ++i)
       if (!make_side(task, split[i], sides_[i])) return Outcome::kStopped;
     if (round < kMostBypasses && (bypass(view, sides_[0]) || bypass(view, sides_[1]))) continue;
+    ++splits_made_[static_cast<std::size_t>(split[1].constraint.kind)];
     const NodePtr parent = view.node_as_routed();
     for (int i = 0; i < 2; ++i)
       if (sides_[i].open) children.push_back(child(view, parent, split[i], sides_[i]));
@@ -213,10 +214,11 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
 }
 
 // Takes the paths of a side for the node's own, if that costs nothing and saves conflicts.
-bool Brancher::bypass(NodeView& view, const Side& side) const {
+bool Brancher::bypass(NodeView& view, const Side& side) {
   if (!options_.techniques.has(Technique::kBypass)) return false;
   if (!side.open || side.increase > 0 || side.conflicts >= 0) return false;
   view.reroute(side.agents, side.paths);
+  ++bypasses_;
   return true;
 }
 

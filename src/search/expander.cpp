@@ -4,6 +4,7 @@
 // where others may now be better - then branch.
 #include "grove/search/expander.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace grove {
@@ -98,14 +99,23 @@ Plan Expander::plan(const Node& node) {
 }
 
 ExpansionCounts Expander::counts() const {
-  return {planner_.calls(),
-          planner_.expanded(),
-          dependencies_.expansions(),
-          planner_.optimal_nodes() + brancher_.optimal_nodes() + dependencies_.optimal_nodes(),
-          dependencies_.joint_pairs(),
-          memory_.asked(),
-          memory_.groups_asked(),
-          view_.steps() + dependencies_.steps()};
+  ExpansionCounts counts;
+  counts.low_level_calls = planner_.calls();
+  counts.low_level_expanded = planner_.expanded();
+  counts.pair_expansions = dependencies_.expansions();
+  counts.optimal_nodes =
+      planner_.optimal_nodes() + brancher_.optimal_nodes() + dependencies_.optimal_nodes();
+  counts.joint_pairs = dependencies_.joint_pairs();
+  counts.situations = memory_.asked();
+  counts.groups = memory_.groups_asked();
+  counts.path_steps = view_.steps() + dependencies_.steps();
+  std::ranges::copy(brancher_.splits(), counts.splits.begin());
+  counts.bypasses = brancher_.bypasses();
+  counts.prices_asked = brancher_.prices().asked();
+  counts.prices_known = brancher_.prices().known();
+  counts.sets_asked = memory_.sets_asked();
+  counts.sets_known = memory_.sets_known();
+  return counts;
 }
 
 }  // namespace grove

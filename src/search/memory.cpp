@@ -26,9 +26,10 @@ Situations::Known Memory::known(Id id) const {
 const OptimalPaths* Memory::paths(Id id, AgentIndex agent, const AgentOrder& order,
                                   std::span<const Constraint> constraints, Time cost,
                                   const Limits& limits) {
+  ++sets_asked_;
   const auto known = found_.sets.find(id);
-  if (known != found_.sets.end()) return known->second.get();
-  PathSets::Set set = common_->path_sets.find(id);
+  PathSets::Set set = known != found_.sets.end() ? known->second : common_->path_sets.find(id);
+  if (set) ++sets_known_;
   if (!set) set = PathSets::make(planner_, agent, order, constraints, cost, limits);
   if (!set) return nullptr;
   return (found_.sets[id] = std::move(set)).get();

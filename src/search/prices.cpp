@@ -34,7 +34,10 @@ Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint&
   const auto constraints = view.constraints_with(agent, more);
   const Situations::Id id = memory_.id(agent, view.order(agent), constraints);
   Situations::Known known = memory_.known(id);
-  if (!known.exact && known.at_least <= cutoff) {
+  ++asked_;
+  if (known.exact || known.at_least > cutoff) {
+    ++known_;
+  } else {
     if (known.hard && most_labels < FreeLowLevelSearch::kUnlimited) return Outcome::kTooHard;
     switch (planner_.find(agent, view.order(agent), constraints, nullptr, cutoff, limits, path_,
                           most_labels)) {

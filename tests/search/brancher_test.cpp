@@ -32,6 +32,10 @@ struct Branched : NodeAtHand {
   }
 
   Brancher brancher{problem, options, planner, memory};
+  std::int64_t splits(ConstraintKind kind) const {
+    return brancher.splits()[static_cast<std::size_t>(kind)];
+  }
+
   std::vector<NodePtr> children;
 };
 
@@ -65,6 +69,13 @@ TEST(Brancher, ClosesSidesThatReachTheCutoff) {
   ASSERT_EQ(s.branch(s.root->cost() + 2), Brancher::Outcome::kBranched);
   EXPECT_EQ(s.children.size(), 2u);
   for (const NodePtr& child : s.children) EXPECT_EQ(child->cost(), s.root->cost() + 1);
+  const Prices& prices = s.brancher.prices();
+  const std::int64_t asked = prices.asked();
+  EXPECT_GT(asked, prices.known());
+  s.view.enter(s.root, s.all);
+  ASSERT_EQ(s.branch(s.root->cost() + 2), Brancher::Outcome::kBranched);
+  EXPECT_EQ(prices.asked(), 2 * asked);
+  EXPECT_GE(prices.known(), asked);  // all of the second time
   for (const Cost cutoff : {s.root->cost() + 1, s.root->cost()}) {
     s.view.enter(s.root, s.all);
     ASSERT_EQ(s.branch(cutoff), Brancher::Outcome::kBranched);
@@ -95,11 +106,15 @@ TEST(Brancher, GoesRoundForFreeInsteadOfSplitting) {
   EXPECT_TRUE(with.view.conflict_free());
   EXPECT_EQ(with.view.cost_of(0) + with.view.cost_of(1), with.root->cost());
   EXPECT_TRUE(with.view.path(0) != before[0] || with.view.path(1) != before[1]);
+  EXPECT_GE(with.brancher.bypasses(), 1);
+  EXPECT_EQ(with.splits(ConstraintKind::kBar), 0);
 
   Branched without(kOpen, kCrossing, {kCardinal, 0, true});
   without.take(kCollide);
   EXPECT_EQ(without.branch(), Brancher::Outcome::kBranched);
   EXPECT_EQ(without.children.size(), 2u);
+  EXPECT_EQ(without.brancher.bypasses(), 0);
+  EXPECT_EQ(without.splits(ConstraintKind::kBar), 1);
 }
 
 // Below the node as it is routed now hang the children of a split, with all paths the view showed.
@@ -128,6 +143,7 @@ TEST(Brancher, SplitsOnWhenAnAgentComesToRest) {
   }
   // The other side bars agent 0 from its only way.
   EXPECT_EQ(s.children.size(), 1u);
+  EXPECT_EQ(s.splits(ConstraintKind::kRestBy), 1);
 }
 
 TEST(Brancher, TakesALastResortOnlyOfAgentsInConflict) {

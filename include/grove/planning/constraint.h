@@ -3,6 +3,7 @@
 // must do to obey it, are said here and in constraint.cpp once for all.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -35,6 +36,8 @@ enum class ConstraintKind : std::uint8_t {
   kStopIs = 4,
   kStopIsNot = 5,
 };
+
+inline constexpr std::size_t kConstraintKinds = 6;
 
 // For messages: "bar", "no-rest-by" ...
 std::string_view name_of(ConstraintKind kind);

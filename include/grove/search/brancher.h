@@ -42,8 +42,13 @@ class Brancher {
   Outcome branch(NodeView& view, Cost cutoff, std::span<const Split> last_resorts,
                  const Limits& limits, std::vector<NodePtr>& children);
 
-  // Nodes of sets of paths looked through for those of fewest conflicts, so far.
+  // So far: nodes of sets of paths looked through for those of fewest conflicts; splits made, by
+  // the kind of their second demand, which tells where they come from (kRestBy: when an agent comes
+  // to rest, kNoRestBy: costs); sides taken for the node's own paths; prices.
   std::int64_t optimal_nodes() const { return fewest_conflicts_.nodes(); }
+  std::span<const std::int64_t, kConstraintKinds> splits() const { return splits_made_; }
+  std::int64_t bypasses() const { return bypasses_; }
+  const Prices& prices() const { return prices_; }
 
  private:
   // What one side of a split leads to.
@@ -76,7 +81,7 @@ class Brancher {
   bool replan(const Task& task, const AgentConstraint& demand, Side& side);
   bool replan_one(const Task& task, AgentIndex agent, const Constraint& more, Time cutoff,
                   bool& found);
-  bool bypass(NodeView& view, const Side& side) const;
+  bool bypass(NodeView& view, const Side& side);
   NodePtr child(const NodeView& view, const NodePtr& parent, const AgentConstraint& demand,
                 const Side& side) const;
 
@@ -93,6 +98,8 @@ class Brancher {
   std::array<Side, 2> sides_;
   std::vector<AgentIndex> in_conflict_;
   Path path_;
+  std::array<std::int64_t, kConstraintKinds> splits_made_{};
+  std::int64_t bypasses_ = 0;
 };
 
 }  // namespace grove

@@ -2,6 +2,7 @@
 // Expanding a node: the one place where constraint trees grow.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -41,6 +42,14 @@ struct ExpansionCounts {
   std::int64_t situations = 0;     // asked about
   std::int64_t groups = 0;         // asked about
   std::int64_t path_steps = 0;     // looked through for conflicts
+  // What branching did: splits by the kind of their second demand (brancher.h), ways round for
+  // free, prices asked for and answered from memory; and sets of optimal paths, likewise.
+  std::array<std::int64_t, kConstraintKinds> splits{};
+  std::int64_t bypasses = 0;
+  std::int64_t prices_asked = 0;
+  std::int64_t prices_known = 0;
+  std::int64_t sets_asked = 0;
+  std::int64_t sets_known = 0;
 };
 
 // Expands nodes with the workspace of one thread and the memory of what was found out about agents,

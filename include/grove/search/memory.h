@@ -89,6 +89,9 @@ class Memory {
   // Situations, and groups, that were asked about so far.
   std::int64_t asked() const { return asked_; }
   std::int64_t groups_asked() const { return groups_asked_; }
+  // Sets of optimal paths that were asked for so far, and those of them that had been made.
+  std::int64_t sets_asked() const { return sets_asked_; }
+  std::int64_t sets_known() const { return sets_known_; }
   Situations::Known known(Id id) const;
   void learn(Id id, Situations::Known known) { found_.costs[id] = known; }
 
@@ -111,6 +114,8 @@ class Memory {
   std::shared_ptr<CommonMemory> common_;
   std::int64_t asked_ = 0;
   mutable std::int64_t groups_asked_ = 0;
+  std::int64_t sets_asked_ = 0;
+  std::int64_t sets_known_ = 0;
   FoundOut found_;
 };
 

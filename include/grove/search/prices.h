@@ -35,11 +35,17 @@ class Prices {
   Outcome cost(NodeView& view, AgentIndex agent, const Constraint& more, Time cutoff,
                std::int64_t most_labels, const Limits& limits, Time& cost);
 
+  // Calls of cost() so far, and those of them that the memory answered.
+  std::int64_t asked() const { return asked_; }
+  std::int64_t known() const { return known_; }
+
  private:
   PathPlanner& planner_;
   Memory& memory_;
   std::vector<AgentIndex> disturbed_;
   Path path_;
+  std::int64_t asked_ = 0;
+  std::int64_t known_ = 0;
 };
 
 // What an agent may cost if the sum of costs may rise by `slack`.
