@@ -102,7 +102,9 @@ TEST(Constraint, ConcernsItsAgentAndOfRestsTheOthersToo) {
     EXPECT_EQ(demands[1], c);
     EXPECT_EQ(demands[0].has_value(), kind == ConstraintKind::kRestBy);
     EXPECT_EQ(demands[2], demands[0]);
-    if (demands[0]) EXPECT_EQ(*demands[0], (Constraint{7, kNoCell, 5, kNever}));
+    if (demands[0]) {
+      EXPECT_EQ(*demands[0], (Constraint{7, kNoCell, 5, kNever}));
+    }
     for (const auto& demand : asked({-1, c})) EXPECT_FALSE(demand);
   }
 }

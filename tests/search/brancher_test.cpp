@@ -125,7 +125,9 @@ TEST(Brancher, KeepsTheWaysRoundInTheChildren) {
     std::vector<Path> paths;
     child->paths(s.problem, paths);
     for (const AgentIndex agent : s.all)
-      if (agent != child->added().agent) EXPECT_EQ(paths[agent], s.view.path(agent));
+      if (agent != child->added().agent) {
+        EXPECT_EQ(paths[agent], s.view.path(agent));
+      }
     EXPECT_EQ(child->parent()->cost(), s.root->cost());
   }
 }
