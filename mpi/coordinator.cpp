@@ -75,7 +75,7 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
   restored_ = roots.has_value();
   if (!roots) return;
   nodes_.entrust(0, {}, checkpoint.header().evicted_bound);
-  std::vector<RankNodes::NumberedNode> nodes;
+  std::vector<NodeRecord> nodes;
   int rank = 0;
   const auto send = [&] {
     nodes_.entrust(rank, std::exchange(nodes, {}));
@@ -83,8 +83,9 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
   };
   while (auto next = checkpoint.next()) {
     const NodePtr& root = roots->at(next->tree);
-    check(next->node, *root, instance_);
-    nodes.emplace_back(nodes_.number(root), std::move(next->node));
+    check(*next, *root, instance_);
+    nodes_.tell(root->tree());
+    nodes.push_back(std::move(*next));
     if (nodes.size() == kNodesEntrusted) send();
   }
   if (!nodes.empty()) send();
@@ -137,7 +138,7 @@ void Coordinator::look_after_checkpoints() {
   const bool is_last = ledger_.over() && !gathered_at_end_;
   if (!is_last && (ledger_.over() || !timer_.due())) return;
   gathered_at_end_ = is_last;
-  gathering_.emplace(options_.checkpoints, ledger_, nodes_, transport_);
+  gathering_.emplace(options_.checkpoints, ledger_, transport_);
 }
 
 void Coordinator::step() {

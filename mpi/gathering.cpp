@@ -19,13 +19,8 @@
 
 namespace grove {
 
-Gathering::Gathering(const Checkpoints& checkpoints, CentralLedger& ledger, RankNodes& nodes,
-                     Transport& transport)
-    : checkpoints_(checkpoints),
-      ledger_(ledger),
-      nodes_(nodes),
-      transport_(transport),
-      trees_(ledger.trees()) {
+Gathering::Gathering(const Checkpoints& checkpoints, CentralLedger& ledger, Transport& transport)
+    : checkpoints_(checkpoints), ledger_(ledger), transport_(transport), trees_(ledger.trees()) {
   tell_all(transport, message::Gather{});
 }
 
@@ -55,10 +50,9 @@ void Gathering::handle(const message::Gathered& gathered) {
 
 void Gathering::handle(message::Part&& part) {
   write([&] {
-    for (auto& [number, record] : part.nodes) {
-      const std::int64_t tree = ledger_.number_of(nodes_.tree(number));
-      if (tree >= trees_) continue;
-      writer_->add(static_cast<std::uint32_t>(tree), std::move(record));
+    for (NodeRecord& node : part.nodes) {
+      if (node.tree >= trees_) continue;
+      writer_->add(std::move(node));
       ++report_.nodes;
     }
   });

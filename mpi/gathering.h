@@ -11,7 +11,6 @@
 #include "grove/engine/central_ledger.h"
 #include "grove/engine/checkpoint.h"
 #include "mpi/messages.h"
-#include "mpi/rank_nodes.h"
 #include "mpi/transport.h"
 
 namespace grove {
@@ -21,8 +20,7 @@ namespace grove {
 class Gathering {
  public:
   // Tells all ranks. All must outlive this.
-  Gathering(const Checkpoints& checkpoints, CentralLedger& ledger, RankNodes& nodes,
-            Transport& transport);
+  Gathering(const Checkpoints& checkpoints, CentralLedger& ledger, Transport& transport);
 
   bool is_done() const { return done_; }
 
@@ -39,7 +37,6 @@ class Gathering {
 
   const Checkpoints& checkpoints_;
   CentralLedger& ledger_;
-  RankNodes& nodes_;
   Transport& transport_;
   const Clock::time_point begin_ = Clock::now();
   const std::int64_t trees_;  // that count as instantiated

@@ -51,7 +51,7 @@ void serialize(Archive& archive, Batch& batch) {
 
 template <class Archive>
 void serialize(Archive& archive, NewTree& tree) {
-  archive(tree.tree);
+  archive(tree.number, tree.tree);
 }
 
 template <class Archive>

@@ -52,23 +52,22 @@ struct Farewell {
   std::vector<std::pair<std::int32_t, std::int64_t>> batches;
 };
 
-// Rank to rank: nodes, each with the number of its tree, and what is known about them. Perhaps
-// none.
+// Rank to rank: nodes and what is known about them. Perhaps none.
 struct Batch {
   std::int32_t era = 0;
-  std::vector<std::pair<std::int32_t, NodeRecord>> nodes;
+  std::vector<NodeRecord> nodes;
   std::vector<Finding> findings;
 };
 
-// Coordinator to all: the trees, numbered as they come.
+// Coordinator to all: a tree, before any of its nodes.
 struct NewTree {
+  std::uint32_t number = 0;
   TreeRecord tree;
 };
 
-// Coordinator to a rank: these nodes are yours, each with the number of its tree; and others, of
-// this bound at least, were given up.
+// Coordinator to a rank: these nodes are yours; and others, of this bound at least, were given up.
 struct Entrust {
-  std::vector<std::pair<std::int32_t, NodeRecord>> nodes;
+  std::vector<NodeRecord> nodes;
   Cost evicted_bound = kInfiniteCost;
 };
 
@@ -109,7 +108,7 @@ struct More {};
 
 // Rank to coordinator: some of it.
 struct Part {
-  std::vector<std::pair<std::int32_t, NodeRecord>> nodes;
+  std::vector<NodeRecord> nodes;
   bool last = false;
 };
 

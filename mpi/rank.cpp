@@ -44,7 +44,7 @@ void Rank::handle(int from, message::Message&& message) {
   };
   std::visit(Overloaded{[&](message::Batch& batch) { take_over(from, batch); },
                         [&](message::NewTree& tree) {
-                          roots_.push_back(trees_.add(tree.tree));
+                          roots_[tree.number] = trees_.add(tree.tree, tree.number);
                           take_over_held();
                         },
                         [&](message::Entrust& entrusted) { accept(entrusted); },
@@ -68,8 +68,8 @@ void Rank::handle(int from, message::Message&& message) {
 
 // Its tree may not have been heard of yet, or what was given up here has yet to be forgotten.
 bool Rank::is_early(const message::Batch& batch) const {
-  return batch.era > era_ || std::ranges::any_of(batch.nodes, [&](const auto& node) {
-           return static_cast<std::size_t>(node.first) >= roots_.size();
+  return batch.era > era_ || std::ranges::any_of(batch.nodes, [&](const NodeRecord& node) {
+           return !roots_.contains(node.tree);
          });
 }
 
@@ -96,7 +96,7 @@ void Rank::give(const message::Order& order) {
   const auto nodes = nodes_.frontier.take_spare(static_cast<std::size_t>(order.count));
   message::Batch batch;
   batch.era = era_;
-  for (const NodePtr& node : nodes) batch.nodes.push_back(record(*node));
+  for (const NodePtr& node : nodes) batch.nodes.push_back(record_of(*node));
   batch.findings = findings_about(nodes, *search_.memory());
   Peer& peer = peers_[order.to];
   peer.custody[peer.sent + 1] = nodes;
@@ -123,22 +123,16 @@ void Rank::accept(const message::Entrust& entrusted) {
   urgent_ = true;
 }
 
-void Rank::push(const std::vector<NumberedNode>& records, const std::vector<Finding>& findings) {
+void Rank::push(const std::vector<NodeRecord>& records, const std::vector<Finding>& findings) {
   std::vector<NodePtr> nodes;  // null: pruned
-  for (const auto& [tree, record] : records) {
-    const NodePtr& root = roots_.at(static_cast<std::size_t>(tree));
+  for (const NodeRecord& record : records) {
+    const NodePtr& root = roots_.at(record.tree);
     const bool pruned = record.bound >= ledger_.cutoff();
     nodes.push_back(pruned ? nullptr : node_of(record, root, problem_.instance));
   }
   learn(findings, nodes, *search_.memory());
   for (NodePtr& node : nodes)
     if (node) nodes_.push(std::move(node));
-}
-
-Rank::NumberedNode Rank::record(const Node& node) const {
-  const auto same_tree = [&](const NodePtr& root) { return &root->tree() == &node.tree(); };
-  const auto root = std::ranges::find_if(roots_, same_tree);
-  return {static_cast<std::int32_t>(root - roots_.begin()), record_of(node)};
 }
 
 // A plan was posted before the node that led to it was gone.
@@ -152,7 +146,7 @@ void Rank::gather() {
 void Rank::send_part() {
   message::Part part;
   while (!gathered_.empty() && part.nodes.size() < kNodesInAPart) {
-    part.nodes.push_back(record(*gathered_.back()));
+    part.nodes.push_back(record_of(*gathered_.back()));
     gathered_.pop_back();
   }
   part.last = gathered_.empty();

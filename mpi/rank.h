@@ -66,9 +66,7 @@ class Rank {
   void gather();
   void send_part();
   void send_found();
-  using NumberedNode = std::pair<std::int32_t, NodeRecord>;
-  void push(const std::vector<NumberedNode>& records, const std::vector<Finding>& findings);
-  NumberedNode record(const Node& node) const;
+  void push(const std::vector<NodeRecord>& records, const std::vector<Finding>& findings);
   void begin_anew(Cost proven);
   message::Status status() const;
   bool is_wanted(Cost bound) const;
@@ -84,7 +82,7 @@ class Rank {
   SharedSearch search_;
 
   Trees trees_;
-  std::vector<NodePtr> roots_;  // by tree
+  std::map<std::uint32_t, NodePtr> roots_;  // by the number of the tree
   std::int32_t era_ = 0;
   std::int64_t entrusted_ = 0;
   std::vector<Held> held_;

@@ -60,26 +60,22 @@ bool RankNodes::any() const {
 }
 
 void RankNodes::push(const NodePtr& root) {
-  entrust(idlest(), {{number(root), record_of(*root)}});
+  tell(root->tree());
+  entrust(idlest(), {record_of(*root)});
 }
 
-void RankNodes::entrust(int rank, std::vector<NumberedNode> nodes, Cost evicted_bound) {
+void RankNodes::entrust(int rank, std::vector<NodeRecord> nodes, Cost evicted_bound) {
   Cost bound = evicted_bound;
-  for (const auto& [tree, record] : nodes) bound = std::min(bound, record.bound);
+  for (const NodeRecord& node : nodes) bound = std::min(bound, node.bound);
   bounds_.insert(bound);
   under_way_[static_cast<std::size_t>(rank)].push_back(bound);
   ++entrusted_under_way_;
   transport_.send(rank, bytes_of(message::Entrust{std::move(nodes), evicted_bound}));
 }
 
-std::int32_t RankNodes::number(const NodePtr& root) {
-  const auto next = static_cast<std::int32_t>(trees_.size());
-  const auto [tree, is_new] = numbers_.try_emplace(&root->tree(), next);
-  if (is_new) {
-    trees_.push_back(&root->tree());
-    tell_all(transport_, message::NewTree{record_of(root->tree())});
-  }
-  return tree->second;
+void RankNodes::tell(const Tree& tree) {
+  if (told_.insert(tree.number).second)
+    tell_all(transport_, message::NewTree{tree.number, record_of(tree)});
 }
 
 int RankNodes::idlest() const {

@@ -4,9 +4,7 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "grove/engine/ledger.h"
@@ -30,19 +28,15 @@ class RankNodes : public LiveNodes {
   Cost evicted_bound() const override;
   bool any() const override;
   Counts counts() const override { return counts_; }
-  // To a rank that has little to do; after the tree has been told to all.
+  // To a rank that has little to do; its tree is told to all.
   void push(const NodePtr& root) override;
   void prune(Cost /*cost*/) override {}  // each rank does, when it hears of the incumbent
   void restart(std::span<const NodePtr> roots, Cost proven) override;
 
-  using NumberedNode = std::pair<std::int32_t, NodeRecord>;
-  // Nodes for a rank, of trees numbered by number(); the bound also covers what was given up.
-  void entrust(int rank, std::vector<NumberedNode> nodes, Cost evicted_bound = kInfiniteCost);
-  // The number of a root's tree, which all are told if it is new.
-  std::int32_t number(const NodePtr& root);
-  const Tree& tree(std::int32_t number) const {
-    return *trees_.at(static_cast<std::size_t>(number));
-  }
+  // Nodes for a rank, of trees that have been told; the bound also covers what was given up.
+  void entrust(int rank, std::vector<NodeRecord> nodes, Cost evicted_bound = kInfiniteCost);
+  // Tells all of a tree, once.
+  void tell(const Tree& tree);
 
  private:
   int idlest() const;
@@ -57,8 +51,7 @@ class RankNodes : public LiveNodes {
   std::int32_t era_ = 0;
   std::int64_t ranks_of_this_era_;
   Counts counts_;
-  std::vector<const Tree*> trees_;               // that have been told
-  std::map<const Tree*, std::int32_t> numbers_;  // of these
+  std::set<std::uint32_t> told_;  // trees
 };
 
 }  // namespace grove

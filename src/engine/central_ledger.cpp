@@ -81,12 +81,12 @@ std::optional<std::vector<NodePtr>> CentralLedger::restore(const CheckpointHeade
   for (const TreeRecord& tree : header.trees) {
     const NodePtr same = forest_->next_root();
     if (!same && limits_.stop_requested()) return std::nullopt;
-    const NodePtr root = restored_trees_.add(tree);
+    const NodePtr root = restored_trees_.add(tree, static_cast<std::uint32_t>(roots_.size()));
     if (!same || !same_sequences(same->tree(), root->tree()))
       throw InputError(
           checkpoint_file(options_.checkpoints.directory).string(), "",
           "its trees come in another order than they do here; expected the same --rtsp");
-    add_root(root);
+    roots_.push_back(root);
     watch([&] { observer_.on_root(root); });
     last_tree_cost_ = root->cost();
     ++trees_;
@@ -115,12 +115,6 @@ CheckpointHeader CentralLedger::checkpoint_header(std::int64_t trees, Cost evict
   for (std::int64_t i = 0; i < trees; ++i)
     header.trees.push_back(record_of(roots_[static_cast<std::size_t>(i)]->tree()));
   return header;
-}
-
-std::int64_t CentralLedger::number_of(const Tree& tree) const {
-  const std::lock_guard lock(growing_);
-  const auto found = numbers_.find(&tree);
-  return found == numbers_.end() ? trees_.load() : found->second;
 }
 
 std::int64_t CentralLedger::nodes_before() const {
@@ -195,18 +189,13 @@ bool CentralLedger::needs_tree() const {
          gate_.needs_new_tree(nodes_.bound(), last == kNoTree ? std::nullopt : std::optional(last));
 }
 
-void CentralLedger::add_root(const NodePtr& root) {
-  numbers_[&root->tree()] = std::ssize(roots_);
-  roots_.push_back(root);
-}
-
 // Instantiates the next tree. Under growing_. If anything throws, the root stays prepared.
 void CentralLedger::grow() {
   if (!prepared_) prepared_ = forest_->next_root();
   const bool has_root = prepared_ != nullptr;
   if (has_root) {
     watch([&] { observer_.on_root(prepared_); });
-    add_root(prepared_);
+    roots_.push_back(prepared_);
     if (!gate_.prunes(prepared_->bound())) nodes_.push(prepared_);
     ++trees_;
     last_tree_cost_ = prepared_->cost();

@@ -112,11 +112,6 @@ std::size_t bytes_of(const TreeRecord& tree) {
 
 }  // namespace
 
-template <class Archive>
-void serialize(Archive& archive, CheckpointNode& node) {
-  archive(node.tree, node.node);
-}
-
 fs::path checkpoint_file(const fs::path& directory) {
   return directory / "checkpoint.grove";
 }
@@ -146,10 +141,11 @@ void CheckpointWriter::write_trees(const std::vector<TreeRecord>& trees) {
   }
 }
 
-void CheckpointWriter::add(std::uint32_t tree, NodeRecord node) {
-  if (tree >= trees_) throw std::invalid_argument("a node must be of a tree of its checkpoint");
+void CheckpointWriter::add(NodeRecord node) {
+  if (node.tree >= trees_)
+    throw std::invalid_argument("a node must be of a tree of its checkpoint");
   waiting_bytes_ += bytes_of(node);
-  waiting_.push_back({tree, std::move(node)});
+  waiting_.push_back(std::move(node));
   ++nodes_;
   if (waiting_bytes_ >= kBlockBytes) write_nodes();
 }
@@ -307,20 +303,20 @@ void CheckpointReader::read_trees(std::uint64_t count) {
   if (header_.trees.size() != count) blocks_->refuse("has more trees than it announces");
 }
 
-std::optional<CheckpointNode> CheckpointReader::next() {
+std::optional<NodeRecord> CheckpointReader::next() {
   while (next_ == nodes_.size() && !ended_) {
     const Blocks::Block block = blocks_->next();
     if (block.kind == kEnd) {
       read_end(block.content);
     } else {
       if (block.kind != kNodes) blocks_->refuse("holds a block of no known kind");
-      nodes_ = blocks_->value<std::vector<CheckpointNode>>(block.content);
+      nodes_ = blocks_->value<std::vector<NodeRecord>>(block.content);
       nodes_read_ += nodes_.size();
       next_ = 0;
     }
   }
   if (next_ == nodes_.size()) return std::nullopt;
-  CheckpointNode& node = nodes_[next_++];
+  NodeRecord& node = nodes_[next_++];
   if (node.tree >= header_.trees.size()) blocks_->refuse("holds a node of no tree");
   return std::move(node);
 }

@@ -32,9 +32,8 @@ void LocalCheckpoints::write() {
     CheckpointWriter writer(options_.checkpoints.directory,
                             ledger_.checkpoint_header(trees, snapshot.evicted_bound));
     for (const NodePtr& node : snapshot.live) {
-      const auto tree = ledger_.number_of(node->tree());
-      if (tree >= trees) continue;
-      writer.add(static_cast<std::uint32_t>(tree), record_of(*node));
+      if (node->tree().number >= trees) continue;
+      writer.add(record_of(*node));
       ++report.nodes;
     }
     writer.finish();
@@ -52,7 +51,7 @@ bool restore(CheckpointReader& checkpoint, const Instance& instance, CentralLedg
   const auto roots = ledger.restore(checkpoint.header());
   if (!roots) return false;
   while (const auto next = checkpoint.next())
-    nodes.push(node_of(next->node, roots->at(next->tree), instance));
+    nodes.push(node_of(*next, roots->at(next->tree), instance));
   nodes.frontier.note_evicted(checkpoint.header().evicted_bound);
   ledger.restored();
   return true;

@@ -36,6 +36,7 @@ void check(const NodeRecord& record, const Node& root, const Instance& instance)
 
 NodeRecord record_of(const Node& node) {
   NodeRecord record;
+  record.tree = node.tree().number;
   record.cost = node.cost();
   record.bound = node.bound();
   record.conflicts = node.conflicts();

@@ -35,7 +35,7 @@ NodePtr SingleTree::next_root() {
     others.add(path);
     orders.push_back(std::make_shared<const AgentOrder>(std::move(open)));
   }
-  Tree& tree = tree_.emplace_back(Tree{&pool_, std::move(orders)});
+  Tree& tree = tree_.emplace_back(Tree{&pool_, 0, std::move(orders)});
   NodePtr root = Node::root(tree);
   cost_ = root->cost();
   return root;

@@ -62,10 +62,10 @@ TreeRecord record_of(const Tree& tree) {
 Trees::Trees(const Problem& problem, AgentStopsStore& stops, NodePool& pool)
     : problem_(problem), stops_(stops), pool_(pool), orders_(problem.instance.agent_count()) {}
 
-NodePtr Trees::add(const TreeRecord& record) {
+NodePtr Trees::add(const TreeRecord& record, std::uint32_t number) {
   require(record.orders.size() == orders_.size(),
           "a tree must fix as many agents' orders as the instance has agents");
-  Tree tree{&pool_, {}};
+  Tree tree{&pool_, number, {}};
   for (std::size_t agent = 0; agent < orders_.size(); ++agent)
     tree.orders.push_back(order_of(static_cast<AgentIndex>(agent), record.orders[agent]));
   return Node::root(trees_.emplace_back(std::move(tree)));

@@ -29,7 +29,7 @@ using Names = std::vector<std::string>;
 // A checkpoint as one value.
 struct Whole {
   CheckpointHeader header;
-  std::vector<CheckpointNode> nodes;
+  std::vector<NodeRecord> nodes;
 };
 
 // The nodes of a real search, breadth first below the first trees of the paper's forest.
@@ -50,8 +50,7 @@ class Search {
     Whole whole;
     for (const Tree* tree : trees_) whole.header.trees.push_back(record_of(*tree));
     for (std::size_t i = 0; i < nodes_.size() && i < most_nodes; ++i) {
-      const auto tree = std::ranges::find(trees_, &nodes_[i]->tree()) - trees_.begin();
-      whole.nodes.push_back({static_cast<std::uint32_t>(tree), record_of(*nodes_[i])});
+      whole.nodes.push_back(record_of(*nodes_[i]));
     }
     whole.header.fingerprint = fingerprint(instance_);
     whole.header.policy = Policy::kFixed;
@@ -87,7 +86,7 @@ const Search& search() {
 
 void write(const std::filesystem::path& directory, const Whole& whole) {
   CheckpointWriter writer(directory, whole.header);
-  for (const CheckpointNode& node : whole.nodes) writer.add(node.tree, node.node);
+  for (const NodeRecord& node : whole.nodes) writer.add(node);
   writer.finish();
 }
 
@@ -113,10 +112,7 @@ void expect_same(const Whole& found, const Whole& expected) {
   EXPECT_EQ(found.header.trees, expected.header.trees);
   EXPECT_EQ(found.header.counters, expected.header.counters);
   EXPECT_EQ(found.header.seconds, expected.header.seconds);
-  const auto same = [](const CheckpointNode& a, const CheckpointNode& b) {
-    return a.tree == b.tree && a.node == b.node;
-  };
-  EXPECT_TRUE(std::ranges::equal(found.nodes, expected.nodes, same));
+  EXPECT_EQ(found.nodes, expected.nodes);
 }
 
 TEST(Checkpoint, OfTenThousandNodesIsReadAgain) {
@@ -138,11 +134,12 @@ TEST(Checkpoint, HoldsTreesAndNodesToGoOnFrom) {
   AgentStopsStore stops(search().instance(), search().problem().distances);
   Trees trees(search().problem(), stops, pool);
   std::vector<NodePtr> roots;
-  for (const TreeRecord& tree : found.header.trees) roots.push_back(trees.add(tree));
+  for (const TreeRecord& tree : found.header.trees)
+    roots.push_back(trees.add(tree, static_cast<std::uint32_t>(roots.size())));
   for (std::size_t i = 0; i < found.nodes.size(); ++i) {
-    const CheckpointNode& node = found.nodes[i];
-    const NodePtr again = node_of(node.node, roots[node.tree], search().instance());
-    EXPECT_EQ(record_of(*again), whole.nodes[i].node);
+    const NodeRecord& node = found.nodes[i];
+    const NodePtr again = node_of(node, roots[node.tree], search().instance());
+    EXPECT_EQ(record_of(*again), whole.nodes[i]);
   }
 }
 
@@ -169,7 +166,7 @@ TEST(Checkpoint, ReplacesTheOneBeforeWhenFinished) {
   const Whole after = search().whole(2000);
   write(directory.path(), before);
   CheckpointWriter writer(directory.path(), after.header);
-  for (const CheckpointNode& node : after.nodes) writer.add(node.tree, node.node);
+  for (const NodeRecord& node : after.nodes) writer.add(node);
   expect_same(read(directory.path()), before);
   writer.finish();
   expect_same(read(directory.path()), after);
@@ -181,7 +178,7 @@ TEST(Checkpoint, GivenUpLeavesTheOneBefore) {
   write(directory.path(), before);
   {
     CheckpointWriter writer(directory.path(), before.header);
-    for (const CheckpointNode& node : search().whole(2000).nodes) writer.add(node.tree, node.node);
+    for (const NodeRecord& node : search().whole(2000).nodes) writer.add(node);
   }
   expect_same(read(directory.path()), before);
   EXPECT_EQ(directory.files(), Names{"checkpoint.grove"});
@@ -196,7 +193,7 @@ TEST(Checkpoint, OfAProcessKilledWhileWritingLeavesTheOneBefore) {
   ASSERT_GE(child, 0);
   if (child == 0) {
     CheckpointWriter writer(directory.path(), after.header);
-    for (const CheckpointNode& node : after.nodes) writer.add(node.tree, node.node);
+    for (const NodeRecord& node : after.nodes) writer.add(node);
     ::raise(SIGKILL);
   }
   int status = 0;
@@ -248,8 +245,9 @@ TEST(Checkpoint, InAFolderThatIsNoneIsAnError) {
 TEST(Checkpoint, IsNotMadeOfWhatCannotBe) {
   const TemporaryDirectory directory;
   CheckpointHeader header = search().whole(0).header;
-  EXPECT_THROW(CheckpointWriter(directory.path(), header).add(5, NodeRecord()),
-               std::invalid_argument);
+  NodeRecord stray;
+  stray.tree = 5;
+  EXPECT_THROW(CheckpointWriter(directory.path(), header).add(stray), std::invalid_argument);
   header.policy = Policy::kAuto;
   EXPECT_THROW(CheckpointWriter(directory.path(), header), std::invalid_argument);
   EXPECT_TRUE(directory.files().empty());

@@ -59,8 +59,8 @@ using Taken = std::vector<std::pair<std::int32_t, std::int64_t>>;
 TEST(RankAlone, SaysThatABatchWasTakenOverWhenItWas) {
   RankAlone r;
   const NodePtr root = r.new_root();
-  r.rank.handle(0, message::NewTree{record_of(root->tree())});
-  const auto status = r.status_after(2, message::Batch{0, {{0, record_of(*root)}}, {}});
+  r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
+  const auto status = r.status_after(2, message::Batch{0, {record_of(*root)}, {}});
   EXPECT_EQ(status.batches, Taken({{2, 1}}));
   EXPECT_EQ(status.bound, root->bound());
 }
@@ -68,10 +68,10 @@ TEST(RankAlone, SaysThatABatchWasTakenOverWhenItWas) {
 TEST(RankAlone, SaysNothingOfABatchWhoseTreeItHasNotHeardOf) {
   RankAlone r;
   const NodePtr root = r.new_root();
-  const message::Batch batch{0, {{0, record_of(*root)}}, {}};
+  const message::Batch batch{0, {record_of(*root)}, {}};
   EXPECT_TRUE(r.status_after(2, batch).batches.empty());
   EXPECT_EQ(r.status_after(2, message::Batch{}).batches, Taken()) << "those of a rank keep order";
-  const auto status = r.status_after(0, message::NewTree{record_of(root->tree())});
+  const auto status = r.status_after(0, message::NewTree{0, record_of(root->tree())});
   EXPECT_EQ(status.batches, Taken({{2, 2}}));
   EXPECT_EQ(status.bound, root->bound());
 }
@@ -79,8 +79,8 @@ TEST(RankAlone, SaysNothingOfABatchWhoseTreeItHasNotHeardOf) {
 TEST(RankAlone, SaysNothingOfABatchOfALaterEra) {
   RankAlone r;
   const NodePtr root = r.new_root();
-  r.rank.handle(0, message::NewTree{record_of(root->tree())});
-  const auto early = r.status_after(2, message::Batch{1, {{0, record_of(*root)}}, {}});
+  r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
+  const auto early = r.status_after(2, message::Batch{1, {record_of(*root)}, {}});
   EXPECT_TRUE(early.batches.empty());
   const auto status = r.status_after(0, message::BeginAnew{0});
   EXPECT_EQ(status.batches, Taken({{2, 1}}));
@@ -91,8 +91,8 @@ TEST(RankAlone, SaysNothingOfABatchOfALaterEra) {
 TEST(RankAlone, CoversWhatItGaveAwayUntilItIsReleased) {
   RankAlone r;
   const NodePtr root = r.new_root();
-  r.rank.handle(0, message::NewTree{record_of(root->tree())});
-  r.rank.handle(0, message::Entrust{{{0, record_of(*root)}, {0, record_of(*root)}}, kInfiniteCost});
+  r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
+  r.rank.handle(0, message::Entrust{{record_of(*root), record_of(*root)}, kInfiniteCost});
   const auto given = r.status_after(0, message::Order{2, 1});
   EXPECT_EQ(given.live, 2);
   EXPECT_EQ(given.open, 1);

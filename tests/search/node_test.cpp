@@ -37,7 +37,7 @@ class NodeTest : public ::testing::Test {
       : instance_(testing::instance_of(
             {"....", "...."}, {{{0, 0}, Position{2, 0}}, {{0, 1}, Position{1, 1}, {{2, 1}}}})),
         problem_(instance_, Limits()),
-        tree_{&pool_, {}} {
+        tree_{&pool_, 0, {}} {
     add_order(0, {}, {0, 1, 2});
     add_order(1, {0}, {4, 5, 6, 5});
     root_ = Node::root(tree_);

@@ -21,7 +21,7 @@ namespace tree_record_test {
 // What add() says of a record.
 std::string answer(Trees& trees, const TreeRecord& record) {
   try {
-    trees.add(record);
+    trees.add(record, 0);
     return "accepted";
   } catch (const std::invalid_argument& error) {
     return error.what();
@@ -79,8 +79,10 @@ TEST_F(TreeRecords, MakeTreesOfAFixedOrderAgain) {
   std::set<const AgentOrder*> orders_again;
   std::vector<NodePtr> kept;
   for (const NodePtr& root : fixed_roots(20)) {
-    const NodePtr again = kept.emplace_back(trees_.add(record_of(root->tree())));
+    const NodePtr again =
+        kept.emplace_back(trees_.add(record_of(root->tree()), root->tree().number));
     expect_same(root, again);
+    EXPECT_EQ(again->tree().number, kept.size() - 1);
     for (std::size_t agent = 0; agent < root->tree().orders.size(); ++agent) {
       EXPECT_TRUE(again->tree().orders[agent]->goals);
       orders.insert(root->tree().orders[agent].get());
@@ -93,7 +95,7 @@ TEST_F(TreeRecords, MakeTreesOfAFixedOrderAgain) {
 
 TEST_F(TreeRecords, MakeTheTreeOfAllOrdersAgain) {
   const NodePtr root = single_tree_.next_root();
-  const NodePtr again = trees_.add(record_of(root->tree()));
+  const NodePtr again = trees_.add(record_of(root->tree()), 0);
   expect_same(root, again);
   for (const auto& order : again->tree().orders) EXPECT_FALSE(order->goals);
 }
@@ -107,7 +109,7 @@ TEST_F(TreeRecords, MakeTreesOfClassesAgain) {
   of_two->fixed = false;
   const Stop second = of_two->sequences.prefix[1];
   of_two->sequences.prefix.resize(1);
-  const NodePtr again = trees_.add(record);
+  const NodePtr again = trees_.add(record, 0);
   EXPECT_EQ(record_of(again->tree()), record);
 
   of_two->sequences.forbidden_next = StopSet{1} << second;
@@ -116,7 +118,7 @@ TEST_F(TreeRecords, MakeTreesOfClassesAgain) {
 
 TEST_F(TreeRecords, HoldNodesMadeAgain) {
   const NodePtr root = fixed_roots(1)[0];
-  const NodePtr again = trees_.add(record_of(root->tree()));
+  const NodePtr again = trees_.add(record_of(root->tree()), 0);
   const Expansion expansion = expand(root);
   ASSERT_FALSE(expansion.children.empty());
   for (const NodePtr& child : expansion.children)
@@ -161,8 +163,8 @@ TEST_F(SmallTreeRecords, AreAcceptedUnspoilt) {
   expect("accepted", [](TreeRecord&) {});
   expect_free("accepted", [](TreeRecord&) {});
   // Without stops, a fixed order and an open one are the same class and yet not the same order.
-  EXPECT_TRUE(trees_.add(record_of(fixed_->tree()))->tree().orders[2]->goals);
-  EXPECT_FALSE(trees_.add(record_of(free_->tree()))->tree().orders[2]->goals);
+  EXPECT_TRUE(trees_.add(record_of(fixed_->tree()), 0)->tree().orders[2]->goals);
+  EXPECT_FALSE(trees_.add(record_of(free_->tree()), 0)->tree().orders[2]->goals);
 }
 
 TEST_F(SmallTreeRecords, OfOtherAgentsAreRefused) {

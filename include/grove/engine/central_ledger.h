@@ -5,7 +5,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -41,10 +40,8 @@ class CentralLedger : public Ledger {
   // For a checkpoint, in which so many trees, the first ones, count as instantiated.
   CheckpointHeader checkpoint_header(std::int64_t trees, Cost evicted_bound);
   void checkpointed(const CheckpointReport& report);
-  // How many trees are instantiated, and their roots pushed; and which of them, from 0, a tree is
-  // (any greater number for another).
+  // How many trees are instantiated, and their roots pushed.
   std::int64_t trees() const { return trees_; }
-  std::int64_t number_of(const Tree& tree) const;
   // What the first tree found out about the agents' stops, for workers to begin with.
   const AgentStopsStore& stops() const { return stops_; }
 
@@ -70,7 +67,6 @@ class CentralLedger : public Ledger {
  private:
   bool needs_tree() const;
   std::int64_t nodes_before() const;
-  void add_root(const NodePtr& root);
   void grow();
   bool begin_anew();
   // Observers are told one thing at a time.
@@ -100,10 +96,9 @@ class CentralLedger : public Ledger {
   CheckpointHeader before_;  // what earlier runs did: the counters and the time
 
   mutable std::mutex growing_;  // guards the forest and what follows
-  std::vector<NodePtr> roots_;
-  std::map<const Tree*, std::int64_t> numbers_;  // of their trees
-  NodePtr prepared_;                             // of the next tree, if it has been prepared
-  Cost begun_anew_at_ = -1;  // the bound that the last run through the trees proved
+  std::vector<NodePtr> roots_;  // by the number of the tree
+  NodePtr prepared_;            // of the next tree, if it has been prepared
+  Cost begun_anew_at_ = -1;     // the bound that the last run through the trees proved
   std::int64_t restarts_ = 0;
 
   std::atomic<Cost> next_tree_bound_;

@@ -32,15 +32,9 @@ struct CheckpointHeader {
   Cost lower_bound = 0;                 // proven: no plan costs less
   Cost evicted_bound = kInfiniteCost;   // the least bound of nodes given up; none was if infinite
   std::int64_t trees_instantiated = 0;  // by the forest so far; at least as many as trees.size()
-  std::vector<TreeRecord> trees;        // those that nodes belong to
+  std::vector<TreeRecord> trees;        // by number; those that nodes belong to are among them
   std::map<std::string, std::int64_t> counters;  // of the run so far, by name: nodes_expanded, ...
   double seconds = 0;                            // spent so far
-};
-
-// A live node and its tree's index in CheckpointHeader::trees.
-struct CheckpointNode {
-  std::uint32_t tree = 0;
-  NodeRecord node;
 };
 
 // DIR/checkpoint.grove.
@@ -55,8 +49,8 @@ class CheckpointWriter {
   // `directory` must exist. Throws std::invalid_argument for the policy kAuto.
   CheckpointWriter(const std::filesystem::path& directory, const CheckpointHeader& header);
 
-  // Throws std::invalid_argument for a tree that is not in the header.
-  void add(std::uint32_t tree, NodeRecord node);
+  // Throws std::invalid_argument for a node of a tree that is not in the header.
+  void add(NodeRecord node);
   // To be called once, last.
   void finish();
 
@@ -69,7 +63,7 @@ class CheckpointWriter {
   std::uint32_t checksum_;  // of all so far
   std::size_t trees_;
   std::uint64_t nodes_ = 0;
-  std::vector<CheckpointNode> waiting_;  // to be written as one block
+  std::vector<NodeRecord> waiting_;  // to be written as one block
   std::size_t waiting_bytes_ = 0;
 };
 
@@ -87,7 +81,7 @@ class CheckpointReader {
 
   const CheckpointHeader& header() const { return header_; }
   // The next node; none after the last.
-  std::optional<CheckpointNode> next();
+  std::optional<NodeRecord> next();
 
  private:
   class Blocks;
@@ -98,9 +92,9 @@ class CheckpointReader {
 
   std::unique_ptr<Blocks> blocks_;
   CheckpointHeader header_;
-  std::vector<CheckpointNode> nodes_;  // of the block read last
-  std::size_t next_ = 0;               // of them
-  std::uint64_t nodes_read_ = 0;       // from all blocks
+  std::vector<NodeRecord> nodes_;  // of the block read last
+  std::size_t next_ = 0;           // of them
+  std::uint64_t nodes_read_ = 0;   // from all blocks
   bool ended_ = false;
 };
 

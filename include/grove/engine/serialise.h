@@ -117,8 +117,8 @@ void serialize(Archive& archive, NodeRecord::Walk& walk) {
 
 template <class Archive>
 void serialize(Archive& archive, NodeRecord& record) {
-  archive(record.constraints, record.paths, record.cost, record.bound, record.conflicts,
-          record.bounded);
+  archive(record.tree, record.constraints, record.paths, record.cost, record.bound,
+          record.conflicts, record.bounded);
 }
 
 template <class Archive>

@@ -27,7 +27,6 @@ class Forest {
 
   // The cost of the tree instantiated last, its conflicts ignored; none before the first.
   virtual std::optional<Cost> last_cost() const = 0;
-  virtual std::int64_t trees() const = 0;
   // Sequencing problems solved so far.
   virtual std::int64_t rtsp_calls() const = 0;
 };

@@ -33,6 +33,7 @@ struct AgentOrder {
 // One tree of the forest: a class of joint task sequences. Immutable; outlives its nodes.
 struct Tree {
   NodePool* pool = nullptr;                               // where its nodes live
+  std::uint32_t number = 0;                               // from 0, in the order of instantiation
   std::vector<std::shared_ptr<const AgentOrder>> orders;  // by AgentIndex
 };
 

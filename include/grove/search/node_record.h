@@ -9,7 +9,7 @@
 
 namespace grove {
 
-// All that a node demands and is, beside its tree. A value.
+// All that a node demands and is, and which tree it belongs to. A value.
 struct NodeRecord {
   struct Walk {
     AgentIndex agent = -1;
@@ -18,6 +18,7 @@ struct NodeRecord {
     friend bool operator==(const Walk&, const Walk&) = default;
   };
 
+  std::uint32_t tree = 0;                    // its number
   std::vector<AgentConstraint> constraints;  // in the order in which they were made
   std::vector<Walk> paths;                   // those that are not the tree's, by agent
   Cost cost = 0;
@@ -34,8 +35,8 @@ NodeRecord record_of(const Node& node);
 // there, a path that is none, a bound below the root's.
 void check(const NodeRecord& record, const Node& root, const Instance& instance);
 
-// The node again, below the root of a tree that fixes the same. Ancestors are made for it that have
-// its constraints and nothing else. Throws as check() does.
+// The node again, below the root of its tree, or of one that fixes the same. Ancestors are made for
+// it that have its constraints and nothing else. Throws as check() does.
 NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& instance);
 
 }  // namespace grove

@@ -28,7 +28,6 @@ class SequenceForest : public Forest {
   Cost next_bound() const override;
   NodePtr next_root() override;
   std::optional<Cost> last_cost() const override { return last_cost_; }
-  std::int64_t trees() const override { return static_cast<std::int64_t>(trees_.size()); }
   std::int64_t rtsp_calls() const override { return sequences_.rtsp_calls(); }
 
  private:
@@ -49,6 +48,7 @@ class SequenceForest : public Forest {
   Path path_;
   std::optional<Cost> last_cost_;
   std::deque<Tree> trees_;
+  std::uint32_t count_ = 0;  // of those instantiated
 };
 
 }  // namespace grove

@@ -22,7 +22,6 @@ class SingleTree : public Forest {
   Cost next_bound() const override { return tree_.empty() ? relaxed_bound_ : kInfiniteCost; }
   NodePtr next_root() override;
   std::optional<Cost> last_cost() const override { return cost_; }
-  std::int64_t trees() const override { return static_cast<std::int64_t>(tree_.size()); }
   std::int64_t rtsp_calls() const override { return 0; }
 
  private:

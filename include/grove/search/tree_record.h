@@ -39,12 +39,12 @@ class Trees {
   // agents whose order is not fixed. Nodes of these trees will live in `pool`.
   Trees(const Problem& problem, AgentStopsStore& stops, NodePool& pool);
 
-  // The root of the tree again. Throws std::invalid_argument, and adds nothing, for a record that
-  // cannot be of this instance: a number of agents or stops that is not its own, a path that is no
-  // walk from the agent's start to where it may rest, visits other stops or visits them in another
-  // order, or that is not the shortest in its order. That a class left open holds no better order
-  // is believed.
-  NodePtr add(const TreeRecord& record);
+  // The root of the tree of this number again. Throws std::invalid_argument, and adds nothing, for
+  // a record that cannot be of this instance: a number of agents or stops that is not its own, a
+  // path that is no walk from the agent's start to where it may rest, visits other stops or visits
+  // them in another order, or that is not the shortest in its order. That a class left open holds
+  // no better order is believed.
+  NodePtr add(const TreeRecord& record, std::uint32_t number);
 
   std::size_t size() const { return trees_.size(); }
 
