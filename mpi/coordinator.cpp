@@ -50,7 +50,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       transport_(transport),
       announcer_(observer, transport),
       nodes_(transport),
-      ledger_(problem, options, limits, announcer_, pool_, nodes_),
+      run_(problem, options, limits, announcer_, pool_, nodes_),
       broker_(transport.ranks()),
       timer_(options.checkpoints),
       batches_to_(static_cast<std::size_t>(transport.ranks())) {}
@@ -66,12 +66,12 @@ void Coordinator::begin() {
   if (options_.resume)
     restore(*options_.resume);
   else
-    ledger_.begin();
+    run_.begin();
 }
 
 // Spread over the ranks as they come.
 void Coordinator::restore(CheckpointReader& checkpoint) {
-  const auto roots = ledger_.restore(checkpoint.header());
+  const auto roots = run_.restore(checkpoint.header());
   restored_ = roots.has_value();
   if (!roots) return;
   nodes_.entrust(0, {}, checkpoint.header().evicted_bound);
@@ -89,7 +89,7 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
     if (nodes.size() == kNodesEntrusted) send();
   }
   if (!nodes.empty()) send();
-  ledger_.restored();
+  run_.restored();
 }
 
 bool Coordinator::is_for_coordinator(const message::Message& message) {
@@ -104,7 +104,7 @@ void Coordinator::handle(int from, message::Message&& message) {
   if (auto* status = std::get_if<message::Status>(&message))
     heard(from, std::move(*status));
   else if (auto* found = std::get_if<message::Found>(&message))
-    ledger_.post(std::move(found->plan), found->source);
+    run_.ledger().post(std::move(found->plan), found->source);
   else if (const auto* gathered = std::get_if<message::Gathered>(&message))
     gathering_.value().handle(*gathered);
   else if (auto* part = std::get_if<message::Part>(&message))
@@ -123,10 +123,10 @@ void Coordinator::heard(int from, message::Status status) {
   }
   if (status.stopped != StopReason::kNone) limits_.stop(status.stopped);
   nodes_.update(from, std::move(status));
-  ledger_.nodes_changed();
-  ledger_.worked();
+  run_.ledger().nodes_changed();
+  run_.announcements().worked();
   if (ending_) return;  // a batch sent after a farewell would be left under way
-  ledger_.bring_due_tree();
+  run_.trees().bring_due_tree();
   while (const auto gift = broker_.next())
     transport_.send(gift->from, bytes_of(message::Order{gift->to, gift->nodes}));
 }
@@ -135,23 +135,23 @@ void Coordinator::heard(int from, message::Status status) {
 void Coordinator::look_after_checkpoints() {
   if (gathering_ && gathering_->is_done()) gathering_.reset();
   if (gathering_ || options_.checkpoints.directory.empty() || !restored_) return;
-  const bool is_last = ledger_.over() && !gathered_at_end_;
-  if (!is_last && (ledger_.over() || !timer_.due())) return;
+  const bool is_last = run_.ledger().over() && !gathered_at_end_;
+  if (!is_last && (run_.ledger().over() || !timer_.due())) return;
   gathered_at_end_ = is_last;
-  gathering_.emplace(options_.checkpoints, ledger_, transport_);
+  gathering_.emplace(options_.checkpoints, run_, transport_);
 }
 
 void Coordinator::step() {
   if (ending_) return;
   look_after_checkpoints();
   if (gathering_) return;
-  if (ledger_.over()) {
+  if (run_.ledger().over()) {
     ending_ = true;
     tell_all(transport_, message::End{});
   } else if (!nodes_.any()) {
-    ledger_.bring_nodes();  // a tree may bring none: then nobody has anything to say
-  } else if (ledger_.claim_preparation()) {
-    ledger_.prepare_tree();
+    run_.trees().bring_nodes();  // a tree may bring none: then nobody has anything to say
+  } else if (run_.trees().claim_preparation()) {
+    run_.trees().prepare_tree();
   }
 }
 
@@ -165,8 +165,8 @@ void Coordinator::leave(const message::Farewell& farewell) {
 }
 
 Solution Coordinator::conclude() {
-  ledger_.end();
-  Solution solution = ledger_.conclude();
+  run_.end();
+  Solution solution = run_.conclude();
   for (const auto& [key, count] : counts_) solution.stats.counts[key] += count;
   return solution;
 }

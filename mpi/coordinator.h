@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "grove/engine/central_ledger.h"
 #include "grove/engine/run_observer.h"
+#include "grove/engine/run_state.h"
 #include "grove/search/node_pool.h"
 #include "mpi/broker.h"
 #include "mpi/gathering.h"
@@ -36,7 +36,7 @@ class Coordinator {
   // Looks at the limits; to be called now and then.
   void step();
 
-  const Ledger& ledger() const { return ledger_; }
+  Cost lower_bound() { return run_.ledger().lower_bound(); }
   // Have all ranks said farewell?
   bool ended() const { return farewells_ == transport_.ranks(); }
   // Then: the answer.
@@ -72,7 +72,7 @@ class Coordinator {
   Announcer announcer_;
   NodePool pool_;  // of the roots
   RankNodes nodes_;
-  CentralLedger ledger_;
+  RunState run_;
   Broker broker_;
 
   CheckpointTimer timer_;

@@ -19,8 +19,8 @@
 
 namespace grove {
 
-Gathering::Gathering(const Checkpoints& checkpoints, CentralLedger& ledger, Transport& transport)
-    : checkpoints_(checkpoints), ledger_(ledger), transport_(transport), trees_(ledger.trees()) {
+Gathering::Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport)
+    : checkpoints_(checkpoints), run_(run), transport_(transport), trees_(run.trees().count()) {
   tell_all(transport, message::Gather{});
 }
 
@@ -43,7 +43,7 @@ void Gathering::handle(const message::Gathered& gathered) {
   if (++looked_ < transport_.ranks()) return;
   write([&] {
     writer_ = std::make_unique<CheckpointWriter>(checkpoints_.directory,
-                                                 ledger_.checkpoint_header(trees_, evicted_bound_));
+                                                 run_.checkpoint_header(trees_, evicted_bound_));
   });
   ask_next();
 }
@@ -69,7 +69,7 @@ void Gathering::ask_next() {
   }
   write([&] { writer_->finish(); });
   report_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-  ledger_.checkpointed(report_);
+  run_.announcements().checkpoint(report_);
   done_ = true;
 }
 

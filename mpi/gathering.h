@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "grove/engine/central_ledger.h"
 #include "grove/engine/checkpoint.h"
+#include "grove/engine/run_state.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 
@@ -20,7 +20,7 @@ namespace grove {
 class Gathering {
  public:
   // Tells all ranks. All must outlive this.
-  Gathering(const Checkpoints& checkpoints, CentralLedger& ledger, Transport& transport);
+  Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport);
 
   bool is_done() const { return done_; }
 
@@ -36,7 +36,7 @@ class Gathering {
   void write(Write what);
 
   const Checkpoints& checkpoints_;
-  CentralLedger& ledger_;
+  RunState& run_;
   Transport& transport_;
   const Clock::time_point begin_ = Clock::now();
   const std::int64_t trees_;  // that count as instantiated

@@ -34,13 +34,6 @@ class LedgerCopy : public Ledger {
   // Nobody prunes by the plan before it has been checked.
   void post(Plan plan, PlanSource source) override;
   void nodes_changed() override {}
-  void expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/) override {}
-  void evicted(std::span<const NodePtr> /*nodes*/) override {}
-  void worked() override {}
-  void bring_due_tree() override {}
-  void bring_nodes() override {}
-  bool claim_preparation() override { return false; }
-  void prepare_tree() override {}
 
   // The best plan posted since, if it is of use.
   std::optional<Found> take_found();

@@ -35,7 +35,7 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       transport_(transport),
       stops_(stops),
       ledger_(limits, nodes_.frontier),
-      search_(options, limits, nodes_, ledger_),
+      search_(options, limits, nodes_, ledger_, elsewhere_, unwatched_),
       trees_(problem, stops_, nodes_.pool) {}
 
 void Rank::handle(int from, message::Message&& message) {

@@ -79,6 +79,8 @@ class Rank {
   LocalNodes nodes_;
   AgentStopsStore stops_;
   LedgerCopy ledger_;
+  TreeSource elsewhere_;    // the coordinator brings trees,
+  TurnObserver unwatched_;  // and counts what is done
   SharedSearch search_;
 
   Trees trees_;

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "grove/engine/ledger.h"
+#include "grove/engine/live_nodes.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 

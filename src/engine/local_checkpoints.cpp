@@ -27,10 +27,10 @@ void LocalCheckpoints::write() {
   const Clock::time_point begin = Clock::now();
   CheckpointReport report;
   try {
-    const std::int64_t trees = ledger_.trees();
+    const std::int64_t trees = run_.trees().count();
     const Frontier::Snapshot snapshot = nodes_.frontier.snapshot();
     CheckpointWriter writer(options_.checkpoints.directory,
-                            ledger_.checkpoint_header(trees, snapshot.evicted_bound));
+                            run_.checkpoint_header(trees, snapshot.evicted_bound));
     for (const NodePtr& node : snapshot.live) {
       if (node->tree().number >= trees) continue;
       writer.add(record_of(*node));
@@ -43,17 +43,17 @@ void LocalCheckpoints::write() {
     report.failure = "there is no memory left to write it";
   }
   report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  ledger_.checkpointed(report);
+  run_.announcements().checkpoint(report);
 }
 
-bool restore(CheckpointReader& checkpoint, const Instance& instance, CentralLedger& ledger,
+bool restore(CheckpointReader& checkpoint, const Instance& instance, RunState& run,
              LocalNodes& nodes) {
-  const auto roots = ledger.restore(checkpoint.header());
+  const auto roots = run.restore(checkpoint.header());
   if (!roots) return false;
   while (const auto next = checkpoint.next())
     nodes.push(node_of(*next, roots->at(next->tree), instance));
   nodes.frontier.note_evicted(checkpoint.header().evicted_bound);
-  ledger.restored();
+  run.restored();
   return true;
 }
 

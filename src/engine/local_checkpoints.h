@@ -4,10 +4,10 @@
 
 #include <mutex>
 
-#include "grove/engine/central_ledger.h"
 #include "grove/engine/checkpoint.h"
 #include "grove/engine/checkpoints.h"
 #include "grove/engine/local_nodes.h"
+#include "grove/engine/run_state.h"
 
 namespace grove {
 
@@ -15,8 +15,8 @@ namespace grove {
 class LocalCheckpoints {
  public:
   // All must outlive this.
-  LocalCheckpoints(const SolveOptions& options, CentralLedger& ledger, LocalNodes& nodes)
-      : options_(options), ledger_(ledger), nodes_(nodes), timer_(options.checkpoints) {}
+  LocalCheckpoints(const SolveOptions& options, RunState& run, LocalNodes& nodes)
+      : options_(options), run_(run), nodes_(nodes), timer_(options.checkpoints) {}
 
   // Writes one if it is due and nobody else is at it. To be called between turns.
   void write_if_due();
@@ -27,15 +27,15 @@ class LocalCheckpoints {
   void write();
 
   const SolveOptions& options_;
-  CentralLedger& ledger_;
+  RunState& run_;
   LocalNodes& nodes_;
   std::mutex mutex_;
   CheckpointTimer timer_;
 };
 
-// Makes the ledger and the nodes what they were. False if a limit struck: then there is nothing to
+// Makes the run and its nodes what they were. False if a limit struck: then there is nothing to
 // search.
-bool restore(CheckpointReader& checkpoint, const Instance& instance, CentralLedger& ledger,
+bool restore(CheckpointReader& checkpoint, const Instance& instance, RunState& run,
              LocalNodes& nodes);
 
 }  // namespace grove

@@ -27,21 +27,23 @@ constexpr double kExpectedPerConflict = 0.5;  // by measurement; 1 is a little w
 }  // namespace
 
 SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
-                           Ledger& ledger)
+                           Ledger& ledger, TreeSource& trees, TurnObserver& observer)
     : omega_(options.omega),
       uses_estimates_(techniques_of(options).has(Technique::kEstimates)),
       nodes_(nodes),
       pool_(nodes.pool),
       frontier_(nodes.frontier),
       ledger_(ledger),
+      trees_(trees),
+      observer_(observer),
       shares_(limits, options.node_memory),
       known_(std::make_shared<CommonMemory>()) {}
 
 NodePtr SharedSearch::take() {
-  ledger_.bring_due_tree();
+  trees_.bring_due_tree();
   NodePtr node = take_open();
   if (node || frontier_.live() > 0) return node;
-  ledger_.bring_nodes();
+  trees_.bring_nodes();
   return take_open();
 }
 
@@ -76,7 +78,7 @@ void SharedSearch::finish(const NodePtr& node, Expansion expansion) {
     return;
   }
   ++nodes_.expanded;
-  ledger_.expanded(node, expansion);
+  observer_.expanded(node, expansion);
   for (const NodePtr& child : expansion.children) {
     ++nodes_generated_;
     if (child->bound() < ledger_.cutoff()) frontier_.push(child);
@@ -108,7 +110,7 @@ void SharedSearch::keep_within_memory() {
 void SharedSearch::evict_to(std::size_t bytes) {
   while (pool_.bytes() > bytes && frontier_.open() > 1) {
     const auto evicted = frontier_.evict(frontier_.open() / 16 + 1, 1);
-    ledger_.evicted(evicted);
+    observer_.evicted(evicted);
     nodes_evicted_ += std::ssize(evicted);
   }
 }

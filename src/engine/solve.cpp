@@ -5,11 +5,11 @@
 #include <new>
 #include <string>
 
-#include "grove/engine/central_ledger.h"
 #include "grove/engine/checkpoint.h"
 #include "grove/engine/local_nodes.h"
 #include "grove/engine/multicore.h"
 #include "grove/engine/run_observer.h"
+#include "grove/engine/run_state.h"
 #include "grove/engine/shared_search.h"
 #include "grove/engine/worker.h"
 #include "grove/search/feasibility.h"
@@ -21,10 +21,9 @@ namespace grove {
 namespace {
 
 // The first tree, or all that a checkpoint knows. False: there is nothing to search.
-bool begin(const Problem& problem, const SolveOptions& options, CentralLedger& ledger,
-           LocalNodes& nodes) {
-  if (options.resume) return restore(*options.resume, problem.instance, ledger, nodes);
-  ledger.begin();
+bool begin(const Problem& problem, const SolveOptions& options, RunState& run, LocalNodes& nodes) {
+  if (options.resume) return restore(*options.resume, problem.instance, run, nodes);
+  run.begin();
   return true;
 }
 
@@ -62,15 +61,15 @@ class Workers {
 Solution search(const Problem& problem, const SolveOptions& options, const Limits& limits,
                 RunObserver& observer) {
   LocalNodes nodes;
-  CentralLedger ledger(problem, options, limits, observer, nodes.pool, nodes);
-  SharedSearch shared(options, limits, nodes, ledger);
-  LocalCheckpoints checkpoints(options, ledger, nodes);
+  RunState run(problem, options, limits, observer, nodes.pool, nodes);
+  SharedSearch shared(options, limits, nodes, run.ledger(), run.trees(), run.announcements());
+  LocalCheckpoints checkpoints(options, run, nodes);
   std::optional<Workers> workers;
   bool begun = false;
   try {
-    begun = begin(problem, options, ledger, nodes);
+    begun = begin(problem, options, run, nodes);
     if (begun) {
-      workers.emplace(problem, options, limits, shared, ledger.stops());
+      workers.emplace(problem, options, limits, shared, run.stops());
       workers->run([&] { checkpoints.write_if_due(); });
     }
   } catch (const std::bad_alloc&) {
@@ -80,8 +79,8 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   if (workers) workers->add_counts(stats);
   workers.reset();  // their memory may be needed for the answer
   if (begun) checkpoints.write_last();
-  ledger.end();
-  Solution solution = ledger.conclude();
+  run.end();
+  Solution solution = run.conclude();
   shared.add_counts(solution.stats);
   solution.stats.counts.merge(stats.counts);
   solution.stats.measures["node_bytes"] = nodes.pool.mean_bytes();

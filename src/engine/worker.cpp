@@ -53,7 +53,7 @@ std::optional<Worker::Turn> Worker::choose() {
   if (NodePtr node = shared_.unfinished(); node && node != helped_)
     return one(Job::kHelp, std::move(node));
   if (has_primal && !shared_.over() && !primal().optimal()) return one(Job::kPrimal);
-  if (shared_.ledger().claim_preparation()) return one(Job::kPrepare);
+  if (shared_.trees().claim_preparation()) return one(Job::kPrepare);
   return std::nullopt;
 }
 
@@ -84,7 +84,7 @@ void Worker::perform(Turn& turn, Expander& by) {
     case Turn::Job::kPrimal:
       return step_primal(turn);
     case Turn::Job::kPrepare:
-      return shared_.ledger().prepare_tree();
+      return shared_.trees().prepare_tree();
   }
 }
 
@@ -125,7 +125,7 @@ void Worker::commit(Turn& turn) {
     if (turn.job == Turn::Job::kExpand) shared_.finish(turn.node, std::move(turn.expansion));
     share_.tree_worked(turn.work);
   }
-  shared_.ledger().worked();
+  shared_.observer().worked();
 }
 
 void Worker::add_counts(Stats& stats) const {

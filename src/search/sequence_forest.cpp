@@ -56,7 +56,6 @@ NodePtr SequenceForest::next_root() {
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
     tree.orders.push_back(slot(agent, pending_->ranks[agent]));
   NodePtr root = Node::root(tree);
-  last_cost_ = pending_->cost;
   ++count_;
   pending_.reset();  // only now: what throws before this point loses no tree
   return root;

@@ -36,9 +36,7 @@ NodePtr SingleTree::next_root() {
     orders.push_back(std::make_shared<const AgentOrder>(std::move(open)));
   }
   Tree& tree = tree_.emplace_back(Tree{&pool_, 0, std::move(orders)});
-  NodePtr root = Node::root(tree);
-  cost_ = root->cost();
-  return root;
+  return Node::root(tree);
 }
 
 }  // namespace grove

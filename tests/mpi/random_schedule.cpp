@@ -172,7 +172,7 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
       counts.struck = true;
     }
     turns += done.worked;
-    if (look(coordinator.ledger().lower_bound())) break;
+    if (look(coordinator.lower_bound())) break;
     quiet = done.heard || done.worked || under_way() || any_frozen() ? 0 : quiet + 1;
     counts.stuck = quiet > kLongQuiet * schedule.ranks;
   }

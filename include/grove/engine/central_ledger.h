@@ -1,116 +1,60 @@
 // SPDX-License-Identifier: MIT
-// The one ledger of a run: what is proven, what is found, and which tree comes next.
+// The one ledger of a run: what is proven and what is found.
 #pragma once
 
 #include <atomic>
-#include <chrono>
-#include <cstdint>
-#include <memory>
 #include <mutex>
 #include <optional>
-#include <vector>
 
-#include "grove/engine/checkpoint.h"
+#include "grove/engine/announcements.h"
 #include "grove/engine/ledger.h"
-#include "grove/engine/run_observer.h"
-#include "grove/engine/solve.h"
-#include "grove/planning/agent_stops_store.h"
-#include "grove/search/forest.h"
+#include "grove/engine/live_nodes.h"
+#include "grove/model/limits.h"
 #include "grove/search/gate.h"
-#include "grove/search/tree_record.h"
 
 namespace grove {
 
-// The gate, the forest and the observer. The arguments are at the head of the .cpp.
+// The gate, with the numbers that it decides by kept up to date. The argument is at the head of the
+// .cpp.
 class CentralLedger : public Ledger {
  public:
-  // All must outlive this. The nodes of trees are made in `pool`.
-  CentralLedger(const Problem& problem, const SolveOptions& options, const Limits& limits,
-                RunObserver& observer, NodePool& pool, LiveNodes& nodes);
-  ~CentralLedger() override;
+  // All must outlive this. `trees_from`: no tree of the run costs less.
+  CentralLedger(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,
+                Announcements& announcements, Cost trees_from)
+      : limits_(limits),
+        nodes_(nodes),
+        announcements_(announcements),
+        gate_(instance, omega),
+        trees_from_(trees_from) {}
 
-  // Before all else, from one thread: the plan to start from, and the first tree.
-  void begin();
-  // In place of begin(): takes over what a checkpoint knows, and makes its trees again; the roots
-  // by their number there. Then push the nodes, and what was given up, and call restored(). None if
-  // a limit struck: the plan and the bound are known, but there is nothing to search. Throws
-  // InputError if the trees that come first here are others.
-  std::optional<std::vector<NodePtr>> restore(const CheckpointHeader& header);
-  void restored();
-  // For a checkpoint, in which so many trees, the first ones, count as instantiated.
-  CheckpointHeader checkpoint_header(std::int64_t trees, Cost evicted_bound);
-  void checkpointed(const CheckpointReport& report);
-  // How many trees are instantiated, and their roots pushed.
-  std::int64_t trees() const { return trees_; }
-  // What the first tree found out about the agents' stops, for workers to begin with.
-  const AgentStopsStore& stops() const { return stops_; }
-
-  bool over() const override;
+  bool over() const override {
+    return gate_.finished() || out_of_nodes_ || limits_.stop_requested();
+  }
   Cost cutoff() const override { return gate_.incumbent_cost().value_or(kInfiniteCost); }
   std::optional<Plan> plan_below(Cost cost) const override;
   Cost lower_bound() const override { return gate_.lower_bound(); }
   void post(Plan plan, PlanSource source) override;
   void nodes_changed() override;
-  void expanded(const NodePtr& node, const Expansion& expansion) override;
-  void evicted(std::span<const NodePtr> nodes) override;
-  void worked() override { tell(RunEvent::kProgress); }
-  void bring_due_tree() override;
-  void bring_nodes() override;
-  bool claim_preparation() override;
-  void prepare_tree() override;
 
-  // When no worker is at work any more: tells the observer that this is the end; the answer, with
-  // the counts of trees.
-  void end() { tell(RunEvent::kEnd); }
-  Solution conclude() const;
+  // For decisions that are the gate's.
+  const Gate& gate() const { return gate_; }
+  // What an earlier run proved.
+  void resume_at(Cost lower_bound);
+  // No tree that is still to come costs less; kInfiniteCost: none is to come. To be said after the
+  // roots of the others were pushed.
+  void expect_trees_from(Cost bound) { trees_from_ = bound; }
+  Cost trees_from() const { return trees_from_; }
+  // No node is left and none will come, though the gate does not call the run finished.
+  void end() { out_of_nodes_ = true; }
 
  private:
-  bool needs_tree() const;
-  std::int64_t nodes_before() const;
-  void grow();
-  bool begin_anew();
-  // Observers are told one thing at a time.
-  template <class Tell>
-  void watch(Tell what) {
-    const std::lock_guard lock(observing_);
-    what();
-  }
-  void tell(RunEvent event);
-  Progress progress() const;
-
-  using Clock = std::chrono::steady_clock;
-
-  const SolveOptions& options_;
   const Limits& limits_;
-  RunObserver& observer_;
   LiveNodes& nodes_;
-  const Instance& instance_;
-  const Omega omega_;
+  Announcements& announcements_;
   Gate gate_;
-  AgentStopsStore stops_;  // the forest's
-  std::unique_ptr<Forest> forest_;
-
-  Trees restored_trees_;
-  const Clock::time_point started_ = Clock::now();
-  bool resumed_ = false;
-  CheckpointHeader before_;  // what earlier runs did: the counters and the time
-
-  mutable std::mutex growing_;  // guards the forest and what follows
-  std::vector<NodePtr> roots_;  // by the number of the tree
-  NodePtr prepared_;            // of the next tree, if it has been prepared
-  Cost begun_anew_at_ = -1;     // the bound that the last run through the trees proved
-  std::int64_t restarts_ = 0;
-
-  std::atomic<Cost> next_tree_bound_;
-  std::atomic<Cost> last_tree_cost_;
-  std::atomic<std::int64_t> trees_{0};
-  std::atomic<bool> preparing_{false};
-  std::atomic<std::int64_t> trees_prepared_{0};
-  std::atomic<bool> out_of_nodes_{false};  // though not finished
-
+  std::atomic<Cost> trees_from_;
+  std::atomic<bool> out_of_nodes_{false};
   std::mutex posting_;  // orders what is announced of plans
-  std::mutex observing_;
-  Cost announced_bound_ = 0;  // under observing_
 };
 
 }  // namespace grove

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "grove/engine/ledger.h"
+#include "grove/engine/live_nodes.h"
 #include "grove/search/frontier.h"
 #include "grove/search/node_pool.h"
 

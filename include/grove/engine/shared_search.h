@@ -12,6 +12,8 @@
 #include "grove/engine/local_nodes.h"
 #include "grove/engine/memory_shares.h"
 #include "grove/engine/solve.h"
+#include "grove/engine/tree_source.h"
+#include "grove/engine/turn_observer.h"
 #include "grove/search/expander.h"
 #include "grove/search/memory.h"
 
@@ -23,10 +25,12 @@ namespace grove {
 class SharedSearch {
  public:
   // All must outlive this.
-  SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
-               Ledger& ledger);
+  SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes, Ledger& ledger,
+               TreeSource& trees, TurnObserver& observer);
 
   Ledger& ledger() { return ledger_; }
+  TreeSource& trees() { return trees_; }
+  TurnObserver& observer() { return observer_; }
   bool over() const { return ledger_.over(); }
 
   // A node to expand; null if there is none just now. Whoever takes it brings it back by finish().
@@ -57,6 +61,8 @@ class SharedSearch {
   NodePool& pool_;
   Frontier& frontier_;
   Ledger& ledger_;
+  TreeSource& trees_;
+  TurnObserver& observer_;
 
   std::atomic<std::int64_t> nodes_generated_{0};
   std::atomic<std::int64_t> nodes_evicted_{0};

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "grove/search/node.h"
 
@@ -25,8 +24,6 @@ class Forest {
   // The root of the next tree; null when there is none or a limit struck.
   virtual NodePtr next_root() = 0;
 
-  // The cost of the tree instantiated last, its conflicts ignored; none before the first.
-  virtual std::optional<Cost> last_cost() const = 0;
   // Sequencing problems solved so far.
   virtual std::int64_t rtsp_calls() const = 0;
 };

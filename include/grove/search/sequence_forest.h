@@ -27,7 +27,6 @@ class SequenceForest : public Forest {
 
   Cost next_bound() const override;
   NodePtr next_root() override;
-  std::optional<Cost> last_cost() const override { return last_cost_; }
   std::int64_t rtsp_calls() const override { return sequences_.rtsp_calls(); }
 
  private:
@@ -46,7 +45,6 @@ class SequenceForest : public Forest {
   LowLevelSearch low_level_;
   ConflictAvoidanceTable others_;
   Path path_;
-  std::optional<Cost> last_cost_;
   std::deque<Tree> trees_;
   std::uint32_t count_ = 0;  // of those instantiated
 };

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <deque>
-#include <optional>
 #include <vector>
 
 #include "grove/model/limits.h"
@@ -21,7 +20,6 @@ class SingleTree : public Forest {
 
   Cost next_bound() const override { return tree_.empty() ? relaxed_bound_ : kInfiniteCost; }
   NodePtr next_root() override;
-  std::optional<Cost> last_cost() const override { return cost_; }
   std::int64_t rtsp_calls() const override { return 0; }
 
  private:
@@ -31,7 +29,6 @@ class SingleTree : public Forest {
   const Limits& limits_;
   Cost relaxed_bound_ = 0;  // the agents' relaxation bounds, summed up
   std::deque<Tree> tree_;   // none or one
-  std::optional<Cost> cost_;
 };
 
 }  // namespace grove

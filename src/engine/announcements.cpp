@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "grove/engine/announcements.h"
+
+namespace grove {
+
+void Announcements::expanded(const NodePtr& node, const Expansion& expansion) {
+  const std::lock_guard lock(mutex_);
+  observer_.on_expanded(node, expansion);
+}
+
+void Announcements::evicted(std::span<const NodePtr> nodes) {
+  const std::lock_guard lock(mutex_);
+  for (const NodePtr& node : nodes) observer_.on_evicted(node);
+}
+
+void Announcements::event(RunEvent event) {
+  const std::lock_guard lock(mutex_);
+  observer_.on_event(event, progress_());
+}
+
+void Announcements::bound(Cost lower_bound) {
+  const std::lock_guard lock(mutex_);
+  if (lower_bound <= announced_bound_) return;
+  const Progress progress = progress_();
+  announced_bound_ = progress.lower_bound;
+  observer_.on_event(RunEvent::kBound, progress);
+}
+
+void Announcements::incumbent(const Plan& plan, PlanSource source) {
+  const std::lock_guard lock(mutex_);
+  observer_.on_pruned(plan.cost);
+  observer_.on_incumbent(plan, source, progress_());
+}
+
+void Announcements::root(const NodePtr& root) {
+  const std::lock_guard lock(mutex_);
+  observer_.on_root(root);
+}
+
+void Announcements::checkpoint(const CheckpointReport& report) {
+  const std::lock_guard lock(mutex_);
+  observer_.on_checkpoint(report);
+}
+
+}  // namespace grove

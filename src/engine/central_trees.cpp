@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// What the bound asks of the order in which things are done here is at the head of
+// central_ledger.cpp.
+#include "grove/engine/central_trees.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace grove {
+namespace {
+
+constexpr Cost kNoTree = -1;
+
+}  // namespace
+
+CentralTrees::CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
+                           CentralLedger& ledger, Announcements& announcements)
+    : options_(options),
+      forest_(forest),
+      nodes_(nodes),
+      ledger_(ledger),
+      announcements_(announcements),
+      last_cost_(kNoTree) {}
+
+void CentralTrees::resume_with(const NodePtr& root) {
+  instantiate(root);
+  ++count_;
+  ledger_.expect_trees_from(forest_.next_bound());
+}
+
+void CentralTrees::begin() {
+  const std::lock_guard lock(growing_);
+  if (roots_.empty() && !ledger_.over()) grow();
+}
+
+std::vector<TreeRecord> CentralTrees::records(std::int64_t count) const {
+  const std::lock_guard lock(growing_);
+  std::vector<TreeRecord> records;
+  for (std::int64_t i = 0; i < count; ++i)
+    records.push_back(record_of(roots_[static_cast<std::size_t>(i)]->tree()));
+  return records;
+}
+
+void CentralTrees::add_counts(Stats& stats) const {
+  stats.counts["nodes_generated"] += count_;  // the roots among them
+  stats.counts["restarts"] += restarts_;
+  stats.counts["roots_generated"] += count_;
+  stats.counts["trees_prepared"] += prepared_count_;
+  stats.counts["trees_prepared_in_vain"] += prepared_ ? 1 : 0;
+  stats.counts["rtsp_calls"] += forest_.rtsp_calls();
+}
+
+void CentralTrees::bring_due_tree() {
+  if (!is_due()) return;
+  const std::unique_lock lock(growing_, std::try_to_lock);
+  if (lock && is_due()) grow();
+}
+
+void CentralTrees::bring_nodes() {
+  const std::unique_lock lock(growing_, std::try_to_lock);
+  if (!lock || nodes_.any()) return;
+  if (is_due())
+    grow();
+  else if (!begin_anew())
+    ledger_.end();
+}
+
+// Algorithm 4, where there is a tree left.
+bool CentralTrees::is_due() const {
+  const Cost last = last_cost_;
+  return ledger_.trees_from() < kInfiniteCost &&
+         ledger_.gate().needs_new_tree(nodes_.bound(),
+                                       last == kNoTree ? std::nullopt : std::optional(last));
+}
+
+void CentralTrees::instantiate(const NodePtr& root) {
+  announcements_.root(root);
+  roots_.push_back(root);
+  last_cost_ = root->cost();
+}
+
+// Instantiates the next tree. Under growing_. If anything throws, the root stays prepared.
+void CentralTrees::grow() {
+  if (!prepared_) prepared_ = forest_.next_root();
+  const bool has_root = prepared_ != nullptr;
+  if (has_root) {
+    instantiate(prepared_);
+    if (!ledger_.gate().prunes(prepared_->bound())) nodes_.push(prepared_);
+    ++count_;
+  }
+  ledger_.expect_trees_from(forest_.next_bound());
+  prepared_ = nullptr;
+  preparing_ = false;
+  ledger_.nodes_changed();
+  if (has_root) announcements_.event(RunEvent::kTree);
+}
+
+// The paper's trees take time to make: sequencing problems, and a path for each agent.
+bool CentralTrees::claim_preparation() {
+  const bool wanted = options_.policy == Policy::kFixed && !options_.omega.is_infinite() &&
+                      ledger_.trees_from() < kInfiniteCost && !ledger_.over();
+  return wanted && !preparing_.exchange(true);
+}
+
+// A tree that is prepared is not instantiated: its root is not live, and bounds the trees to come.
+void CentralTrees::prepare_tree() {
+  const std::unique_lock lock(growing_, std::try_to_lock);
+  if (lock && (prepared_ || (prepared_ = forest_.next_root()))) {
+    ledger_.expect_trees_from(std::min(prepared_->bound(), forest_.next_bound()));
+    ++prepared_count_;
+  } else {
+    preparing_ = false;
+  }
+}
+
+// When no node is left but some were given up: starts again from all roots, or first adds a tree
+// that is due by then. False if that would lead nowhere: the last run was no better. Under
+// growing_.
+bool CentralTrees::begin_anew() {
+  const Cost proven = nodes_.evicted_bound();
+  if (proven == kInfiniteCost || options_.omega.is_infinite()) return false;
+  if (ledger_.trees_from() < proven) {
+    grow();
+    return true;
+  }
+  if (proven <= begun_anew_at_) return false;
+  begun_anew_at_ = proven;
+  ++restarts_;
+  std::vector<NodePtr> roots;
+  for (const NodePtr& root : roots_) {
+    announcements_.root(root);
+    if (!ledger_.gate().prunes(root->bound())) roots.push_back(root);
+  }
+  nodes_.restart(roots, proven);
+  return true;
+}
+
+}  // namespace grove

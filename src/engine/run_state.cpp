@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "grove/engine/run_state.h"
+
+#include <algorithm>
+#include <string>
+
+#include "grove/io/input_error.h"
+#include "grove/model/fingerprint.h"
+#include "grove/search/sequence_forest.h"
+#include "grove/search/single_tree.h"
+#include "stop_text.h"
+
+namespace grove {
+namespace {
+
+bool same_sequences(const Tree& a, const Tree& b) {
+  return std::ranges::equal(a.orders, b.orders, {}, &AgentOrder::sequences, &AgentOrder::sequences);
+}
+
+std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
+                                    const SolveOptions& options, const Limits& limits) {
+  if (options.policy == Policy::kFixed)
+    return std::make_unique<SequenceForest>(problem, pool, options.rtsp, limits);
+  return std::make_unique<SingleTree>(problem, stops, pool, limits);
+}
+
+}  // namespace
+
+RunState::RunState(const Problem& problem, const SolveOptions& options, const Limits& limits,
+                   RunObserver& observer, NodePool& pool, LiveNodes& nodes)
+    : instance_(problem.instance),
+      options_(options),
+      limits_(limits),
+      nodes_(nodes),
+      stops_(problem.instance, problem.distances),
+      forest_(make_forest(problem, stops_, pool, options, limits)),
+      restored_trees_(problem, stops_, pool),
+      announcements_(observer, [this] { return progress(); }),
+      ledger_(problem.instance, options.omega, limits, nodes, announcements_,
+              forest_->next_bound()),
+      trees_(options, *forest_, nodes, ledger_, announcements_) {}
+
+void RunState::begin() {
+  ledger_.nodes_changed();
+  if (options_.start) ledger_.post(*options_.start, PlanSource::kStart);
+  trees_.begin();
+}
+
+// Nothing is said of the nodes before they have been pushed: no bound is taken from their absence.
+std::optional<std::vector<NodePtr>> RunState::restore(const CheckpointHeader& header) {
+  resumed_ = true;
+  before_.counters = header.counters;
+  before_.seconds = header.seconds;
+  ledger_.resume_at(header.lower_bound);
+  if (header.incumbent) ledger_.post(*header.incumbent, PlanSource::kStart);
+  if (options_.start) ledger_.post(*options_.start, PlanSource::kStart);
+  std::vector<NodePtr> roots;
+  for (const TreeRecord& tree : header.trees) {
+    const NodePtr same = forest_->next_root();
+    if (!same && limits_.stop_requested()) return std::nullopt;
+    roots.push_back(restored_trees_.add(tree, static_cast<std::uint32_t>(roots.size())));
+    if (!same || !same_sequences(same->tree(), roots.back()->tree()))
+      throw InputError(
+          checkpoint_file(options_.checkpoints.directory).string(), "",
+          "its trees come in another order than they do here; expected the same --rtsp");
+    trees_.resume_with(roots.back());
+  }
+  return roots;
+}
+
+void RunState::restored() {
+  ledger_.nodes_changed();
+  trees_.begin();
+}
+
+CheckpointHeader RunState::checkpoint_header(std::int64_t trees, Cost evicted_bound) {
+  CheckpointHeader header;
+  header.fingerprint = fingerprint(instance_);
+  header.policy = options_.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
+  header.incumbent = ledger_.gate().incumbent();
+  header.lower_bound = ledger_.lower_bound();
+  header.evicted_bound = evicted_bound;
+  header.trees_instantiated = trees;
+  header.trees = trees_.records(trees);
+  header.counters["nodes_expanded"] = nodes_before() + nodes_.counts().expanded;
+  header.seconds = before_.seconds + std::chrono::duration<double>(Clock::now() - started_).count();
+  return header;
+}
+
+std::int64_t RunState::nodes_before() const {
+  const auto found = before_.counters.find("nodes_expanded");
+  return found == before_.counters.end() ? 0 : found->second;
+}
+
+Progress RunState::progress() const {
+  const LiveNodes::Counts counts = nodes_.counts();
+  return {counts.expanded, counts.open, trees_.count(), ledger_.lower_bound(),
+          ledger_.gate().incumbent_cost()};
+}
+
+Solution RunState::conclude() const {
+  const Gate& gate = ledger_.gate();
+  Solution solution;
+  solution.omega = options_.omega;
+  solution.plan = gate.incumbent();
+  solution.lower_bound = gate.lower_bound();
+  solution.status = status_of(gate.incumbent_cost(), solution.lower_bound, solution.omega);
+  if (gate.proven_infeasible()) {
+    solution.status = Status::kInfeasible;
+    solution.lower_bound = 0;
+  }
+  trees_.add_counts(solution.stats);
+  if (resumed_) {
+    solution.stats.counts["nodes_expanded_before"] = nodes_before();
+    solution.stats.measures["seconds_before"] = before_.seconds;
+  }
+  // A limit that struck after the search had ended changed nothing.
+  if (!gate.finished()) {
+    const std::string stop = stop_text(limits_.reason());
+    const bool evicted = nodes_.evicted_bound() < kInfiniteCost;
+    solution.stats.texts["stopped_by"] = !stop.empty() ? stop
+                                         : evicted     ? stop_text(StopReason::kMemory)
+                                                       : "first tree exhausted";
+  }
+  return solution;
+}
+
+}  // namespace grove
