@@ -380,7 +380,40 @@ class Proofs(unittest.TestCase):
                                    failed(method="b", status="error", cost=3, lower_bound=99)), [])
 
 
+class CommonInstances(unittest.TestCase):
+    """What all solve which solve any."""
+
+    def measured(self, found):
+        return {line.method: each for line, each in
+                metrics.measures_by_line(found, metrics.best_costs(found)).items()}
+
+    def test_are_those_of_all_that_solve_any(self):
+        found = [row(instance="easy", method="a", sqr=1.0, cost=10), row(instance="hard", method="a", sqr=0.5, cost=20),
+                 row(instance="easy", method="b", sqr=0.8, cost=12), failed(instance="hard", method="b"),
+                 failed(instance="easy", method="c"), failed(instance="hard", method="c")]
+        a, b, c = (self.measured(found)[method] for method in "abc")
+        self.assertEqual([each.common for each in (a, b, c)], [1, 1, 1])
+        self.assertEqual((a.mean_sqr, a.common_sqr, a.common_cost_ratio), (0.75, 1.0, 1.0))
+        self.assertEqual((b.mean_sqr, b.common_sqr, b.common_cost_ratio), (0.8, 0.8, 1.2))
+        self.assertEqual((c.common_sqr, c.common_cost_ratio), (None, None))
+
+    def test_need_two(self):
+        alone = self.measured([row(method="a", sqr=1.0), failed(method="b")])["a"]
+        self.assertEqual((alone.common, alone.common_sqr), (0, None))
+
+    def test_with_seeds_all_solved_runs_count(self):
+        found = [row(method="a", seed=1, sqr=0.8), row(method="a", seed=2, sqr=0.6), failed(method="a", seed=3),
+                 row(method="b", seed=1, sqr=1.0)]
+        self.assertAlmostEqual(self.measured(found)["a"].common_sqr, 0.7)
+
+
 class TheLines(unittest.TestCase):
+    def test_groves_own_search_has_its_name(self):
+        lines = Lines([row(method="auto"), row(method="hcbs")], [])
+        self.assertEqual([lines.label(line) for line in lines.all], ["Grove", "hcbs"])
+        lines = Lines([row(method="auto"), row(method="Grove")], [])
+        self.assertEqual({lines.label(line) for line in lines.all}, {"Grove", "auto"})
+
     def test_labels_tell_what_the_method_does_not(self):
         found = [row(method="a", omega="0"), row(method="a", omega="inf"), row(method="b", omega="0.01"),
                  row(method="c"), row(method="c", time_limit_s=7.5)]

@@ -4,9 +4,11 @@
 
     program_test.py GROVE
 """
+import base64
 import csv
 import os
 import random
+import re
 import resource
 import shutil
 import subprocess
@@ -47,11 +49,14 @@ class Elements(HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.references, self.open, self.balanced = [], [], True
+        self.downloads = {}  # {name: what is saved}
         self.feed(text)
         self.balanced &= not self.open
 
     def handle_starttag(self, tag, attributes):
         self.references += [value for name, value in attributes if name in ("src", "href", "srcset")]
+        if "download" in dict(attributes):
+            self.downloads[dict(attributes)["download"]] = dict(attributes)["href"]
         if tag not in self.EMPTY:
             self.open.append(tag)
 
@@ -101,11 +106,49 @@ class Reports(Folder):
             self.assertEqual((self.folder / f"out/{name}.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
         elements = Elements(page)
         self.assertTrue(elements.balanced)
+        self.assertEqual(sorted(elements.downloads), sorted(f"{name}.csv" for name in TABLES if name != "contradictions"))
+        for name, content in elements.downloads.items():
+            kind, data = content.split(",")
+            self.assertEqual(kind, "data:text/csv;base64")
+            self.assertEqual(base64.b64decode(data), (self.folder / "out" / name).read_bytes())
+        self.assertEqual(set(re.findall(r"[\w-]+\.(?:csv|png|svg)", page)) - {"results.csv"}, set(elements.downloads))
         self.assertEqual(sum(each.startswith("data:image/svg") for each in elements.references), len(FIGURES))
         for reference in elements.references:
             self.assertTrue(reference.startswith(("data:", "#")), reference[:80])
         self.assertNotIn("<script", page)
         self.assertNotIn("url(", page)
+
+    def test_figures_can_be_read_on_500_pixels(self):
+        self.report(self.results(synthetic.rows(2, tasks=(10, 20, 30, 40, 50))))
+        self.assertTrue((self.folder / "out/comparison_mg_3.svg").exists())  # three maps with three columns
+        for path in (self.folder / "out").glob("*.svg"):
+            svg = path.read_text(encoding="utf-8")
+            width = float(re.search(r'width="([0-9.]+)pt"', svg).group(1))
+            letters = [100 * float(scale) for scale in re.findall(r"scale\(([0-9.]+) -", svg)]  # in points
+            self.assertGreater(len(letters), 10, path)
+            self.assertGreaterEqual(500 / width * min(letters), 10, path)
+
+    def test_figures_of_an_earlier_report_go(self):
+        self.report(self.results(few(1)))
+        others = [self.folder / "out" / name for name in ("notes.csv", "comparison_mg.txt", "my_cactus_mg.png")]
+        for other in others:
+            other.write_text("mine")
+        (self.folder / "out/comparison_mg_2.png").write_text("of many maps")
+        self.report(self.results([row for row in few(1) if row["problem"] == "cts"]))
+        left = {path.name for path in (self.folder / "out").iterdir()}
+        self.assertLessEqual({other.name for other in others}, left)
+        self.assertEqual({name for name in left if "_mg" in name}, {"comparison_mg.txt", "my_cactus_mg.png"})
+        self.assertIn("omega_study.png", left)
+
+    def test_groves_own_search_stands_beside_the_study_of_omega(self):
+        study = [row for row in few(2) if row["problem"] == "cts"]
+        found = study + [row | {"method": "auto", "options": "--omega 0", "omega": "0"} for row in study
+                         if row["omega"] == "0"]
+        page, _ = self.report(self.results(found))
+        self.assertEqual({(row["method"], row["omega"]) for row in self.table("omega_study")},
+                         {("auto", "0")} | {(f"cts-cbs-w{omega}", omega) for omega in synthetic.OMEGAS})
+        self.assertIn(">Grove, ω = 0</td>", page)
+        self.assertNotRegex(page, r">auto\b")
 
     def test_tables_say_what_the_rows_do(self):
         found = list(few(4))

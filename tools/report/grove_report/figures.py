@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The plots. Every function returns a matplotlib Figure; save() writes one as SVG and PNG.
+"""The plots. Every function returns a matplotlib Figure; drawn() makes SVG and PNG of one.
+
+All are narrow: on 500 pixels, half a laptop's or all of a phone's screen, no letter is lower than 10 pixels.
 
 No pyplot: it keeps figures and settings for the whole process.
 """
@@ -22,14 +24,16 @@ from .style import APART, depth, plot_arguments
 
 SETTINGS = {
     "svg.hashsalt": "grove report", "svg.fonttype": "path", "font.family": "DejaVu Sans",
-    "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8, "xtick.labelsize": 7.5,
+    "font.size": 8.5, "axes.titlesize": 8.5, "axes.labelsize": 8, "xtick.labelsize": 7.5,
     "ytick.labelsize": 7.5, "legend.fontsize": 8, "axes.linewidth": 0.6, "axes.grid": True,
     "grid.color": "#E3E3E3", "grid.linewidth": 0.5, "axes.axisbelow": True,
     "axes.spines.top": False, "axes.spines.right": False, "xtick.major.width": 0.6,
     "ytick.major.width": 0.6, "savefig.facecolor": "white", "axes.unicode_minus": False,
-    "text.parse_math": False, "text.color": "#222222", "axes.labelcolor": "#222222", "xtick.color": "#222222",
+    "axes.titley": 1.0, "text.parse_math": False, "text.color": "#222222", "axes.labelcolor": "#222222", "xtick.color": "#222222",
     "ytick.color": "#222222", "axes.edgecolor": "#555555"}
-PNG_DPI = 150
+WIDTH = 5.2  # of every figure, in inches
+SMALLEST = 7.5  # points: 500 / WIDTH * 7.5 / 72 = 10 pixels
+PNG_DPI = 160
 FAINT = "#767676"
 # Shorter times are drawn as this: a logarithm needs something, and clocks tell no less.
 SHORTEST_S = 0.001
@@ -44,34 +48,41 @@ class Metric(NamedTuple):
 SUCCESS = Metric("success rate (%)", lambda m: 100 * m.success, "percent")
 RUNTIME = Metric("mean runtime (s)", lambda m: max(m.mean_runtime_s, SHORTEST_S), "seconds")
 SQR = Metric("mean SQR\n(solved runs)", lambda m: m.mean_sqr, "ratio")
-COST_RATIO = Metric("mean cost ratio\n(solved runs, 1 = best)", lambda m: m.mean_cost_ratio, "excess")
+COMMON_SQR = Metric("mean SQR\n(common)", lambda m: m.common_sqr, "ratio")
+COST_RATIO = Metric("mean cost ratio\n(1 = best)", lambda m: m.mean_cost_ratio, "excess")
 ROOTS = Metric("mean number of roots", lambda m: m.mean_roots, "count")
 RTSP_CALLS = Metric("mean number of rTSP calls", lambda m: m.mean_rtsp_calls, "count")
 
 
 # What must be known wherever a figure is shown, so it is part of it.
-SQR_CAPTION = ("Mean SQR is over the runs that each method solved: methods that solve only the easy "
-               "instances look better.")
-RATIO_CAPTION = ("Cost ratio: cost / least cost that any method found for the instance, over the same runs; "
-                 "1 is best, and says nothing where only one method has a plan.")
+SQR_CAPTION = ("SQR of solved runs: of those that each method solved, so methods that solve only the easy "
+               "instances look better. Common: of the instances that all solve which solve any, so it compares.")
+RATIO_CAPTION = ("Cost ratio: cost / least cost that any method found for the instance, of solved runs; 1 is "
+                 "best, and says nothing where only one method has a plan.")
 
 
-def save(figure, stem):
-    """`stem`: a path without suffix. Returns the SVG as text; the same bytes for the same figure."""
+def drawn(figure):
+    """The SVG as text and the PNG as bytes; the same for the same figure."""
     with matplotlib.rc_context(SETTINGS), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph .* missing")  # of a name; a box is drawn for it
         FigureCanvasAgg(figure)
-        figure.savefig(f"{stem}.png", dpi=PNG_DPI, metadata={"Software": None})
-        text = io.StringIO()
-        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
-    svg = text.getvalue()
-    with open(f"{stem}.svg", "w", encoding="utf-8") as file:
-        file.write(svg)
-    return svg
+        png, svg = io.BytesIO(), io.StringIO()
+        figure.savefig(png, format="png", dpi=PNG_DPI, metadata={"Software": None})
+        figure.savefig(svg, format="svg", metadata={"Date": None, "Creator": None})
+    return svg.getvalue(), png.getvalue()
 
 
-def _new_figure(width, height):
-    return Figure(figsize=(width, height), facecolor="white")
+def _new_figure(height):
+    return Figure(figsize=(WIDTH, height), facecolor="white")
+
+
+def _pin_labels(axes, left):
+    """Names of axes to where they are, in inches: left of the panel and below. To look for room for each,
+    as matplotlib does, takes as long as all the rest. `axes`: all panels of a figure, of one size."""
+    figure, box = axes[0][0].figure, axes[0][0].get_position()
+    for ax in axes.flat:
+        ax.yaxis.set_label_coords(-left / box.width / WIDTH, 0.5)
+        ax.xaxis.set_label_coords(0.5, -0.23 / box.height / figure.get_figheight())
 
 
 def _number(value, _=None):
@@ -123,7 +134,7 @@ def _show_limits(ax, limits, named):
     for limit in limits:
         ax.axhline(limit, color=FAINT, linewidth=0.7, linestyle=(0, (1, 1.5)), zorder=1)
     if named:
-        ax.annotate("limit", (0, max(limits)), xycoords=("axes fraction", "data"), fontsize=6.5,
+        ax.annotate("limit", (0, max(limits)), xycoords=("axes fraction", "data"), fontsize=SMALLEST,
                     xytext=(2, 1.5), textcoords="offset points", color=FAINT)
 
 
@@ -156,10 +167,10 @@ def _plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
                 va="center", color=FAINT)
 
 
-def _legend_columns(labels, width):
-    """How many entries fit side by side into `width` inches."""
+def _legend_columns(labels):
+    """How many entries fit side by side."""
     entry = 0.62 + 0.068 * max(map(len, labels))
-    fitting = max(1, int(width / entry))
+    fitting = max(1, int((WIDTH - 0.4) / entry))
     lines = math.ceil(len(labels) / fitting)
     return math.ceil(len(labels) / lines)  # equally long lines
 
@@ -172,16 +183,16 @@ def _handles(lines, labels, looks, nested):
             for line, label, below in zip(lines, labels, depths)]
 
 
-def _legend_height(lines, looks, width):
+def _legend_height(lines, looks):
     labels = [looks.label(line) for line in lines]
-    return 0.17 * math.ceil(len(labels) / _legend_columns(labels, width)) + 0.05
+    return 0.17 * math.ceil(len(labels) / _legend_columns(labels)) + 0.05
 
 
 def _add_legend(figure, lines, looks, nested):
     """On top, as wide as the figure."""
     labels = [looks.label(line) for line in lines]
     figure.legend(handles=_handles(lines, labels, looks, nested), loc="upper center", frameon=False,
-                  ncol=_legend_columns(labels, figure.get_figwidth() - 0.4), handlelength=2.6,
+                  ncol=_legend_columns(labels), handlelength=2.6,
                   columnspacing=1.6, borderaxespad=0.2)
 
 
@@ -212,28 +223,27 @@ def columns_of(cells):
                    "N (agents)", lambda key: f"M = {key[1]}")
 
 
-def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COST_RATIO)):
-    """Laid out like the paper's Fig. 5, and below that the cost ratio: a row for each metric. `cells`:
-    {cell: {line: Measures}}."""
+def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COMMON_SQR, COST_RATIO)):
+    """Laid out like the paper's Fig. 5, and below that SQR on common instances and the cost ratio: a row for
+    each metric. `cells`: {cell: {line: Measures}}, a part of `all_cells`, which the axes suit."""
     with matplotlib.rc_context(SETTINGS):
-        columns = columns_of(cells)
-        metrics = [metric for metric in metrics if _values(cells, lines, metric)]
-        count = len(columns.keys)
-        width = max(6.5, 0.98 + 1.42 * count)
+        columns = columns_of(all_cells)
+        keys = sorted(set(map(columns.key_of, cells)))
+        metrics = [metric for metric in metrics if _values(all_cells, lines, metric)]
         notes = [text for metric, text in ((SQR, SQR_CAPTION), (COST_RATIO, RATIO_CAPTION))
                  if metric in metrics]
-        caption = _wrapped(notes, width)
-        left, right, bottom = 0.86, 0.12, 0.5 + 0.13 * len(caption)
-        legend = _legend_height(lines, looks, width - 0.4)
+        caption = _wrapped(notes)
+        left, right, bottom = 0.76, 0.08, 0.5 + 0.13 * len(caption)
+        legend = _legend_height(lines, looks)
         top = legend + 0.5
-        height = top + bottom + 1.55 * len(metrics)
-        figure = _new_figure(width, height)
-        axes = figure.subplots(len(metrics), count, sharey="row", sharex="col", squeeze=False,
-                               gridspec_kw={"left": left / width, "right": 1 - right / width,
+        height = top + bottom + 1.35 * len(metrics)
+        figure = _new_figure(height)
+        axes = figure.subplots(len(metrics), len(keys), sharey="row", sharex="col", squeeze=False,
+                               gridspec_kw={"left": left / WIDTH, "right": 1 - right / WIDTH,
                                             "bottom": bottom / height, "top": 1 - top / height,
                                             "wspace": 0.1, "hspace": 0.14})
         limits = sorted({line.time_limit_s for line in lines})
-        for column, key in enumerate(columns.keys):
+        for column, key in enumerate(keys):
             here = {cell: found for cell, found in cells.items() if columns.key_of(cell) == key}
             x_values = sorted({columns.x_of(cell) for cell in here})
             offsets = dodged(x_values, lines)
@@ -243,34 +253,34 @@ def comparison(cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COST_RATIO))
                 if metric.axis == "seconds":
                     _show_limits(ax, limits, named=column == 0)
                 if column == 0:
-                    _set_axis(ax, metric, _values(cells, lines, metric), limits)
+                    _set_axis(ax, metric, _values(all_cells, lines, metric), limits)
                     ax.set_ylabel(metric.label)
                 else:
                     ax.tick_params(axis="y", length=0)
             _set_x(axes[-1][column], x_values, columns.x_name)
             axes[0][column].set_title(columns.title_of(key), pad=4)
-        figure.align_ylabels(axes[:, 0])
-        _name_maps(figure, columns, axes, (height - legend - 0.17) / height)
+        _pin_labels(axes, 0.36)
+        _name_maps(figure, keys, axes, (height - legend - 0.17) / height)
         _add_legend(figure, lines, looks, nested=True)
         _add_caption(figure, caption)
         return figure
 
 
-def _wrapped(texts, width):
-    """Lines of a caption as wide as a figure of `width` inches."""
-    return textwrap.wrap(" ".join(texts), int(width / 0.061))
+def _wrapped(texts):
+    """Lines of a caption as wide as a figure."""
+    return textwrap.wrap(" ".join(texts), int(WIDTH / 0.062))
 
 
 def _add_caption(figure, lines):
     """At the bottom left; 0.13 inches a line."""
-    figure.text(0.1 / figure.get_figwidth(), 0.06 / figure.get_figheight(), "\n".join(lines), va="bottom",
-                fontsize=7, linespacing=1.25, color="#555555")
+    figure.text(0.1 / WIDTH, 0.06 / figure.get_figheight(), "\n".join(lines), va="bottom",
+                fontsize=SMALLEST, linespacing=1.2, color="#555555")
 
 
-def _name_maps(figure, columns, axes, y):
+def _name_maps(figure, keys, axes, y):
     """Each map's name over its columns, with a rule below it."""
-    for name in sorted({key[0] for key in columns.keys}):
-        group = [index for index, key in enumerate(columns.keys) if key[0] == name]
+    for name in sorted({key[0] for key in keys}):
+        group = [index for index, key in enumerate(keys) if key[0] == name]
         left = axes[0][group[0]].get_position().x0
         right = axes[0][group[-1]].get_position().x1
         figure.text((left + right) / 2, y, name, ha="center", va="center", fontsize=9,
@@ -301,7 +311,7 @@ def _plot_solved(ax, rows, first, last, arguments, phase):
     ax.plot(spots, heights, linestyle="", color=arguments["color"], **marker)
 
 
-def cactus(groups, lines, looks, per_row=4):
+def cactus(groups, lines, looks, per_row=2):
     """Number solved against time. `groups`: {title: {line: rows}}, one panel each."""
     with matplotlib.rc_context(SETTINGS):
         limits = [line.time_limit_s for line in lines]
@@ -309,12 +319,11 @@ def cactus(groups, lines, looks, per_row=4):
                             for row in rows])
         across = min(len(groups), per_row)
         down = math.ceil(len(groups) / across)
-        width = max(6.5, 2.75 * across + 0.3)
-        legend = _legend_height(lines, looks, width - 0.4)
-        height = legend + 0.27 + 2.75 * down
-        figure = _new_figure(width, height)
+        legend = _legend_height(lines, looks)
+        height = legend + 0.27 + 2.3 * down
+        figure = _new_figure(height)
         axes = figure.subplots(down, across, squeeze=False, gridspec_kw={
-            "left": 0.55 / width, "right": 1 - 0.15 / width, "bottom": 0.45 / height,
+            "left": 0.55 / WIDTH, "right": 1 - 0.12 / WIDTH, "bottom": 0.45 / height,
             "top": 1 - (legend + 0.27) / height, "wspace": 0.22, "hspace": 0.35})
         for ax, (title, group) in zip(axes.flat, groups.items()):
             for place, line in enumerate(lines):
@@ -324,7 +333,7 @@ def cactus(groups, lines, looks, per_row=4):
                                  place / max(len(lines) - 1, 1))
             most = max(len(rows) for rows in group.values())
             ax.axhline(most, color=FAINT, linewidth=0.7, linestyle=(0, (1, 1.5)), zorder=1)
-            ax.annotate("all", (0, most), xycoords=("axes fraction", "data"), fontsize=6.5,
+            ax.annotate("all", (0, most), xycoords=("axes fraction", "data"), fontsize=SMALLEST,
                         xytext=(2, 1.5), textcoords="offset points", color=FAINT)
             ax.set_xscale("log")
             ax.set_xlim(first, max(max(limits), first * 10) * 1.05)
@@ -339,39 +348,43 @@ def cactus(groups, lines, looks, per_row=4):
             ax.set_axis_off()
         for row in axes:
             row[0].set_ylabel("instances solved")
+        _pin_labels(axes, 0.34)
         _add_legend(figure, lines, looks, nested=False)
         return figure
 
 
-def _omega_labels(lines, looks):
-    """Omega alone if that tells them apart and the methods' names do not fit."""
-    labels = [omega_text(line.omega) for line in lines]
-    longer = [f"{label}: {looks.name(line)}" for label, line in zip(labels, lines)]
+def _omega_labels(family, lines, looks):
+    """Of the family's lines omega alone if that tells them apart and the methods' names do not fit."""
+    labels = [omega_text(line.omega) for line in family]
+    longer = [f"{omega_text(line.omega)}: {looks.name(line)}" for line in lines]
+    longer = [label if len(label) <= 32 else label[:30] + "..." for label in longer]
     distinct = len(set(labels)) == len(labels)
-    if distinct and (len({line.method for line in lines}) == 1 or max(map(len, longer)) > 32):
-        return labels
-    return [label if len(label) <= 32 else label[:30] + "..." for label in longer]
+    if distinct and (len({line.method for line in family}) == 1 or max(map(len, longer)) >= 32):
+        return labels + longer[len(labels):]
+    return longer
 
 
-def omega_study(cells, lines, looks, setting):
-    """Laid out like the paper's Fig. 6, (a) being the legend and the setting: lines of text. `cells`:
-    those of one map and N."""
+def omega_study(cells, family, lines, looks, setting):
+    """Laid out like the paper's Fig. 6, (a) being the legend and the setting: lines of text, and (g) SQR on
+    common instances. `cells`: those of one map and N; `lines`: those of the family and others after them."""
     with matplotlib.rc_context(SETTINGS):
-        figure = _new_figure(8.4, 4.9)
-        axes = figure.subplots(2, 3, gridspec_kw={"left": 0.07, "right": 0.985, "bottom": 0.14,
-                                                  "top": 0.94, "wspace": 0.27, "hspace": 0.42})
-        axes[0][0].set_axis_off()
-        axes[0][0].set_title("(a) setting", loc="left", fontweight="bold")
-        axes[0][0].text(0, 0.97, "\n".join(textwrap.fill(text, 40) for text in setting), va="top", linespacing=1.45,
-                        transform=axes[0][0].transAxes)
-        labels = _omega_labels(lines, looks)
-        axes[0][0].legend(handles=_handles(lines, labels, looks, nested=True), frameon=False,
-                          handlelength=2.6, loc="lower left", borderaxespad=0, borderpad=0,
-                          ncol=1 if len(lines) <= 5 else 2)
+        caption = _wrapped([SQR_CAPTION])
+        labels = _omega_labels(family, lines, looks)
+        settings = [text for line in setting for text in textwrap.wrap(line, 42)]
+        head, bottom = 0.3 + 0.16 * max(len(settings), len(labels)), 0.5 + 0.13 * len(caption)
+        height = head + bottom + 0.35 + 3 * 1.75
+        figure = _new_figure(height)
+        axes = figure.subplots(3, 2, gridspec_kw={"left": 0.6 / WIDTH, "right": 1 - 0.08 / WIDTH,
+                                                  "bottom": bottom / height, "top": 1 - (head + 0.35) / height,
+                                                  "wspace": 0.24, "hspace": 0.5})
+        figure.text(0.1 / WIDTH, 1 - 0.08 / height, "(a) setting", va="top", fontweight="bold")
+        figure.text(0.1 / WIDTH, 1 - 0.28 / height, "\n".join(settings), va="top", linespacing=1.35)
+        figure.legend(handles=_handles(lines, labels, looks, nested=True), frameon=False, handlelength=2.6,
+                      loc="upper left", bbox_to_anchor=(0.52, 1 - 0.08 / height), borderaxespad=0, borderpad=0)
         limits = sorted({line.time_limit_s for line in lines})
         x_values = sorted({cell.tasks for cell in cells})
         offsets = dodged(x_values, lines)
-        panels = zip("bcdef", list(axes.flat)[1:], (SUCCESS, RUNTIME, SQR, ROOTS, RTSP_CALLS))
+        panels = zip("bcdefg", axes.flat, (SUCCESS, RUNTIME, SQR, COMMON_SQR, ROOTS, RTSP_CALLS))
         for letter, ax, metric in panels:
             _plot_metric(ax, cells, lambda cell: cell.tasks, lines, metric, looks, offsets)
             if metric.axis == "seconds":
@@ -379,5 +392,6 @@ def omega_study(cells, lines, looks, setting):
             _set_axis(ax, metric, _values(cells, lines, metric), limits)
             _set_x(ax, x_values, "M (tasks)")
             ax.set_title(f"({letter}) {metric.label}".replace("\n", " "), loc="left", fontweight="bold")
-        _add_caption(figure, _wrapped([SQR_CAPTION], figure.get_figwidth()))
+        _pin_labels(axes, 0.4)
+        _add_caption(figure, caption)
         return figure

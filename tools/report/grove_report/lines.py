@@ -12,6 +12,14 @@ class Line(NamedTuple):
     time_limit_s: float
 
 
+GROVE = "Grove"
+
+
+def method_name(method):
+    """`auto` is how Grove's own search is called where one chooses a method."""
+    return GROVE if method == "auto" else method
+
+
 def line_of(row):
     return Line(row.method, row.omega, row.time_limit_s)
 
@@ -48,6 +56,7 @@ class Lines:
         for line in found:
             self._limits[line.method, line.omega].add(line.time_limit_s)
         self._index = {line: index for index, line in enumerate(self.all)}
+        self._methods = {line.method for line in found}
 
     def is_baseline(self, line):
         return line.method in self.baselines
@@ -65,7 +74,8 @@ class Lines:
         return self._called(line, self._omegas_differ)
 
     def _called(self, line, with_omega):
-        parts = [line.method]
+        name = method_name(line.method)
+        parts = [line.method if name in self._methods else name]
         if with_omega:
             parts.append(omega_text(line.omega))
         if len(self._limits[line.method, line.omega]) > 1:

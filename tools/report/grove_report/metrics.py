@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The figures of a set of rows of one line: success, runtime, SQR, PAR-2, ..."""
+import functools
 import statistics
 from collections import defaultdict
 from fractions import Fraction
@@ -9,6 +10,11 @@ from .lines import line_of
 
 
 NO_PROMISE = ("", "inf")  # omegas
+
+
+@functools.cache
+def _factor(omega):
+    return 1 + Fraction(omega)
 
 
 def within_omega(row):
@@ -21,7 +27,7 @@ def within_omega(row):
         return True
     if row.lower_bound is None:
         return row.status == "bounded"
-    return row.cost <= (1 + Fraction(row.omega)) * row.lower_bound
+    return row.cost <= _factor(row.omega) * row.lower_bound
 
 
 def best_costs(rows):
@@ -54,6 +60,9 @@ class Measures(NamedTuple):
     par2_s: float                  # a failure counts as twice the time limit
     mean_sqr: Optional[float]      # over solved rows
     mean_cost_ratio: Optional[float]  # likewise; cost / best known cost
+    common: int                    # instances that all lines solve which solve any, if these are several
+    common_sqr: Optional[float]    # mean SQR over the solved rows of these
+    common_cost_ratio: Optional[float]  # likewise
     mean_roots: Optional[float]    # over all rows that tell
     mean_rtsp_calls: Optional[float]
 
@@ -63,9 +72,18 @@ def _mean(values):
     return statistics.fmean(values) if values else None
 
 
-def measures(rows, best):
-    """`rows`: of one line, at least one; `best`: best_costs() of all rows there are."""
+def common_instances(groups):
+    """The instances that all lines solve which solve any; none unless several lines do. `groups`: {line: rows}."""
+    solved = [{row.instance for row in rows if row.solved} for rows in groups.values()]
+    solved = [instances for instances in solved if instances]
+    return set.intersection(*solved) if len(solved) > 1 else set()
+
+
+def measures(rows, best, common=frozenset()):
+    """`rows`: of one line, at least one; `best`: best_costs() of all rows there are; `common`:
+    common_instances() of the rows of all lines."""
     solved = [row for row in rows if row.solved]
+    shared = [row for row in solved if row.instance in common]
     return Measures(
         runs=len(rows), solved=len(solved),
         within_omega=None if rows[0].omega in NO_PROMISE else sum(map(within_omega, solved)),
@@ -76,6 +94,8 @@ def measures(rows, best):
                                 for row in rows),
         mean_sqr=_mean(row.sqr for row in solved),
         mean_cost_ratio=_mean(cost_ratio(row, best) for row in solved),
+        common=len(common), common_sqr=_mean(row.sqr for row in shared),
+        common_cost_ratio=_mean(cost_ratio(row, best) for row in shared),
         mean_roots=_mean(row.roots for row in rows),
         mean_rtsp_calls=_mean(row.rtsp_calls for row in rows))
 
@@ -90,11 +110,15 @@ def by_cell(rows, best):
     """{cell: {line: Measures}}; a line without rows in a cell is not there. `best`: as in measures()."""
     groups = defaultdict(list)
     for row in rows:
-        groups[Cell(row.map, row.agents, row.tasks), line_of(row)].append(row)
-    cells = defaultdict(dict)
-    for (cell, line), group in sorted(groups.items()):
-        cells[cell][line] = measures(group, best)
-    return dict(cells)
+        groups[Cell(row.map, row.agents, row.tasks)].append(row)
+    return {cell: measures_by_line(group, best) for cell, group in sorted(groups.items())}
+
+
+def measures_by_line(rows, best):
+    """{line: Measures}, by line. `best`: as in measures()."""
+    groups = by_line(rows)
+    common = common_instances(groups)
+    return {line: measures(group, best, common) for line, group in sorted(groups.items())}
 
 
 def by_line(rows):

@@ -38,6 +38,8 @@ GLOSSARY = [
      "is thus the best there can be, and the optimum may lie below 1. Each method is averaged over the runs "
      "that it solved: one that solves only the easy instances looks better than one that solves the hard "
      "ones too, whose SQR is lower for everybody."),
+    ("Common instances", "Those that every method solves which solves any of the cell (map, N, M) or table: on these "
+     "the mean SQR of methods compares. The weakest method decides which they are, and they are the easy ones."),
     ("Cost ratio", "Cost of the plan / best known cost, of solved runs. The best known cost is the least that "
      "any row here has for the instance, runs that a limit ended included. 1 is the best, 1.05 is 5 % dearer. "
      "Unlike SQR it does not fall because an instance is hard, so that methods compare even where one "
@@ -58,11 +60,18 @@ def _paragraph(text):
     return f"<p>{_text(text)}</p>"
 
 
-def _figure(figure, caption):
-    data = base64.b64encode(figure.svg.encode("utf-8")).decode("ascii")
-    return (f'<figure><img alt="{_text(figure.title)}" src="data:image/svg+xml;base64,{data}">'
-            f"<figcaption><b>{_text(figure.title)}.</b> {_text(caption)} "
-            f"Files: {_text(figure.stem)}.svg, {_text(figure.stem)}.png.</figcaption></figure>")
+def _data(kind, content):
+    return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}"
+
+
+def _file(report, before, name):
+    """A table to be saved from the page, which holds it: the page may have been moved away from its folder."""
+    return f'<p>{_text(before)}: <a download="{name}" href="{_data("text/csv", report.files[name])}">{name}</a>.</p>'
+
+
+def _figure(figure, caption=""):
+    return (f'<figure><img alt="{_text(figure.title)}" src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
+            f"<figcaption><b>{_text(figure.title)}.</b> {_text(caption)}</figcaption></figure>")
 
 
 def _box(kind, parts):
@@ -86,8 +95,8 @@ def _alarm(report):
     return _box("alarm", [
         f"<h2>PROOFS CONTRADICT EACH OTHER on {instances} instance{'s' if instances > 1 else ''}</h2>",
         _paragraph("Not all of these claims can be true. Some solver is wrong, or rows of different "
-                   "instances have one name. No figure below is to be trusted before this is explained. "
-                   "All of them: contradictions.csv."), _list(shown)])
+                   "instances have one name. No figure below is to be trusted before this is explained."),
+        _file(report, "All of them", "contradictions.csv"), _list(shown)])
 
 
 def _errors(report):
@@ -147,11 +156,16 @@ def _within(line, found):
     return Entry(str(found.within_omega))
 
 
+def _common(found):
+    return Entry(ratio(found.common_sqr), f"{found.common} common instances")
+
+
 # A failure has no time of its own: the paper's convention.
 MEDIAN = "median s (failures = limit)"
 MEAN = "mean s (failures = limit)"
 PAR2 = "PAR-2 s (failures = 2 × limit)"
 SQR = "mean SQR (solved runs)"
+COMMON_SQR = "mean SQR (common instances)"
 COST_RATIO = "mean cost ratio (solved runs)"
 WITHIN = "of these within ω"
 
@@ -167,7 +181,7 @@ def _summary(problem, lines):
     best_solved = max(found.solved for found in measured) if comparable else None
     best_par2 = min(found.par2_s for found in measured) if comparable else None
     has_baselines = any(lines.is_baseline(line) for line in problem.lines)
-    header = ["method", "runs", "solved", WITHIN, "success rate", PAR2, MEDIAN, MEAN, SQR, COST_RATIO,
+    header = ["method", "runs", "solved", WITHIN, "success rate", PAR2, MEDIAN, MEAN, SQR, COMMON_SQR, COST_RATIO,
               "solved by it alone",
               *(["solved by no baseline"] if has_baselines else [])]
     rows = []
@@ -179,7 +193,7 @@ def _summary(problem, lines):
             Entry(percent(found.success)),
             Entry(seconds(found.par2_s), strong=found.par2_s == best_par2),
             Entry(seconds(found.median_runtime_s)), Entry(seconds(found.mean_runtime_s)),
-            Entry(ratio(found.mean_sqr)), Entry(ratio(found.mean_cost_ratio)),
+            Entry(ratio(found.mean_sqr)), _common(found), Entry(ratio(found.mean_cost_ratio)),
             Entry(str(len(problem.only.get(line, ()))))])
         if has_baselines:
             rows[-1].append(Entry("" if lines.is_baseline(line) else
@@ -210,10 +224,11 @@ def _cells(problem, lines):
     rows = [[word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks)), word(lines.label(line)),
              Entry(str(found[line].runs)), Entry(str(found[line].solved)), _within(line, found[line]),
              Entry(percent(found[line].success)), Entry(seconds(found[line].median_runtime_s)),
-             Entry(ratio(found[line].mean_sqr)), Entry(ratio(found[line].mean_cost_ratio))]
+             Entry(ratio(found[line].mean_sqr)), _common(found[line]),
+             Entry(ratio(found[line].mean_cost_ratio))]
             for cell, found in problem.cells.items() for line in problem.lines if line in found]
     return html_table(["map", "N", "M", "method", "runs", "solved", WITHIN, "success rate", MEDIAN, SQR,
-                       COST_RATIO], rows)
+                       COMMON_SQR, COST_RATIO], rows)
 
 
 def _speedup_entry(found):
@@ -272,24 +287,26 @@ def _only(problem, lines):
     return html_table(["method", Entry("all maps"), *map(Entry, maps)], rows)
 
 
-def _problem(problem, lines):
-    name = problem.name
+def _problem(report, problem):
+    name, lines = problem.name, report.lines
+    compared = next(iter(problem.by_line.values())).common
     parts = [f'<h2 id="{name}">{_text(PROBLEM_NAMES[name])}: comparison</h2>',
              _paragraph(f"{len(problem.rows)} runs of {problem.instances} instances. Every figure and table "
                         "has one line or column for each method with one ω and one time limit."),
              "<h3>All instances together</h3>", _summary(problem, lines),
              _paragraph("Bold: the best, where all have as many runs. Of these within ω: solved runs that prove "
-                        "their plan to be as good as ω asks. Mean SQR is over the runs that each method "
-                        "solved: one that solves only the easy instances looks better. Solved by it alone: "
-                        "instances that no other method solves. Solved by no baseline: that it solves "
-                        "and no baseline that tried does. "
-                        f"As a file: summary_{name}.csv.")]
-    parts += [_figure(figure, "A column for each map and number of agents N (where the number of tasks "
-                      "M does not vary: for each map, with N along the axis), a row for each metric. "
-                      "Runtime is on a log axis; a failure counts as the time limit (dotted). SQR (higher is "
-                      "better) and cost ratio (1 is best) are over the runs that each method solved; SQR "
-                      "makes methods that solve only the easy instances look better. Where lines lie on "
-                      "each other, those below are broader and have larger markers.") for figure in problem.comparison]
+                        "their plan to be as good as ω asks. Mean SQR of solved runs is over those that each method "
+                        "solved: one that solves only the easy instances looks better. Mean SQR of common "
+                        f"instances is over the {compared} that all methods solve which solve any, so it compares. "
+                        "Solved by it alone: instances that no other method solves. Solved by no baseline: that it "
+                        "solves and no baseline that tried does."),
+             _file(report, "As a file", f"summary_{name}.csv"),
+             _paragraph("The figures have a column for each map and number of agents N (where the number of tasks "
+                        "M does not vary: for each map, with N along the axis), a row for each metric. "
+                        "Runtime is on a log axis; a failure counts as the time limit (dotted). SQR: higher is "
+                        "better; cost ratio: 1 is best. Where lines lie on each other, those below are broader "
+                        "and have larger markers. A figure that is saved from this page is an SVG."),
+             '<div class="figures">', *(_figure(figure) for figure in problem.comparison), "</div>"]
     parts += ["<details><summary>Table: every cell (map, N, M) and method</summary>", _cells(problem, lines),
               "</details>"]
     for title, value, show, better in (
@@ -297,18 +314,19 @@ def _problem(problem, lines):
             ("Median runtime in s (failures = limit)", lambda found: found.median_runtime_s, seconds, min),
             ("Mean runtime in s (failures = limit)", lambda found: found.mean_runtime_s, seconds, min),
             ("Mean SQR (solved runs)", lambda found: found.mean_sqr, ratio, None),
+            ("Mean SQR (common instances)", lambda found: found.common_sqr, ratio, max),
             ("Mean cost ratio (solved runs)", lambda found: found.mean_cost_ratio, ratio, None)):
         parts += [f"<details><summary>Table: {title}</summary>",
                   _matrix(problem, lines, value, show, better), "</details>"]
-    parts += [_paragraph(f"All of it as a file: comparison_{name}.csv."),
+    parts += [_file(report, "All of it as a file", f"comparison_{name}.csv"),
               "<h3>Solved by a given time</h3>",
               _figure(problem.cactus, "How many instances each method has solved when a given time per "
                       "instance has passed (cactus plot). Further up and further left is better; dotted: "
                       "all there are."),
               "<h3>Speed-up over the baselines</h3>",
-              *_speedups(problem, lines), _paragraph(f"As a file: speedup_{name}.csv."),
+              *_speedups(problem, lines), _file(report, "As a file", f"speedup_{name}.csv"),
               "<h3>Instances that a single method solves</h3>", _only(problem, lines),
-              _paragraph(f"The instances: only_solver_{name}.csv.")]
+              _file(report, "The instances", f"only_solver_{name}.csv")]
     return "\n".join(parts)
 
 
@@ -316,14 +334,15 @@ def _study_table(study, lines):
     rows = []
     for cell, found in study.cells.items():
         rows += [[word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks)),
-                  word(omega_text(line.omega), lines.label(line)), Entry(str(found[line].runs)),
+                  word(omega_text(line.omega) if line in study.family.lines else lines.label(line), lines.label(line)),
+                  Entry(str(found[line].runs)),
                   Entry(str(found[line].solved)), _within(line, found[line]),
                   Entry(percent(found[line].success)), Entry(seconds(found[line].mean_runtime_s)),
-                  Entry(ratio(found[line].mean_sqr)), Entry(ratio(found[line].mean_cost_ratio)),
-                  Entry(count(found[line].mean_roots)),
+                  Entry(ratio(found[line].mean_sqr)), _common(found[line]),
+                  Entry(ratio(found[line].mean_cost_ratio)), Entry(count(found[line].mean_roots)),
                   Entry(count(found[line].mean_rtsp_calls))]
-                 for line in study.family.lines if line in found]
-    return html_table(["map", "N", "M", "ω", "runs", "solved", WITHIN, "success rate", MEAN, SQR,
+                 for line in study.lines if line in found]
+    return html_table(["map", "N", "M", "ω", "runs", "solved", WITHIN, "success rate", MEAN, SQR, COMMON_SQR,
                        COST_RATIO, "mean roots", "mean rTSP calls"], rows)
 
 
@@ -334,12 +353,12 @@ def _studies(report):
                         "calls), sooner a plan, and perhaps a worse one.")]
     for study in report.studies:
         parts += [_figure(study.figure, f"{PROBLEM_NAMES[study.problem]}, map {study.map}, "
-                          f"N = {study.agents}. (b) to (f) by number of tasks M; runtime and numbers on log "
-                          "axes. SQR is over the runs solved with each ω: an ω with which only the easy "
-                          "instances are solved looks better."),
+                          f"N = {study.agents}. (b) to (g) by number of tasks M; runtime and numbers on log "
+                          "axes. SQR of solved runs is over those solved with each ω: an ω with which only the "
+                          "easy instances are solved looks better."),
                   "<details><summary>Table: all maps and numbers of agents</summary>",
                   _study_table(study, report.lines), "</details>",
-                  _paragraph(f"As a file: {study.figure.stem}.csv.")]
+                  _file(report, "As a file", f"{study.figure.stem}.csv")]
     return "\n".join(parts)
 
 
@@ -369,7 +388,7 @@ def page(report):
     if report.notes:
         parts.append(_box("note", ["<b>Before you compare</b>", _list(report.notes)]))
     parts.append(_errors(report))
-    parts += [_problem(problem, report.lines) for problem in report.problems]
+    parts += [_problem(report, problem) for problem in report.problems]
     if report.studies:
         parts.append(_studies(report))
     parts += [_glossary(), '<h2 id="origin">Where the rows come from</h2>', _provenance(report),

@@ -4,6 +4,8 @@ one name."""
 from collections import defaultdict
 from typing import NamedTuple
 
+from .lines import method_name
+
 
 class Contradiction(NamedTuple):
     problem: str
@@ -15,7 +17,7 @@ def _said(rows, value):
     """'1070 (a, b), 1071 (c)': the values, and who says so."""
     groups = defaultdict(set)
     for row in rows:
-        groups[value(row)].add(row.method + (f" ω={row.omega}" if row.omega else ""))
+        groups[value(row)].add(method_name(row.method) + (f" ω={row.omega}" if row.omega else ""))
     return ", ".join(f"{found} ({', '.join(sorted(who))})" for found, who in sorted(groups.items()))
 
 

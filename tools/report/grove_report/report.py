@@ -1,22 +1,27 @@
 # SPDX-License-Identifier: MIT
 """What a report holds: for each problem its tables and figures, and the study of omega."""
+import itertools
+import re
 from collections import Counter, defaultdict
 from pathlib import Path
 from typing import NamedTuple
 
 from . import figures, metrics, proofs
-from .lines import Lines, families, line_of, omega_text, omega_value, seconds_text
+from .lines import GROVE, Lines, families, line_of, method_name, omega_text, omega_value, seconds_text
 from .rows import PROBLEMS, BadInput
 from .speedup import ALL_MAPS, hard_instances, speedups
 from .style import style_of
-from .tables import write_csv
+from .tables import csv_text
 
 PROBLEM_NAMES = {"mg": "MG-MAPF (agents without destinations)",
                  "cts": "CTS-MAPF (agents with tasks and destinations)",
                  "mixed": "mixed (some agents with a destination, some without)",
                  "mapf": "classical MAPF (destinations, no tasks)"}
-# So many columns of a comparison fit a page.
-WIDEST = 9
+# So many columns of a comparison can be read side by side on a narrow page.
+WIDEST = 3
+# What a report is made of: old ones are removed from its folder.
+OWN_FILE = re.compile(rf"((summary|comparison|cactus|speedup|only_solver)_({'|'.join(PROBLEMS)})|omega_study)(_[0-9]+)?"
+                      r"\.(svg|png|csv)|contradictions\.csv")
 
 
 class Figure(NamedTuple):
@@ -45,6 +50,7 @@ class Study(NamedTuple):
     """Of one family of lines that differ in omega."""
     problem: str
     family: object
+    lines: list         # the family's, and Grove's own search beside them
     map: str            # of the figure
     agents: int
     cells: dict         # of all maps and numbers of agents
@@ -60,6 +66,7 @@ class Report(NamedTuple):
     agreements: int     # instances with an optimal cost from several methods
     errors: list        # (line, number, a message)
     notes: list         # texts
+    files: dict         # {name: bytes}, as they are in the folder
 
 
 class Looks:
@@ -79,27 +86,40 @@ class Output:
 
     def __init__(self, folder):
         self.folder = Path(folder)
+        self.files = {}  # {name: bytes}
 
     def figure(self, stem, title, figure):
-        return Figure(stem, title, figures.save(figure, self.folder / stem))
+        svg, png = figures.drawn(figure)
+        self._write(f"{stem}.svg", svg.encode("utf-8"))
+        self._write(f"{stem}.png", png)
+        return Figure(stem, title, svg)
 
     def table(self, stem, header, rows):
-        write_csv(self.folder / f"{stem}.csv", header, rows)
+        self._write(f"{stem}.csv", csv_text(header, rows).encode("utf-8"))
+
+    def _write(self, name, content):
+        (self.folder / name).write_bytes(content)
+        self.files[name] = content
+
+    def remove_others(self):
+        """What an earlier report left: of other problems, say."""
+        for path in self.folder.iterdir():
+            if path.name not in self.files and OWN_FILE.fullmatch(path.name):
+                path.unlink()
 
 
 def _parts(cells):
-    """The cells in groups of maps whose columns fit side by side."""
+    """The cells in groups whose columns fit side by side, no map in two where it fits one."""
     columns = figures.columns_of(cells)
-    widths = Counter(key[0] for key in columns.keys)
-    parts, width = [[]], 0
-    for name in sorted(widths):
-        if parts[-1] and width + widths[name] > WIDEST:
-            parts.append([])
-            width = 0
-        parts[-1].append(name)
-        width += widths[name]
-    return [{cell: found for cell, found in cells.items() if cell.map in names}
-            for names in parts]
+    parts = [[]]
+    for _, group in itertools.groupby(columns.keys, key=lambda key: key[0]):
+        keys = list(group)
+        for chunk in (keys[at:at + WIDEST] for at in range(0, len(keys), WIDEST)):
+            if len(parts[-1]) + len(chunk) > WIDEST:
+                parts.append([])
+            parts[-1] += chunk
+    return [{cell: found for cell, found in cells.items() if columns.key_of(cell) in keys}
+            for keys in parts if keys]
 
 
 def _comparison_figures(output, problem, cells, lines, looks):
@@ -107,8 +127,8 @@ def _comparison_figures(output, problem, cells, lines, looks):
     for number, part in enumerate(parts, 1):
         stem = f"comparison_{problem}" + (f"_{number}" if len(parts) > 1 else "")
         maps = ", ".join(sorted({cell.map for cell in part}))
-        yield output.figure(stem, f"Success rate, mean runtime, mean SQR and mean cost ratio on {maps}",
-                            figures.comparison(part, lines, looks))
+        yield output.figure(stem, f"Success rate, mean runtime and quality on {maps}",
+                            figures.comparison(part, cells, lines, looks))
 
 
 def _cactus_figure(output, problem, runs, lines, looks):
@@ -124,7 +144,7 @@ def _cactus_figure(output, problem, runs, lines, looks):
 
 LINE_COLUMNS = ["method", "omega", "time_limit_s"]
 MEASURE_COLUMNS = ["runs", "solved", "within_omega", "success_rate", "mean_runtime_s", "median_runtime_s", "par2_s",
-                   "mean_sqr", "mean_cost_ratio", "mean_roots", "mean_rtsp_calls"]
+                   "mean_sqr", "mean_cost_ratio", "common", "common_sqr", "common_cost_ratio", "mean_roots", "mean_rtsp_calls"]
 
 
 def _problem(output, name, rows, best, lines, looks):
@@ -133,7 +153,7 @@ def _problem(output, name, rows, best, lines, looks):
     cells = metrics.by_cell(rows, best)
     runs = metrics.median_runs(rows)
     problem = Problem(
-        name, ordered, rows, {line: metrics.measures(here[line], best) for line in ordered}, cells,
+        name, ordered, rows, metrics.measures_by_line(rows, best), cells,
         len(runs), metrics.only_solver(runs), metrics.beyond_baselines(runs, lines.is_baseline),
         speedups(runs, lines.is_baseline), len(hard_instances(runs, lines.is_baseline)),
         list(_comparison_figures(output, name, cells, ordered, looks)),
@@ -201,9 +221,17 @@ def _studies(output, rows_of, best, looks, options):
     return []
 
 
+def _beside(family, rows):
+    """Grove's own search, which is no member: to compare with."""
+    limits = {line.time_limit_s for line in family.lines}
+    found = {line_of(row) for row in rows if method_name(row.method) == GROVE and row.time_limit_s in limits}
+    return sorted(found - set(family.lines))
+
+
 def _study(output, problem, family, rows, best, looks, options, stem):
-    members = set(family.lines)
-    rows = [row for row in rows if line_of(row) in members]
+    lines = [*family.lines, *_beside(family, rows)]
+    places = {(row.map, row.agents, row.tasks) for row in rows if line_of(row) in family.lines}
+    rows = [row for row in rows if line_of(row) in lines and (row.map, row.agents, row.tasks) in places]
     cells = metrics.by_cell(rows, best)
     map_name, agents = _shown_cell(cells, options.study_map, options.study_agents)
     shown = {cell: found for cell, found in cells.items()
@@ -213,11 +241,11 @@ def _study(output, problem, family, rows, best, looks, options, stem):
     setting = _setting(problem, family, map_name, agents,
                        [row for row in rows if (row.map, row.agents) == (map_name, agents)])
     figure = output.figure(stem, f"The influence of ω: {family.name}",
-                           figures.omega_study(shown, family.lines, looks, setting))
+                           figures.omega_study(shown, family.lines, lines, looks, setting))
     output.table(stem, ["map", "agents", "tasks", *LINE_COLUMNS, *MEASURE_COLUMNS],
                  [[*cell, *line, *found[line]] for cell, found in cells.items()
-                  for line in family.lines if line in found])
-    return Study(problem, family, map_name, agents, cells, figure)
+                  for line in lines if line in found])
+    return Study(problem, family, lines, map_name, agents, cells, figure)
 
 
 def _errors(rows, lines):
@@ -330,7 +358,7 @@ class Options(NamedTuple):
 
 
 def make_report(results, options, folder):
-    """Writes all figures and tables into `folder`."""
+    """Writes all figures and tables into `folder`; those of an earlier report go."""
     rows = [row for row in results.rows if not options.problems or row.problem in options.problems]
     lines = Lines(rows, options.baselines)
     looks, output = Looks(lines), Output(folder)
@@ -342,7 +370,8 @@ def make_report(results, options, folder):
                 for name in PROBLEMS if name in rows_of]
     contradictions = proofs.contradictions(rows)
     output.table("contradictions", proofs.Contradiction._fields, contradictions)
-    return Report(results._replace(rows=rows), lines, problems,
-                  _studies(output, rows_of, best, looks, options), contradictions,
+    studies = _studies(output, rows_of, best, looks, options)
+    output.remove_others()
+    return Report(results._replace(rows=rows), lines, problems, studies, contradictions,
                   proofs.optimal_agreements(rows), _errors(rows, lines),
-                  list(_notes(results, rows, lines, problems)))
+                  list(_notes(results, rows, lines, problems)), output.files)

@@ -4,7 +4,6 @@ them."""
 import csv
 import json
 import math
-import re
 from pathlib import Path
 from typing import NamedTuple, Optional
 
@@ -69,7 +68,7 @@ def _text(value):
 
 def _integer(value):
     """Of at least 0."""
-    if isinstance(value, str) and re.fullmatch(r"[0-9]{1,18}", value):
+    if isinstance(value, str) and value.isascii() and value.isdigit() and len(value) <= 18:
         return int(value)
     if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
         return value

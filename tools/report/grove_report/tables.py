@@ -2,6 +2,7 @@
 """A table as CSV, and as HTML."""
 import csv
 import html
+import io
 import math
 from typing import NamedTuple
 
@@ -14,11 +15,12 @@ def csv_value(value):
     return str(value)
 
 
-def write_csv(path, header, rows):
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows([csv_value(value) for value in row] for row in rows)
+def csv_text(header, rows):
+    file = io.StringIO(newline="")
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows([csv_value(value) for value in row] for row in rows)
+    return file.getvalue()
 
 
 class Entry(NamedTuple):
