@@ -36,8 +36,10 @@ enum class Strike : std::uint8_t {
 //
 // in which every line may be missing.
 struct FuzzCase {
+  FuzzCase() { options.audit = true; }
+
   TinyInstance instance;
-  SolveOptions options{.audit = true};
+  SolveOptions options;
   Strike strike = Strike::kNothing;
 
   std::string to_text() const;
