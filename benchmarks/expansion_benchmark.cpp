@@ -42,15 +42,14 @@ class Search {
         forest_(problem_, pool_, RtspBackend::kAuto, limits_),
         stops_(instance, problem_.distances),
         expander_(problem_, stops_, {Techniques(), 0}) {
-    frontier_.push(forest_.next_root());
+    grow();
   }
   ~Search() { frontier_.abandon(); }
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
   void step() {
-    if (frontier_.bound() > *forest_.last_cost())
-      if (NodePtr root = forest_.next_root()) frontier_.push(std::move(root));
+    if (frontier_.bound() > last_tree_cost_) grow();
     const NodePtr node = frontier_.take();
     const Expansion expansion = expander_.expand(node, kInfiniteCost, limits_);
     for (const NodePtr& child : expansion.children) frontier_.push(child);
@@ -63,6 +62,13 @@ class Search {
   double node_bytes() const { return pool_.mean_bytes(); }
 
  private:
+  void grow() {
+    NodePtr root = forest_.next_root();
+    if (!root) return;
+    last_tree_cost_ = root->cost();
+    frontier_.push(std::move(root));
+  }
+
   Limits limits_;
   Problem problem_;
   NodePool pool_;
@@ -70,6 +76,7 @@ class Search {
   Frontier frontier_;
   AgentStopsStore stops_;
   Expander expander_;
+  Cost last_tree_cost_ = 0;
   std::int64_t generated_ = 0;
 };
 
