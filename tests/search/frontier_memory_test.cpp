@@ -19,7 +19,7 @@ class ScarceFrontier : public ::testing::Test {
     const Instance instance = testing::instance_of({"........."}, {{{0, 0}, Position{8, 0}}});
     Path path;
     for (Cell cell = 0; cell <= bound; ++cell) path.push_back(cell);
-    trees_.push_back({&pool_, {}});
+    trees_.push_back({&pool_, 0, {}});
     trees_.back().orders.push_back(std::make_shared<const AgentOrder>(
         AgentOrder{{}, std::nullopt, PackedPath(instance.grid(), path)}));
     return Node::root(trees_.back());
