@@ -92,6 +92,7 @@ std::vector<Cell> connected_cells(const Grid& grid, Random& random) {
 // One agent, its goals visited in the order of always going to the nearest.
 struct Case {
   Case(const Grid& grid, const std::vector<Cell>& cells, int goals);
+  PathQuery query() const { return {.constraints = constraints, .others = &others}; }
 
   std::unique_ptr<Instance> instance;
   std::unique_ptr<DistanceFields> distances;
@@ -142,8 +143,7 @@ void pile_up_constraints(std::vector<Case>& cases, Search& search, LowLevelSearc
        ++tries) {
     search.find(c, i, path);
     c.constraints.push_back(bar_on_path(path, random));
-    if (check.find(*c.goals, c.constraints, &c.others, Limits(), ignored) !=
-        LowLevelSearch::Outcome::kFound)
+    if (check.find(*c.goals, c.query(), Limits(), ignored) != PathOutcome::kFound)
       c.constraints.pop_back();
   }
 }
@@ -155,7 +155,7 @@ std::vector<Case> make_cases(const Grid& grid, int goals, int constraints, Rando
   std::vector<Path> paths;
   for (int i = 0; i < kCases; ++i) {
     cases.emplace_back(grid, connected_cells(grid, random), goals);
-    check.find(*cases.back().goals, {}, nullptr, Limits(), paths.emplace_back());
+    check.find(*cases.back().goals, {}, Limits(), paths.emplace_back());
   }
   Search search(grid, cases);
   for (int i = 0; i < kCases; ++i) {
@@ -175,7 +175,7 @@ class Fixed {
  public:
   explicit Fixed(const Grid& grid, const std::vector<Case>&) : search_(grid) {}
   void find(const Case& c, std::size_t, Path& path) {
-    search_.find(*c.goals, c.constraints, &c.others, Limits(), path);
+    search_.find(*c.goals, c.query(), Limits(), path);
   }
   std::int64_t expanded() const { return search_.expanded(); }
 
@@ -192,7 +192,7 @@ class Free {
     }
   }
   void find(const Case& c, std::size_t i, Path& path) {
-    search_.find(*goals_[i], c.constraints, &c.others, kNever, Limits(), path);
+    search_.find(*goals_[i], c.query(), Limits(), path);
   }
   std::int64_t expanded() const { return search_.expanded(); }
 

@@ -102,13 +102,13 @@ class Agents {
   static void constrain(Agent& agent, FreeLowLevelSearch& search, int count, std::mt19937& random) {
     Path path;
     const auto find = [&] {
-      return search.find(*agent.goals, agent.constraints, nullptr, kNever, Limits(), path);
+      return search.find(*agent.goals, {.constraints = agent.constraints}, Limits(), path);
     };
     find();
     for (int n = 0; n < count; ++n) {
       const auto t = static_cast<Time>(1 + random() % (path.size() - 1));
       agent.constraints.push_back({path[t], kNoCell, t, t});
-      if (find() != FreeLowLevelSearch::Outcome::kFound) agent.constraints.pop_back();
+      if (find() != PathOutcome::kFound) agent.constraints.pop_back();
     }
     agent.cost = static_cast<Time>(path.size()) - 1;
   }

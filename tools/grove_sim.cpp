@@ -147,7 +147,7 @@ class Study {
 
   void run() {
     const Limits unlimited;
-    const Problem problem(loaded_.instance, unlimited, options_.low_level);
+    const Problem problem(loaded_.instance, unlimited);
     RunObserver silent;
     if (answer_without_search(problem, options_, unlimited, silent))
       throw InputError(a_.solve.instance.path(), "",

@@ -8,7 +8,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "grove/planning/poll.h"
+#include "poll.h"
 #include "space_time.h"
 
 namespace grove {

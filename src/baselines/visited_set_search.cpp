@@ -17,7 +17,7 @@
 
 #include <algorithm>
 
-#include "grove/planning/poll.h"
+#include "poll.h"
 #include "space_time.h"
 
 namespace grove {
@@ -27,17 +27,16 @@ constexpr std::int32_t kNoLabel = -1;
 
 }  // namespace
 
-BaselineSearch::Outcome VisitedSetSearch::search(AgentIndex agent, const AgentStops& stops,
-                                                 std::span<const Constraint> constraints,
-                                                 Time cutoff, const Limits& limits, Path& path) {
-  prepare(agent, stops, constraints);
-  if (slot_at(intervals_, stops.start(), 0) < 0) return Outcome::kInfeasible;
+PathOutcome VisitedSetSearch::search(const AgentStops& stops, const PathQuery& query,
+                                     const Limits& limits, Path& path) {
+  prepare(stops, query.constraints);
+  if (slot_at(intervals_, stops.start(), 0) < 0) return PathOutcome::kInfeasible;
   reach(stops.start(), 0, stops.all(), kNoLabel);
-  return run(cutoff, limits, path);
+  return run(query.cutoff, limits, path);
 }
 
-void VisitedSetSearch::prepare(AgentIndex agent, const AgentStops& stops,
-                               std::span<const Constraint> constraints) {
+void VisitedSetSearch::prepare(const AgentStops& stops, std::span<const Constraint> constraints) {
+  const AgentIndex agent = stops.agent();
   if (bounds_.size() <= static_cast<std::size_t>(agent)) bounds_.resize(agent + 1);
   if (!bounds_[agent]) bounds_[agent] = std::make_unique<SpanningTreeBound>(stops);
   stops_ = &stops;
@@ -50,21 +49,22 @@ void VisitedSetSearch::prepare(AgentIndex agent, const AgentStops& stops,
   queue_.reset(0);
 }
 
-BaselineSearch::Outcome VisitedSetSearch::run(Time cutoff, const Limits& limits, Path& path) {
+PathOutcome VisitedSetSearch::run(Time cutoff, const Limits& limits, Path& path) {
   BucketQueue::Entry entry;
   while (queue_.pop(entry)) {
     const Label label = labels_[entry.slot];
     if (label.time != entry.time) continue;  // improved since
-    if (queue_.layer() > cutoff) return Outcome::kAbove;
+    if (queue_.layer() > cutoff) return PathOutcome::kAbove;
     if (is_finish(label)) {
       write_path(entry.slot, path);
-      return Outcome::kFound;
+      return PathOutcome::kFound;
     }
-    if (++expanded_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
+    if (++expanded_ % kExpansionsPerPoll == 0 && limits.stop_requested())
+      return PathOutcome::kStopped;
     for_each_step(grid_, intervals_, label.cell, label.time,
                   [&](Cell next) { reach(next, label.time + 1, label.left, entry.slot); });
   }
-  return Outcome::kInfeasible;
+  return PathOutcome::kInfeasible;
 }
 
 void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t parent) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "grove/baselines/baseline_search.h"
+#include "baseline_search.h"
 #include "grove/planning/bucket_queue.h"
 #include "grove/planning/safe_intervals.h"
 #include "grove/sequencing/sequence_dag.h"
@@ -22,8 +22,8 @@ class VisitedSetSearch : public BaselineSearch {
   std::int64_t expanded() const override { return expanded_; }
 
  private:
-  Outcome search(AgentIndex agent, const AgentStops& stops, std::span<const Constraint> constraints,
-                 Time cutoff, const Limits& limits, Path& path) override;
+  PathOutcome search(const AgentStops& stops, const PathQuery& query, const Limits& limits,
+                     Path& path) override;
 
   struct Label {
     StopSet left;
@@ -32,8 +32,8 @@ class VisitedSetSearch : public BaselineSearch {
     std::int32_t parent;
   };
 
-  void prepare(AgentIndex agent, const AgentStops& stops, std::span<const Constraint> constraints);
-  Outcome run(Time cutoff, const Limits& limits, Path& path);
+  void prepare(const AgentStops& stops, std::span<const Constraint> constraints);
+  PathOutcome run(Time cutoff, const Limits& limits, Path& path);
   void reach(Cell cell, Time time, StopSet left, std::int32_t parent);
   Time least_cost(Cell cell, StopSet left);
   bool is_finish(const Label& label) const;

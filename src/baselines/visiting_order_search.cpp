@@ -32,19 +32,18 @@ namespace grove {
 VisitingOrderSearch::VisitingOrderSearch(const Grid& grid, std::unique_ptr<Legs> legs)
     : intervals_(grid), legs_(std::move(legs)) {}
 
-BaselineSearch::Outcome VisitingOrderSearch::search(AgentIndex agent, const AgentStops& stops,
-                                                    std::span<const Constraint> constraints,
-                                                    Time cutoff, const Limits& limits, Path& path) {
-  if (!prepare(agent, stops, constraints)) return Outcome::kInfeasible;
+PathOutcome VisitingOrderSearch::search(const AgentStops& stops, const PathQuery& query,
+                                        const Limits& limits, Path& path) {
+  if (!prepare(stops, query.constraints)) return PathOutcome::kInfeasible;
   start();
-  return run(cutoff, limits, path);
+  return run(query.cutoff, limits, path);
 }
 
 // False when there is plainly no path.
-bool VisitingOrderSearch::prepare(AgentIndex agent, const AgentStops& stops,
+bool VisitingOrderSearch::prepare(const AgentStops& stops,
                                   std::span<const Constraint> constraints) {
-  agent_ = agent;
   stops_ = &stops;
+  const AgentIndex agent = stops.agent();
   if (bounds_.size() <= static_cast<std::size_t>(agent)) bounds_.resize(agent + 1);
   if (!bounds_[agent]) bounds_[agent] = std::make_unique<SpanningTreeBound>(stops);
   intervals_.assign(constraints);
@@ -88,20 +87,20 @@ std::int32_t VisitingOrderSearch::row_of(StopSet left) {
   return static_cast<std::int32_t>(row);
 }
 
-BaselineSearch::Outcome VisitingOrderSearch::run(Time cutoff, const Limits& limits, Path& path) {
+PathOutcome VisitingOrderSearch::run(Time cutoff, const Limits& limits, Path& path) {
   Entry entry;
   while (queue_.pop(entry)) {
     if (labels_[entry.slot].time != entry.time) continue;  // improved since
-    if (queue_.layer() > cutoff) return Outcome::kAbove;
+    if (queue_.layer() > cutoff) return PathOutcome::kAbove;
     if (is_finish(entry.slot)) {
       write_path(entry.slot, path);
-      return Outcome::kFound;
+      return PathOutcome::kFound;
     }
     ++expanded_;
     expand(entry.slot, limits);
-    if (limits.stop_requested()) return Outcome::kStopped;
+    if (limits.stop_requested()) return PathOutcome::kStopped;
   }
-  return Outcome::kInfeasible;
+  return PathOutcome::kInfeasible;
 }
 
 bool VisitingOrderSearch::is_finish(std::int32_t id) const {

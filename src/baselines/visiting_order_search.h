@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "grove/baselines/baseline_search.h"
+#include "baseline_search.h"
 #include "grove/planning/bucket_queue.h"
 #include "grove/planning/safe_intervals.h"
 #include "grove/sequencing/sequence_dag.h"
@@ -23,8 +23,8 @@ class VisitingOrderSearch : public BaselineSearch {
   std::int64_t expanded() const override { return expanded_ + legs_->expanded(); }
 
  private:
-  Outcome search(AgentIndex agent, const AgentStops& stops, std::span<const Constraint> constraints,
-                 Time cutoff, const Limits& limits, Path& path) override;
+  PathOutcome search(const AgentStops& stops, const PathQuery& query, const Limits& limits,
+                     Path& path) override;
 
   struct Label {
     Time time = kNever;
@@ -33,10 +33,10 @@ class VisitingOrderSearch : public BaselineSearch {
   using Entry = BucketQueue::Entry;
   static constexpr std::int32_t kNoLabel = -1;
 
-  bool prepare(AgentIndex agent, const AgentStops& stops, std::span<const Constraint> constraints);
+  bool prepare(const AgentStops& stops, std::span<const Constraint> constraints);
   void add_targets(int goal, Cell cell);
   void start();
-  Outcome run(Time cutoff, const Limits& limits, Path& path);
+  PathOutcome run(Time cutoff, const Limits& limits, Path& path);
   void expand(std::int32_t id, const Limits& limits);
   void go_to(int goal, StopSet left, std::int32_t from, bool to_rest, const Limits& limits);
   bool is_finish(std::int32_t id) const;
@@ -51,7 +51,7 @@ class VisitingOrderSearch : public BaselineSearch {
   Cell cell_of(int column) const {
     return column == 0 ? stops_->start() : intervals_.cell_of(targets_[column].slot);
   }
-  SpanningTreeBound& bound() { return *bounds_[agent_]; }
+  SpanningTreeBound& bound() { return *bounds_[stops_->agent()]; }
 
   SafeIntervals intervals_;
   std::unique_ptr<Legs> legs_;
@@ -60,7 +60,6 @@ class VisitingOrderSearch : public BaselineSearch {
   std::int64_t expanded_ = 0;
 
   // Of the call under way.
-  AgentIndex agent_ = -1;
   const AgentStops* stops_ = nullptr;
   std::vector<Legs::Target> targets_;  // by column
   std::vector<int> first_target_;      // by goal: its targets are [first, next goal's first)

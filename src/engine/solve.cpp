@@ -135,7 +135,7 @@ Solution solve(const Instance& instance, const SolveOptions& options, const Limi
   RunObserver silent;
   RunObserver& watcher = observer ? *observer : silent;
   try {
-    const Problem problem(instance, limits, options.low_level);
+    const Problem problem(instance, limits);
     if (auto answer = answer_without_search(problem, options, limits, watcher))
       return std::move(*answer);
     return search(problem, options, limits, watcher);

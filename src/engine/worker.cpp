@@ -70,8 +70,9 @@ PrimalSearch& Worker::primal() {
 
 Expander& Worker::expander() {
   if (!expander_)
-    expander_ = std::make_unique<Expander>(problem_, expander_stops_, search_options_of(options_),
-                                           shared_.memory());
+    expander_ = std::make_unique<Expander>(
+        problem_, expander_stops_, search_options_of(options_), shared_.memory(),
+        make_agent_planner(options_.low_level, problem_.instance.grid()));
   return *expander_;
 }
 

@@ -61,7 +61,8 @@ StopSet checked_set(const Sequence& prefix, StopSet all) {
 }  // namespace
 
 AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent)
-    : start_(instance.agent(agent).start),
+    : agent_(agent),
+      start_(instance.agent(agent).start),
       destination_(instance.agent(agent).goal),
       completions_(cost_matrix(instance, agent, distances)) {
   std::vector<std::int8_t> stop_at(instance.grid().cell_count(), kNoStop);

@@ -7,7 +7,7 @@
 // onward(u) or more. For each way u on that has no such G the bound is t + dist(L, u) + onward(u).
 // The least of all these is what L is postponed to; if there is none, it is dropped. (Ways that the
 // graph does not know cost beyond() or more; a label dropped with such a way counts as dropped for
-// its state.) Soundness is that of the gates in low_level_search.cpp: when L is postponed beyond
+// its state.) Soundness is that of the gates in goals_in_turn.h: when L is postponed beyond
 // the optimal cost, an optimal path changes over to a G with fewer stops left, so this ends. With a
 // fixed sequence a gate holds for all earlier states; here for one, since the others may count
 // other stops on the way to u. The states before are cut off by gates of their own.

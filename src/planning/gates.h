@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which labels of free_low_level_search.cpp may wait, or are not needed at all, since one that was
+// Which labels of goals_in_class.h may wait, or are not needed at all, since one that was
 // expanded on a stop stands for them.
 #pragma once
 

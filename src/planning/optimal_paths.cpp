@@ -30,11 +30,15 @@
 #include <algorithm>
 
 #include "grove/planning/bucket_queue.h"
-#include "grove/planning/poll.h"
 #include "grove/planning/safe_intervals.h"
 #include "label_planes.h"
 
 namespace grove {
+namespace {
+
+constexpr std::int64_t kExpansionsPerPoll = 512;  // of limits: some tenth of a millisecond
+
+}  // namespace
 
 class OptimalPathsBuilder::Workspace {
  public:

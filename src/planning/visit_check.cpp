@@ -8,7 +8,20 @@
 
 namespace grove {
 
-Time VisitCheck::first_rest(Cell start, Cell via, std::span<const Cell> rests) {
+Time VisitCheck::least_cost(const AgentStops& stops, const Limits& limits) {
+  rests_.clear();
+  if (stops.destination()) rests_.push_back(*stops.destination());
+  for (int stop = 0; stop < stops.count() && !stops.destination(); ++stop)
+    rests_.push_back(stops.cell(stop));
+  Time least = 0;
+  for (int stop = 0; stop < stops.count() && !limits.stop_requested(); ++stop)
+    least = std::max(least, first_rest(stops.start(), stops.cell(stop)));
+  return least;
+}
+
+// The first time at which an agent that starts on `start` can rest for ever, having been on `via`;
+// kNever: it cannot at all.
+Time VisitCheck::first_rest(Cell start, Cell via) {
   via_ = via;
   earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_limit()), kNever);
   queue_.reset(0);
@@ -18,7 +31,7 @@ Time VisitCheck::first_rest(Cell start, Cell via, std::span<const Cell> rests) {
   while (queue_.pop(entry)) {
     const bool visited = entry.progress != 0;
     if (visited && intervals_.may_rest(entry.slot) &&
-        std::ranges::count(rests, intervals_.cell_of(entry.slot)) > 0)
+        std::ranges::count(rests_, intervals_.cell_of(entry.slot)) > 0)
       return entry.time;
     intervals_.for_each_move(grid_, entry.slot, entry.time, [&](int slot, Cell cell, Time time) {
       reach(slot, cell, time, visited);

@@ -2,29 +2,32 @@
 // A quick necessary condition for a path through many cells.
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "grove/model/limits.h"
 #include "grove/planning/bucket_queue.h"
+#include "grove/planning/free_goals.h"
 #include "grove/planning/safe_intervals.h"
 
 namespace grove {
 
-// When can the agent come to rest, having been on one given cell? What it must visit besides only
-// makes it later: so each stop of an agent bounds its cost. Polynomial where the question for all
-// stops together is not: it settles the common hopeless case, a door shut before or behind the
-// agent, for ever or for long.
+// When can an agent come to rest, having been on one of its stops? What it must visit besides only
+// makes it later: so each stop bounds its cost. Polynomial where the question for all stops
+// together is not: it settles the common hopeless case, a door shut before or behind the agent, for
+// ever or for long.
 class VisitCheck {
  public:
+  // Both must outlive this.
   VisitCheck(const Grid& grid, SafeIntervals& intervals) : grid_(grid), intervals_(intervals) {}
 
-  // The first time at which an agent that starts on `start` can rest on one of `rests` for ever,
-  // having been on `via`; kNever: it cannot at all.
-  Time first_rest(Cell start, Cell via, std::span<const Cell> rests);
+  // What a path through all stops costs at least under the intervals; kNever: there is none. Looks
+  // at fewer of them if a limit strikes.
+  Time least_cost(const AgentStops& stops, const Limits& limits);
 
  private:
   using Queue = BasicBucketQueue<std::uint8_t>;  // progress: has been on `via`
 
+  Time first_rest(Cell start, Cell via);
   void reach(int slot, Cell cell, Time time, bool visited);
 
   const Grid& grid_;
@@ -32,6 +35,7 @@ class VisitCheck {
   Queue queue_;
   std::vector<Time> earliest_;  // by slot, then progress
   Cell via_ = kNoCell;
+  std::vector<Cell> rests_;
 };
 
 }  // namespace grove

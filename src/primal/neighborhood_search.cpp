@@ -69,13 +69,15 @@ bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost o
 }
 
 bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Limits& limits) {
-  way.effort.most_labels =
-      way.found > 0
-          ? static_cast<std::int64_t>(kLeastLabels + kLabelsOfOthers * way.labels / way.found)
-          : way.first_labels;
+  const double of_others = kLeastLabels + kLabelsOfOthers * way.labels / way.found;
+  const PathQuery query{
+      .cutoff = static_cast<Time>(cutoff),
+      .most_labels = way.found > 0 ? static_cast<std::int64_t>(of_others) : way.first_labels,
+      .reservations = &paths_.reservations(),
+      .greed_percent = way.greed_percent,
+      .known_sequences = true};
   const std::int64_t before = router_.expanded();
-  if (router_.find(agent, paths_.reservations(), way.effort, static_cast<Time>(cutoff), limits,
-                   path_) != Router::Outcome::kFound) {
+  if (router_.find(agent, query, limits, path_) != PathOutcome::kFound) {
     if (way.found <= 0 && way.first_labels < kMostFirstLabels) way.first_labels *= 2;
     return false;
   }

@@ -32,7 +32,7 @@ class NeighborhoodSearch {
  private:
   // How the low level searches: exactly or greedily; which does better is found out on the way.
   struct Way {
-    FreeLowLevelSearch::Effort effort;
+    int greed_percent;
     double gain = 0;                     // of late
     double work = 1;                     // of late, in labels
     double labels = 0;                   // of late, of calls that found a path
@@ -50,8 +50,7 @@ class NeighborhoodSearch {
   PathSet& paths_;
   Random& random_;
   Neighborhoods neighborhoods_;
-  std::vector<Way> ways_{{{.known_sequences = true}},
-                         {{.greed_percent = 30, .known_sequences = true}}};
+  std::vector<Way> ways_{{0}, {30}};
   std::vector<Path> old_paths_;
   Path path_;
   std::int64_t steps_ = 0;

@@ -45,11 +45,10 @@ PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits, std::
   if (next_ == order_.size()) return State::kDone;
   const AgentIndex agent = order_[next_];
   const std::int64_t before = router_.expanded();
-  const Router::Outcome outcome =
-      router_.find(agent, paths_.reservations(),
-                   {.most_labels = std::min(patience, most_labels()), .known_sequences = true},
-                   kNever, limits, path_);
-  if (outcome == Router::Outcome::kFound) {
+  const PathQuery query{.most_labels = std::min(patience, most_labels()),
+                        .reservations = &paths_.reservations(),
+                        .known_sequences = true};
+  if (router_.find(agent, query, limits, path_) == PathOutcome::kFound) {
     labels_of_found_ = std::max(labels_of_found_, router_.expanded() - before);
     paths_.put(agent, std::move(path_));
     path_.clear();

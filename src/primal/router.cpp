@@ -23,23 +23,22 @@ FreeGoals& Router::goals(AgentIndex agent) {
 bool Router::meet(AgentIndex agent, const Limits& limits) {
   if (!own_paths_[agent].empty()) return true;
   ++calls_;
-  switch (low_level_.find(goals(agent), {}, nullptr, kNever, limits, own_paths_[agent])) {
-    case Outcome::kFound:
+  switch (low_level_.find(goals(agent), {}, limits, own_paths_[agent])) {
+    case PathOutcome::kFound:
       return true;
-    case Outcome::kStopped:
+    case PathOutcome::kStopped:
       return false;
-    case Outcome::kAbove:
-    case Outcome::kInfeasible:
+    case PathOutcome::kAbove:
+    case PathOutcome::kInfeasible:
       break;
   }
   throw std::logic_error("internal error: an agent that can reach all its cells has no path");
 }
 
-Router::Outcome Router::find(AgentIndex agent, const Reservations& others,
-                             const FreeLowLevelSearch::Effort& effort, Time cutoff,
-                             const Limits& limits, Path& path) {
+PathOutcome Router::find(AgentIndex agent, const PathQuery& query, const Limits& limits,
+                         Path& path) {
   ++calls_;
-  return low_level_.find(goals(agent), others, effort, cutoff, limits, path);
+  return low_level_.find(goals(agent), query, limits, path);
 }
 
 Plan Router::plan(const std::vector<Path>& paths) {

@@ -8,7 +8,6 @@
 
 #include "grove/planning/agent_stops_store.h"
 #include "grove/planning/free_low_level_search.h"
-#include "grove/planning/reservations.h"
 #include "grove/search/problem.h"
 
 namespace grove {
@@ -16,8 +15,6 @@ namespace grove {
 // The low level with what it needs of every agent. Each agent chooses the order of its tasks.
 class Router {
  public:
-  using Outcome = FreeLowLevelSearch::Outcome;
-
   // Both must outlive this.
   Router(const Problem& problem, AgentStopsStore& stops);
 
@@ -25,10 +22,8 @@ class Router {
   // other question about it. False when a limit struck.
   bool meet(AgentIndex agent, const Limits& limits);
 
-  // A path around `others` that costs at most `cutoff`.
-  Outcome find(AgentIndex agent, const Reservations& others,
-               const FreeLowLevelSearch::Effort& effort, Time cutoff, const Limits& limits,
-               Path& path);
+  // As FreeLowLevelSearch::find.
+  PathOutcome find(AgentIndex agent, const PathQuery& query, const Limits& limits, Path& path);
 
   // The agent's best path when nobody else is there, and its cost.
   const Path& own_path(AgentIndex agent) const { return own_paths_[agent]; }

@@ -192,8 +192,8 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
   const AgentOrder& order = task.view.order(agent);
   if (options_.techniques.has(Technique::kFewestConflicts)) {
     Time cost = 0;
-    if (prices_.cost(task.view, agent, more, cutoff, FreeLowLevelSearch::kUnlimited, task.limits,
-                     cost) != Prices::Outcome::kDone)
+    if (prices_.cost(task.view, agent, more, cutoff, PathQuery::kUnlimited, task.limits, cost) !=
+        Prices::Outcome::kDone)
       return false;
     found = cost <= cutoff;
     if (!found) return true;
@@ -206,11 +206,11 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
       return true;
     }
   }
-  const auto constraints = task.view.constraints_with(agent, more);
-  const auto outcome =
-      planner_.find(agent, order, constraints, &others_, cutoff, task.limits, path_);
-  found = outcome == PathPlanner::Outcome::kFound;
-  return outcome != PathPlanner::Outcome::kStopped;
+  const PathQuery query{
+      .constraints = task.view.constraints_with(agent, more), .others = &others_, .cutoff = cutoff};
+  const PathOutcome outcome = planner_.find(agent, order, query, task.limits, path_);
+  found = outcome == PathOutcome::kFound;
+  return outcome != PathOutcome::kStopped;
 }
 
 // Takes the paths of a side for the node's own, if that costs nothing and saves conflicts.

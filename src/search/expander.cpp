@@ -18,10 +18,10 @@ struct Expander::Leaving {
 };
 
 Expander::Expander(const Problem& problem, AgentStopsStore& stops, const SearchOptions& options,
-                   std::shared_ptr<CommonMemory> memory)
+                   std::shared_ptr<CommonMemory> memory, std::unique_ptr<AgentPlanner> planner)
     : problem_(problem),
       techniques_(options.techniques),
-      planner_(problem, stops),
+      planner_(problem, stops, std::move(planner)),
       memory_(planner_, std::move(memory)),
       view_(problem, options, memory_),
       brancher_(problem, options, planner_, memory_),

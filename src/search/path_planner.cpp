@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "grove/conflicts/sequence_split.h"
+#include "grove/planning/free_low_level_search.h"
 #include "grove/planning/sequence_constraints.h"
 
 namespace grove {
@@ -15,53 +16,21 @@ constexpr std::size_t kMostClassesKept = 4;  // of an agent, with their states
 
 }  // namespace
 
-PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops)
+PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops,
+                         std::unique_ptr<AgentPlanner> free)
     : fixed_(problem.instance.grid()),
-      free_(problem.instance.grid()),
-      baseline_(make_baseline_search(problem.low_level, problem.instance.grid())),
+      free_(free ? std::move(free) : std::make_unique<FreeLowLevelSearch>(problem.instance.grid())),
       optimal_(problem.instance.grid()),
       stops_(stops),
       free_goals_(problem.instance.agent_count()) {}
 
-PathPlanner::Outcome PathPlanner::find(AgentIndex agent, const AgentOrder& order,
-                                       std::span<const Constraint> constraints,
-                                       const ConflictAvoidanceTable* others, Time cutoff,
-                                       const Limits& limits, Path& path, std::int64_t most_labels) {
+PathOutcome PathPlanner::find(AgentIndex agent, const AgentOrder& order, PathQuery query,
+                              const Limits& limits, Path& path) {
   ++calls_;
-  if (order.goals) return find_fixed(*order.goals, constraints, others, cutoff, limits, path);
-  if (baseline_) return find_as_others_do(agent, constraints, cutoff, limits, path);
-  return free_.find(free_goals(agent, order, constraints), on_path(constraints), others, cutoff,
-                    limits, path, most_labels);
-}
-
-PathPlanner::Outcome PathPlanner::find_fixed(const GoalSequence& goals,
-                                             std::span<const Constraint> constraints,
-                                             const ConflictAvoidanceTable* others, Time cutoff,
-                                             const Limits& limits, Path& path) {
-  switch (fixed_.find(goals, constraints, others, limits, path)) {
-    case LowLevelSearch::Outcome::kFound:
-      return static_cast<Time>(path.size()) - 1 <= cutoff ? Outcome::kFound : Outcome::kAbove;
-    case LowLevelSearch::Outcome::kInfeasible:
-      return Outcome::kInfeasible;
-    case LowLevelSearch::Outcome::kStopped:
-      break;
-  }
-  return Outcome::kStopped;
-}
-
-PathPlanner::Outcome PathPlanner::find_as_others_do(AgentIndex agent, Constraints constraints,
-                                                    Time cutoff, const Limits& limits, Path& path) {
-  switch (baseline_->find(agent, stops_.of(agent), constraints, cutoff, limits, path)) {
-    case BaselineSearch::Outcome::kFound:
-      return Outcome::kFound;
-    case BaselineSearch::Outcome::kAbove:
-      return Outcome::kAbove;
-    case BaselineSearch::Outcome::kInfeasible:
-      return Outcome::kInfeasible;
-    case BaselineSearch::Outcome::kStopped:
-      break;
-  }
-  return Outcome::kStopped;
+  if (order.goals) return fixed_.find(*order.goals, query, limits, path);
+  FreeGoals& goals = free_goals(agent, order, query.constraints);
+  query.constraints = on_path(query.constraints);
+  return free_->find(goals, query, limits, path);
 }
 
 OptimalPathsBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentOrder& order,

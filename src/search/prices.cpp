@@ -38,19 +38,19 @@ Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint&
   if (known.exact || known.at_least > cutoff) {
     ++known_;
   } else {
-    if (known.hard && most_labels < FreeLowLevelSearch::kUnlimited) return Outcome::kTooHard;
-    switch (planner_.find(agent, view.order(agent), constraints, nullptr, cutoff, limits, path_,
-                          most_labels)) {
-      case PathPlanner::Outcome::kFound:
+    if (known.hard && most_labels < PathQuery::kUnlimited) return Outcome::kTooHard;
+    const PathQuery query{.constraints = constraints, .cutoff = cutoff, .most_labels = most_labels};
+    switch (planner_.find(agent, view.order(agent), query, limits, path_)) {
+      case PathOutcome::kFound:
         known = {static_cast<Time>(path_.size()) - 1, true};
         break;
-      case PathPlanner::Outcome::kAbove:
+      case PathOutcome::kAbove:
         known = {cutoff + 1, false};
         break;
-      case PathPlanner::Outcome::kInfeasible:
+      case PathOutcome::kInfeasible:
         known = {kNever, true};
         break;
-      case PathPlanner::Outcome::kStopped:
+      case PathOutcome::kStopped:
         if (limits.stop_requested()) return Outcome::kStopped;
         known.hard = true;
         break;

@@ -86,9 +86,9 @@ bool SequenceForest::plan_order(AgentIndex agent, std::uint32_t rank) {
   const Instance& instance = problem_.instance;
   const Sequence& sequence = sequences_.sequence(agent, rank);
   GoalSequence goals = goals_in_order(problem_, agent, sequence);
-  const auto outcome = low_level_.find(goals, {}, &others_, limits_, path_);
-  if (outcome == LowLevelSearch::Outcome::kStopped) return false;
-  if (outcome == LowLevelSearch::Outcome::kInfeasible)
+  const PathOutcome outcome = low_level_.find(goals, {.others = &others_}, limits_, path_);
+  if (outcome == PathOutcome::kStopped) return false;
+  if (outcome != PathOutcome::kFound)
     throw std::logic_error("internal error: a sequence of finite cost has no path");
   PackedPath packed(instance.grid(), path_);
   others_.add(path_);

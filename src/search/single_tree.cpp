@@ -8,11 +8,18 @@
 #include <stdexcept>
 #include <utility>
 
+#include "grove/planning/free_low_level_search.h"
+
 namespace grove {
 
 SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
-                       const Limits& limits)
-    : problem_(problem), stops_(stops), pool_(pool), limits_(limits) {
+                       const Limits& limits, std::unique_ptr<AgentPlanner> planner)
+    : problem_(problem),
+      stops_(stops),
+      pool_(pool),
+      limits_(limits),
+      planner_(planner ? std::move(planner)
+                       : std::make_unique<FreeLowLevelSearch>(problem.instance.grid())) {
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     relaxed_bound_ += stops.of(agent).completions().relaxed_bound();
 }
@@ -21,20 +28,20 @@ SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool&
 // ties.
 NodePtr SingleTree::next_root() {
   if (!tree_.empty()) return nullptr;
-  PathPlanner planner(problem_, stops_);
   ConflictAvoidanceTable others(problem_.instance.grid());
   std::vector<std::shared_ptr<const AgentOrder>> orders;
   Path path;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
-    AgentOrder open{{}, std::nullopt, PackedPath()};
-    const auto outcome = planner.find(agent, open, {}, &others, kNever, limits_, path);
-    if (outcome == PathPlanner::Outcome::kStopped) return nullptr;
-    if (outcome == PathPlanner::Outcome::kInfeasible)
+    FreeGoals goals(stops_.of(agent), SequenceClass());
+    const PathOutcome outcome = planner_->find(goals, {.others = &others}, limits_, path);
+    if (outcome == PathOutcome::kStopped) return nullptr;
+    if (outcome != PathOutcome::kFound)
       throw std::logic_error("internal error: an agent that can reach all its cells has no path");
-    open.path = PackedPath(problem_.instance.grid(), path);
     others.add(path);
-    orders.push_back(std::make_shared<const AgentOrder>(std::move(open)));
+    orders.push_back(std::make_shared<const AgentOrder>(
+        AgentOrder{{}, std::nullopt, PackedPath(problem_.instance.grid(), path)}));
   }
+  planner_.reset();
   Tree& tree = tree_.emplace_back(Tree{&pool_, 0, std::move(orders)});
   return Node::root(tree);
 }

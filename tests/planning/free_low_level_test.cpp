@@ -9,12 +9,11 @@
 #include <random>
 #include <stdexcept>
 
-#include "grove/baselines/baseline_search.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/sequencing/k_best_sequences.h"
+#include "tests/planning/free_problems.h"
 #include "tests/planning/free_reference.h"
-#include "tests/planning/random_constraint.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/fuzz_factor.h"
@@ -22,7 +21,7 @@
 namespace grove {
 namespace free_low_level_test {
 
-using Outcome = FreeLowLevelSearch::Outcome;
+using Outcome = PathOutcome;
 using testing::free_reference_cost;
 using testing::FreeProblem;
 using testing::grid_of;
@@ -41,14 +40,10 @@ struct Agent {
         stops(instance, distances, 0),
         goals(stops, given.work),
         free(*given.grid),
-        fixed(*given.grid) {
-    for (LowLevel low_level :
-         {LowLevel::kVisitedSets, LowLevel::kSingleLegs, LowLevel::kTimeIntervalForest})
-      baselines.push_back(make_baseline_search(low_level, *given.grid));
-  }
+        fixed(*given.grid) {}
 
   Outcome find(Time cutoff, Path& found, const ConflictAvoidanceTable* others = nullptr) {
-    return free.find(goals, problem.constraints, others, cutoff, Limits(), found);
+    return free.find(goals, {problem.constraints, others, cutoff}, Limits(), found);
   }
   // Of least cost, none if there is none. Checks the path.
   std::optional<Time> cost(const ConflictAvoidanceTable* others = nullptr) {
@@ -60,10 +55,7 @@ struct Agent {
   }
   void expect_valid(const Path& found) {
     const Sequence sequence = realized_sequence(goals, found);
-    Problem plain{problem.grid, problem.start, {}, problem.constraints};
-    for (Stop stop : sequence) plain.goals.push_back(problem.stops[stop]);
-    if (problem.destination) plain.goals.push_back(*problem.destination);
-    EXPECT_EQ(path_error(plain, found), "");
+    EXPECT_EQ(testing::path_error(problem, sequence, found), "");
     EXPECT_TRUE(
         std::equal(problem.work.prefix.begin(), problem.work.prefix.end(), sequence.begin()));
     const std::size_t free_from = problem.work.prefix.size();
@@ -74,8 +66,8 @@ struct Agent {
     const std::vector<TaskIndex> tasks(sequence.begin(), sequence.end());
     Path found;
     const auto outcome = fixed.find(GoalSequence(instance, distances, 0, tasks),
-                                    problem.constraints, nullptr, Limits(), found);
-    if (outcome != LowLevelSearch::Outcome::kFound) return std::nullopt;
+                                    {problem.constraints}, Limits(), found);
+    if (outcome != Outcome::kFound) return std::nullopt;
     return static_cast<Time>(found.size()) - 1;
   }
   std::optional<Time> fixed_cost_of_class() {
@@ -92,7 +84,6 @@ struct Agent {
   FreeGoals goals;
   FreeLowLevelSearch free;
   LowLevelSearch fixed;
-  std::vector<std::unique_ptr<BaselineSearch>> baselines;
   Path path;
 };
 
@@ -100,17 +91,16 @@ struct Agent {
 class Fuzzer {
  public:
   // `conditional`: constraints of all kinds, not bars alone.
-  Fuzzer(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
+  Fuzzer(unsigned seed, bool conditional) : problems_(seed, conditional) {}
 
   void run() {
-    const Grid grid = random_grid();
-    Agent agent(random_problem(grid));
+    const Grid grid = problems_.grid();
+    Agent agent(problems_.problem(grid));
     ConflictAvoidanceTable others(grid);
-    for (int n = below(4); n > 0; --n) others.add(random_walk(grid));
-    for (int n = below(12); n >= 0; --n) {
+    for (int n = problems_.below(4); n > 0; --n) others.add(problems_.walk(grid));
+    for (int n = problems_.below(12); n >= 0; --n) {
       if (!check(agent, others)) return;
-      agent.problem.constraints.push_back(random_constraint(agent));
-      std::ranges::shuffle(agent.problem.constraints, random_);
+      problems_.make_harder(agent.problem, agent.path);
     }
   }
 
@@ -118,95 +108,6 @@ class Fuzzer {
   int infeasible = 0;
 
  private:
-  int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
-
-  Grid random_grid() {
-    if (conditional_ && below(3) > 0) return testing::random_corridor_map(random_);
-    switch (below(6)) {
-      case 0:
-        return grid_of({"......"});
-      case 1:
-        return grid_of({"@.@", "...", "@.@", "@.@"});
-      case 2:
-        return grid_of({"..@..", ".....", "..@.."});
-      case 3:
-        return grid_of({"....", ".@@.", "...."});
-      default:
-        break;
-    }
-    const int width = 1 + below(4);
-    const int height = 1 + below(4);
-    std::vector<bool> passable(static_cast<std::size_t>(width * height));
-    for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = below(5) > 0;
-    passable[0] = true;
-    return Grid(width, height, passable);
-  }
-
-  Cell random_cell(const Grid& grid) {
-    for (;;)
-      if (const Cell cell = below(grid.cell_count()); grid.passable(cell)) return cell;
-  }
-
-  FreeProblem random_problem(const Grid& grid) {
-    FreeProblem problem{&grid, random_cell(grid), {}, {}, {}, {}};
-    for (int n = below(6); n > 0; --n)
-      if (const Cell cell = random_cell(grid); std::ranges::count(problem.stops, cell) == 0)
-        problem.stops.push_back(cell);
-    if (problem.stops.empty() || below(2) == 0) problem.destination = random_cell(grid);
-    problem.work = random_class(static_cast<int>(problem.stops.size()));
-    return problem;
-  }
-
-  SequenceClass random_class(int n) {
-    SequenceClass work;
-    if (below(3) == 0) return work;
-    Sequence order(static_cast<std::size_t>(n));
-    std::iota(order.begin(), order.end(), Stop{0});
-    std::ranges::shuffle(order, random_);
-    work.prefix.assign(order.begin(), order.begin() + below(below(2) == 0 ? n + 1 : 1));
-    for (int stop = 0; stop < n; ++stop)
-      if (below(3) == 0) work.forbidden_next |= StopSet{1} << stop;
-    return work;
-  }
-
-  Path random_walk(const Grid& grid) {
-    Path path{random_cell(grid)};
-    for (int n = below(12); n > 0; --n) {
-      const auto neighbors = grid.neighbors(path.back());
-      const int choice = below(static_cast<int>(neighbors.size()) + 1);
-      path.push_back(choice == 0 ? path.back() : neighbors[choice - 1]);
-    }
-    return path;
-  }
-
-  // Often on the path, often on a stop or the destination.
-  Constraint random_constraint(const Agent& agent) {
-    const Path& path = agent.path;
-    std::vector<Cell> goals = agent.problem.stops;
-    if (agent.problem.destination) goals.push_back(*agent.problem.destination);
-    if (conditional_ && below(2) == 0)
-      return testing::random_conditional_constraint(*agent.problem.grid, path, goals, random_);
-    Constraint c;
-    const int at = below(static_cast<int>(path.size()));
-    c.cell = path[at];
-    c.begin = at;
-    if (below(2) == 0) {
-      c.cell = below(4) == 0 ? random_cell(*agent.problem.grid)
-                             : goals[below(static_cast<int>(goals.size()))];
-      c.begin = below(static_cast<int>(path.size()) + 6);
-    }
-    c.end = c.begin + (below(2) == 0 ? 0 : below(10));
-    if (c.begin > 0 && below(8) == 0) c.end = kNever;
-    if (below(3) == 0) {
-      const auto neighbors = agent.problem.grid->neighbors(c.cell);
-      if (at > 0 && path[at - 1] != c.cell && c.cell == path[at])
-        c.from = path[at - 1];
-      else if (!neighbors.empty())
-        c.from = neighbors[below(static_cast<int>(neighbors.size()))];
-    }
-    return c;
-  }
-
   bool check(Agent& agent, const ConflictAvoidanceTable& others) {
     ++checked;
     const std::optional<Time> expected = free_reference_cost(agent.problem);
@@ -214,7 +115,6 @@ class Fuzzer {
     EXPECT_EQ(agent.cost(), expected);
     EXPECT_TRUE(agent.problem.stops.size() > 4 || agent.fixed_cost_of_class() == expected);
     check_cutoffs(agent, expected);
-    if (!conditional_ && agent.problem.work == SequenceClass{}) check_baselines(agent, expected);
     if (!expected) ++infeasible;
     return expected.has_value() && !::testing::Test::HasFailure();
   }
@@ -225,29 +125,11 @@ class Fuzzer {
       EXPECT_EQ(agent.find(*expected, path), Outcome::kFound);
       EXPECT_EQ(agent.find(*expected - 1, path), Outcome::kAbove);
     } else {
-      EXPECT_NE(agent.find(below(30), path), Outcome::kFound);
+      EXPECT_NE(agent.find(problems_.below(30), path), Outcome::kFound);
     }
   }
 
-  void check_baselines(Agent& agent, std::optional<Time> expected) {
-    for (const auto& baseline : agent.baselines) {
-      Path path;
-      const auto find = [&](Time cutoff) {
-        return baseline->find(0, agent.stops, agent.problem.constraints, cutoff, Limits(), path);
-      };
-      if (!expected) {
-        EXPECT_EQ(find(kNever), BaselineSearch::Outcome::kInfeasible);
-        continue;
-      }
-      ASSERT_EQ(find(*expected), BaselineSearch::Outcome::kFound);
-      EXPECT_EQ(static_cast<Time>(path.size()) - 1, *expected);
-      agent.expect_valid(path);
-      EXPECT_EQ(find(*expected - 1), BaselineSearch::Outcome::kAbove);
-    }
-  }
-
-  std::mt19937 random_;
-  const bool conditional_;
+  testing::FreeProblems problems_;
 };
 
 class FreeLowLevelFuzz : public ::testing::TestWithParam<bool> {};
@@ -519,10 +401,31 @@ TEST(FreeLowLevel, StopsWithoutAnAnswerWhenALimitStrikes) {
   Limits limits;
   limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
   Path path;
-  EXPECT_EQ(agent.free.find(agent.goals, {}, nullptr, kNever, limits, path), Outcome::kStopped);
+  EXPECT_EQ(agent.free.find(agent.goals, {}, limits, path), Outcome::kStopped);
   Limits memory;
   memory.set_memory_limit(1);
-  EXPECT_EQ(agent.free.find(agent.goals, {}, nullptr, kNever, memory, path), Outcome::kStopped);
+  EXPECT_EQ(agent.free.find(agent.goals, {}, memory, path), Outcome::kStopped);
+}
+
+// There is memory for the labels of one order, and the agent may not rest where that ends. The path
+// back from there is no answer: the other order is cheaper.
+TEST(FreeLowLevel, APathFoundWithoutAllLabelsIsNoAnswer) {
+  constexpr int kSide = 700;
+  std::vector<bool> passable(kSide * kSide);
+  std::fill_n(passable.begin(), 6, true);
+  const Grid grid(kSide, kSide, passable);
+  FreeProblem problem{&grid, 2, {1, 4}, {}, {{0, 1}, 0}, {{4, kNoCell, 30, 30}}};
+  Agent agent(problem);
+  EXPECT_EQ(agent.cost(), 31);  // its three states have labels from now on
+  FreeGoals both(agent.stops, {});
+  const PathQuery query{problem.constraints};
+  Limits limits;
+  limits.set_memory_limit(resident_bytes() + (std::size_t{4} << 20));
+  Path path;
+  EXPECT_EQ(agent.free.find(both, query, limits, path), Outcome::kStopped);
+  EXPECT_EQ(limits.reason(), StopReason::kMemory);
+  ASSERT_EQ(agent.free.find(both, query, Limits(), path), Outcome::kFound);
+  EXPECT_EQ(path.size(), 6u);
 }
 
 TEST(FreeLowLevel, APathOutsideTheClassRealizesNothing) {

@@ -6,12 +6,13 @@
 #include <set>
 #include <tuple>
 
+#include "tests/planning/reference_search.h"
 #include "tests/planning/step_rules.h"
 
 namespace grove::testing {
 namespace {
 
-struct Place {
+struct FreePlace {
   Cell cell;
   unsigned counted;  // stops
   int last;          // the last one of them or -1
@@ -19,13 +20,13 @@ struct Place {
   bool late;         // it came here after all times by which it may not have come to rest here
 
   auto key() const { return std::tuple(cell, counted, last, mouth.end, mouth.inner, late); }
-  bool operator<(const Place& other) const { return key() < other.key(); }
-  bool operator==(const Place& other) const { return key() == other.key(); }
+  bool operator<(const FreePlace& other) const { return key() < other.key(); }
+  bool operator==(const FreePlace& other) const { return key() == other.key(); }
 };
 
-class Layers {
+class FreeLayers {
  public:
-  explicit Layers(const FreeProblem& problem)
+  explicit FreeLayers(const FreeProblem& problem)
       : problem_(problem), rules_(*problem.grid, problem.constraints) {
     if (!barred(problem.start, 0))
       reach({problem.start, 0, -1, {}, rules_.is_late(problem.start, 0)});
@@ -34,7 +35,7 @@ class Layers {
 
   bool finished(Time time) const {
     const unsigned all = (1U << problem_.stops.size()) - 1;
-    return std::ranges::any_of(now_, [&](const Place& place) {
+    return std::ranges::any_of(now_, [&](const FreePlace& place) {
       if (place.counted != all || !place.late || !rules_.may_rest(place.cell, time)) return false;
       const Cell goal = problem_.destination ? *problem_.destination : problem_.stops[place.last];
       return place.cell == goal;
@@ -44,11 +45,11 @@ class Layers {
   // False if nothing changes any more.
   bool step(Time time) {
     next_.clear();
-    for (const Place& place : now_) {
+    for (const FreePlace& place : now_) {
       if (!barred(place.cell, time)) reach(place);
       for (Cell to : problem_.grid->neighbors(place.cell)) {
         if (barred(to, time) || rules_.move_barred(place.cell, to, place.mouth, time)) continue;
-        Place there = place;
+        FreePlace there = place;
         there.cell = to;
         there.mouth = rules_.mouth_after(place.cell, to, place.mouth);
         there.late = rules_.is_late(to, time);
@@ -70,11 +71,11 @@ class Layers {
 
   bool barred(Cell cell, Time time) const { return rules_.barred(cell, time); }
 
-  void reach(Place place) {
+  void reach(FreePlace place) {
     next_.insert(place);
     for (int stop = 0; stop < static_cast<int>(problem_.stops.size()); ++stop) {
       if (problem_.stops[stop] != place.cell || !may_follow(place.counted, stop)) continue;
-      Place counting = place;
+      FreePlace counting = place;
       counting.counted |= 1U << stop;
       counting.last = stop;
       next_.insert(counting);
@@ -83,8 +84,8 @@ class Layers {
 
   const FreeProblem& problem_;
   const StepRules rules_;
-  std::set<Place> now_;
-  std::set<Place> next_;
+  std::set<FreePlace> now_;
+  std::set<FreePlace> next_;
 };
 
 }  // namespace
@@ -101,11 +102,18 @@ Instance instance_of(const FreeProblem& problem) {
 }
 
 std::optional<Time> free_reference_cost(const FreeProblem& problem) {
-  Layers layers(problem);
+  FreeLayers layers(problem);
   for (Time t = 0;; ++t) {
     if (layers.finished(t)) return t;
     if (!layers.step(t + 1)) return std::nullopt;
   }
+}
+
+std::string path_error(const FreeProblem& problem, const Sequence& sequence, const Path& path) {
+  Problem plain{problem.grid, problem.start, {}, problem.constraints};
+  for (Stop stop : sequence) plain.goals.push_back(problem.stops[stop]);
+  if (problem.destination) plain.goals.push_back(*problem.destination);
+  return path_error(plain, path);
 }
 
 std::vector<Sequence> members_of(const SequenceClass& work, int n) {

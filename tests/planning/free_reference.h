@@ -3,9 +3,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "grove/model/instance.h"
+#include "grove/model/plan.h"
 #include "grove/planning/constraint.h"
 #include "grove/sequencing/rtsp.h"
 
@@ -27,6 +29,9 @@ Instance instance_of(const FreeProblem& problem);
 // agent on a stop may or may not count it; it rests on its destination, or without one on the stop
 // counted last.
 std::optional<Time> free_reference_cost(const FreeProblem& problem);
+
+// What is wrong with `path` as one that realizes this sequence of all stops; empty if nothing.
+std::string path_error(const FreeProblem& problem, const Sequence& sequence, const Path& path);
 
 // All members of a class of n stops.
 std::vector<Sequence> members_of(const SequenceClass& work, int n);

@@ -42,8 +42,8 @@ class LateCosts {
     LowLevelSearch search(grid_);
     Path path;
     const auto outcome = search.find(GoalSequence(agent_.instance, agent_.distances, 0, tasks),
-                                     constraints, nullptr, Limits(), path);
-    return outcome == LowLevelSearch::Outcome::kFound ? static_cast<Time>(path.size()) - 1 : kNever;
+                                     {constraints}, Limits(), path);
+    return outcome == PathOutcome::kFound ? static_cast<Time>(path.size()) - 1 : kNever;
   }
 
  private:

@@ -152,14 +152,20 @@ class Fuzzer {
 
   void check_once(const Problem& problem, const SingleAgent& agent, LowLevelSearch& search,
                   const ConflictAvoidanceTable* table, std::optional<Time> expected, Path& path) {
-    const auto outcome = search.find(agent.goals, problem.constraints, table, Limits(), path);
-    ASSERT_EQ(outcome == LowLevelSearch::Outcome::kFound, expected.has_value());
-    if (!expected) {
-      ASSERT_EQ(outcome, LowLevelSearch::Outcome::kInfeasible);
-      return;
-    }
+    PathQuery query{problem.constraints, table};
+    const auto find = [&](Path& found) { return search.find(agent.goals, query, Limits(), found); };
+    const PathOutcome outcome = find(path);
+    ASSERT_EQ(outcome, expected ? PathOutcome::kFound : PathOutcome::kInfeasible);
+    if (!expected) return;
     ASSERT_EQ(path_error(problem, path), "");
     ASSERT_EQ(static_cast<Time>(path.size()) - 1, *expected);
+    Path again;
+    query.cutoff = *expected - 1;
+    ASSERT_EQ(find(again), PathOutcome::kAbove);
+    ASSERT_TRUE(again.empty());
+    query.cutoff = *expected;
+    ASSERT_EQ(find(again), PathOutcome::kFound);
+    ASSERT_EQ(again, path);
   }
 
   std::mt19937 random_;

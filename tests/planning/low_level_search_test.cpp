@@ -12,7 +12,7 @@
 namespace grove {
 namespace low_level_search_test {
 
-using Outcome = LowLevelSearch::Outcome;
+using Outcome = PathOutcome;
 using testing::grid_of;
 using testing::SingleAgent;
 using Constraints = std::vector<Constraint>;
@@ -23,7 +23,7 @@ Path path_of(const Grid& grid, const SingleAgent& agent, const Constraints& cons
              const ConflictAvoidanceTable* others = nullptr) {
   LowLevelSearch search(grid);
   Path path;
-  const Outcome outcome = search.find(agent.goals, constraints, others, Limits(), path);
+  const Outcome outcome = search.find(agent.goals, {constraints, others}, Limits(), path);
   EXPECT_NE(outcome, Outcome::kStopped);
   EXPECT_EQ(outcome == Outcome::kFound, !path.empty());
   return path;
@@ -135,7 +135,7 @@ TEST(LowLevelSearch, WaitsNowhereOnceEveryWaitingPlaceIsBarred) {
       kInfeasible);
 }
 
-// The gates of low_level_search.cpp: the first visit of the task is of no use, a later one is.
+// The gates of goals_in_turn.h: the first visit of the task is of no use, a later one is.
 TEST(LowLevelSearch, ALaterVisitOfATaskIsTriedWhenTheFirstLeadsNowhere) {
   const Grid grid = grid_of({".....", "@@.@@"});
   const SingleAgent agent(grid, 0, {7}, 4);
@@ -208,7 +208,7 @@ TEST(LowLevelSearch, OneVisitCountsForAllGoalsOnTheCell) {
   LowLevelSearch search(grid);
   Path path;
   const Constraints constraints{{1, kNoCell, 2, kNever}};
-  ASSERT_EQ(search.find(twice, constraints, nullptr, Limits(), path), Outcome::kFound);
+  ASSERT_EQ(search.find(twice, {constraints}, Limits(), path), Outcome::kFound);
   EXPECT_EQ(path, (Path{0, 1, 2}));
 }
 
@@ -217,7 +217,7 @@ TEST(LowLevelSearch, RejectsConstraintsOutsideTheGrid) {
   const SingleAgent agent(grid, 0, {}, 2);
   LowLevelSearch search(grid);
   Path path;
-  EXPECT_THROW(search.find(agent.goals, Constraints{{9, kNoCell, 1, 1}}, nullptr, Limits(), path),
+  EXPECT_THROW(search.find(agent.goals, {Constraints{{9, kNoCell, 1, 1}}}, Limits(), path),
                std::invalid_argument);
 }
 
@@ -229,17 +229,17 @@ TEST(LowLevelSearch, StopsWithoutAnAnswerWhenALimitStrikes) {
 
   Limits late;
   late.set_deadline(Limits::Clock::now());
-  EXPECT_EQ(search.find(agent.goals, {}, nullptr, late, path), Outcome::kStopped);
+  EXPECT_EQ(search.find(agent.goals, {}, late, path), Outcome::kStopped);
   EXPECT_EQ(late.reason(), StopReason::kTime);
 
   Limits narrow;
   narrow.set_memory_limit(1);
-  EXPECT_EQ(search.find(agent.goals, {}, nullptr, narrow, path), Outcome::kStopped);
+  EXPECT_EQ(search.find(agent.goals, {}, narrow, path), Outcome::kStopped);
   EXPECT_EQ(narrow.reason(), StopReason::kMemory);
   EXPECT_EQ(path, Path{7});
   EXPECT_EQ(search.expanded(), 0);
 
-  EXPECT_EQ(search.find(agent.goals, {}, nullptr, Limits(), path), Outcome::kFound);
+  EXPECT_EQ(search.find(agent.goals, {}, Limits(), path), Outcome::kFound);
   EXPECT_GT(search.expanded(), 0);
 }
 
@@ -252,13 +252,13 @@ TEST(LowLevelSearch, StopsInTheMiddleOfALongProof) {
   for (Cell next : grid.neighbors(5'050)) constraints.push_back({5'050, next, 0, kNever});
   LowLevelSearch search(grid);
   Path path;
-  EXPECT_EQ(search.find(agent.goals, constraints, nullptr, Limits(), path), Outcome::kInfeasible);
+  EXPECT_EQ(search.find(agent.goals, {constraints}, Limits(), path), Outcome::kInfeasible);
   const std::int64_t whole = search.expanded();
   EXPECT_GT(whole, 5'000);
 
   Limits limits;
   limits.set_deadline(Limits::Clock::now() + std::chrono::microseconds(50));
-  EXPECT_EQ(search.find(agent.goals, constraints, nullptr, limits, path), Outcome::kStopped);
+  EXPECT_EQ(search.find(agent.goals, {constraints}, limits, path), Outcome::kStopped);
   EXPECT_LT(search.expanded() - whole, whole);
 }
 

@@ -240,9 +240,9 @@ class Fuzzer {
       TimeExpanded reference(problem_);
       const std::optional<Time> least = reference.least_cost(kLongest);
       Path path;
-      const auto outcome =
-          search.find(goals, problem_.constraints, nullptr, kLongest, Limits(), path);
-      ASSERT_EQ(outcome == FreeLowLevelSearch::Outcome::kFound, least.has_value());
+      const auto outcome = search.find(
+          goals, {.constraints = problem_.constraints, .cutoff = kLongest}, Limits(), path);
+      ASSERT_EQ(outcome == PathOutcome::kFound, least.has_value());
       if (least) {
         ASSERT_EQ(static_cast<Time>(path.size()) - 1, *least);
       }
@@ -514,8 +514,7 @@ TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
   FreeGoals goals(stops, {});
   Path path;
   FreeLowLevelSearch search(grid);
-  ASSERT_EQ(search.find(goals, {}, nullptr, kNever, Limits(), path),
-            FreeLowLevelSearch::Outcome::kFound);
+  ASSERT_EQ(search.find(goals, {}, Limits(), path), PathOutcome::kFound);
   const auto cost = static_cast<Time>(path.size()) + 3;
   OptimalPaths whole;
   ASSERT_EQ(OptimalPathsBuilder(grid).build(goals, {}, cost, kPlenty, Limits(), whole),

@@ -18,7 +18,7 @@
 namespace grove {
 namespace reservations_test {
 
-using Outcome = FreeLowLevelSearch::Outcome;
+using Outcome = PathOutcome;
 
 struct StayIs {
   Time first;
@@ -158,12 +158,12 @@ class Crowd {
     Path expected;
     Path path;
     const Limits limits;
-    const Outcome outcome = search.find(goals, constraints, nullptr, kNever, limits, expected);
-    ASSERT_EQ(search.find(goals, reservations, {}, kNever, limits, path), outcome);
+    const Outcome outcome = search.find(goals, {constraints}, limits, expected);
+    ASSERT_EQ(search.find(goals, {.reservations = &reservations}, limits, path), outcome);
     if (outcome != Outcome::kFound) {
-      const Time cutoff = below(40);
-      EXPECT_NE(search.find(goals, reservations, {below(3) * 50}, cutoff, limits, path),
-                Outcome::kFound);
+      const PathQuery query{
+          .cutoff = below(40), .reservations = &reservations, .greed_percent = below(3) * 50};
+      EXPECT_NE(search.find(goals, query, limits, path), Outcome::kFound);
       return;
     }
     ++found;
@@ -171,13 +171,15 @@ class Crowd {
     expect_valid(goals, path, walks);
     const Time cost = static_cast<Time>(expected.size()) - 1;
     for (const int greed : {0, 30, 200}) {
-      EXPECT_EQ(search.find(goals, reservations, {greed}, cost - 1, limits, path), Outcome::kAbove);
-      const Time cutoff = cost + below(10);
-      ASSERT_EQ(search.find(goals, reservations, {greed}, cutoff, limits, path), Outcome::kFound);
-      EXPECT_LE(static_cast<Time>(path.size()) - 1, greed == 0 ? cost : cutoff);
+      PathQuery query{.cutoff = cost - 1, .reservations = &reservations, .greed_percent = greed};
+      EXPECT_EQ(search.find(goals, query, limits, path), Outcome::kAbove);
+      query.cutoff = cost + below(10);
+      ASSERT_EQ(search.find(goals, query, limits, path), Outcome::kFound);
+      EXPECT_LE(static_cast<Time>(path.size()) - 1, greed == 0 ? cost : query.cutoff);
       expect_valid(goals, path, walks);
     }
-    ASSERT_EQ(search.find(goals, reservations, {200}, kNever, limits, path), Outcome::kFound);
+    const PathQuery greedy{.reservations = &reservations, .greed_percent = 200};
+    ASSERT_EQ(search.find(goals, greedy, limits, path), Outcome::kFound);
     expect_valid(goals, path, walks);
   }
 
@@ -227,10 +229,11 @@ TEST(Reservations, AnEffortIsLimited) {
   reservations.add(1, late);
   FreeLowLevelSearch search(instance.grid());
   Path path;
-  const FreeLowLevelSearch::Effort effort{0, 500};
-  EXPECT_EQ(search.find(goals, reservations, effort, kNever, Limits(), path), Outcome::kStopped);
+  PathQuery query{.most_labels = 500, .reservations = &reservations};
+  EXPECT_EQ(search.find(goals, query, Limits(), path), Outcome::kStopped);
   EXPECT_LT(search.expanded(), 1000);
-  EXPECT_EQ(search.find(goals, reservations, {}, kNever, Limits(), path), Outcome::kFound);
+  query.most_labels = PathQuery::kUnlimited;
+  EXPECT_EQ(search.find(goals, query, Limits(), path), Outcome::kFound);
   EXPECT_GE(path.size(), 300u);
 }
 

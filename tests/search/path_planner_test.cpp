@@ -28,9 +28,9 @@ class SplitClasses : public ::testing::TestWithParam<bool> {
   }
   // kNever: no path.
   Time cost(const std::vector<Constraint>& constraints) {
-    const auto outcome = planner_.find(0, open_, constraints, nullptr, kNever, Limits(), path_);
-    EXPECT_NE(outcome, PathPlanner::Outcome::kStopped);
-    return outcome == PathPlanner::Outcome::kFound ? static_cast<Time>(path_.size()) - 1 : kNever;
+    const auto outcome = planner_.find(0, open_, {.constraints = constraints}, Limits(), path_);
+    EXPECT_NE(outcome, PathOutcome::kStopped);
+    return outcome == PathOutcome::kFound ? static_cast<Time>(path_.size()) - 1 : kNever;
   }
   std::vector<Constraint> random_bars(std::mt19937& random) const {
     std::vector<Constraint> bars;

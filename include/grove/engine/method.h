@@ -18,7 +18,7 @@ enum class Method : std::uint8_t {
   kCtsCbsA,  // the agents end on any of their tasks
   kCtsCbsB,  // one task of each is made its destination: destinations.h
   kCtsCbsC,  // A, then B
-  // CBS, plain, with another low level: baseline_search.h.
+  // CBS, plain, with another low level: grove/baselines/low_level.h.
   kOptimalCbs,
   kHcbs,
   kMgcbs,

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "grove/baselines/baseline_search.h"
+#include "grove/baselines/low_level.h"
 #include "grove/engine/checkpoints.h"
 #include "grove/model/limits.h"
 #include "grove/model/plan.h"

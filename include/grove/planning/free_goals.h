@@ -27,6 +27,7 @@ class AgentStops {
   // a destination and without a task.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
 
+  AgentIndex agent() const { return agent_; }
   int count() const { return static_cast<int>(cells_.size()); }
   Cell start() const { return start_; }
   std::optional<Cell> destination() const { return destination_; }
@@ -46,6 +47,7 @@ class AgentStops {
   Completions& completions() { return completions_; }
 
  private:
+  AgentIndex agent_;
   Cell start_;
   std::optional<Cell> destination_;
   std::vector<Cell> cells_;

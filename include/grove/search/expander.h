@@ -59,9 +59,10 @@ struct ExpansionCounts {
 class Expander {
  public:
   // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same
-  // thread.
+  // thread. `planner` plans agents whose order is open; null: Grove's own low level.
   Expander(const Problem& problem, AgentStopsStore& stops, const SearchOptions& options,
-           std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>());
+           std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>(),
+           std::unique_ptr<AgentPlanner> planner = nullptr);
 
   // Holds no node afterwards: how much memory nodes take would depend on who expanded which last.
   // `cutoff`: plans that cost so much or more are of no interest (the incumbent's cost;

@@ -8,9 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "grove/baselines/baseline_search.h"
+#include "grove/planning/agent_planner.h"
 #include "grove/planning/agent_stops_store.h"
-#include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/planning/optimal_paths.h"
 #include "grove/search/node.h"
@@ -18,19 +17,17 @@
 namespace grove {
 
 // Plans one agent under an AgentOrder: through its goals where the order is fixed, else choosing
-// the order, by the low level that the problem names. Workspace of one thread: reuse it, do not
-// share it.
+// the order. Workspace of one thread: reuse it, do not share it.
 class PathPlanner {
  public:
-  // Both must outlive this; `stops` may be shared with others of the same thread.
-  PathPlanner(const Problem& problem, AgentStopsStore& stops);
+  // `problem` and `stops` must outlive this; `stops` may be shared with others of the same thread.
+  // `free` plans where the order is open; null: Grove's own low level.
+  PathPlanner(const Problem& problem, AgentStopsStore& stops,
+              std::unique_ptr<AgentPlanner> free = nullptr);
 
-  // As FreeLowLevelSearch::find; a fixed order and the low levels of other methods do not heed
-  // `most_labels`, and the latter neither `others`.
-  using Outcome = FreeLowLevelSearch::Outcome;
-  Outcome find(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints,
-               const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits, Path& path,
-               std::int64_t most_labels = FreeLowLevelSearch::kUnlimited);
+  // As AgentPlanner::find, with the agent's constraints of all kinds in the query.
+  PathOutcome find(AgentIndex agent, const AgentOrder& order, PathQuery query, const Limits& limits,
+                   Path& path);
 
   // As OptimalPathsBuilder::build.
   OptimalPathsBuilder::Outcome optimal_paths(AgentIndex agent, const AgentOrder& order,
@@ -50,9 +47,7 @@ class PathPlanner {
 
   // Calls of find(), and labels expanded by them, so far.
   std::int64_t calls() const { return calls_; }
-  std::int64_t expanded() const {
-    return fixed_.expanded() + free_.expanded() + (baseline_ ? baseline_->expanded() : 0);
-  }
+  std::int64_t expanded() const { return fixed_.expanded() + free_->expanded(); }
   // Nodes of sets of optimal paths, so far.
   std::int64_t optimal_nodes() const { return optimal_.nodes(); }
   // Calls and labels, in units of about one label.
@@ -66,16 +61,10 @@ class PathPlanner {
   FreeGoals& free_goals(AgentIndex agent, const AgentOrder& order, Constraints constraints);
   FreeGoals& free_goals(AgentIndex agent, const SequenceClass& work);
   Constraints on_path(Constraints constraints);
-  Outcome find_fixed(const GoalSequence& goals, std::span<const Constraint> constraints,
-                     const ConflictAvoidanceTable* others, Time cutoff, const Limits& limits,
-                     Path& path);
-  Outcome find_as_others_do(AgentIndex agent, Constraints constraints, Time cutoff,
-                            const Limits& limits, Path& path);
 
   std::int64_t calls_ = 0;
   LowLevelSearch fixed_;
-  FreeLowLevelSearch free_;
-  std::unique_ptr<BaselineSearch> baseline_;  // in place of free_; null: none
+  std::unique_ptr<AgentPlanner> free_;
   OptimalPathsBuilder optimal_;
   AgentStopsStore& stops_;
   std::vector<std::vector<std::unique_ptr<FreeGoals>>>

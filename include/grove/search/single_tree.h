@@ -3,11 +3,13 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <vector>
 
 #include "grove/model/limits.h"
+#include "grove/planning/agent_planner.h"
+#include "grove/planning/agent_stops_store.h"
 #include "grove/search/forest.h"
-#include "grove/search/path_planner.h"
 
 namespace grove {
 
@@ -15,8 +17,10 @@ namespace grove {
 // sequence, and the low level chooses the order. No plan lies outside it.
 class SingleTree : public Forest {
  public:
-  // All must outlive this; `stops` may be shared with others of the same thread.
-  SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool, const Limits& limits);
+  // All must outlive this; `stops` may be shared with others of the same thread. `planner` plans
+  // the root's paths; null: Grove's own low level.
+  SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool, const Limits& limits,
+             std::unique_ptr<AgentPlanner> planner = nullptr);
 
   Cost next_bound() const override { return tree_.empty() ? relaxed_bound_ : kInfiniteCost; }
   NodePtr next_root() override;
@@ -27,8 +31,9 @@ class SingleTree : public Forest {
   AgentStopsStore& stops_;
   NodePool& pool_;
   const Limits& limits_;
-  Cost relaxed_bound_ = 0;  // the agents' relaxation bounds, summed up
-  std::deque<Tree> tree_;   // none or one
+  std::unique_ptr<AgentPlanner> planner_;  // until there is a root
+  Cost relaxed_bound_ = 0;                 // the agents' relaxation bounds, summed up
+  std::deque<Tree> tree_;                  // none or one
 };
 
 }  // namespace grove

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The low levels of published methods where they are easily wrong, and on problems too large for a
-// reference: there they must agree with Grove's own. (free_low_level_test.cpp holds them against
-// the definition.)
-#include "grove/baselines/baseline_search.h"
+// The low levels of published methods: where they are easily wrong; against the definition, on tiny
+// problems (GROVE_FUZZ_FACTOR multiplies their number); and on problems too large for that, where
+// they must agree with Grove's own.
+#include "grove/baselines/low_level.h"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,17 @@
 #include <stdexcept>
 
 #include "grove/planning/free_low_level_search.h"
+#include "tests/planning/free_problems.h"
+#include "tests/planning/free_reference.h"
+#include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace baseline_search_test {
+namespace low_level_test {
 
+using testing::FreeProblem;
 using testing::instance_of;
-using Outcome = BaselineSearch::Outcome;
+using Outcome = PathOutcome;
 
 class Baselines : public ::testing::TestWithParam<LowLevel> {
  protected:
@@ -25,9 +29,10 @@ class Baselines : public ::testing::TestWithParam<LowLevel> {
   Time cost(const Instance& instance, const std::vector<Constraint>& constraints,
             const Limits& limits = Limits()) {
     const DistanceFields distances(instance);
-    const AgentStops stops(instance, distances, 0);
-    const auto search = make_baseline_search(GetParam(), instance.grid());
-    const Outcome outcome = search->find(0, stops, constraints, kNever, limits, path_);
+    AgentStops stops(instance, distances, 0);
+    FreeGoals goals(stops, {});
+    const auto search = make_agent_planner(GetParam(), instance.grid());
+    const Outcome outcome = search->find(goals, {constraints}, limits, path_);
     if (outcome == Outcome::kInfeasible) return kNever;
     EXPECT_EQ(outcome, Outcome::kFound);
     return static_cast<Time>(path_.size()) - 1;
@@ -67,17 +72,25 @@ TEST_P(Baselines, RefuseWhatTheyDoNotKnow) {
   const Instance instance = instance_of({".."}, {{{0, 0}, Position{1, 0}, {}}});
   EXPECT_THROW(cost(instance, {{1, kNoCell, 0, 5, ConstraintKind::kNoRestBy}}),
                std::invalid_argument);
+  const DistanceFields distances(instance);
+  AgentStops stops(instance, distances, 0);
+  FreeGoals all(stops, {});
+  FreeGoals some(stops, {.prefix = {}, .forbidden_next = 1});
+  const Reservations none(instance.grid());
+  const auto search = make_agent_planner(GetParam(), instance.grid());
+  EXPECT_THROW(search->find(some, {}, Limits(), path_), std::invalid_argument);
+  EXPECT_THROW(search->find(all, {.reservations = &none}, Limits(), path_), std::invalid_argument);
 }
 
 TEST_P(Baselines, SayNothingWhenStopped) {
   const Instance instance = instance_of({".."}, {{{0, 0}, Position{1, 0}, {}}});
   const DistanceFields distances(instance);
-  const AgentStops stops(instance, distances, 0);
+  AgentStops stops(instance, distances, 0);
+  FreeGoals goals(stops, {});
   const Limits limits;
   limits.stop(StopReason::kTime);
-  EXPECT_EQ(
-      make_baseline_search(GetParam(), instance.grid())->find(0, stops, {}, kNever, limits, path_),
-      Outcome::kStopped);
+  const auto search = make_agent_planner(GetParam(), instance.grid());
+  EXPECT_EQ(search->find(goals, {}, limits, path_), Outcome::kStopped);
 }
 
 // A limit that strikes on the way proves nothing.
@@ -89,17 +102,18 @@ TEST_P(Baselines, SayNothingWhenStoppedOnTheWay) {
   const std::vector<Constraint> constraints = {{15 * 16 + 15, kNoCell, 50, 75}};
   const Time truth = cost(instance, constraints);
   const DistanceFields distances(instance);
-  const AgentStops stops(instance, distances, 0);
-  const auto search = make_baseline_search(GetParam(), instance.grid());
+  AgentStops stops(instance, distances, 0);
+  FreeGoals goals(stops, {});
+  const auto search = make_agent_planner(GetParam(), instance.grid());
   const auto start = Limits::Clock::now();
-  search->find(0, stops, constraints, kNever, Limits(), path_);
+  search->find(goals, {constraints}, Limits(), path_);
   const nanoseconds whole = Limits::Clock::now() - start;
   int stopped = 0;
   constexpr int kRuns = 60;
   for (int run = 0; run < kRuns; ++run) {
     Limits limits;
     limits.set_deadline(Limits::Clock::now() + whole * run / kRuns);
-    const Outcome outcome = search->find(0, stops, constraints, kNever, limits, path_);
+    const Outcome outcome = search->find(goals, {constraints}, limits, path_);
     if (outcome == Outcome::kStopped) {
       ++stopped;
     } else {
@@ -115,6 +129,41 @@ TEST_P(Baselines, KeepTheEarliestOfTheTimesThatAreOne) {
   const Instance instance = instance_of({".....", ".....", "....."},
                                         {{{3, 2}, Position{3, 1}, {{0, 1}, {3, 1}, {0, 0}}}});
   EXPECT_EQ(cost(instance, {{0, kNoCell, 5, 8}, {8, 7, 9, kNever}, {5, 10, 7, kNever}}), 13);
+}
+
+// On tiny maps, each problem made harder one constraint at a time.
+TEST_P(Baselines, AgreeWithTheDefinition) {
+  int infeasible = 0;
+  const int seeds = testing::fuzz_rounds(400);
+  for (int seed = 0; seed < seeds && !HasFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    testing::FreeProblems problems(static_cast<unsigned>(seed), false);
+    const Grid grid = problems.grid();
+    FreeProblem problem = problems.problem(grid);
+    problem.work = {};
+    const Instance instance = testing::instance_of(problem);
+    const DistanceFields distances(instance);
+    AgentStops stops(instance, distances, 0);
+    FreeGoals goals(stops, {});
+    const auto search = make_agent_planner(GetParam(), grid);
+    for (int n = problems.below(12); n >= 0; --n) {
+      const std::optional<Time> expected = testing::free_reference_cost(problem);
+      const auto find = [&](Time cutoff) {
+        return search->find(goals, {problem.constraints, nullptr, cutoff}, Limits(), path_);
+      };
+      if (!expected) {
+        EXPECT_EQ(find(kNever), Outcome::kInfeasible);
+        ++infeasible;
+        break;
+      }
+      ASSERT_EQ(find(*expected - 1), Outcome::kAbove);
+      ASSERT_EQ(find(*expected), Outcome::kFound);
+      EXPECT_EQ(static_cast<Time>(path_.size()) - 1, *expected);
+      EXPECT_EQ(testing::path_error(problem, realized_sequence(goals, path_), path_), "");
+      problems.make_harder(problem, path_);
+    }
+  }
+  EXPECT_GT(infeasible, seeds / 8);
 }
 
 // Many goals on a larger map, under constraints on the path time and again.
@@ -136,14 +185,14 @@ TEST_P(Baselines, AgreeWithGrovesOwn) {
     AgentStops stops(instance, distances, 0);
     FreeGoals goals(stops, {});
     FreeLowLevelSearch own(instance.grid());
-    const auto search = make_baseline_search(GetParam(), instance.grid());
+    const auto search = make_agent_planner(GetParam(), instance.grid());
     std::vector<Constraint> constraints;
     for (int n = 0; n < 30; ++n) {
       SCOPED_TRACE(std::to_string(round) + ", " + std::to_string(n));
       Path path;
-      const auto expected = own.find(goals, constraints, nullptr, kNever, Limits(), path);
-      const Outcome outcome = search->find(0, stops, constraints, kNever, Limits(), path_);
-      if (expected != FreeLowLevelSearch::Outcome::kFound) {
+      const auto expected = own.find(goals, {constraints}, Limits(), path);
+      const Outcome outcome = search->find(goals, {constraints}, Limits(), path_);
+      if (expected != Outcome::kFound) {
         EXPECT_EQ(outcome, Outcome::kInfeasible);
         break;
       }
@@ -172,5 +221,5 @@ INSTANTIATE_TEST_SUITE_P(, Baselines,
                            }
                          });
 
-}  // namespace baseline_search_test
+}  // namespace low_level_test
 }  // namespace grove

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How often the searches for one agent's path look at the limits.
+// How often the searches look at the limits.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "grove/baselines/low_level.h"
+
+#include <stdexcept>
+
+#include "grove/planning/free_low_level_search.h"
+#include "space_time_legs.h"
+#include "time_interval_forest.h"
+#include "visited_set_search.h"
+#include "visiting_order_search.h"
+
+namespace grove {
+
+std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const Grid& grid) {
+  switch (low_level) {
+    case LowLevel::kOwn:
+      return std::make_unique<FreeLowLevelSearch>(grid);
+    case LowLevel::kVisitedSets:
+      return std::make_unique<VisitedSetSearch>(grid);
+    case LowLevel::kSingleLegs:
+      return std::make_unique<VisitingOrderSearch>(grid, std::make_unique<SpaceTimeLegs>(grid));
+    case LowLevel::kTimeIntervalForest:
+      return std::make_unique<VisitingOrderSearch>(grid,
+                                                   std::make_unique<TimeIntervalForest>(grid));
+  }
+  throw std::invalid_argument("no low level");
+}
+
+}  // namespace grove

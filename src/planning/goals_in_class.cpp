@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "goals_in_class.h"
+
+namespace grove {
+
+bool GoalsInClass::assign(FreeGoals& goals, SafeIntervals& intervals, int greed_percent) {
+  goals_ = &goals;
+  greed_percent_ = greed_percent;
+  const AgentStops& stops = goals.stops();
+  intervals.see(stops.start());
+  if (stops.destination()) intervals.see(*stops.destination());
+  for (int stop = 0; stop < stops.count(); ++stop) intervals.see(stops.cell(stop));
+  find_deadlines(intervals);
+  find_rests(intervals);
+  return first_rest_ < kNever && first_rest_ <= intervals.latest_rest() && goals.plausible();
+}
+
+void GoalsInClass::find_deadlines(const SafeIntervals& intervals) {
+  const AgentStops& stops = goals_->stops();
+  deadlines_.clear();
+  for (int stop = 0; stop < stops.count(); ++stop) {
+    const Time last = intervals.last_time(stops.cell(stop));
+    if (last < kNever) deadlines_.push_back({stop, last});
+  }
+}
+
+// When the agent may first come to rest anywhere for ever, and if it must do so on one stop, where.
+// (With a destination the heuristic knows where.)
+void GoalsInClass::find_rests(const SafeIntervals& intervals) {
+  const AgentStops& stops = goals_->stops();
+  only_rest_ = AgentStops::kNoStop;
+  first_rest_ = stops.destination() ? intervals.rest_begin(*stops.destination()) : kNever;
+  if (stops.destination()) return;
+  for (int stop = 0; stop < stops.count(); ++stop) {
+    first_rest_ = std::min(first_rest_, intervals.rest_begin(stops.cell(stop)));
+    if (stops.cell(stop) == intervals.only_rest()) only_rest_ = stop;
+  }
+}
+
+void GoalsInClass::begin(Time cap) {
+  cap_ = cap;
+  over_ = outside_ = false;
+  gates_.begin_search();
+}
+
+bool GoalsInClass::misses_deadline(Progress state, Cell cell, Time time) const {
+  const Time* to_stop = goals_->stops().distances_from(cell);
+  const StopSet left = goals_->state(state).left;
+  return std::ranges::any_of(deadlines_, [&](const Deadline& d) {
+    return (left >> d.stop & 1) != 0 && time + to_stop[d.stop] > d.time;
+  });
+}
+
+Time GoalsInClass::put_off_by_gates(Progress id, Cell cell, Time time, Time layer) {
+  const Time until = gates_.least_cost(*goals_, id, cell, time);
+  Time put_off = kDropped;
+  if (until > cap_) {
+    over_ |= until < kNever;
+  } else {
+    put_off = layer_of(until, greed_percent_ == 0 ? 0 : goals_->distance(id, cell));
+    if (put_off <= layer) return layer;
+  }
+  const FreeGoals::State& state = goals_->state(id);
+  if (std::popcount(state.next) != state.count) outside_ = true;
+  return put_off;
+}
+
+}  // namespace grove

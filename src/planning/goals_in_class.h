@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// All sequences of a class at once, for safe_interval_search.h: progress is a state, what is left
+// to visit (free_goals.cpp: touching a stop that may be counted counts it). So the search solves at
+// once what the low levels of multi-goal CBS split into orders and paths (MGCBS: Tang et al., IJCAI
+// 2024), with the exact cost of completing as heuristic, from the sequence graph.
+//
+// Heuristic. h(cell, state) = min over the stops u next of dist(cell, u) + completion of the rest
+// from u: exact without constraints if the completions know all sequences. Nothing left: the
+// distance to the destination, or without one to the nearest stop that may be rested on.
+//
+// Target reasoning. "Rests on v by t" (kRestBy) leaves one place to rest, and the heuristic is at
+// least the distance to it; that it leaves a cutoff of t is the affair of who runs the search.
+//
+// The cap. Labels of f > cap are dropped, and so are labels in states that the completions do not
+// know; is_complete() tells whether there was none. What that proves: free_low_level_search.cpp.
+//
+// Deadlines. If a stop is barred for ever after time d, a label that has it left is of use only if
+// t + dist(cell, stop) <= d.
+//
+// Gates. A label is put off, or dropped, if others that were expanded on stops stand for its ways
+// on (gates.cpp).
+//
+// Greed. With a weight on the cost to go (Pohl 1970) labels come out in another order; what is
+// dropped is dropped by t + h and by gates as before, and neither argument speaks of the order. So
+// the first finish is a path within the cap, if perhaps not the cheapest, and what is proven by
+// there being none stays proven.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "gates.h"
+#include "grove/planning/free_goals.h"
+#include "safe_interval_search.h"
+
+namespace grove {
+
+class GoalsInClass {
+ public:
+  using Progress = FreeGoals::StateId;
+
+  // `goals` must outlive the search. False when there is plainly no path.
+  bool assign(FreeGoals& goals, SafeIntervals& intervals, int greed_percent);
+  // Goes on with the same class over other completions.
+  void turn_to(FreeGoals& goals) { goals_ = &goals; }
+  FreeGoals& free_goals() const { return *goals_; }
+
+  // Forgets all that was dropped. Dearer labels will be.
+  void begin(Time cap);
+  // Was nothing dropped that could matter, so that no path found means that there is none?
+  bool is_complete() const {
+    return !over_ && (!outside_ || goals_->completions().beyond() == kNever);
+  }
+
+  Time first_rest() const { return first_rest_; }
+  template <class Reach>
+  void on_arrival(Progress state, Cell cell, Reach reach) {
+    if (!goals_->on_arrival(state, cell, reach)) outside_ = true;
+  }
+  Time layer(Progress state, Cell cell, Time time) {
+    if (!deadlines_.empty() && misses_deadline(state, cell, time)) return kDropped;
+    const Time to_go = distance(state, cell);
+    if (to_go >= kNever) outside_ = true;
+    if (to_go > cap_ - time) {
+      over_ |= to_go < kNever;
+      return kDropped;
+    }
+    return layer_of(time + to_go, to_go);
+  }
+  bool may_end(Progress progress, Cell cell) const {
+    const FreeGoals::State& state = goals_->state(progress);
+    return state.left == 0 && goals_->is_rest(state, cell);
+  }
+  Time put_off(Progress state, Cell cell, Time time, Time layer) {
+    return gates_.any(state) ? put_off_by_gates(state, cell, time, layer) : layer;
+  }
+  bool makes_gate(Cell, Progress before, Progress progress) const { return before != progress; }
+  void close_gate(Cell cell, Progress before, Progress, Time time, Time until) {
+    gates_.close(*goals_, before, goals_->stops().stop_at(cell), time, until);
+  }
+
+ private:
+  // A stop that is barred for ever after `time`.
+  struct Deadline {
+    int stop;
+    Time time;
+  };
+
+  void find_deadlines(const SafeIntervals& intervals);
+  void find_rests(const SafeIntervals& intervals);
+  bool misses_deadline(Progress state, Cell cell, Time time) const;
+  Time put_off_by_gates(Progress state, Cell cell, Time time, Time layer);
+  // At most what a path from here on costs.
+  Time distance(Progress state, Cell cell) const {
+    const Time distance = goals_->distance(state, cell);
+    if (only_rest_ == AgentStops::kNoStop) return distance;
+    return std::max(distance, goals_->stops().distances_from(cell)[only_rest_]);
+  }
+  Time layer_of(Time least_cost, Time to_go) const {
+    return least_cost + static_cast<Time>(std::int64_t{to_go} * greed_percent_ / 100);
+  }
+
+  FreeGoals* goals_ = nullptr;
+  int greed_percent_ = 0;
+  std::vector<Deadline> deadlines_;
+  Time first_rest_ = 0;
+  int only_rest_ = AgentStops::kNoStop;  // without a destination: the only stop to rest on, perhaps
+  Gates gates_;
+  Time cap_ = 0;
+  bool over_ = false;     // a label was dropped for the cap
+  bool outside_ = false;  // one was whose state the completions do not know
+};
+
+}  // namespace grove

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "goals_in_turn.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace grove {
+
+bool GoalsInTurn::assign(const GoalSequence& goals, const SafeIntervals& intervals) {
+  last_progress_ = goals.size() - 1;
+  last_goal_ = goals.last();
+  first_rest_ = intervals.rest_begin(last_goal_);
+  if (first_rest_ >= kNever || goals.distance(goals.start(), 0) >= kNever) return false;
+  stages_.resize(static_cast<std::size_t>(goals.size()));
+  Time latest = intervals.latest_rest();
+  if (latest == kNever) latest = std::numeric_limits<Time>::max();
+  for (int k = last_progress_; k >= 0; --k) {
+    const Cell goal = goals.goal(k);
+    const Time deadline = intervals.last_time(goal);
+    if (deadline < kNever) latest = std::min(latest, deadline + goals.after_goal(k));
+    stages_[k] = {.to_goal = goals.to_goal(k).data(),
+                  .after_goal = goals.after_goal(k),
+                  .next_goal = k == last_progress_ ? kNoCell : goal,
+                  .latest = latest,
+                  .gate_from = kNever,
+                  .gate_until = 0};
+  }
+  return true;
+}
+
+// One gate is kept per progress: the one that postpones furthest.
+void GoalsInTurn::close_gate(Cell, Progress, Progress progress, Time time, Time until) {
+  const Time after_goal = stages_[progress - 1].after_goal;
+  const Time from = time + after_goal;
+  if (until != kNever) until += after_goal;
+  for (int p = 0; p < progress; ++p) {
+    Stage& stage = stages_[p];
+    if (until < stage.gate_until || (until == stage.gate_until && from >= stage.gate_from))
+      continue;
+    stage.gate_from = from;
+    stage.gate_until = until;
+  }
+}
+
+}  // namespace grove

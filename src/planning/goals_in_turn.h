@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Goals in a fixed order, for safe_interval_search.h.
+//
+// Progress is the number of goals visited, the last one not counted. Standing on the next goal
+// counts as visiting it whenever it happens (at time 0 too, and again if the goal after it is the
+// same cell): visits are free and having made one takes away no continuation. One path through all
+// goals is planned as one path. Planning leg after leg with the earliest arrival of each is neither
+// optimal nor complete.
+//
+// f = t + h, where h = GoalSequence::distance is exact without constraints, so consistent. Two
+// prunes, both by the order of goals that every path must keep:
+//
+// - *Deadlines.* If goal k is barred for ever after time d, a label of progress p <= k is of use
+//   only if t + (distance on through goal k) <= d, that is f <= d + after_goal(k). The smallest
+//   right side over all k >= p is latest_[p]. That the agent must rest by t (kRestBy) is such a
+//   deadline of the last goal.
+//
+// - *Gates.* Let G be a label of goal k just visited, in interval [a, b], reached at time g, and L
+//   a label that has yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A
+//   path P through L that visits goal k at some time <= b does so at a time in [g, b], where G
+//   could stand as well, waiting: from there on P is open to G. Only paths that visit goal k in a
+//   later interval, which begins at n, need L, and they cost n + after_goal(k) or more. So L is
+//   postponed to that f, and dropped when there is no later interval. Soundness: as long as the
+//   finish has not been taken out, some optimal path has an open label that is no later than it
+//   on one of its states and has a key (the f it is queued under) of at most the optimal cost. If
+//   L is that label and is postponed beyond the optimal cost, then P changes over to G as above:
+//   the path through G costs the same, and the first label on it that is not yet expanded has more
+//   progress than L had, so this ends. With unconstrained goals (b = kNever) the search thus
+//   falls into legs by itself, and it is still exact when it must not.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grove/planning/goal_sequence.h"
+#include "safe_interval_search.h"
+
+namespace grove {
+
+class GoalsInTurn {
+ public:
+  using Progress = std::uint8_t;
+  static constexpr int kMostGoals = 255;
+
+  // `goals`, 255 at most, must outlive the search. False when there is plainly no path.
+  bool assign(const GoalSequence& goals, const SafeIntervals& intervals);
+
+  Time first_rest() const { return first_rest_; }
+  // What a path costs at least that is on the cell at that time.
+  Time least_cost(Progress progress, Cell cell, Time time) const {
+    return time + stages_[progress].to_goal[cell] + stages_[progress].after_goal;
+  }
+  template <class Reach>
+  void on_arrival(Progress progress, Cell cell, Reach reach) const {
+    while (stages_[progress].next_goal == cell) ++progress;
+    reach(progress);
+  }
+  Time layer(Progress progress, Cell cell, Time time) const {
+    const Time cost = least_cost(progress, cell, time);
+    return cost > stages_[progress].latest ? kDropped : cost;
+  }
+  bool may_end(Progress progress, Cell cell) const {
+    return progress == last_progress_ && cell == last_goal_;
+  }
+  Time put_off(Progress progress, Cell cell, Time time, Time layer) const {
+    const Stage& stage = stages_[progress];
+    if (stage.gate_until <= layer || least_cost(progress, cell, time) < stage.gate_from)
+      return layer;
+    return stage.gate_until < kNever ? stage.gate_until : kDropped;
+  }
+  bool makes_gate(Cell cell, Progress, Progress progress) const {
+    return progress > 0 && stages_[progress - 1].next_goal == cell;
+  }
+  void close_gate(Cell cell, Progress before, Progress progress, Time time, Time until);
+
+ private:
+  // What there is to know of one progress.
+  struct Stage {
+    const Time* to_goal;  // distance field of the next goal
+    Time after_goal;
+    Cell next_goal;  // to advance at; kNoCell at the last goal, where more is asked
+    Time latest;     // labels of greater f miss a deadline
+    // A label of f >= gate_from need not be looked at before gate_until.
+    Time gate_from;
+    Time gate_until;
+  };
+
+  std::vector<Stage> stages_;  // by progress
+  int last_progress_ = 0;
+  Cell last_goal_ = kNoCell;
+  Time first_rest_ = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// One agent's goals over legs priced anew, for a search that plain distances mislead.
+#pragma once
+
+#include <optional>
+
+#include "grove/planning/free_goals.h"
+#include "grove/planning/safe_intervals.h"
+
+namespace grove {
+
+class LateGoals {
+ public:
+  // Both must outlive this.
+  LateGoals(const Grid& grid, SafeIntervals& intervals) : grid_(grid), intervals_(intervals) {}
+
+  // The same class over completions by late costs (late_costs.h), if its best sequence costs more
+  // by these; null: it does not, or a limit struck. Until the next call.
+  FreeGoals* over(FreeGoals& plain, const Limits& limits);
+
+ private:
+  const Grid& grid_;
+  SafeIntervals& intervals_;
+  std::optional<Completions> completions_;
+  std::optional<FreeGoals> goals_;  // over these
+};
+
+}  // namespace grove
