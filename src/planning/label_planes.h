@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "grove/model/assert.h"
 #include "grove/model/limits.h"
 
 namespace grove {
@@ -50,7 +51,10 @@ class LabelPlanes {
   bool exhausted() const { return exhausted_; }
 
   // The state must be open.
-  Label& label(std::int32_t slot, std::int32_t state) { return by_state_[state].labels[slot]; }
+  Label& label(std::int32_t slot, std::int32_t state) {
+    GROVE_ASSERT(by_state_[state].stamp == stamp_, "labels are asked for of an open state");
+    return by_state_[state].labels[slot];
+  }
   bool is_current(const Label& label) const { return label.stamp == stamp_; }
   std::uint32_t stamp() const { return stamp_; }
 

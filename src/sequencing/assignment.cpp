@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "grove/model/assert.h"
+
 namespace grove {
 namespace {
 
@@ -96,6 +98,9 @@ class Assignment {
 
 std::optional<std::vector<int>> least_cost_assignment(
     const std::vector<std::vector<std::int64_t>>& cost) {
+  GROVE_ASSERT(
+      std::ranges::all_of(cost, [&](const auto& row) { return row.size() == cost[0].size(); }),
+      "all rows are of one length");
   Assignment assignment(cost);
   for (int row = 0; row < static_cast<int>(cost.size()); ++row)
     if (!assignment.enter(row)) return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "grove/model/assert.h"
 #include "grove/sequencing/rtsp.h"
 #include "grove/sequencing/sequence_dag.h"
 #include "held_karp_table.h"
@@ -104,6 +105,7 @@ Time Completions::completion(StopSet left, int stop) const {
 }
 
 bool Completions::widen(Time reach, const Limits& limits) {
+  GROVE_ASSERT(reach < kNever, "there is more to know");
   if (beyond() > reach) return true;
   auto wider = store_->widened(reach, limits);
   if (!wider) return false;

@@ -23,6 +23,7 @@
 #include <deque>
 #include <utility>
 
+#include "grove/model/assert.h"
 #include "grove/sequencing/cost_matrix.h"
 #include "keyed_stacks.h"
 #include "stop_set.h"
@@ -140,6 +141,7 @@ Time KBestSequences::resolve(std::size_t rank, Time cutoff) {
   return partition_->resolve(rank, cutoff);
 }
 const Sequence& KBestSequences::sequence(std::size_t rank) {
+  GROVE_ASSERT(known(rank), "a sequence is computed before it is asked for");
   return partition_->sequence(rank);
 }
 std::int64_t KBestSequences::rtsp_calls() const {

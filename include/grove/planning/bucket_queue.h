@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "grove/model/assert.h"
 #include "grove/model/grid.h"
 
 namespace grove {
@@ -90,6 +91,8 @@ inline void BasicBucketQueue<Progress>::reset(Time first) {
 
 template <class Progress>
 inline void BasicBucketQueue<Progress>::push(Time layer, const Entry& entry) {
+  GROVE_ASSERT(layer >= layer_, "layers never grow smaller");
+  GROVE_ASSERT(entry.conflicts <= kMostConflicts, "conflicts are counted up to a limit");
   pool_.push_back({entry, layer, kNone});
   place(static_cast<std::int32_t>(pool_.size() - 1));
 }
