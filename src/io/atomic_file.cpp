@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "grove/io/atomic_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,11 +8,15 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include "descriptor.h"
 #include "grove/io/input_error.h"
 
 namespace grove {
@@ -21,39 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kTemporary = ".grove-";
+constexpr auto kLongestPause = std::chrono::hours(1);  // between two writes to a temporary file
+
 [[noreturn]] void fail_to_write(const fs::path& path, int error) {
   throw InputError(path.string(), "",
                    "cannot be written: " + std::generic_category().message(error));
-}
-
-// An open file; closes itself.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags)
-      : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  bool is_open() const { return fd_ >= 0; }
-  int get() const { return fd_; }
-  // Some file systems report what went wrong only now.
-  bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
-
- private:
-  int fd_;
-};
-
-bool write_all(int fd, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(fd, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
 }
 
 // Files to write to as they stand. /dev/stdout may well be a regular file, which others have open.
@@ -74,17 +50,73 @@ fs::path resolved(const fs::path& path, fs::file_status& status) {
   if (fs::exists(status) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
     fail_to_write(path, errno);
   if (is_special(path, status)) return path;
-  const fs::path target = fs::weakly_canonical(path, error);
+  const fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);
   return error ? path : target;
+}
+
+// --- temporary files ---
+
+// Names end with the host, since a lock may not be seen on another one.
+std::string name_end() {
+  return fmt::format("@{}.tmp", host_name());
+}
+
+// Process numbers come again, after a crash or in a container; the clock does not.
+fs::path unused_name(const fs::path& folder) {
+  static std::atomic<unsigned> count{0};
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  return folder / fmt::format("{}{}-{}-{}{}", kTemporary, ::getpid(), now, count++, name_end());
+}
+
+// One that was killed, whose lock is free. Of a run on another host that is believed when it has
+// not been written to for a while.
+bool is_abandoned(const fs::path& path, int fd) {
+  std::error_code error;
+  const auto age = fs::file_time_type::clock::now() - fs::last_write_time(path, error);
+  const bool is_ours = path.filename().string().ends_with(name_end());
+  return (is_ours || (!error && age > kLongestPause)) && lock(fd) == LockResult::kLocked;
+}
+
+// Removes what killed runs left in the folder. Whoever is making a file there and has not locked it
+// yet sees that it is gone, and makes another.
+void clear_abandoned(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(kTemporary) || !name.ends_with(".tmp")) continue;
+    const Descriptor file(entry->path(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW);
+    if (file.is_open() && is_abandoned(entry->path(), file.get())) ::unlink(entry->path().c_str());
+  }
+}
+
+// It takes a while in large folders.
+void clear_abandoned_once(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> cleared;
+  const std::lock_guard guard(mutex);
+  if (cleared.insert(folder).second) clear_abandoned(folder);
+}
+
+// A new, empty file, locked as long as it is open.
+std::unique_ptr<Descriptor> make_locked(const fs::path& path) {
+  auto file = std::make_unique<Descriptor>(path, O_WRONLY | O_CREAT | O_EXCL);
+  if (!file->is_open()) return file;
+  struct stat status {};
+  const bool is_locked = lock(file->get()) != LockResult::kHeld;
+  const bool is_there = ::fstat(file->get(), &status) == 0 && status.st_nlink > 0;
+  return is_locked && is_there ? std::move(file) : nullptr;
 }
 
 // A new, empty file beside `target`; removes itself unless it was renamed.
 class TemporaryFile {
  public:
   // `name` is the path as the user gave it, for messages.
-  TemporaryFile(const fs::path& target, const fs::path& name)
-      : path_(unused_name(target)), name_(name), file_(path_, O_WRONLY | O_CREAT | O_EXCL) {
-    if (!file_.is_open()) fail_to_write(name, errno);
+  TemporaryFile(const fs::path& target, const fs::path& name) : name_(name) {
+    clear_abandoned_once(target.parent_path());
+    do path_ = unused_name(target.parent_path());
+    while (!(file_ = make_locked(path_)));
+    if (!file_->is_open()) fail_to_write(name, errno);
   }
   ~TemporaryFile() {
     if (!renamed_) ::unlink(path_.c_str());
@@ -93,33 +125,26 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   void copy_permissions(const fs::file_status& status) {
-    (void)::fchmod(file_.get(), static_cast<mode_t>(status.permissions()));
+    (void)::fchmod(file_->get(), static_cast<mode_t>(status.permissions()));
   }
 
   void write(std::string_view content) {
-    if (!write_all(file_.get(), content)) fail_to_write(name_, errno);
+    if (!write_all(file_->get(), content)) fail_to_write(name_, errno);
   }
 
   void flush() {
-    if (::fsync(file_.get()) != 0) fail_to_write(name_, errno);
+    if (::fsync(file_->get()) != 0) fail_to_write(name_, errno);
   }
   void rename_to(const fs::path& target) {
-    if (!file_.close()) fail_to_write(name_, errno);
+    if (!file_->reports_no_error()) fail_to_write(name_, errno);
     if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write(name_, errno);
     renamed_ = true;
   }
 
  private:
-  // Process numbers come again, after a crash or in a container; the clock does not.
-  static fs::path unused_name(const fs::path& target) {
-    static std::atomic<unsigned> count{0};
-    const auto now = std::chrono::system_clock::now().time_since_epoch().count();
-    return target.parent_path() / fmt::format(".grove-{}-{}-{}.tmp", ::getpid(), now, count++);
-  }
-
   fs::path path_;
   fs::path name_;
-  Descriptor file_;
+  std::unique_ptr<Descriptor> file_;
   bool renamed_ = false;
 };
 
@@ -137,7 +162,7 @@ class SpecialFile {
     if (!write_all(file_.get(), content)) fail_to_write(path_, errno);
   }
   void close() {
-    if (!file_.close()) fail_to_write(path_, errno);
+    if (!file_.reports_no_error()) fail_to_write(path_, errno);
   }
 
  private:
@@ -190,6 +215,12 @@ void write_file_atomically(const fs::path& path, std::string_view content, Outli
   AtomicFile file(path);
   file.write(content);
   file.commit(outlives);
+}
+
+void flush_file(const fs::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  if (!file.is_open() || ::fsync(file.get()) != 0) fail_to_write(path, errno);
+  flush_directory(path.parent_path());
 }
 
 void require_writable(const fs::path& path) {

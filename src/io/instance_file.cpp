@@ -8,6 +8,7 @@
 #include "grove/io/input_error.h"
 #include "grove/io/map_file.h"
 #include "grove/io/scenario_file.h"
+#include "grove/io/text_file.h"
 #include "grove/model/distance_field.h"
 #include "json_value.h"
 #include "json_writer.h"
@@ -105,18 +106,25 @@ OrderedJson task_json(const Instance& instance, const Task& task) {
 }  // namespace
 
 LoadedInstance read_instance(const std::filesystem::path& path) {
-  const JsonDocument document(path);
+  return parse_instance(read_text(path), path.string(), path.parent_path());
+}
+
+LoadedInstance parse_instance(std::string_view text, const std::string& name,
+                              const std::filesystem::path& folder) {
+  const JsonDocument document(text, name);
   const JsonValue root = document.root();
   std::vector<std::string> warnings;
-  UnknownKeys unknown(path.string(), &warnings);
+  UnknownKeys unknown(name, &warnings);
   unknown.look_at(root, {"map", "agents", "tasks"});
 
   const JsonValue map = root.member("map");
   if (map.text().empty()) map.fail_expected("the name of a map file");
-  std::filesystem::path map_path = path.parent_path() / map.text();
+  std::filesystem::path map_path = folder / map.text();
   if (!std::filesystem::is_regular_file(map_path))
-    map.fail(fmt::format("there is no file '{}'; expected a map, relative to this file",
-                         map_path.string()));
+    map.fail(fmt::format(
+        "{} '{}'; expected a map, relative to this file",
+        std::filesystem::is_directory(map_path) ? "found the folder" : "there is no file",
+        map_path.string()));
   InstanceBuilder builder(read_map(map_path, &warnings));
   add_all(builder, root, unknown);
   std::optional<Instance> instance;

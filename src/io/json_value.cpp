@@ -102,7 +102,10 @@ Position JsonValue::position() const {
 }
 
 JsonDocument::JsonDocument(const std::filesystem::path& path)
-    : file_(path.string()), json_(parse_json(read_text(path), file_)) {
+    : JsonDocument(read_text(path), path.string()) {}
+
+JsonDocument::JsonDocument(std::string_view text, std::string name)
+    : file_(std::move(name)), json_(parse_json(text, file_)) {
   if (!json_.is_object()) root().fail_expected("a JSON object");
 }
 

@@ -59,6 +59,8 @@ class JsonValue {
 class JsonDocument {
  public:
   explicit JsonDocument(const std::filesystem::path& path);
+  // The same of a text; `name` stands for the file in complaints.
+  JsonDocument(std::string_view text, std::string name);
 
   JsonValue root() const { return {json_, file_, ""}; }
 

@@ -120,6 +120,9 @@ class MapReader {
 
   bool is_passable(std::size_t line, std::size_t column) {
     const char c = lines_[line][column];
+    if (c == '#')
+      fail(line, column,
+           "found '#'; expected '@' where the map is blocked, as in Moving AI's maps");
     const bool passable = kPassable.find(c) != std::string_view::npos;
     if (!passable && kBlocked.find(c) == std::string_view::npos)
       fail(line, column,

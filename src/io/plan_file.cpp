@@ -164,9 +164,13 @@ Stats read_stats(const JsonValue& value) {
 
 }  // namespace
 
+std::string solution_text(const Instance& instance, const Solution& solution) {
+  return dump_by_lines(solution_json(instance, solution));
+}
+
 void write_solution(const std::filesystem::path& path, const Instance& instance,
                     const Solution& solution, Outlives outlives) {
-  write_file_atomically(path, dump_by_lines(solution_json(instance, solution)), outlives);
+  write_file_atomically(path, solution_text(instance, solution), outlives);
 }
 
 Solution read_solution(const std::filesystem::path& path, const Instance& instance,

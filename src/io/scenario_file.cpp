@@ -112,6 +112,14 @@ std::vector<ScenarioRow> read_scenario(const std::filesystem::path& path) {
   return rows;
 }
 
+std::filesystem::path map_beside(const std::filesystem::path& scenario) {
+  const std::vector<ScenarioRow> rows = read_scenario(scenario);
+  if (rows.empty()) return {};
+  const std::filesystem::path map =
+      scenario.parent_path() / std::filesystem::path(rows.front().map).filename();
+  return std::filesystem::is_regular_file(map) ? map : std::filesystem::path();
+}
+
 void require_same_map(const std::filesystem::path& scenario, std::span<const ScenarioRow> rows,
                       const std::filesystem::path& map, const Grid& grid) {
   const auto fail = [&](const ScenarioRow& row, const std::string& message) {

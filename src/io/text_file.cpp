@@ -28,6 +28,8 @@ std::string read_text(const std::filesystem::path& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (!file) fail_to_read(path);
+  if (std::filesystem::is_directory(path))
+    throw InputError(path.string(), "", "is a folder; expected a file");
   std::string text;
   char block[1 << 16];
   while (const std::size_t size = std::fread(block, 1, sizeof block, file.get())) {

@@ -2,10 +2,14 @@
 #include "grove/io/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "tests/support/file_size_limit.h"
 #include "tests/support/refusal.h"
@@ -126,6 +130,70 @@ TEST(WriteFileAtomically, LeavesTheOldFileWhenTheDiskIsFull) {
   EXPECT_EQ(said, "file: cannot be written: File too large");
   EXPECT_EQ(file_content(directory / "file"), "old");
   EXPECT_EQ(directory.files(), Names{"file"});
+}
+
+// A process that has begun to write `file`, until it is killed.
+class Writer {
+ public:
+  explicit Writer(const std::string& file) : process_(::fork()) {
+    if (process_ > 0) return;
+    AtomicFile half(file);
+    half.write("half");
+    for (;;) ::pause();
+  }
+  ~Writer() { kill(); }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  void kill() {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+    process_ = -1;
+  }
+
+ private:
+  pid_t process_;
+};
+
+// The one file in the folder, not called `other`, as soon as it is half written.
+std::string half_written(const TemporaryDirectory& directory, const std::string& other) {
+  for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+    const Names names = directory.files();
+    if (names.size() == 1 && names[0] != other && file_content(directory / names[0]) == "half")
+      return names[0];
+  }
+}
+
+TEST(WriteFileAtomically, ClearsWhatKilledProcessesLeft) {
+  const TemporaryDirectory directory;
+  Writer killed(directory / "file");
+  const std::string left = half_written(directory, "");
+  killed.kill();
+  EXPECT_EQ(directory.files(), Names{left});
+  const Writer alive(directory / "file");
+  const std::string live = half_written(directory, left);
+  write_file_atomically(directory / "other", "new");
+  EXPECT_EQ(directory.files(), (Names{live, "other"}));
+}
+
+// Whether another host has locked its file cannot be known on every file system.
+TEST(WriteFileAtomically, BelievesThatOthersAreDeadAfterAWhile) {
+  const TemporaryDirectory directory;
+  directory.write(".grove-1-1-1@elsewhere.tmp", "half");
+  const std::string old = directory.write(".grove-1-1-2@elsewhere.tmp", "half");
+  directory.write(".grove-mine", "");
+  fs::last_write_time(old, fs::file_time_type::clock::now() - std::chrono::hours(2));
+  write_file_atomically(directory / "file", "new");
+  EXPECT_EQ(directory.files(), (Names{".grove-1-1-1@elsewhere.tmp", ".grove-mine", "file"}));
+}
+
+TEST(FlushFile, RefusesWhatIsNotThere) {
+  const TemporaryDirectory directory;
+  write_file_atomically(directory / "file", "new", Outlives::kProcess);
+  EXPECT_EQ(refusal([&] { flush_file(directory / "file"); }), "accepted");
+  EXPECT_EQ(refusal([&] { flush_file(directory / "none"); }),
+            "none: cannot be written: No such file or directory");
 }
 
 TEST(AtomicFile, AppearsWhenAllItsPiecesAreThere) {

@@ -45,6 +45,13 @@ TEST_F(InstanceFile, IsRead) {
   EXPECT_EQ(loaded.map_path, directory_ / "m.map");
 }
 
+TEST_F(InstanceFile, IsReadFromATextToo) {
+  const std::string text = "{" + kMap + ", " + kAgents + ", " + kTasks + "}";
+  EXPECT_EQ(parse_instance(text, "x", directory_.path()).map_path, directory_ / "m.map");
+  EXPECT_EQ(refusal([&] { parse_instance("{}", "standard input", ""); }),
+            "standard input: /: key 'map' is missing; expected it in this object");
+}
+
 TEST_F(InstanceFile, RoundTrips) {
   const std::string text =
       "{\n \"map\": \"m.map\",\n \"agents\": [\n"
@@ -208,13 +215,12 @@ TEST_F(InstanceFile, NamesTheMapThatCannotBeRead) {
   EXPECT_EQ(refused("{\"map\": \"none.map\"}"), "i.json: /map: there is no file '" +
                                                     (directory_ / "none.map") +
                                                     "'; expected a map, relative to this file");
-  EXPECT_TRUE(refused("{\"map\": \".\"}").starts_with("i.json: /map: there is no file"));
+  EXPECT_TRUE(refused("{\"map\": \".\"}").starts_with("i.json: /map: found the folder"));
 }
 
 TEST_F(InstanceFile, IsAFile) {
-  EXPECT_NE(
-      refusal([&] { read_instance(directory_.path()); }).find("cannot be read: Is a directory"),
-      std::string::npos);
+  EXPECT_NE(refusal([&] { read_instance(directory_.path()); }).find("is a folder; expected a file"),
+            std::string::npos);
   EXPECT_EQ(refusal([&] { read_instance(directory_ / "none.json"); }),
             "none.json: cannot be read: No such file or directory");
 }

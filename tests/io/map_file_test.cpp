@@ -63,6 +63,12 @@ TEST_F(MapFile, NamesLineAndColumnOfWrongCells) {
             "m.map: line 5, column 1: the row has 0 characters; expected 3");
 }
 
+TEST_F(MapFile, SaysHowObstaclesAreWritten) {
+  EXPECT_EQ(refused(kHeader + "...\n.#.\n"),
+            "m.map: line 6, column 2: found '#'; expected '@' where the map is blocked, as in "
+            "Moving AI's maps");
+}
+
 TEST_F(MapFile, CountsRows) {
   EXPECT_EQ(refused(kHeader), "m.map: line 5, column 1: the map ends after 0 rows; expected 2");
   EXPECT_EQ(refused(kHeader + "...\n"),
@@ -98,7 +104,7 @@ TEST_F(MapFile, RefusesSizesThatCannotBe) {
 TEST_F(MapFile, RefusesWhatIsNoFile) {
   EXPECT_EQ(refusal([&] { read_map(directory_ / "none.map"); }),
             "none.map: cannot be read: No such file or directory");
-  EXPECT_NE(refusal([&] { read_map(directory_.path()); }).find("cannot be read: Is a directory"),
+  EXPECT_NE(refusal([&] { read_map(directory_.path()); }).find("is a folder; expected a file"),
             std::string::npos);
 }
 

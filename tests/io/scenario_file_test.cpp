@@ -75,6 +75,15 @@ TEST_F(ScenarioFile, RefusesWrongNumbers) {
             "m.scen: line 2, column 9:");
 }
 
+TEST_F(ScenarioFile, FindsItsMapBesideIt) {
+  const std::string file =
+      directory_.write("m.scen", kVersion + "0\tfar/m.map\t3\t2\t0\t0\t2\t1\t3\n");
+  EXPECT_EQ(map_beside(file), "");
+  directory_.write("m.map", "");
+  EXPECT_EQ(map_beside(file), directory_ / "m.map");
+  EXPECT_EQ(map_beside(directory_.write("none.scen", kVersion)), "");
+}
+
 TEST_F(ScenarioFile, RoundTrips) {
   const std::string text = kVersion + "1\tm.map\t3\t2\t0\t0\t2\t1\t5\n";
   write_scenario(directory_ / "out.scen", read(text), {5});

@@ -15,9 +15,10 @@ enum class Outlives : std::uint8_t { kProcess, kMachine };
 
 // The file at `path`, replaced piece by piece: written beside it under a temporary name, flushed to
 // disk if it is to outlive the machine, and renamed by commit(). Without that the old file stands
-// and the temporary one goes with this object (a process that is killed leaves it behind:
-// .grove-*.tmp). Special files are written to directly. For one thread. All but the destructor
-// throw InputError; what can be done then is to destroy this. See write_file_atomically on SIGXFSZ.
+// and the temporary one goes with this object (a process that is killed leaves it behind, as
+// .grove-*.tmp, until the next one writes in that folder). Special files are written to directly.
+// For one thread. All but the destructor throw InputError; what can be done then is to destroy
+// this. See write_file_atomically on SIGXFSZ.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);
@@ -39,6 +40,10 @@ class AtomicFile {
 // ends it half-way.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            Outlives outlives = Outlives::kMachine);
+
+// Waits until the disk has the file at `path`, which was to outlive the process alone so far. Of
+// any thread. Throws InputError.
+void flush_file(const std::filesystem::path& path);
 
 // Throws InputError when write_file_atomically(path) would fail now (no such folder, no permission,
 // a directory of that name): ask before a long run. Leaves nothing behind.

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grove/io/atomic_file.h"
@@ -22,6 +23,10 @@ struct LoadedInstance {
 
 // Reads a *.cts.json file and the map it names (relative to the file).
 LoadedInstance read_instance(const std::filesystem::path& path);
+// The same of the text of such a file: `name` stands for it in messages, and the map is relative to
+// `folder` (empty: the current one).
+LoadedInstance parse_instance(std::string_view text, const std::string& name,
+                              const std::filesystem::path& folder);
 
 // Classical MAPF: the first `agents` rows of a scenario as they stand, ids a0, a1, ...; no tasks.
 LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,

@@ -11,6 +11,9 @@
 
 namespace grove {
 
+// What write_solution() writes.
+std::string solution_text(const Instance& instance, const Solution& solution);
+
 // Writes `solution` whole or not at all. Throws InputError when the file cannot be written.
 void write_solution(const std::filesystem::path& path, const Instance& instance,
                     const Solution& solution, Outlives outlives = Outlives::kMachine);

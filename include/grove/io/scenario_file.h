@@ -25,6 +25,9 @@ struct ScenarioRow {
 // All rows in file order. Throws InputError with line and column.
 std::vector<ScenarioRow> read_scenario(const std::filesystem::path& path);
 
+// The map that the first row names, in the folder of `scenario`; empty if there is no such file.
+std::filesystem::path map_beside(const std::filesystem::path& scenario);
+
 // Throws InputError, naming `scenario` and the line, unless every row is for `map`: the file part
 // of the name and the size must agree.
 void require_same_map(const std::filesystem::path& scenario, std::span<const ScenarioRow> rows,

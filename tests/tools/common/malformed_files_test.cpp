@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every kind of malformed file, given to the program: exit code 2 and exactly one line that names
 // the file and the place. What each message says in full is tested with the readers.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -10,6 +11,8 @@
 
 namespace grove {
 namespace malformed_files_test {
+
+using ::testing::StartsWith;
 
 struct Malformed {
   std::string name;     // of the case
@@ -71,15 +74,16 @@ TEST_F(MalformedFiles, TheFilesAreRightBeforeTheyAreBroken) {
 }
 
 TEST_F(MalformedFiles, WhatIsNoFileIsRefused) {
-  for (const std::string& wrong : {directory_ / "none", directory_.path().string(),
-                                   std::string("/proc/self/mem"), std::string("")}) {
-    EXPECT_TRUE(complaint(run_grove({"check", wrong, directory_ / "p.json"}))
-                    .starts_with(wrong + ": cannot be read: "))
-        << wrong;
-    EXPECT_TRUE(complaint(run_grove({"check", directory_ / "i.json", wrong}))
-                    .starts_with(wrong + ": cannot be read: "))
-        << wrong;
-  }
+  const auto expect_refused = [&](const std::string& wrong, const std::string& why) {
+    EXPECT_THAT(complaint(run_grove({"check", wrong, directory_ / "p.json"})),
+                StartsWith(wrong + why));
+    EXPECT_THAT(complaint(run_grove({"check", directory_ / "i.json", wrong})),
+                StartsWith(wrong + why));
+  };
+  for (const std::string& wrong :
+       {directory_ / "none", std::string("/proc/self/mem"), std::string("")})
+    expect_refused(wrong, ": cannot be read: ");
+  expect_refused(directory_.path().string(), ": is a folder; expected a file");
 }
 
 TEST_F(MalformedFiles, MoreAgentsThanRowsAreRefused) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/file_lock.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "tests/support/refusal.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove {
+namespace file_lock_test {
+
+std::string locking(const std::string& path) {
+  return refusal([&] { const FileLock lock(path); });
+}
+
+TEST(FileLock, KeepsOthersAwayAndSaysWhoHoldsIt) {
+  const TemporaryDirectory directory;
+  FileLock lock(directory / "lock");
+  EXPECT_TRUE(lock.is_held());
+  const std::string said = locking(directory / "lock");
+  EXPECT_TRUE(said.starts_with("lock: is locked by another run (process " +
+                               std::to_string(::getpid()) + " on host "))
+      << said;
+  EXPECT_EQ(locking(directory / "other"), "accepted");
+}
+
+TEST(FileLock, EndsWithItsHolder) {
+  const TemporaryDirectory directory;
+  {
+    FileLock first(directory / "lock");
+    const FileLock moved = std::move(first);
+    EXPECT_NE(locking(directory / "lock"), "accepted");
+  }
+  EXPECT_EQ(locking(directory / "lock"), "accepted");
+}
+
+// Nobody gives the lock of a killed process back but the kernel.
+TEST(FileLock, EndsWithAKilledProcess) {
+  const TemporaryDirectory directory;
+  const pid_t process = ::fork();
+  if (process == 0) {
+    const FileLock lock(directory / "lock");
+    for (;;) ::pause();
+  }
+  const std::filesystem::path file = directory / "lock";
+  while (!std::filesystem::exists(file) || std::filesystem::is_empty(file))  // says who holds it
+    std::this_thread::yield();
+  EXPECT_NE(locking(file), "accepted");
+  ::kill(process, SIGKILL);
+  ::waitpid(process, nullptr, 0);
+  EXPECT_EQ(locking(directory / "lock"), "accepted");
+}
+
+TEST(FileLock, RefusesAFileThatCannotBeWritten) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(locking(directory / "none/lock"), "lock: cannot be written: No such file or directory");
+}
+
+}  // namespace file_lock_test
+}  // namespace grove
