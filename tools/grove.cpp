@@ -18,8 +18,9 @@ constexpr const char* kProgramFooter =
     "  0  ended cleanly; a plan file says how\n"
     "  1  internal failure\n"
     "  2  bad usage or input: one line on stderr with file, place and what was expected\n"
+    "  3  no plan was found, where --require-plan asks for one\n"
     "\n"
-    "'grove COMMAND --help' explains a command, with examples.";
+    "'grove help COMMAND' and 'grove COMMAND --help' explain a command, with examples.";
 
 int main(int argc, char** argv) {
   CLI::App app(kDescription, "grove");

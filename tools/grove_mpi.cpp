@@ -25,7 +25,7 @@ constexpr const char* kProgramFooter =
     "  1  internal failure\n"
     "  2  bad usage or input: one line on stderr with file, place and what was expected\n"
     "\n"
-    "'grove-mpi COMMAND --help' explains a command, with examples.";
+    "'grove-mpi help COMMAND' and 'grove-mpi COMMAND --help' explain a command, with examples.";
 
 int main(int argc, char** argv) {
   stop_on_signals();  // one may come while MPI begins, and would kill the job

@@ -84,8 +84,8 @@ int jobs_of(const BenchArguments& a, const std::vector<bench::Method>& methods) 
 // Runs that say nothing of memory get their share of the machine's. It does not count as a limit of
 // theirs: results do not depend on it as a rule.
 void share_memory(std::vector<bench::Method>& methods, int jobs) {
-  const double share = std::max(kSmallestRoom_gb,
-                                std::floor(10 * kShareOfMemory * physical_memory_gb() / jobs) / 10);
+  const double share =
+      std::max(kSmallestRoom_gb, std::floor(10 * kShareOfMemory * usable_memory_gb() / jobs) / 10);
   for (bench::Method& method : methods)
     if (!method.settings.memory_limit_gb)
       method.arguments.insert(method.arguments.end(), {"--memory-limit", fmt::format("{}", share)});
@@ -148,7 +148,7 @@ void add_bench_command(CLI::App& root) {
              "seconds for each run whose options do not say otherwise")
       ->type_name("S");
   add_number(*app, "--memory-limit", a->memory_limit_gb, 0, 1e6,
-             "gigabytes for each run, likewise. By default 80 % of the machine's, divided by the "
+             "gigabytes for each run, likewise. By default 80 % of what there is, divided by the "
              "runs at a time")
       ->type_name("GB")
       ->default_str("");

@@ -13,6 +13,7 @@
 
 #include "grove/io/input_error.h"
 #include "tools/common/parse_error.h"
+#include "tools/common/program.h"
 #include "tools/solve/solve_arguments.h"
 
 namespace grove {
@@ -80,7 +81,7 @@ Words given_arguments(const CLI::App& app) {
       continue;
     words.push_back(option->get_name());
     const bool is_flag = option->get_expected_max() == 0;
-    if (!is_flag) words.push_back(fmt::format("{}", fmt::join(option->results(), ",")));
+    if (!is_flag) words.push_back(fmt::format("{}", fmt::join(option->reduced_results(), ",")));
   }
   return words;
 }
@@ -95,6 +96,7 @@ void add_default(Words& words, const CLI::App& app, const std::string& option,
 bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   const NameAndOptions given = split(text);
   CLI::App app;
+  let_last_option_count(app);
   SolveArguments a;
   a.time_limit_s = defaults.time_limit_s;
   a.seed = defaults.seed;

@@ -13,6 +13,7 @@ namespace grove {
 inline constexpr int kExitSuccess = 0;
 inline constexpr int kExitInternalFailure = 1;
 inline constexpr int kExitBadInput = 2;
+inline constexpr int kExitNoPlan = 3;         // where one was required
 inline constexpr int kExitInterrupted = 130;  // before all was done, as shells say of Ctrl-C
 
 class CommandFailed : public std::exception {

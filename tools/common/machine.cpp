@@ -7,14 +7,26 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <thread>
 
+#include "tools/common/memory_granted.h"
+
 namespace grove {
+
+namespace {
 
 double physical_memory_gb() {
   return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
          static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e9;
+}
+
+}  // namespace
+
+double usable_memory_gb() {
+  const auto granted = memory_granted();
+  return std::min(physical_memory_gb(), granted ? static_cast<double>(*granted) / 1e9 : HUGE_VAL);
 }
 
 int usable_cores() {
@@ -35,8 +47,11 @@ std::string usable_cores_text() {
 std::string machine_text() {
   utsname name{};
   ::uname(&name);
-  return fmt::format("{} {} {}, {} cores, {:.1f} GB", name.nodename, name.sysname, name.machine,
-                     std::thread::hardware_concurrency(), physical_memory_gb());
+  const double usable = usable_memory_gb();
+  return fmt::format(
+      "{} {} {}, {} cores, {:.1f} GB{}", name.nodename, name.sysname, name.machine,
+      std::thread::hardware_concurrency(), physical_memory_gb(),
+      usable < physical_memory_gb() ? fmt::format(", {:.1f} GB of them granted", usable) : "");
 }
 
 std::string processor_text() {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace grove {
 namespace {
@@ -106,6 +107,15 @@ std::string ranges_text(const std::vector<std::int64_t>& values) {
     if (end - first > 1) text += fmt::format("-{}", values[end - 1]);
   }
   return text;
+}
+
+CLI::Validator one_of(std::vector<std::string> names) {
+  return CLI::Validator(
+      [names = std::move(names)](const std::string& text) {
+        if (std::ranges::count(names, text) > 0) return std::string();
+        return fmt::format("found '{}'; expected one of {}", text, fmt::join(names, ", "));
+      },
+      "");
 }
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,

@@ -35,6 +35,9 @@ std::string ranges_text(const std::vector<std::int64_t>& values);
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,
                         double most, const std::string& description);
 
+// A value must be one of these.
+CLI::Validator one_of(std::vector<std::string> names);
+
 // The integer that `text` is. Throws CLI::ValidationError, naming `option`, when it is none in
 // `range`.
 std::int64_t parse_integer(const std::string& option, const std::string& text, IntegerRange range);

@@ -70,7 +70,10 @@ std::string parse_error_text(const CLI::App& command, const CLI::ParseError& err
   const bool wants_command = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
                              command.get_require_subcommand_min() > 0;
   if (!wants_command) return error.what();  // CLI11 would only say that one is required
-  const std::string word = command.remaining().front();
+  return unknown_command_text(command, command.remaining().front());
+}
+
+std::string unknown_command_text(const CLI::App& command, const std::string& word) {
   return fmt::format("unknown command '{}'{}", word, suggestion(word, commands_of(command)));
 }
 

@@ -12,4 +12,7 @@ namespace grove {
 // it.
 std::string parse_error_text(const CLI::App& command, const CLI::ParseError& error);
 
+// That `command` has no such subcommand, and which one resembles it.
+std::string unknown_command_text(const CLI::App& command, const std::string& word);
+
 }  // namespace grove

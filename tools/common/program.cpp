@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "grove/io/input_error.h"
 #include "tools/common/commands.h"
@@ -18,6 +21,8 @@
 
 namespace grove {
 namespace {
+
+using Words = std::vector<std::string>;
 
 // The subcommand that was reached last: "grove generate map" of "grove generate map --wrong".
 const CLI::App& reached_command(const CLI::App& app) {
@@ -35,6 +40,22 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{} (see '{} --help')", parse_error_text(command, error), full_name(command));
 }
 
+// "grove help solve" asks for what "grove solve --help" does, but for a command that there is.
+Words words_of(const CLI::App& app, int argc, char** argv) {
+  Words words(argv + 1, argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  const CLI::App* command = &app;
+  for (const std::string& word : words) {
+    const auto known =
+        command->get_subcommands([&](const CLI::App* c) { return c->check_name(word); });
+    if (known.empty()) throw CLI::ValidationError(unknown_command_text(*command, word));
+    command = known.front();
+  }
+  words.push_back("--help");
+  return words;
+}
+
 // A full disk or a closed pipe must not pass for success.
 int flush_output(const CLI::App& app) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kExitSuccess;
@@ -48,11 +69,16 @@ void complain(const CLI::App& app, const std::string& message) {
   say_on_stderr(fmt::format("{}: error: {}", app.get_name(), one_line(message)));
 }
 
+void let_last_option_count(CLI::App& app) {
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
 void prepare_program(CLI::App& app) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of write()
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
+  let_last_option_count(app);
 }
 
 int run_program(CLI::App& app, int argc, char** argv, bool speaks,
@@ -63,7 +89,9 @@ int run_program(CLI::App& app, int argc, char** argv, bool speaks,
     return kExitBadInput;
   };
   try {
-    app.parse(argc, argv);
+    Words words = words_of(app, argc, argv);
+    std::ranges::reverse(words);  // as CLI11 wants them
+    app.parse(std::move(words));
     return flush_output(app);
   } catch (const CLI::Success& help_or_version) {
     refused("was asked for help or its version alone");

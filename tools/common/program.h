@@ -11,6 +11,11 @@ namespace grove {
 // One line on stderr: "grove: error: ...".
 void complain(const CLI::App& app, const std::string& message);
 
+// Of an option with one value that is given several times, the last one counts, as with compilers:
+// a script's own options can so be overruled. To be called before options and subcommands are
+// added.
+void let_last_option_count(CLI::App& app);
+
 // Gives `app` the layout of help and the version that all programs have. Before its subcommands are
 // added, which take it over.
 void prepare_program(CLI::App& app);

@@ -184,13 +184,7 @@ void add_generate_paper_command(CLI::App& generate) {
       ->add_option("--problem", arguments->problem,
                    "with destinations (cts: CTS-MAPF), without (mg: MG-MAPF), or both")
       ->type_name("cts|mg|both")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            return kProblems.contains(text)
-                       ? std::string()
-                       : fmt::format("found '{}'; expected one of both, cts, mg", text);
-          },
-          ""))
+      ->check(one_of({"both", "cts", "mg"}))
       ->capture_default_str();
   add_integer(*command, "--seed", arguments->seed, {0, 1'000'000'000}, "another set");
   command->add_option("--output-dir", arguments->output_dir, "folder to write to; made if missing")

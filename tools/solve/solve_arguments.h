@@ -22,7 +22,7 @@ struct SolveArguments {
   InstanceArguments instance;
   std::string omega;  // empty: not given
   double time_limit_s = 180;
-  double memory_limit_gb = std::floor(8 * physical_memory_gb()) / 10;
+  double memory_limit_gb = std::floor(80 * usable_memory_gb()) / 100;
   std::int64_t threads = usable_cores();
   std::string method = "auto";
   bool anytime = false;
@@ -36,7 +36,9 @@ struct SolveArguments {
   std::filesystem::path start;
   std::string incumbents;
   std::filesystem::path output;
+  bool require_plan = false;
   std::filesystem::path log;
+  std::string log_format = "text";
   bool quiet = false;
 };
 

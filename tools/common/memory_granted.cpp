@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "tools/common/memory_granted.h"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace grove {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 62;  // version 1 has a number for it
+
+// The least of what the group's files say; a file may be missing, or say "max".
+std::uint64_t limit_of(const fs::path& group) {
+  std::uint64_t least = kUnlimited;
+  for (const char* name : {"memory.max", "memory.high", "memory.limit_in_bytes"}) {
+    std::ifstream file(group / name);
+    if (std::uint64_t limit = 0; file >> limit) least = std::min(least, limit);
+  }
+  return least;
+}
+
+// `group` is the path of a group below `folder`; in a container that path may be the host's, and
+// the container's own group all that is there.
+std::uint64_t limit_within(const fs::path& folder, std::string_view group) {
+  std::uint64_t least = limit_of(folder);
+  fs::path inner = folder;
+  for (const fs::path& step : fs::path(group).relative_path()) {
+    inner /= step;
+    if (step == ".." || !fs::is_directory(inner)) break;
+    least = std::min(least, limit_of(inner));
+  }
+  return least;
+}
+
+// "a,b,c" with `name` among them.
+bool lists(std::string_view controllers, std::string_view name) {
+  return ("," + std::string(controllers) + ",").find("," + std::string(name) + ",") !=
+         std::string::npos;
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> memory_granted(const fs::path& root) {
+  const fs::path groups = root / "sys/fs/cgroup";
+  std::uint64_t least = kUnlimited;
+  std::ifstream file(root / "proc/self/cgroup");
+  for (std::string line; std::getline(file, line);) {  // "number:controllers:group"
+    const std::size_t first = line.find(':');
+    const std::size_t second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string_view controllers =
+        std::string_view(line).substr(first + 1, second - first - 1);
+    const std::string_view group = std::string_view(line).substr(second + 1);
+    if (controllers.empty())
+      least = std::min(least, limit_within(groups, group));
+    else if (lists(controllers, "memory"))
+      least = std::min(least, limit_within(groups / "memory", group));
+  }
+  return least < kUnlimited ? std::optional(least) : std::nullopt;
+}
+
+}  // namespace grove
