@@ -44,6 +44,7 @@ def by_threads(grove, instances, threads, limit, folder):
     found = {}
     plan = folder / "plan.json"
     for path in instances:
+        plan.unlink(missing_ok=True)  # a better one would stay
         run(grove, "solve", path, "--omega", 0, "--threads", threads, "--time-limit", limit,
             "--quiet", "--output", plan)
         answer = json.loads(plan.read_text(encoding="utf-8"))

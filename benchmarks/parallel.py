@@ -45,6 +45,7 @@ def solve(mode, instance, a, folder):
     before, after = command(mode, a.bin)
     runs = []
     for _ in range(a.repeat):
+        (folder / "plan.json").unlink(missing_ok=True)  # a better one would stay
         subprocess.run([str(word) for word in [*before, "solve", *instance, "--omega", 0,
                                                "--time-limit", a.time_limit, "--quiet",
                                                "--output", folder / "plan.json", *after]],

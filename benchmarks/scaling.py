@@ -71,6 +71,7 @@ def measured(before, problem, a, folder):
     """Seconds and nodes of the median run."""
     runs = []
     for _ in range(a.repeat):
+        (folder / "plan.json").unlink(missing_ok=True)  # a better one would stay
         run([*before, "solve", *problem, *TREE_ONLY, "--output", folder / "plan.json"])
         plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
         if plan["status"] != "optimal":

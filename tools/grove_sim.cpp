@@ -150,7 +150,7 @@ class Study {
     const Problem problem(loaded_.instance, unlimited);
     RunObserver silent;
     if (answer_without_search(problem, options_, unlimited, silent))
-      throw InputError(a_.solve.instance.path(), "",
+      throw InputError(a_.solve.instance.name(), "",
                        "has no plan, as is seen without a search; expected something to search");
     begin_with_plan(problem);
     print_line(scaling_header());

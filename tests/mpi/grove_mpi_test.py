@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: MIT
 """grove-mpi as its users run it, by mpirun."""
 import csv
+import json
 import os
 import signal
+import subprocess
 import tempfile
 import time
 import unittest
 from pathlib import Path
 
 import kill_and_resume
-from mpi_program import DATA, GROVE, GROVE_MPI, mpirun, plan_of, processes_of, run, start
+from mpi_program import DATA, ENVIRONMENT, GROVE, GROVE_MPI, mpirun, plan_of, processes_of, run, start
 
 EASY = DATA / "rooms-32x32_n10_m30.cts.json"
 
@@ -108,6 +110,42 @@ class Refusals(Program):
         other = self.generate(3, 3, 1)
         self.refuses(["mpirun", "--oversubscribe", "-np", 1, GROVE_MPI, "solve", EASY,
                       ":", "-np", 1, GROVE_MPI, "solve", other], "rank 1", "instance")
+
+
+class Files(Program):
+    def test_a_run_without_a_plan_keeps_a_valid_one(self):
+        self.run_well(mpirun(2, "solve", EASY, "--output", "plan.json", "--quiet"))
+        before = self.plan()
+        said = self.run_well(mpirun(2, "solve", EASY, "--output", "plan.json", "--quiet", "--time-limit",
+                                    0, "--require-plan"))
+        self.assertEqual(said.count("grove: no plan was found (unknown, stopped by: time limit"), 1)
+        self.assertIn(f"; plan.json keeps its valid plan of cost {before['cost']}", said)
+        self.assertEqual(self.plan(), before)
+
+    def test_from_standard_input_to_standard_output(self):
+        (self.folder / "rooms-32x32.map").symlink_to(DATA / "rooms-32x32.map")
+        done = subprocess.run(mpirun(2, "solve", "-", "--output", "-", "--log-format", "jsonl"),
+                              cwd=self.folder, env=ENVIRONMENT, input=EASY.read_text(encoding="utf-8"),
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (self.folder / "plan.json").write_text(done.stdout, encoding="utf-8")
+        self.run_well([GROVE, "check", EASY, "plan.json"])
+        events = [json.loads(line) for line in done.stderr.splitlines() if line.startswith("{")]
+        self.assertEqual([events[0]["event"], events[0]["instance"], events[-1]["event"]],
+                         ["header", "standard input", "summary"])
+        self.assertEqual(events[-1]["stats"]["ranks"], 2)
+
+    def test_one_run_at_a_time_uses_a_checkpoint_folder(self):
+        instance = self.generate(18, 30, 8)  # many seconds
+        running = start(mpirun(2, "solve", instance, "--omega", 0, "--threads", 1, "--checkpoint", "kept",
+                               "--time-limit", 20, "--quiet"), self.folder)
+        self.addCleanup(running.communicate)
+        self.addCleanup(running.terminate)
+        while not (self.folder / "kept/checkpoint.lock").exists():
+            time.sleep(0.05)
+        time.sleep(0.2)
+        self.refuses(mpirun(2, "solve", instance, "--checkpoint", "kept", "--resume", "never"),
+                     "kept/checkpoint.lock: is locked by another run (process ", " on host ")
 
 
 class Checkpoints(Program):

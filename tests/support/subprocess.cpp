@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "subprocess.h"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -17,15 +16,17 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kCannotStart = 127;
 
-// A file in memory that the child writes to: unlike a pipe it is never full.
-class Capture {
+// A file in memory that the child reads or writes: unlike a pipe it is never full.
+class MemoryFile {
  public:
-  Capture() : fd_(::memfd_create("capture", MFD_CLOEXEC)) {
-    if (fd_ < 0) throw std::runtime_error("memfd_create failed");
+  explicit MemoryFile(const std::string& text = "") : fd_(::memfd_create("file", MFD_CLOEXEC)) {
+    const auto size = static_cast<ssize_t>(text.size());
+    if (fd_ < 0 || ::pwrite(fd_, text.data(), text.size(), 0) != size)
+      throw std::runtime_error("memfd_create failed");
   }
-  ~Capture() { ::close(fd_); }
-  Capture(const Capture&) = delete;
-  Capture& operator=(const Capture&) = delete;
+  ~MemoryFile() { ::close(fd_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
 
   int fd() const { return fd_; }
   std::string text() const {
@@ -40,11 +41,11 @@ class Capture {
 };
 
 // In the child: becomes the program. Only async-signal-safe calls.
-[[noreturn]] void become(char* const* arguments, const ProcessOptions& options, int out, int err) {
+[[noreturn]] void become(char* const* arguments, const ProcessOptions& options, int in, int out,
+                         int err) {
   const rlimit limit{options.largest_file, options.largest_file};
-  const int nothing = ::open("/dev/null", O_RDONLY);
   const bool ready =
-      ::dup2(nothing, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
+      ::dup2(in, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
       ::dup2(err, STDERR_FILENO) >= 0 &&
       (options.directory.empty() || ::chdir(options.directory.c_str()) == 0) &&
       (options.largest_file == RLIM_INFINITY || ::setrlimit(RLIMIT_FSIZE, &limit) == 0);
@@ -53,14 +54,14 @@ class Capture {
 }
 
 pid_t start(const std::vector<std::string>& command, const ProcessOptions& options,
-            const Capture& out, const Capture& err) {
+            const MemoryFile& in, const MemoryFile& out, const MemoryFile& err) {
   std::vector<char*> arguments;
   for (const std::string& argument : command)
     arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) become(arguments.data(), options, out.fd(), err.fd());
+  if (child == 0) become(arguments.data(), options, in.fd(), out.fd(), err.fd());
   return child;
 }
 
@@ -87,10 +88,11 @@ int wait_for(pid_t child, const ProcessOptions& options, bool& timed_out) {
 }  // namespace
 
 ProcessResult run_program(const std::vector<std::string>& command, const ProcessOptions& options) {
-  const Capture out;
-  const Capture err;
+  const MemoryFile in(options.input);
+  const MemoryFile out;
+  const MemoryFile err;
   ProcessResult result;
-  const int status = wait_for(start(command, options, out, err), options, result.timed_out);
+  const int status = wait_for(start(command, options, in, out, err), options, result.timed_out);
   result.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   if (result.exit_code == kCannotStart) throw std::runtime_error("cannot start " + command.front());
   result.out = out.text();

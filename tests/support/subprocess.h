@@ -19,6 +19,7 @@ struct ProcessResult {
 
 struct ProcessOptions {
   std::string directory;                      // to run in; empty: where the test runs
+  std::string input = {};                     // on stdin
   std::chrono::milliseconds timeout{60'000};  // then it is killed
   rlim_t largest_file = RLIM_INFINITY;        // in bytes; counts for out and err too
   // Sends `signal` after `signal_after`; 0: none.
@@ -26,7 +27,7 @@ struct ProcessOptions {
   std::chrono::milliseconds signal_after{0};
 };
 
-// Runs `command` (program and arguments, no shell, nothing on stdin) and waits for it. Throws
+// Runs `command` (program and arguments, no shell) and waits for it. Throws
 // std::runtime_error when it cannot be started.
 ProcessResult run_program(const std::vector<std::string>& command,
                           const ProcessOptions& options = {});

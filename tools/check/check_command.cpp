@@ -30,7 +30,8 @@ constexpr const char* kCheckFooter =
     "\n"
     "Examples:\n"
     "  grove check benchmarks/data/first.cts.json plan.json\n"
-    "  grove check room-32-32-4-random-1.scen --map room-32-32-4.map --agents 20 plan.json";
+    "  grove check room-32-32-4-random-1.scen --agents 20 plan.json\n"
+    "  grove solve my.cts.json --quiet --output - | grove check my.cts.json -";
 
 struct CheckArguments {
   InstanceArguments instance;
@@ -55,11 +56,12 @@ void print_violations(const std::string& file, const std::vector<Violation>& vio
 void run(const CheckArguments& arguments) {
   const LoadedInstance loaded = arguments.instance.load();
   std::vector<std::string> warnings;
-  const Solution solution = read_solution(arguments.plan, loaded.instance, &warnings);
+  const std::string plan = arguments.plan == "-" ? "/dev/stdin" : arguments.plan;
+  const Solution solution = read_solution(plan, loaded.instance, &warnings);
   print_warnings(warnings);
   const auto violations = check(loaded.instance, solution, kMostViolations);
   if (violations.empty()) return print_verdict(solution);
-  print_violations(arguments.plan, violations);
+  print_violations(plan, violations);
   throw CommandFailed(kExitBadInput);
 }
 
@@ -70,7 +72,9 @@ void add_check_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("check", "Re-check a plan from the files alone");
   command->footer(kCheckFooter);
   arguments->instance.add_to(*command);
-  command->add_option("PLAN", arguments->plan, "plan file to check")->required()->type_name("");
+  command->add_option("PLAN", arguments->plan, "plan file to check; - is standard input")
+      ->required()
+      ->type_name("");
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string_view>
 
 #include "grove/io/input_error.h"
+#include "grove/io/scenario_file.h"
+#include "grove/io/text_file.h"
 #include "tools/common/file_formats.h"
 #include "tools/common/options.h"
 #include "tools/common/standard_error.h"
@@ -14,24 +18,43 @@ namespace grove {
 namespace {
 
 constexpr IntegerRange kAgentCounts{1, 1'000'000};
+constexpr std::string_view kScenario = ".scen";
 
 }  // namespace
 
 void InstanceArguments::add_to(CLI::App& command) {
   command
       .add_option("INSTANCE", path_,
-                  "instance: FILE.cts.json, or FILE.scen with --map and --agents")
+                  "instance: FILE.cts.json, - for one on standard input (its map is relative to "
+                  "this directory), or FILE.scen with --agents")
       ->required()
       ->type_name("");
-  command.add_option("--map", map_, "map of a .scen file")->type_name("FILE.map");
+  command
+      .add_option("--map", map_, "map of a .scen file; by default the one beside it that it names")
+      ->type_name("FILE.map");
   add_integer(command, "--agents", agents_, kAgentCounts, "the first N rows of a .scen file")
       ->default_str("");
 }
 
+std::string InstanceArguments::name() const {
+  return is_standard_input() ? "standard input" : path_;
+}
+
+std::string InstanceArguments::stem() const {
+  if (is_standard_input()) return "stdin";
+  const std::string name = std::filesystem::path(path_).filename().string();
+  for (const std::string_view suffix : {".cts.json", ".json"})
+    if (name.ends_with(suffix)) return name.substr(0, name.size() - suffix.size());
+  if (!name.ends_with(kScenario)) return name;
+  return fmt::format("{}-{}", name.substr(0, name.size() - kScenario.size()), agents_);
+}
+
 LoadedInstance InstanceArguments::read() const {
-  const bool is_scenario = path_.ends_with(".scen");
-  if (!is_scenario && (!map_.empty() || agents_ > 0))
+  if (path_.ends_with(kScenario)) return read_first_rows();
+  if (!map_.empty() || agents_ > 0)
     throw CLI::ValidationError("--map, --agents", "expected only with a .scen file");
+  if (is_standard_input())
+    return parse_instance(standard_input_ ? *standard_input_ : read_standard_input(), name(), "");
   if (path_.ends_with(".map"))
     throw InputError(
         path_, "", "a map; expected an instance, FILE.cts.json, which names its map, or FILE.scen");
@@ -39,16 +62,26 @@ LoadedInstance InstanceArguments::read() const {
     throw InputError(path_, "",
                      "an instance of another tool; expected FILE.cts.json, which 'grove convert' "
                      "makes of it");
-  if (!is_scenario) return read_instance(path_);
-  if (map_.empty()) throw CLI::ValidationError("--map", "required with a .scen file");
+  return read_instance(path_);
+}
+
+LoadedInstance InstanceArguments::read_first_rows() const {
   if (agents_ == 0) throw CLI::ValidationError("--agents", "required with a .scen file");
-  return read_scenario_instance(path_, map_, static_cast<int>(agents_));
+  const std::filesystem::path map = map_.empty() ? map_beside(path_) : std::filesystem::path(map_);
+  if (map.empty())
+    throw CLI::ValidationError(
+        "--map", "required with a .scen file that does not lie beside the map that it names");
+  return read_scenario_instance(path_, map, static_cast<int>(agents_));
 }
 
 LoadedInstance InstanceArguments::load(bool speaks) const {
   LoadedInstance loaded = read();
   if (speaks) print_warnings(loaded.warnings);
   return loaded;
+}
+
+std::string read_standard_input() {
+  return read_text("/dev/stdin");
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {

@@ -4,13 +4,16 @@
 
 #include <CLI/App.hpp>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "grove/io/instance_file.h"
 
 namespace grove {
 
-// INSTANCE.cts.json, or FILE.scen with --map and --agents. Must outlive the parsing.
+// INSTANCE.cts.json, - for one on standard input, or FILE.scen with --agents and perhaps --map.
+// Must outlive the parsing.
 class InstanceArguments {
  public:
   void add_to(CLI::App& command);
@@ -19,15 +22,29 @@ class InstanceArguments {
   // CLI::ValidationError when the arguments do not fit together.
   LoadedInstance load(bool speaks = true) const;
 
-  const std::string& path() const { return path_; }
+  // As messages and results name it: the path, or "standard input".
+  std::string name() const;
+  // Empty for standard input.
+  std::filesystem::path path() const { return is_standard_input() ? "" : path_; }
+  // For files named after it: "x" of "maps/x.cts.json", "x-20" of the first 20 rows of "x.scen".
+  std::string stem() const;
+
+  bool is_standard_input() const { return path_ == "-"; }
+  // What load() is to take for standard input, of which all processes of a run have only one.
+  void set_standard_input(std::string text) { standard_input_ = std::move(text); }
 
  private:
   LoadedInstance read() const;
+  LoadedInstance read_first_rows() const;
 
   std::string path_;
   std::string map_;
   std::int64_t agents_ = 0;
+  std::optional<std::string> standard_input_;
 };
+
+// All of it. Throws InputError.
+std::string read_standard_input();
 
 // One "grove: warning: ..." line each, on stderr.
 void print_warnings(const std::vector<std::string>& warnings);

@@ -12,7 +12,6 @@
 
 #include "grove/engine/run_observer.h"
 #include "grove/io/input_error.h"
-#include "grove/io/plan_file.h"
 #include "grove/model/fingerprint.h"
 #include "mpi/solve_distributed.h"
 #include "tools/common/program.h"
@@ -21,7 +20,6 @@
 #include "tools/mpi/mpi_commands.h"
 #include "tools/mpi/together.h"
 #include "tools/solve/incumbent_files.h"
-#include "tools/solve/run_log.h"
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 #include "tools/solve/start_plan.h"
@@ -52,6 +50,7 @@ class Run {
     options_ = options_of_one_search(a_);
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
+    if (a_.instance.is_standard_input()) share_standard_input();
     together(session_, [&] { loaded_.emplace(a_.instance.load(is_first())); });
     require_same(session_, "an instance of fingerprint",
                  fmt::format("{:016x}", fingerprint(loaded_->instance)));
@@ -69,25 +68,33 @@ class Run {
  private:
   bool is_first() const { return session_.rank() == 0; }
 
+  // mpirun passes it to rank 0 alone.
+  void share_standard_input() {
+    std::string text;
+    together(session_, [&] {
+      if (is_first()) text = read_standard_input();
+    });
+    a_.instance.set_standard_input(session_.gather(text).front());
+  }
+
   void prepare(const Crew& crew) {
     prepare_outputs(a_, *loaded_);
     if (!a_.start.empty()) options_.start = read_start_plan(a_.start, loaded_->instance);
-    resumed_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
-    sink_ = std::make_unique<LogSink>(!a_.quiet, a_.log, false);
-    log_head(*sink_, app_, a_, *loaded_, workers_text(crew));
-    for (const std::string& warning : warnings(crew)) sink_->line("Warning: " + warning);
-    if (resumed_) log_resumed(*sink_, resumed_->header());
+    checkpoints_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
+    log_ = open_log(a_, false);
+    log_->head(head_of(app_, a_, *loaded_, workers_text(crew)));
+    for (const std::string& warning : warnings(crew)) log_->warning(warning);
+    if (checkpoints_.resumed) log_->resumed(checkpoints_.resumed->header());
   }
 
   void solve_and_write() {
-    RunLog log(*sink_, start_, a_.time_limit_s, false);
+    RunLog rows = rows_of(*log_, a_, start_);
     IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
-                            options_.omega, log);
+                            options_.omega, rows);
     Solution solution = *solve_with(observer);
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
-    write_solution(a_.output, loaded_->instance, solution);
-    log.finish(solution, a_.output);
+    finish_run(a_, loaded_->instance, solution, *log_);
   }
 
   // All search or none does: rank 0 then says what there is to say.
@@ -127,8 +134,8 @@ class Run {
   std::optional<LoadedInstance> loaded_;
   Limits limits_;
   RunObserver silent_;
-  std::unique_ptr<CheckpointReader> resumed_;
-  std::unique_ptr<LogSink> sink_;
+  CheckpointFolder checkpoints_;
+  std::unique_ptr<LogFormat> log_;
 };
 
 }  // namespace

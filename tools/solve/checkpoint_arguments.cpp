@@ -8,9 +8,11 @@
 
 #include "grove/io/atomic_file.h"
 #include "grove/io/input_error.h"
+#include "grove/io/text_file.h"
 #include "grove/model/fingerprint.h"
 #include "tools/common/options.h"
 #include "tools/common/signals.h"
+#include "tools/common/standard_error.h"
 #include "tools/solve/start_plan.h"
 
 namespace grove {
@@ -30,10 +32,29 @@ void make_folder(const std::filesystem::path& folder) {
   require_writable(checkpoint_file(folder));
 }
 
+// Two runs in one folder would take each other's checkpoints away.
+FileLock lock_folder(const std::filesystem::path& folder) {
+  FileLock lock(folder / "checkpoint.lock");
+  if (!lock.is_held())
+    say_on_stderr(
+        fmt::format("grove: warning: {}: cannot be locked on this file system; see to it "
+                    "that no other run uses it",
+                    folder.string()));
+  return lock;
+}
+
+// Not torn by a crash of the machine: the disk gets a plan while the search goes on.
+bool is_whole(const std::filesystem::path& plan) {
+  return read_text(plan).ends_with("}\n");
+}
+
 // The better one of the plan to start from and the one that an earlier run left.
 void start_from_incumbent(const std::filesystem::path& file, const Instance& instance,
                           SolveOptions& options) {
   if (!std::filesystem::exists(file)) return;
+  if (!is_whole(file))
+    return say_on_stderr(fmt::format(
+        "grove: warning: {}: ends in the middle; goes on without that plan", file.string()));
   Plan plan = read_start_plan(file, instance);
   if (!options.start || plan.cost < options.start->cost) options.start = std::move(plan);
 }
@@ -53,24 +74,18 @@ void add_checkpoint_options(CLI::App& app, CheckpointArguments& a) {
                  "what to do about a checkpoint in that folder: go on from it (auto; without one, "
                  "begin), or begin anew (never). With neither, finding one is an error")
       ->type_name("auto|never")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            return text == "auto" || text == "never"
-                       ? std::string()
-                       : fmt::format("found '{}'; expected auto or never", text);
-          },
-          ""));
+      ->check(one_of({"auto", "never"}));
 }
 
-std::unique_ptr<CheckpointReader> prepare_checkpoints(const CheckpointArguments& a,
-                                                      const Instance& instance,
-                                                      SolveOptions& options) {
+CheckpointFolder prepare_checkpoints(const CheckpointArguments& a, const Instance& instance,
+                                     SolveOptions& options) {
   if (a.directory.empty()) {
     if (!a.resume.empty())
       throw CLI::ValidationError("--resume", "expected --checkpoint DIR to go with it");
-    return nullptr;
+    return {};
   }
   make_folder(a.directory);
+  CheckpointFolder folder{lock_folder(a.directory), nullptr};
   options.checkpoints = {a.directory, a.interval_s, &checkpoint_asked};
   const std::filesystem::path file = checkpoint_file(a.directory);
   const bool found = std::filesystem::exists(file);
@@ -80,14 +95,14 @@ std::unique_ptr<CheckpointReader> prepare_checkpoints(const CheckpointArguments&
                      "never to begin anew");
   if (a.resume == "never") {
     std::filesystem::remove(a.incumbent_file());
-    return nullptr;
+    return folder;
   }
   start_from_incumbent(a.incumbent_file(), instance, options);
-  if (!found) return nullptr;
+  if (!found) return folder;
   const Policy policy = options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
-  auto reader = std::make_unique<CheckpointReader>(a.directory, fingerprint(instance), policy);
-  options.resume = reader.get();
-  return reader;
+  folder.resumed = std::make_unique<CheckpointReader>(a.directory, fingerprint(instance), policy);
+  options.resume = folder.resumed.get();
+  return folder;
 }
 
 }  // namespace grove

@@ -5,10 +5,12 @@
 #include <CLI/App.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "grove/engine/checkpoint.h"
 #include "grove/engine/solve.h"
+#include "grove/io/file_lock.h"
 
 namespace grove {
 
@@ -26,13 +28,18 @@ struct CheckpointArguments {
 // `arguments` must outlive the parsing.
 void add_checkpoint_options(CLI::App& app, CheckpointArguments& arguments);
 
-// Makes the folder, sees that a checkpoint can be written there, and sets `options` up to write
-// checkpoints, in which case SIGUSR1 asks for one, and to go on from the one that is there; which
-// is returned, for it must outlive the run (null: none). Throws InputError for a folder or a file
-// that cannot be used, and when there is a checkpoint and nothing was said of it;
-// CLI::ValidationError when the arguments do not fit together.
-std::unique_ptr<CheckpointReader> prepare_checkpoints(const CheckpointArguments& arguments,
-                                                      const Instance& instance,
-                                                      SolveOptions& options);
+// What a run holds until its end.
+struct CheckpointFolder {
+  std::optional<FileLock> lock;               // none without checkpoints
+  std::unique_ptr<CheckpointReader> resumed;  // null: the run begins anew
+};
+
+// Makes the folder and locks it, sees that a checkpoint can be written there, and sets `options` up
+// to write checkpoints, in which case SIGUSR1 asks for one, and to go on from the one that is
+// there. Throws InputError for a folder or a file that cannot be used, also because another run
+// does, and when there is a checkpoint and nothing was said of it; CLI::ValidationError when the
+// arguments do not fit together.
+CheckpointFolder prepare_checkpoints(const CheckpointArguments& arguments, const Instance& instance,
+                                     SolveOptions& options);
 
 }  // namespace grove

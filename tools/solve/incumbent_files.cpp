@@ -57,14 +57,19 @@ void IncumbentFiles::write(const Plan& plan, const Progress& progress) {
   solution.stats.counts["nodes_expanded"] = progress.nodes_expanded;
   solution.stats.texts["version"] = version_text();
   try {
-    if (!best_.empty()) write_solution(best_, instance_, solution, Outlives::kProcess);
-    if (!prefix_.empty())
-      write_solution(file(prefix_, ++written_), instance_, solution, Outlives::kProcess);
+    if (!best_.empty()) write_file(best_, solution);
+    if (!prefix_.empty()) write_file(file(prefix_, ++written_), solution);
   } catch (const InputError& error) {
     say_on_stderr(
         fmt::format("grove: warning: {}; no more plans are written before the end", error.what()));
     failed_ = true;
   }
+}
+
+void IncumbentFiles::write_file(const std::filesystem::path& file, const Solution& solution) {
+  write_solution(file, instance_, solution, Outlives::kProcess);
+  if (!flusher_) flusher_.emplace();
+  flusher_->flush(file);
 }
 
 }  // namespace grove

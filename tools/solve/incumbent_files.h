@@ -3,19 +3,22 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "grove/engine/run_observer.h"
 #include "grove/model/instance.h"
 #include "grove/model/omega.h"
+#include "tools/solve/disk_flusher.h"
 
 namespace grove {
 
 // Writes the k-th plan of a run to PREFIX-<k>.plan.json, and the best one to a file of its own,
 // whole or not at all, and passes everything on to another observer; a plan is in its file before
-// that one hears of it. Nobody waits until the disk has it, for plans come many at a time: it
-// outlives the process, and what must outlive the machine is in a checkpoint. A file that cannot be
-// written is told on stderr, once; the run goes on.
+// that one hears of it, and so outlives the process. The disk gets it soon after, from a thread of
+// its own, since plans come many at a time and the search must not wait: then it outlives the
+// machine. The end of this waits for the disk. A file that cannot be written is told on stderr,
+// once; the run goes on.
 class IncumbentFiles : public RunObserver {
  public:
   // `prefix` or `best` empty: these are not written. `instance` and `next` must outlive this.
@@ -44,6 +47,7 @@ class IncumbentFiles : public RunObserver {
 
  private:
   void write(const Plan& plan, const Progress& progress);
+  void write_file(const std::filesystem::path& file, const Solution& solution);
 
   const std::string prefix_;
   const std::filesystem::path best_;
@@ -52,6 +56,7 @@ class IncumbentFiles : public RunObserver {
   RunObserver& next_;
   int written_ = 0;
   bool failed_ = false;
+  std::optional<DiskFlusher> flusher_;  // from the first plan on
 };
 
 }  // namespace grove

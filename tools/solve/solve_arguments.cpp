@@ -37,17 +37,11 @@ std::string check_method(const std::string& text) {
                      text, names);
 }
 
-// A value must be one of the table's keys.
 template <typename Value>
-CLI::Validator one_of(const std::map<std::string, Value>& table) {
-  return CLI::Validator(
-      [&table](const std::string& text) {
-        if (table.contains(text)) return std::string();
-        std::string names;
-        for (const auto& [name, value] : table) names += (names.empty() ? "" : ", ") + name;
-        return fmt::format("found '{}'; expected one of {}", text, names);
-      },
-      "");
+std::vector<std::string> keys_of(const std::map<std::string, Value>& table) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : table) keys.push_back(key);
+  return keys;
 }
 
 std::string names_of(Techniques techniques) {
@@ -111,14 +105,14 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
          "paper's CTS-CBS), or nothing, so that one tree holds all sequences (free); auto: "
          "free")
       ->type_name("auto|fixed|free")
-      ->check(one_of(kPolicies))
+      ->check(one_of(keys_of(kPolicies)))
       ->capture_default_str();
   app.add_option("--rtsp", a.rtsp,
                  "with fixed, what solves the sequencing problems: dynamic programming (dp), the "
                  "integer programs of "
                  "CBC (cbc: slow, a cross-check), or Grove's choice (auto: dp)")
       ->type_name("auto|dp|cbc")
-      ->check(one_of(kBackends))
+      ->check(one_of(keys_of(kBackends)))
       ->capture_default_str();
   add_integer(
       app, "--seed", a.seed, kSeeds,
@@ -147,7 +141,7 @@ void add_search_options(CLI::App& app, SolveArguments& a) {
   add_number(app, "--memory-limit", a.memory_limit_gb, 0, 1e6,
              "stay below so many gigabytes: forget what can be found again, then give up the worst "
              "nodes, whose bound still counts; stop if that does not help. By default 80 % of the "
-             "machine's")
+             "machine's, or of what a container or batch system grants")
       ->type_name("GB");
   add_integer(app, "--threads", a.threads, {1, 1024},
               "search on so many threads. By default one for each core that this process may use")
@@ -163,10 +157,21 @@ void add_file_options(CLI::App& app, SolveArguments& a) {
                  "write every better plan, as soon as it is found, to PREFIX-1.plan.json, "
                  "PREFIX-2.plan.json and so on; those of an earlier run are removed")
       ->type_name("PREFIX");
-  app.add_option("-o,--output", a.output,
-                 "the plan file; by default the instance's name with .plan.json, in this directory")
+  app.add_option(
+         "-o,--output", a.output,
+         "the plan file; by default the instance's name with .plan.json, in this directory. "
+         "- is standard output; the log then goes to standard error. A file whose plan is "
+         "valid for this instance is replaced only by a plan that costs no more")
       ->type_name("PLAN");
+  app.add_flag("--require-plan", a.require_plan,
+               "end with exit code 3 if no plan was found (grove-mpi: with 0 even then, since "
+               "mpirun takes anything else for a crash)");
   app.add_option("--log", a.log, "write the log to this file too")->type_name("FILE");
+  app.add_option("--log-format", a.log_format,
+                 "text, for people, or jsonl: one JSON object per event and line, for programs")
+      ->type_name("text|jsonl")
+      ->check(one_of({"text", "jsonl"}))
+      ->capture_default_str();
   app.add_flag("--quiet", a.quiet, "no log on the screen");
 }
 
@@ -187,8 +192,9 @@ std::string options_text(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || option->get_positional()) continue;
     const bool is_flag = option->get_expected_max() == 0;
-    text += fmt::format("{}{}{}{}", text.empty() ? "" : " ", option->get_name(), is_flag ? "" : " ",
-                        is_flag ? "" : fmt::format("{}", fmt::join(option->results(), ",")));
+    text +=
+        fmt::format("{}{}{}{}", text.empty() ? "" : " ", option->get_name(), is_flag ? "" : " ",
+                    is_flag ? "" : fmt::format("{}", fmt::join(option->reduced_results(), ",")));
   }
   return text;
 }

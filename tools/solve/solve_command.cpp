@@ -8,11 +8,9 @@
 
 #include "grove/engine/method.h"
 #include "grove/io/input_error.h"
-#include "grove/io/plan_file.h"
 #include "tools/common/commands.h"
 #include "tools/common/signals.h"
 #include "tools/solve/incumbent_files.h"
-#include "tools/solve/run_log.h"
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 #include "tools/solve/start_plan.h"
@@ -33,7 +31,7 @@ constexpr const char* kSolveFooter =
     "Examples:\n"
     "  grove solve benchmarks/data/first.cts.json\n"
     "  grove solve INSTANCE.cts.json --omega 0 --time-limit 60 --output plan.json\n"
-    "  grove solve room-32-32-4-random-1.scen --map room-32-32-4.map --agents 20";
+    "  grove solve room-32-32-4-random-1.scen --agents 20";
 
 void expect_fit(Method method, const Instance& instance, const SolveOptions& options,
                 const std::string& path) {
@@ -51,23 +49,23 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   const LoadedInstance loaded = a.instance.load();
   prepare_outputs(a, loaded);
   if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
-  expect_fit(method_of(a), loaded.instance, options, a.instance.path());
-  const auto resumed = prepare_checkpoints(a.checkpoints, loaded.instance, options);
-  LogSink sink(!a.quiet, a.log);
-  log_head(sink, app, a, loaded, std::to_string(a.threads));
-  if (resumed) log_resumed(sink, resumed->header());
+  expect_fit(method_of(a), loaded.instance, options, a.instance.name());
+  const CheckpointFolder checkpoints = prepare_checkpoints(a.checkpoints, loaded.instance, options);
+  const auto log = open_log(a);
+  log->head(head_of(app, a, loaded, std::to_string(a.threads)));
+  if (checkpoints.resumed) log->resumed(checkpoints.resumed->header());
 
   Limits limits;
   set_limits(limits, a, start);
-  RunLog log(sink, start, a.time_limit_s, a.deterministic);
+  RunLog rows = rows_of(*log, a, start);
   IncumbentFiles observer(a.incumbents, a.checkpoints.incumbent_file(), loaded.instance,
-                          options.omega, log);
+                          options.omega, rows);
   Solution solution =
       solve_by(method_of(a), a.anytime, loaded.instance, options, limits, &observer);
 
   add_run_facts(solution, app, a, start);
-  write_solution(a.output, loaded.instance, solution);
-  log.finish(solution, a.output);
+  finish_run(a, loaded.instance, solution, *log);
+  if (a.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);
 }
 
 }  // namespace

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What surrounds a solve: the head of the log, the files, the facts of the run.
+// What surrounds a solve: its files, the log and its head, the facts of the run, its end.
 #pragma once
 
 #include <CLI/App.hpp>
 #include <chrono>
+#include <memory>
 #include <string>
 
 #include "grove/io/instance_file.h"
 #include "grove/model/plan.h"
+#include "tools/solve/log_format.h"
 #include "tools/solve/run_log.h"
 #include "tools/solve/solve_arguments.h"
 
@@ -17,15 +19,25 @@ namespace grove {
 // gives the plan file its default name. Throws InputError.
 void prepare_outputs(SolveArguments& arguments, const LoadedInstance& loaded);
 
-// `workers`: who works, "2" threads or "4 ranks of 2".
-void log_head(LogSink& sink, const CLI::App& app, const SolveArguments& arguments,
-              const LoadedInstance& loaded, const std::string& workers);
+// The log that was asked for, on the screen and in its file. `may_show_progress`: see LogSink.
+// Throws InputError.
+std::unique_ptr<LogFormat> open_log(const SolveArguments& arguments, bool may_show_progress = true);
 
-// That the run goes on from there.
-void log_resumed(LogSink& sink, const CheckpointHeader& checkpoint);
+// The rows of a run that began at `start`.
+RunLog rows_of(LogFormat& log, const SolveArguments& arguments,
+               std::chrono::steady_clock::time_point start);
+
+// `workers`: who works, "2" threads or "4 ranks of 2".
+LogHead head_of(const CLI::App& app, const SolveArguments& arguments, const LoadedInstance& loaded,
+                const std::string& workers);
 
 // What the plan file is to say of the run that began at `start`.
 void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments& arguments,
                    std::chrono::steady_clock::time_point start);
+
+// Writes the plan file and the end of the log, and says on stderr what must not be missed; see
+// plan_output.h.
+void finish_run(const SolveArguments& arguments, const Instance& instance, const Solution& solution,
+                LogFormat& log);
 
 }  // namespace grove

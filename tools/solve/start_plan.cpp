@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "grove/io/input_error.h"
 #include "grove/io/plan_file.h"
@@ -14,10 +12,9 @@
 
 namespace grove {
 
-Plan read_start_plan(const std::filesystem::path& path, const Instance& instance) {
-  std::vector<std::string> warnings;
-  Solution solution = read_solution(path, instance, &warnings);
-  print_warnings(warnings);
+Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance,
+                     std::vector<std::string>* warnings) {
+  Solution solution = read_solution(path, instance, warnings);
   if (!solution.plan)
     throw InputError(path.string(), "/agents",
                      fmt::format("no plan (status {}); expected a valid plan for this instance",
@@ -28,6 +25,13 @@ Plan read_start_plan(const std::filesystem::path& path, const Instance& instance
     throw InputError(path.string(), violations[0].place,
                      fmt::format("not a plan of this instance: {}", violations[0].message));
   return std::move(*solution.plan);
+}
+
+Plan read_start_plan(const std::filesystem::path& path, const Instance& instance) {
+  std::vector<std::string> warnings;
+  Plan plan = read_valid_plan(path, instance, &warnings);
+  print_warnings(warnings);
+  return plan;
 }
 
 }  // namespace grove

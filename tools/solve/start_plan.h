@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-// A plan file as the first incumbent of a run.
+// Plan files of earlier runs: as the first incumbent of this one, and as what it may leave alone.
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "grove/model/plan.h"
 
 namespace grove {
 
 // The plan in the file, which must be valid for `instance`; what else the file claims (status,
-// bound) does not count. Prints warnings on stderr. Throws InputError that tells what is wrong.
+// bound) does not count. Appends to `warnings`. Throws InputError that tells what is wrong.
+Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance,
+                     std::vector<std::string>* warnings = nullptr);
+
+// The same, with the warnings on stderr.
 Plan read_start_plan(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove

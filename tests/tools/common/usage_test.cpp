@@ -22,7 +22,10 @@ TEST(Usage, HelpIsWorthReading) {
                                      {"generate", "instance", "--help"},
                                      {"generate", "dataset", "--help"},
                                      {"generate", "paper", "--help"},
-                                     {"bench", "--help"}}) {
+                                     {"bench", "--help"},
+                                     {"help"},
+                                     {"help", "solve"},
+                                     {"help", "generate", "map"}}) {
     const ProcessResult result = run_grove(arguments);
     EXPECT_EQ(result.exit_code, 0) << arguments[0];
     EXPECT_EQ(result.err, "");
@@ -31,6 +34,8 @@ TEST(Usage, HelpIsWorthReading) {
   }
   EXPECT_NE(run_grove({"--help"}).out.find("Exit codes:"), std::string::npos);
   EXPECT_NE(run_grove({"check", "--help"}).out.find("Examples:"), std::string::npos);
+  EXPECT_EQ(run_grove({"help", "generate", "map", "rooms"}).out,
+            run_grove({"generate", "map", "rooms", "--help"}).out);
 }
 
 TEST(Usage, VersionNamesTheCommit) {
@@ -52,8 +57,11 @@ TEST(Usage, WrongUsageGetsOneLineAndAHint) {
             "unknown option '--omga'; did you mean '--omega'? (see 'grove solve --help')");
   EXPECT_EQ(said({"solv", "a"}),
             "unknown command 'solv'; did you mean 'solve'? (see 'grove --help')");
+  EXPECT_EQ(said({"help", "chekc"}),
+            "unknown command 'chekc'; did you mean 'check'? (see 'grove --help')");
+  EXPECT_EQ(said({"check", "a", "b", "c"}), "unexpected argument 'c' (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a.scen", "b", "--agents", "2"}),
-            "--map: required with a .scen file (see 'grove check --help')");
+            "a.scen: cannot be read: No such file or directory");
   EXPECT_EQ(said({"check", "a.scen", "b", "--map", "m"}),
             "--agents: required with a .scen file (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a.json", "b", "--map", "m"}),
@@ -62,6 +70,17 @@ TEST(Usage, WrongUsageGetsOneLineAndAHint) {
             "--output is required (see 'grove generate map empty --help')");
   EXPECT_EQ(said({"generate", "map", "empty", "-o", "x", "a\nb"}),
             "unexpected argument 'a\\nb' (see 'grove generate map empty --help')");
+}
+
+// As with compilers: a script's own options can so be overruled.
+TEST(Usage, OfAnOptionGivenTwiceTheLastCounts) {
+  const TemporaryDirectory directory;
+  const std::string map = directory / "m.map";
+  EXPECT_EQ(run_grove({"generate", "map", "empty", "-o", "/nowhere/m.map", "--width", "9",
+                       "--output", map, "--width", "3", "--height", "2"})
+                .exit_code,
+            0);
+  EXPECT_EQ(file_content(map), "type octile\nheight 2\nwidth 3\nmap\n...\n...\n");
 }
 
 TEST(Usage, NumbersAreCheckedWithFriendlyWords) {

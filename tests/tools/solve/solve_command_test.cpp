@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "grove/io/file_lock.h"
 #include "grove/model/omega.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
@@ -18,7 +19,10 @@ namespace grove {
 namespace solve_command_test {
 
 using nlohmann::json;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 std::string data(const std::string& name) {
   return std::string(GROVE_DATA) + "/" + name;
@@ -73,6 +77,33 @@ TEST_F(SolveCommand, SolvesTheFirstRowsOfAScenario) {
   EXPECT_EQ(plan("p.json")["agents"].size(), 10u);
 }
 
+TEST_F(SolveCommand, TakesTheMapThatLiesBesideAScenario) {
+  const ProcessResult solved = solve({data("empty-32x32.scen"), "--agents", "3"});
+  EXPECT_THAT(solved.out, HasSubstr("empty-32x32.map: 32 x 32"));
+  std::filesystem::copy(data("empty-32x32.scen"), directory_.path());
+  EXPECT_THAT(complaint(solve({"empty-32x32.scen", "--agents", "3"})),
+              HasSubstr("does not lie beside the map that it names"));
+}
+
+TEST_F(SolveCommand, ReadsAnInstanceFromStandardInput) {
+  options_.input = kPuzzle;
+  const ProcessResult solved = solve({"-", "--time-limit", "0"});
+  EXPECT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_THAT(solved.out, HasSubstr("standard input: 4 agents"));
+  EXPECT_EQ(plan("stdin.plan.json")["stats"]["instance"], "standard input");
+  options_.input = "{";
+  EXPECT_THAT(complaint(solve({"-"})), HasSubstr("standard input: line 1, column 2"));
+}
+
+TEST_F(SolveCommand, CountsTheLastOfTwoOptions) {
+  const ProcessResult solved =
+      solve({data("first.cts.json"), "--omega", "inf", "--output", "nowhere/p", "--without",
+             "primal", "--output", "p.json", "--without", "bypass,target", "--omega", "0"});
+  EXPECT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_EQ(plan("p.json")["stats"]["options"],
+            "--omega 0 --without primal,bypass,target --output p.json");
+}
+
 TEST_F(SolveCommand, LogsHeadTableAndSummary) {
   const ProcessResult solved = solve({data("first.cts.json"), "--log", "run.log", "--seed", "4"});
   EXPECT_EQ(solved.err, "");
@@ -125,14 +156,14 @@ TEST_F(SolveCommand, EndsAtTheTimeLimitWithABound) {
 
 // The puzzle's tree would outgrow this in a second.
 TEST_F(SolveCommand, GoesOnAtTheMemoryLimit) {
-  const ProcessResult solved = solve({"puzzle.json", "--policy", "fixed", "--memory-limit", "0.03",
+  const ProcessResult solved = solve({"puzzle.json", "--policy", "fixed", "--memory-limit", "0.02",
                                       "--time-limit", "5", "--output", "p.json"});
   EXPECT_EQ(solved.exit_code, 0) << solved.err;
   const json stats = plan("p.json")["stats"];
   EXPECT_EQ(stats["stopped_by"], "time limit");
   EXPECT_GT(stats["nodes_evicted"], 0);
   EXPECT_LT(stats["node_bytes"], 200);
-  EXPECT_LT(stats["peak_memory_mb"], 35);
+  EXPECT_LT(stats["peak_memory_mb"], 25);
   EXPECT_THAT(solved.out, HasSubstr("bytes per node"));
 }
 
@@ -283,10 +314,142 @@ TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omgea", "0"})), HasSubstr("--omgea"));
   EXPECT_THAT(complaint(solve({"missing.json"})), HasSubstr("missing.json"));
   EXPECT_THAT(complaint(solve({data("first.map")})), HasSubstr("expected an instance"));
-  EXPECT_THAT(complaint(solve({data("empty-32x32.scen")})), HasSubstr("--map"));
+  EXPECT_THAT(complaint(solve({data("empty-32x32.scen")})), HasSubstr("--agents"));
   EXPECT_THAT(complaint(solve(
                   {data("empty-32x32.scen"), "--map", data("empty-32x32.map"), "--agents", "900"})),
               HasSubstr("900"));
+}
+
+// --- the plan file of an earlier run ---
+
+TEST_F(SolveCommand, WithoutAPlanKeepsAValidOne) {
+  solve({data("first.cts.json"), "--output", "p.json"});
+  const std::string before = file_content(directory_ / "p.json");
+  for (const bool quiet : {false, true}) {
+    std::vector<std::string> words{data("first.cts.json"), "--output", "p.json", "--time-limit",
+                                   "0"};
+    if (quiet) words.push_back("--quiet");
+    const ProcessResult solved = solve(words);
+    EXPECT_EQ(solved.exit_code, 0);
+    EXPECT_THAT(solved.err, StartsWith("grove: no plan was found (unknown, stopped by: time limit, "
+                                       "lower bound "));
+    EXPECT_THAT(solved.err, EndsWith("; p.json keeps its valid plan of cost 33\n"));
+    EXPECT_EQ(solved.out.find("p.json (kept as it is, with a valid plan of cost 33)") ==
+                  std::string::npos,
+              quiet);
+    EXPECT_EQ(file_content(directory_ / "p.json"), before);
+  }
+}
+
+TEST_F(SolveCommand, WithoutAPlanReplacesWhatIsNoneOfThisInstance) {
+  solve({data("first.cts.json"), "--output", "p.json"});
+  json changed = plan("p.json");
+  changed["agents"][0]["path"].erase(0);
+  directory_.write("p.json", changed.dump());
+  const ProcessResult solved =
+      solve({data("first.cts.json"), "--output", "p.json", "--time-limit", "0", "--quiet"});
+  EXPECT_THAT(solved.err, StartsWith("grove: no plan was found (unknown, "));
+  EXPECT_THAT(solved.err, Not(HasSubstr("keeps")));
+  EXPECT_EQ(plan("p.json")["status"], "unknown");
+  solve({data("rooms-32x32_n5_m10.cts.json"), "--output", "p.json", "--quiet"});
+  solve({data("first.cts.json"), "--output", "p.json", "--time-limit", "0", "--quiet"});
+  EXPECT_EQ(plan("p.json")["status"], "unknown");
+}
+
+TEST_F(SolveCommand, EndsWithThreeWhereAPlanIsRequired) {
+  EXPECT_EQ(solve({data("first.cts.json"), "--require-plan"}).exit_code, 0);
+  EXPECT_EQ(solve({data("first.cts.json"), "--require-plan", "--time-limit", "0"}).exit_code, 3);
+  EXPECT_EQ(plan("first.plan.json")["cost"], 33);
+}
+
+TEST_F(SolveCommand, WritesThePlanToStandardOutput) {
+  const ProcessResult solved = solve({data("first.cts.json"), "--output", "-"});
+  EXPECT_EQ(json::parse(solved.out)["cost"], 33);
+  EXPECT_THAT(solved.err, HasSubstr("Plan file     standard output"));
+  EXPECT_EQ(directory_.files(), (std::vector<std::string>{"puzzle.json", "puzzle.map"}));
+  EXPECT_EQ(solve({data("first.cts.json"), "-o", "-", "--quiet"}).err, "");
+  const std::string command =
+      std::string(GROVE_PROGRAM) + " solve " + data("first.cts.json") + " -o - --quiet >/dev/full";
+  EXPECT_EQ(run_program({"/bin/sh", "-c", command}).exit_code, 1);
+}
+
+// --- the log for programs ---
+
+std::vector<json> events(const std::string& log) {
+  std::vector<json> found;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) found.push_back(json::parse(line));
+  return found;
+}
+
+TEST_F(SolveCommand, LogsForPrograms) {
+  const ProcessResult solved =
+      solve({data("rooms-32x32_n10_m30.cts.json"), "--omega", "0", "--threads", "1", "--log-format",
+             "jsonl", "--log", "log.jsonl", "--output", "p.json"});
+  EXPECT_EQ(solved.err, "");
+  EXPECT_EQ(file_content(directory_ / "log.jsonl"), solved.out);
+  const std::vector<json> log = events(solved.out);
+  ASSERT_GT(log.size(), 2u);
+  EXPECT_EQ(log.front()["event"], "header");
+  EXPECT_EQ(log.front()["agents"], 10);
+  EXPECT_THAT(std::string(log.front()["options"]), HasSubstr("--omega 0 --threads 1"));
+  EXPECT_EQ(log.back()["event"], "summary");
+  EXPECT_EQ(log.back()["status"], "optimal");
+  EXPECT_EQ(log.back()["stats"], plan("p.json")["stats"]);
+  std::int64_t incumbents = 0;
+  for (const json& row : log) {
+    if (&row == &log.front() || &row == &log.back()) continue;
+    for (const char* key :
+         {"time_s", "nodes", "open", "trees", "lower_bound", "incumbent", "gap", "memory_mb"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    EXPECT_EQ(row["event"] == "incumbent", row.contains("source"));
+    incumbents += row["event"] == "incumbent" ? 1 : 0;
+    EXPECT_EQ(row["gap"].is_null(), row["incumbent"].is_null());
+  }
+  EXPECT_GT(incumbents, 0);
+  EXPECT_EQ(log[log.size() - 2]["gap"], 0);
+}
+
+TEST_F(SolveCommand, LogsForProgramsWhateverHappens) {
+  const ProcessResult nothing =
+      solve({"puzzle.json", "--time-limit", "0", "--log-format", "jsonl"});
+  EXPECT_EQ(events(nothing.out).back()["status"], "unknown");
+  EXPECT_TRUE(events(nothing.out).back()["cost"].is_null());
+  const ProcessResult solved =
+      solve({data("first.cts.json"), "--log-format", "jsonl", "-o", "-", "--checkpoint", "kept"});
+  EXPECT_EQ(events(solved.err).back()["plan_file"], "standard output");
+  EXPECT_EQ(std::ranges::count(events(solved.err), "checkpoint",
+                               [](const json& e) { return e["event"]; }),
+            1);
+  const ProcessResult resumed = solve({data("first.cts.json"), "--log-format", "jsonl",
+                                       "--checkpoint", "kept", "--resume", "auto"});
+  EXPECT_EQ(events(resumed.out).at(1)["event"], "resumed");
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--log-format", "xml"})), HasSubstr("text, jsonl"));
+}
+
+// --- checkpoint folders ---
+
+TEST_F(SolveCommand, RefusesACheckpointFolderInUse) {
+  std::filesystem::create_directory(directory_ / "kept");
+  const std::vector<std::string> words{data("first.cts.json"), "--checkpoint", "kept", "--resume",
+                                       "auto"};
+  {
+    const FileLock lock(directory_ / "kept/checkpoint.lock");
+    EXPECT_THAT(complaint(solve(words)),
+                HasSubstr("kept/checkpoint.lock: is locked by another run (process "));
+  }
+  EXPECT_EQ(solve(words).exit_code, 0);
+}
+
+TEST_F(SolveCommand, GoesOnWithoutAPlanThatACrashHasTorn) {
+  const std::vector<std::string> words{data("first.cts.json"), "--checkpoint", "kept", "--resume",
+                                       "auto"};
+  ASSERT_EQ(solve(words).exit_code, 0);
+  directory_.write("kept/incumbent.plan.json", R"({"status": "opt)");
+  const ProcessResult solved = solve(words);
+  EXPECT_EQ(solved.exit_code, 0);
+  EXPECT_THAT(solved.err, HasSubstr("kept/incumbent.plan.json: ends in the middle"));
+  EXPECT_EQ(plan("first.plan.json")["status"], "optimal");
 }
 
 // --- plans from the heuristics, from files, to files ---

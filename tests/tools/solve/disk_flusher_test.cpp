@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "tools/solve/disk_flusher.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/support/temporary_directory.h"
+
+namespace grove {
+namespace disk_flusher_test {
+
+std::string told_while(const std::vector<std::string>& files) {
+  ::testing::internal::CaptureStderr();
+  {
+    DiskFlusher flusher;
+    for (const std::string& file : files) flusher.flush(file);
+  }
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(DiskFlusher, EndsWhenAllFilesAreThere) {
+  const TemporaryDirectory directory;
+  std::vector<std::string> files;
+  for (int i = 0; i < 20; ++i) files.push_back(directory.write(std::to_string(i), "plan"));
+  EXPECT_EQ(told_while({}), "");
+  EXPECT_EQ(told_while(files), "");
+}
+
+// That it says so shows that it has tried, and that its end has waited.
+TEST(DiskFlusher, TellsOnceWhatFails) {
+  const TemporaryDirectory directory;
+  const std::string told = told_while({directory / "a", directory / "b"});
+  EXPECT_NE(told.find("/a: cannot be written: No such file"), std::string::npos) << told;
+  EXPECT_EQ(std::ranges::count(told, '\n'), 1);
+}
+
+}  // namespace disk_flusher_test
+}  // namespace grove

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "tools/solve/disk_flusher.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "grove/io/atomic_file.h"
+#include "grove/io/input_error.h"
+#include "tools/common/standard_error.h"
+
+namespace grove {
+
+DiskFlusher::~DiskFlusher() {
+  {
+    const std::lock_guard guard(mutex_);
+    over_ = true;
+  }
+  news_.notify_one();
+  thread_.join();
+}
+
+void DiskFlusher::flush(const std::filesystem::path& file) {
+  {
+    const std::lock_guard guard(mutex_);
+    waiting_.insert(file);
+  }
+  news_.notify_one();
+}
+
+void DiskFlusher::run() {
+  bool failed = false;
+  std::unique_lock guard(mutex_);
+  while (true) {
+    news_.wait(guard, [this] { return over_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    const auto file = waiting_.extract(waiting_.begin());
+    guard.unlock();
+    try {
+      flush_file(file.value());
+    } catch (const InputError& error) {
+      if (!std::exchange(failed, true))
+        say_on_stderr(fmt::format(
+            "grove: warning: {}; plans may not outlive a crash of the machine", error.what()));
+    }
+    guard.lock();
+  }
+}
+
+}  // namespace grove

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "tools/solve/json_log.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "tools/common/machine.h"
+#include "tools/common/version.h"
+
+namespace grove {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Whatever bytes are in file names.
+std::string line_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json rounded(double number, double steps) {
+  return std::round(number * steps) / steps;
+}
+
+Json seconds_json(double seconds) {
+  return rounded(seconds, 1e3);
+}
+
+Json cost_json(std::optional<Cost> cost) {
+  return cost ? Json(*cost) : Json();
+}
+
+// (cost - lower bound) / lower bound; null without a cost, and where it would be infinite.
+Json gap_json(std::optional<Cost> cost, Cost lower_bound) {
+  if (!cost) return {};
+  if (*cost == lower_bound) return 0;
+  if (lower_bound <= 0) return {};
+  return static_cast<double>(*cost - lower_bound) / static_cast<double>(lower_bound);
+}
+
+const char* name_of(RunEvent event) {
+  switch (event) {
+    case RunEvent::kIncumbent:
+      return "incumbent";
+    case RunEvent::kBound:
+      return "bound";
+    case RunEvent::kTree:
+      return "tree";
+    case RunEvent::kProgress:
+    case RunEvent::kEnd:
+      break;
+  }
+  return "progress";
+}
+
+const char* name_of(PlanSource source) {
+  switch (source) {
+    case PlanSource::kStart:
+      return "start";
+    case PlanSource::kPriorities:
+      return "priorities";
+    case PlanSource::kConfigurations:
+      return "configurations";
+    case PlanSource::kNeighborhood:
+      return "neighborhood";
+    case PlanSource::kTree:
+      break;
+  }
+  return "tree";
+}
+
+Json stats_json(const Stats& stats) {
+  Json json = Json::object();
+  for (const auto& [name, value] : stats.texts) json[name] = value;
+  for (const auto& [name, value] : stats.measures) json[name] = value;
+  for (const auto& [name, value] : stats.counts) json[name] = value;
+  return json;
+}
+
+}  // namespace
+
+void JsonLog::head(const LogHead& h) {
+  const Instance& instance = h.loaded.instance;
+  sink_.line(line_of({{"event", "header"},
+                      {"version", version_text()},
+                      {"machine", machine_text()},
+                      {"options", h.options},
+                      {"method", h.method.empty() ? "auto" : h.method},
+                      {"threads", h.workers},
+                      {"instance", h.instance},
+                      {"agents", instance.agent_count()},
+                      {"tasks", instance.task_count()},
+                      {"map", h.loaded.map_path.string()},
+                      {"width", instance.grid().width()},
+                      {"height", instance.grid().height()}}));
+}
+
+void JsonLog::warning(std::string_view text) {
+  sink_.line(line_of({{"event", "warning"}, {"text", text}}));
+}
+
+void JsonLog::resumed(const CheckpointHeader& checkpoint) {
+  const auto cost = checkpoint.incumbent ? std::optional(checkpoint.incumbent->cost) : std::nullopt;
+  sink_.line(line_of({{"event", "resumed"},
+                      {"seconds_before", seconds_json(checkpoint.seconds)},
+                      {"lower_bound", checkpoint.lower_bound},
+                      {"incumbent", cost_json(cost)}}));
+}
+
+void JsonLog::row(const LogRow& row) {
+  const Progress& p = row.progress;
+  Json json{{"event", name_of(row.event)},
+            {"time_s", seconds_json(row.seconds)},
+            {"nodes", p.nodes_expanded},
+            {"open", p.nodes_open},
+            {"trees", p.trees},
+            {"lower_bound", p.lower_bound},
+            {"incumbent", cost_json(p.incumbent)},
+            {"gap", gap_json(p.incumbent, p.lower_bound)},
+            {"memory_mb", rounded(static_cast<double>(row.memory_bytes) / 1e6, 10)}};
+  if (row.event == RunEvent::kIncumbent) json["source"] = name_of(row.source);
+  sink_.line(line_of(json));
+}
+
+void JsonLog::infeasible(std::string_view reason) {
+  sink_.line(line_of({{"event", "infeasible"}, {"text", reason}}));
+}
+
+void JsonLog::note(std::string_view text, double seconds) {
+  sink_.line(line_of({{"event", "note"}, {"time_s", seconds_json(seconds)}, {"text", text}}));
+}
+
+void JsonLog::checkpoint(const CheckpointReport& report, double seconds) {
+  Json json{{"event", "checkpoint"},
+            {"time_s", seconds_json(seconds)},
+            {"nodes", report.nodes},
+            {"took_s", seconds_json(report.seconds)}};
+  if (!report.failure.empty()) {
+    json["failure"] = report.failure;
+    sink_.warn_the_blind("NO checkpoint was written: " + report.failure);
+  }
+  sink_.line(line_of(json));
+}
+
+void JsonLog::end(const LogEnd& end) {
+  const Solution& solution = end.solution;
+  const auto cost = solution.plan ? std::optional(solution.plan->cost) : std::nullopt;
+  Json json{{"event", "summary"},
+            {"status", to_string(solution.status)},
+            {"cost", cost_json(cost)},
+            {"lower_bound", solution.lower_bound},
+            {"gap", gap_json(cost, solution.lower_bound)},
+            {"plan_file", end.plan_file}};
+  if (end.kept) json["kept_cost"] = *end.kept;
+  json["stats"] = stats_json(solution.stats);
+  sink_.line(line_of(json));
+}
+
+}  // namespace grove

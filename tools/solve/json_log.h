@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The log of a run for programs that follow it: one JSON object a line, with its kind as "event".
+// The README lists events and keys.
+#pragma once
+
+#include "tools/solve/log_format.h"
+#include "tools/solve/log_sink.h"
+
+namespace grove {
+
+class JsonLog : public LogFormat {
+ public:
+  explicit JsonLog(LogSink sink) : sink_(std::move(sink)) {}
+
+  void head(const LogHead& head) override;
+  void warning(std::string_view text) override;
+  void resumed(const CheckpointHeader& checkpoint) override;
+  void row(const LogRow& row) override;
+  void infeasible(std::string_view reason) override;
+  void note(std::string_view text, double seconds) override;
+  void checkpoint(const CheckpointReport& report, double seconds) override;
+  void end(const LogEnd& end) override;
+
+ private:
+  LogSink sink_;
+};
+
+}  // namespace grove

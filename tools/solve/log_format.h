@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What a log says, whatever it looks like.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "grove/engine/checkpoint.h"
+#include "grove/engine/run_observer.h"
+#include "grove/io/instance_file.h"
+#include "grove/model/plan.h"
+
+namespace grove {
+
+// Before the search: who solves what, and how.
+struct LogHead {
+  const LoadedInstance& loaded;
+  std::string instance;  // as the user named it
+  std::string options;   // that are not the default, as one types them
+  std::string method;    // empty: Grove's own
+  std::string workers;   // "2" threads or "4 ranks of 2"
+  bool deterministic = false;
+};
+
+// Where the run stands, and what happened since the row before.
+struct LogRow {
+  RunEvent event = RunEvent::kProgress;   // the most telling one
+  PlanSource source = PlanSource::kTree;  // of a kIncumbent
+  Progress progress;
+  double seconds = 0;            // since the program began
+  std::size_t memory_bytes = 0;  // held now
+};
+
+struct LogEnd {
+  const Solution& solution;
+  std::string plan_file;
+  std::optional<Cost> kept;  // the plan file was left alone, with a plan of that cost
+};
+
+// Turns each into lines. Called from one thread at a time.
+class LogFormat {
+ public:
+  virtual ~LogFormat() = default;
+
+  virtual void head(const LogHead& head) = 0;
+  virtual void warning(std::string_view text) = 0;
+  // The run goes on from there.
+  virtual void resumed(const CheckpointHeader& checkpoint) = 0;
+  virtual void row(const LogRow& row) = 0;
+  // The same between rows; overwritten by what comes next, if it is shown at all.
+  virtual void progress(const LogRow& /*row*/) {}
+  // As RunObserver has them.
+  virtual void infeasible(std::string_view reason) = 0;
+  virtual void note(std::string_view text, double seconds) = 0;
+  virtual void checkpoint(const CheckpointReport& report, double seconds) = 0;
+  virtual void end(const LogEnd& end) = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "tools/solve/plan_output.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+#include "grove/io/input_error.h"
+#include "grove/io/plan_file.h"
+#include "tools/common/standard_error.h"
+#include "tools/solve/start_plan.h"
+
+namespace grove {
+namespace {
+
+// None unless the file holds a plan that is valid for the instance.
+std::optional<Cost> valid_cost(const std::filesystem::path& file, const Instance& instance) {
+  if (!std::filesystem::is_regular_file(file)) return std::nullopt;
+  try {
+    return read_valid_plan(file, instance).cost;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+void require_no_contradiction(const std::filesystem::path& file, Cost cost,
+                              const Solution& solution) {
+  const bool none = solution.status == Status::kInfeasible;
+  if (!none && cost >= solution.lower_bound) return;
+  throw std::logic_error(fmt::format(
+      "the search claims to have proven that {}, but {} holds a valid plan of cost {}; please "
+      "report this with the instance",
+      none ? "there is no plan" : fmt::format("no plan costs less than {}", solution.lower_bound),
+      file.string(), cost));
+}
+
+void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);  // the program sees in the end if that failed
+}
+
+std::string ending_text(const Solution& solution) {
+  const auto stopped = solution.stats.texts.find("stopped_by");
+  std::string text(to_string(solution.status));
+  if (stopped != solution.stats.texts.end())
+    text += fmt::format(", stopped by: {}", stopped->second);
+  if (solution.status != Status::kInfeasible)
+    text += fmt::format(", lower bound {}", solution.lower_bound);
+  return text;
+}
+
+}  // namespace
+
+std::optional<Cost> write_plan(const std::filesystem::path& file, const Instance& instance,
+                               const Solution& solution) {
+  if (file == kStandardOutput) {
+    print(solution_text(instance, solution));
+    return std::nullopt;
+  }
+  const std::optional<Cost> there = valid_cost(file, instance);
+  if (there) require_no_contradiction(file, *there, solution);
+  if (there && (!solution.plan || solution.plan->cost > *there)) return there;
+  write_solution(file, instance, solution);
+  return std::nullopt;
+}
+
+void tell_without_plan(const Solution& solution, const std::filesystem::path& file,
+                       std::optional<Cost> kept) {
+  if (solution.plan && !kept) return;
+  say_on_stderr(fmt::format(
+      "grove: {} ({}){}",
+      solution.plan ? fmt::format("the plan found costs {}", solution.plan->cost)
+                    : std::string("no plan was found"),
+      ending_text(solution),
+      kept ? fmt::format("; {} keeps its valid plan of cost {}", file.string(), *kept) : ""));
+}
+
+}  // namespace grove

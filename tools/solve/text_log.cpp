@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "tools/solve/text_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "tools/common/gap_text.h"
+#include "tools/common/machine.h"
+#include "tools/common/version.h"
+
+namespace grove {
+namespace {
+
+constexpr int kRowsPerHeader = 20;
+
+std::string count_text(int count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string agents_text(const Instance& instance) {
+  const auto free_ends =
+      std::ranges::count_if(instance.agents(), [](const Agent& agent) { return !agent.goal; });
+  return count_text(instance.agent_count(), "agent") +
+         (free_ends == 0 ? "" : fmt::format(" ({} without a goal)", free_ends));
+}
+
+std::string cost_text(std::optional<Cost> cost) {
+  return cost ? fmt::format("{}", *cost) : "-";
+}
+
+char letter_of(PlanSource source) {
+  switch (source) {
+    case PlanSource::kStart:
+      return 'S';
+    case PlanSource::kPriorities:
+      return 'H';
+    case PlanSource::kConfigurations:
+      return 'C';
+    case PlanSource::kNeighborhood:
+      return 'L';
+    case PlanSource::kTree:
+      break;
+  }
+  return '*';
+}
+
+char letter_of(const LogRow& row) {
+  switch (row.event) {
+    case RunEvent::kIncumbent:
+      return letter_of(row.source);
+    case RunEvent::kBound:
+      return 'B';
+    case RunEvent::kTree:
+      return 'T';
+    case RunEvent::kProgress:
+    case RunEvent::kEnd:
+      break;
+  }
+  return ' ';
+}
+
+// What the search gave up for want of memory.
+std::string evicted_text(const Solution& solution) {
+  const auto evicted = solution.stats.counts.find("nodes_evicted");
+  if (evicted == solution.stats.counts.end() || evicted->second == 0) return "";
+  const std::int64_t restarts = solution.stats.counts.at("restarts");
+  return fmt::format(", {} nodes given up{}", evicted->second,
+                     restarts == 0 ? "" : fmt::format(", {} times begun anew", restarts));
+}
+
+}  // namespace
+
+void TextLog::head(const LogHead& h) {
+  const Instance& instance = h.loaded.instance;
+  const Grid& grid = instance.grid();
+  sink_.line(fmt::format("{} on {}", version_text(), machine_text()));
+  sink_.line(fmt::format("Instance      {}: {}, {}", h.instance, agents_text(instance),
+                         count_text(instance.task_count(), "task")));
+  sink_.line(fmt::format("Map           {}: {} x {}, {} passable cells", h.loaded.map_path.string(),
+                         grid.width(), grid.height(), grid.passable_count()));
+  sink_.line(fmt::format("Options       {}", h.options.empty() ? "all defaults" : h.options));
+  if (!h.method.empty()) sink_.line(fmt::format("Method        {}", h.method));
+  sink_.line(
+      fmt::format("Threads       {}{}", h.workers, h.deterministic ? ", deterministic" : ""));
+  sink_.line();
+  sink_.line(
+      "First column: a better plan (* from the tree, H by priorities, C by configuration search,");
+  sink_.line(
+      "L by large neighbourhood search, S given), else a higher bound (B), else a new tree (T).");
+  sink_.line(
+      "expanded, open: nodes of the search tree done and waiting. No plan costs less than the "
+      "lower");
+  sink_.line("bound; incumbent is the cost of the best plan so far.");
+  sink_.line("gap = (incumbent - lower bound) / lower bound, so it compares with omega directly.");
+  sink_.line();
+}
+
+void TextLog::warning(std::string_view text) {
+  sink_.line(fmt::format("Warning: {}", text));
+}
+
+void TextLog::resumed(const CheckpointHeader& checkpoint) {
+  const auto expanded = checkpoint.counters.find("nodes_expanded");
+  sink_.line(fmt::format(
+      "Resuming from a checkpoint after {:.1f} s and {} nodes: lower bound {}{}",
+      checkpoint.seconds, expanded == checkpoint.counters.end() ? 0 : expanded->second,
+      checkpoint.lower_bound,
+      checkpoint.incumbent ? fmt::format(", incumbent {}", checkpoint.incumbent->cost) : ""));
+  sink_.line();
+}
+
+void TextLog::row(const LogRow& row) {
+  if (rows_++ % kRowsPerHeader == 0)
+    sink_.line(
+        "     expanded       open    trees   lower bound     incumbent       gap    memory      "
+        "time");
+  const Progress& p = row.progress;
+  sink_.line(fmt::format("{:1} {:>11} {:>10} {:>8} {:>13} {:>13} {:>9} {:>6} MB {:>8.2f}s",
+                         letter_of(row), p.nodes_expanded, p.nodes_open, p.trees, p.lower_bound,
+                         cost_text(p.incumbent), gap_text(p.incumbent, p.lower_bound),
+                         row.memory_bytes / 1'000'000, row.seconds));
+}
+
+void TextLog::progress(const LogRow& row) {
+  if (!sink_.shows_progress()) return;
+  const Progress& p = row.progress;
+  sink_.progress(
+      fmt::format("  {:.1f} of {:g} s: {} nodes, {} trees, lower bound {}, incumbent {}, gap {}",
+                  row.seconds, time_limit_s_, p.nodes_expanded, p.trees, p.lower_bound,
+                  cost_text(p.incumbent), gap_text(p.incumbent, p.lower_bound)));
+}
+
+void TextLog::infeasible(std::string_view reason) {
+  sink_.line(fmt::format("There is no plan: {}.", reason));
+}
+
+void TextLog::note(std::string_view text, double seconds) {
+  sink_.line(fmt::format("  {} ({:.2f}s)", text, seconds));
+}
+
+void TextLog::checkpoint(const CheckpointReport& report, double seconds) {
+  if (report.failure.empty())
+    return sink_.line(fmt::format("  Checkpoint of {} nodes written in {:.2f} s ({:.2f}s)",
+                                  report.nodes, report.seconds, seconds));
+  const std::string text = fmt::format("NO checkpoint was written: {}", report.failure);
+  sink_.line("  " + text);
+  sink_.warn_the_blind(text);
+}
+
+void TextLog::end(const LogEnd& end) {
+  const Solution& solution = end.solution;
+  const auto text = [&](const char* key) {
+    const auto it = solution.stats.texts.find(key);
+    return it == solution.stats.texts.end() ? std::string() : it->second;
+  };
+  const auto cost = solution.plan ? std::optional(solution.plan->cost) : std::nullopt;
+  const std::string stopped = text("stopped_by");
+
+  sink_.line();
+  sink_.line(fmt::format("Status        {}{}", to_string(solution.status),
+                         stopped.empty() ? "" : fmt::format(" (stopped by: {})", stopped)));
+  if (cost) sink_.line(fmt::format("Cost          {}", *cost));
+  if (solution.status != Status::kInfeasible)
+    sink_.line(fmt::format("Lower bound   {}", solution.lower_bound));
+  if (cost)
+    sink_.line(fmt::format("Gap           {} (omega asks for {})",
+                           gap_text(cost, solution.lower_bound),
+                           solution.omega.is_infinite()
+                               ? "any plan"
+                               : fmt::format("at most {:g} %", 100 * solution.omega.value())));
+  if (const std::string remark = text("remark"); !remark.empty())
+    sink_.line("Remark        " + remark);
+  sink_.line(fmt::format("Time          {:.2f} s", solution.stats.measures.at("wall_s")));
+  const auto node_bytes = solution.stats.measures.find("node_bytes");
+  if (node_bytes != solution.stats.measures.end())
+    sink_.line(fmt::format("Memory        {:.0f} MB at most, {:.0f} bytes per node{}",
+                           solution.stats.measures.at("peak_memory_mb"), node_bytes->second,
+                           evicted_text(solution)));
+  sink_.line(fmt::format(
+      "Plan file     {}{}", end.plan_file,
+      end.kept ? fmt::format(" (kept as it is, with a valid plan of cost {})", *end.kept) : ""));
+}
+
+}  // namespace grove

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The log of a run, as a MIP solver's users know it: head, table, summary.
+#pragma once
+
+#include "tools/solve/log_format.h"
+#include "tools/solve/log_sink.h"
+
+namespace grove {
+
+class TextLog : public LogFormat {
+ public:
+  TextLog(LogSink sink, double time_limit_s)
+      : sink_(std::move(sink)), time_limit_s_(time_limit_s) {}
+
+  void head(const LogHead& head) override;
+  void warning(std::string_view text) override;
+  void resumed(const CheckpointHeader& checkpoint) override;
+  void row(const LogRow& row) override;
+  void progress(const LogRow& row) override;
+  void infeasible(std::string_view reason) override;
+  void note(std::string_view text, double seconds) override;
+  void checkpoint(const CheckpointReport& report, double seconds) override;
+  void end(const LogEnd& end) override;
+
+ private:
+  LogSink sink_;
+  const double time_limit_s_;
+  int rows_ = 0;
+};
+
+}  // namespace grove
