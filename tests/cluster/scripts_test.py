@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The job scripts with every option that the README documents, and with a second one of those that
+they give themselves: without Slurm, whose commands are stood in for, and on one rank."""
+import json
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from support import CLUSTER, DATA, ROOT, checked_plan, hard_instance, program
+
+INSTANCE = DATA / "first.cts.json"
+SLURM = {
+    # What follows its own options.
+    "srun": 'while case $1 in --*) ;; *) false ;; esac; do shift; done; exec "$@"',
+    "scontrol": 'echo "$@" >>scontrol.log',
+}
+# Not for grove-mpi: --deterministic, and --anytime with the only method that has it.
+NOT_OURS = {"--deterministic", "--anytime"}
+VALUES = {
+    "--omega": "0.5", "--time-limit": "20", "--memory-limit": "1", "--threads": "1",
+    "--method": "auto", "--policy": "fixed", "--rtsp": "dp", "--seed": "3", "--checkpoint": "other",
+    "--checkpoint-interval": "60", "--resume": "never", "--start": "start.json",
+    "--incumbents": "best", "--output": "other.json", "--require-plan": None, "--log": "run.log",
+    "--log-format": "jsonl", "--quiet": None,
+}
+TECHNIQUES = {"--without": "bypass", "--with": "sequence-splits"}  # of the policy free
+OF_SCENARIOS = {"--map": DATA / "empty-32x32.map", "--agents": "3"}
+
+
+def documented():
+    table = (ROOT / "README.md").read_text(encoding="utf-8").split("## Options of grove solve", 1)[1]
+    rows = [line.split("|")[1] for line in table.split("\n#", 1)[0].splitlines()
+            if line.startswith("| `--")]
+    return {option for row in rows for option in re.findall(r"--[a-z][a-z-]*", row)}
+
+
+def words(options):
+    return [str(word) for option in options.items() for word in option if word is not None]
+
+
+class Scripts(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        for name, body in SLURM.items():
+            self.executable(f"bin/{name}", body)
+        (self.folder / "instances.txt").write_text(f"{INSTANCE}\n", encoding="utf-8")
+        self.solve("start.json")
+
+    def executable(self, name, body):
+        path = self.folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(f"#!/bin/sh\n{body}\n", encoding="utf-8")
+        path.chmod(0o755)
+        return path
+
+    def solve(self, plan):
+        subprocess.run([program("GROVE"), "solve", INSTANCE, "--quiet", "-o", plan], cwd=self.folder,
+                       check=True)
+
+    def run_script(self, name, *arguments, grove_mpi=None):
+        environment = {
+            **os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}", "SLURM_JOB_ID": "7",
+            "SLURM_MEM_PER_NODE": "2000", "SLURM_CPUS_PER_TASK": "1", "SLURM_NTASKS_PER_NODE": "1",
+            "SLURM_ARRAY_TASK_ID": "1", "GROVE_MPI": str(grove_mpi or program("GROVE_MPI"))}
+        done = subprocess.run(["bash", CLUSTER / name, *map(str, arguments)], cwd=self.folder, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment,
+                              check=False)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return done.stdout
+
+    def test_the_values_here_are_of_all_documented_options(self):
+        self.assertEqual({*VALUES, *TECHNIQUES, *OF_SCENARIOS, *NOT_OURS}, documented())
+
+    def test_every_option(self):
+        for script, what in (("solve.sbatch", INSTANCE), ("array.sbatch", "instances.txt"),
+                             ("preempt.sbatch", INSTANCE)):
+            self.run_script(script, what, *words(VALUES))
+            checked_plan(INSTANCE, self.folder / "other.json")
+            self.assertEqual(json.loads((self.folder / "run.log").read_text().splitlines()[-1])["plan_file"],
+                             "other.json")
+            self.assertTrue((self.folder / "other/checkpoint.grove").exists())
+            (self.folder / "other.json").unlink()
+            self.run_script(script, what, *words(TECHNIQUES))
+
+    def test_what_the_scripts_say_themselves(self):
+        self.run_script("array.sbatch", "instances.txt")
+        checked_plan(INSTANCE, self.folder / "plans/1-first.plan.json")
+        self.run_script("preempt.sbatch", INSTANCE)
+        checked_plan(INSTANCE, self.folder / "first.plan.json")
+        self.assertTrue((self.folder / "first.checkpoint/checkpoint.grove").exists())
+
+    def test_scenarios(self):
+        for script in ("solve.sbatch", "preempt.sbatch"):
+            self.run_script(script, DATA / "empty-32x32.scen", *words(OF_SCENARIOS), "--output", "p")
+
+    def requeued(self):
+        """How often the job has been put back into the queue."""
+        log = self.folder / "scontrol.log"
+        return log.read_text(encoding="utf-8").count("requeue 7\n") if log.exists() else 0
+
+    def test_an_interrupted_run_goes_back_into_the_queue_wherever_its_log_is(self):
+        hard = hard_instance(self.folder)
+        interrupted = self.executable(
+            "interrupted", f'exec timeout --preserve-status 1 "{program("GROVE_MPI")}" "$@"')
+        for number, log in enumerate((["--quiet"], ["--log", "a"], ["--log=b", "--log-format", "jsonl"])):
+            self.run_script("preempt.sbatch", hard, "--resume", "never", *log, grove_mpi=interrupted)
+            self.assertEqual(self.requeued(), number + 1)
+
+    def test_a_plan_that_an_interrupted_run_left_puts_nothing_back(self):
+        plan = json.loads((self.folder / "start.json").read_text(encoding="utf-8"))
+        plan["stats"]["stopped_by"] = "interrupt"
+        (self.folder / "first.plan.json").write_text(json.dumps(plan), encoding="utf-8")
+        said = self.run_script("preempt.sbatch", INSTANCE, "--time-limit", "0")
+        self.assertIn("first.plan.json keeps its valid plan", said)
+        self.assertEqual(self.requeued(), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
