@@ -9,6 +9,7 @@
 
 #include "grove/io/atomic_file.h"
 #include "grove/io/input_error.h"
+#include "grove/io/text_file.h"
 #include "json_value.h"
 #include "json_writer.h"
 
@@ -175,9 +176,14 @@ void write_solution(const std::filesystem::path& path, const Instance& instance,
 
 Solution read_solution(const std::filesystem::path& path, const Instance& instance,
                        std::vector<std::string>* warnings) {
-  const JsonDocument document(path);
+  return parse_solution(read_text(path), path.string(), instance, warnings);
+}
+
+Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance,
+                        std::vector<std::string>* warnings) {
+  const JsonDocument document(text, name);
   const JsonValue root = document.root();
-  UnknownKeys unknown(path.string(), warnings);
+  UnknownKeys unknown(name, warnings);
   unknown.look_at(root, {"status", "cost", "lower_bound", "omega", "agents", "stats"});
 
   Solution solution;

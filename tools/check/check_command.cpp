@@ -2,11 +2,12 @@
 // grove check INSTANCE PLAN
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "grove/io/input_error.h"
-#include "grove/io/plan_file.h"
+#include "grove/io/plan_import.h"
 #include "grove/model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/gap_text.h"
@@ -23,6 +24,10 @@ constexpr const char* kCheckFooter =
     "compares status, cost, lower bound and omega. What it cannot check is the proof behind the\n"
     "lower bound.\n"
     "\n"
+    "PLAN may also be what other solvers write: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2\n"
+    "(--outputPaths) or the text of lacam and pibt. What they do not claim is named, and not "
+    "checked.\n"
+    "\n"
     "Prints one line that begins with 'valid:' and exits with 0; or says on stderr what is wrong, "
     "one\n"
     "line each, and exits with 2. A file without a plan (status unknown or infeasible) is not "
@@ -38,11 +43,20 @@ struct CheckArguments {
   std::string plan;
 };
 
-void print_verdict(const Solution& solution) {
+void print_verdict(const ClaimedPlan& claimed) {
+  const Solution& solution = claimed.solution;
   const Plan& plan = *solution.plan;
-  fmt::print("valid: cost {}, lower bound {}, gap {}, {} agent{}\n", plan.cost,
-             solution.lower_bound, gap_text(plan.cost, solution.lower_bound), plan.agents.size(),
-             plan.agents.size() == 1 ? "" : "s");
+  const auto claims = [&](const char* what) {
+    return std::ranges::count(claimed.unclaimed, what) == 0;
+  };
+  std::string text = fmt::format("valid: cost {}", plan.cost);
+  if (claims("lower bound"))
+    text += fmt::format(", lower bound {}, gap {}", solution.lower_bound,
+                        gap_text(plan.cost, solution.lower_bound));
+  text += fmt::format(", {} agent{}", plan.agents.size(), plan.agents.size() == 1 ? "" : "s");
+  if (!claimed.unclaimed.empty())
+    text += fmt::format("; not claimed and not checked: {}", fmt::join(claimed.unclaimed, ", "));
+  fmt::print("{}\n", text);
 }
 
 void print_violations(const std::string& file, const std::vector<Violation>& violations) {
@@ -57,10 +71,10 @@ void run(const CheckArguments& arguments) {
   const LoadedInstance loaded = arguments.instance.load();
   std::vector<std::string> warnings;
   const std::string plan = arguments.plan == "-" ? "/dev/stdin" : arguments.plan;
-  const Solution solution = read_solution(plan, loaded.instance, &warnings);
+  const ClaimedPlan claimed = read_plan_of_any_tool(plan, loaded.instance, &warnings);
   print_warnings(warnings);
-  const auto violations = check(loaded.instance, solution, kMostViolations);
-  if (violations.empty()) return print_verdict(solution);
+  const auto violations = check(loaded.instance, claimed.solution, kMostViolations);
+  if (violations.empty()) return print_verdict(claimed);
   print_violations(plan, violations);
   throw CommandFailed(kExitBadInput);
 }
@@ -72,7 +86,9 @@ void add_check_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("check", "Re-check a plan from the files alone");
   command->footer(kCheckFooter);
   arguments->instance.add_to(*command);
-  command->add_option("PLAN", arguments->plan, "plan file to check; - is standard input")
+  command
+      ->add_option("PLAN", arguments->plan,
+                   "plan file to check, or another solver's paths; - is standard input")
       ->required()
       ->type_name("");
   command->callback([arguments] { run(*arguments); });

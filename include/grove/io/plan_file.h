@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grove/io/atomic_file.h"
@@ -24,5 +25,8 @@ void write_solution(const std::filesystem::path& path, const Instance& instance,
 // ids. Appends to `warnings`.
 Solution read_solution(const std::filesystem::path& path, const Instance& instance,
                        std::vector<std::string>* warnings = nullptr);
+// The same of the text of such a file: `name` stands for it in messages.
+Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance,
+                        std::vector<std::string>* warnings = nullptr);
 
 }  // namespace grove

@@ -91,6 +91,27 @@ TEST_F(CheckCommand, RefusesAPlanForAnotherInstance) {
             "grove: error: p.json: /agents/0/id: there is no agent 'z' in the instance\n");
 }
 
+// The paths of other solvers: what they do not claim cannot be checked, and that is said.
+TEST_F(CheckCommand, ChecksBarePathLists) {
+  directory_.write("paths.txt", "Agent 0: (0,0)->(0,1)->(0,2)->\nAgent 1: (1,2)->(1,1)->(1,0)->\n");
+  EXPECT_EQ(run_grove({"check", directory_ / "i.json", directory_ / "paths.txt"}).out,
+            "valid: cost 4, 2 agents; not claimed and not checked: cost, lower bound, order of "
+            "tasks\n");
+  ProcessOptions options;
+  options.input = "Agent 0: (0,0)->(0,1)\nAgent 1: (1,2)->(1,1)->(1,0)\n";
+  EXPECT_NE(said(run_grove({"check", directory_ / "i.json", "-"}, options)).find("agent 'a' ends"),
+            std::string::npos);
+  const std::string paths = "solution=\n0:(0,0),(2,1),\n1:(1,0),(1,1),\n2:(2,0),(0,1),\n";
+  const auto check_text = [&](const std::string& claims) {
+    return run_grove({"check", directory_ / "m.scen", "--map", directory_ / "m.map", "--agents",
+                      "2", directory_.write("text", claims + paths)});
+  };
+  EXPECT_EQ(check_text("soc=4\nsoc_lb=4\n").out,
+            "valid: cost 4, lower bound 4, gap 0.00 %, 2 agents\n");
+  EXPECT_EQ(said(check_text("soc=3\n")),
+            "text: /cost: the agents' costs add up to 4, but the plan says 3\n");
+}
+
 TEST_F(CheckCommand, PrintsWarnings) {
   const ProcessResult result = check(kClaims + ", \"note\": 1", kAgentA + ", " + kAgentB);
   EXPECT_EQ(result.exit_code, 0);

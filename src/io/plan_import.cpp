@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/plan_import.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "grove/io/input_error.h"
+#include "grove/io/plan_file.h"
+#include "grove/io/text_file.h"
+#include "plan_steps.h"
+
+namespace grove {
+namespace {
+
+using Paths = std::vector<Path>;  // by AgentIndex
+
+// Takes one thing after the other off a line. What is not there is an InputError with the place.
+class LineReader {
+ public:
+  LineReader(const std::filesystem::path& path, std::size_t number, std::string_view line)
+      : path_(path), number_(number), line_(line), rest_(line) {}
+
+  bool at_end() const { return rest_.empty(); }
+
+  bool take_if(std::string_view text) {
+    if (!rest_.starts_with(text)) return false;
+    rest_.remove_prefix(text.size());
+    return true;
+  }
+  void take(std::string_view text) {
+    if (!take_if(text)) fail(fmt::format("expected '{}'", text));
+  }
+  std::int64_t take_integer() {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc() || value < 0) fail("expected an integer of at least 0");
+    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+    return value;
+  }
+  // "(3,4)": column and row, or the other way round.
+  Cell take_cell(const Grid& grid, bool row_first) {
+    const std::string_view before = rest_;
+    take("(");
+    const std::int64_t first = take_integer();
+    take(",");
+    const std::int64_t second = take_integer();
+    take(")");
+    const auto [x, y] = row_first ? std::pair(second, first) : std::pair(first, second);
+    if (x < grid.width() && y < grid.height())
+      return grid.cell({static_cast<int>(x), static_cast<int>(y)});
+    rest_ = before;
+    fail(fmt::format("column {}, row {} is outside the map, which has {} columns and {} rows", x, y,
+                     grid.width(), grid.height()));
+  }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(path_.string(), line_and_column(number_, 1 + line_.size() - rest_.size()),
+                     message);
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  const std::size_t number_;  // from 1
+  const std::string_view line_;
+  std::string_view rest_;
+};
+
+// Or nothing at all.
+bool is_json(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first == std::string_view::npos || text[first] == '{' || text[first] == '[';
+}
+
+bool is_visualizer_text(std::string_view line) {
+  return line.starts_with("agents=") || line == "solution=";
+}
+
+bool is_path_list(std::string_view line) {
+  return line.starts_with("Agent ");
+}
+
+Paths read_path_lists(const std::filesystem::path& path, const Instance& instance,
+                      const std::vector<std::string_view>& lines) {
+  Paths paths(instance.agent_count());
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (lines[k].empty()) continue;
+    LineReader line(path, k + 1, lines[k]);
+    line.take("Agent ");
+    const std::int64_t agent = line.take_integer();
+    if (agent >= instance.agent_count())
+      line.fail(fmt::format("there is no agent {} in the instance; expected less than {}", agent,
+                            instance.agent_count()));
+    if (!paths[agent].empty()) line.fail(fmt::format("agent {} appears twice", agent));
+    line.take(":");
+    line.take_if(" ");
+    while (!line.at_end()) {
+      paths[agent].push_back(line.take_cell(instance.grid(), true));
+      if (!line.at_end()) line.take("->");
+    }
+  }
+  return paths;
+}
+
+struct VisualizerText {
+  std::optional<Paths> paths;  // none: not solved
+  std::optional<Cost> cost;
+  std::optional<Cost> lower_bound;
+};
+
+VisualizerText read_visualizer_text(const std::filesystem::path& path, const Instance& instance,
+                                    const std::vector<std::string_view>& lines) {
+  VisualizerText text;
+  std::size_t k = 0;
+  for (; k < lines.size() && lines[k] != "solution="; ++k) {
+    LineReader line(path, k + 1, lines[k]);
+    if (line.take_if("agents=") && line.take_integer() != instance.agent_count())
+      line.fail(fmt::format("expected {} agents, as the instance has", instance.agent_count()));
+    if (line.take_if("soc=")) text.cost = line.take_integer();
+    if (line.take_if("soc_lb=")) text.lower_bound = line.take_integer();
+    if (line.take_if("solved=0")) return {};
+  }
+  if (k == lines.size()) return {};
+  text.paths.emplace(instance.agent_count());
+  for (std::size_t t = 0; ++k < lines.size(); ++t) {
+    LineReader line(path, k + 1, lines[k]);
+    line.take(fmt::format("{}:", t));
+    for (Path& agent : *text.paths) {
+      agent.push_back(line.take_cell(instance.grid(), false));
+      if (!line.at_end()) line.take(",");
+    }
+    if (!line.at_end()) line.fail("expected the end of the line, after all agents of the instance");
+  }
+  return text;
+}
+
+// By when they are first visited. Without a destination an agent ends on its last task.
+std::vector<TaskIndex> order_of_tasks(const Instance& instance, const Agent& agent,
+                                      const Path& path) {
+  std::vector<TaskIndex> tasks = agent.tasks;
+  std::ranges::stable_sort(tasks, {}, [&](TaskIndex task) {
+    const Cell cell = instance.task(task).cell;
+    const bool is_last = !agent.goal && !path.empty() && cell == path.back();
+    return std::pair(is_last, std::ranges::find(path, cell) - path.begin());
+  });
+  return tasks;
+}
+
+Solution solution_of(const Instance& instance, VisualizerText text) {
+  Solution solution;
+  solution.omega = Omega::infinite();
+  solution.lower_bound = text.lower_bound.value_or(0);
+  if (!text.paths) return solution;
+  Cost cost = 0;
+  Plan& plan = solution.plan.emplace();
+  for (const Agent& agent : instance.agents()) {
+    Path& path = (*text.paths)[plan.agents.size()];
+    const auto finish = static_cast<Time>(std::max<std::size_t>(until_rest(path).size(), 1) - 1);
+    cost += finish;
+    auto tasks = order_of_tasks(instance, agent, path);
+    plan.agents.push_back({finish, std::move(tasks), std::move(path)});
+  }
+  plan.cost = text.cost.value_or(cost);
+  solution.status = cost == solution.lower_bound ? Status::kOptimal : Status::kFeasible;
+  return solution;
+}
+
+}  // namespace
+
+ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Instance& instance,
+                                  std::vector<std::string>* warnings) {
+  const std::string content = read_text(path);
+  if (is_json(content)) return {parse_solution(content, path.string(), instance, warnings), {}};
+  const std::vector<std::string_view> lines = split_lines(content);
+  VisualizerText text;
+  if (std::ranges::any_of(lines, is_path_list)) {
+    text.paths = read_path_lists(path, instance, lines);
+  } else if (std::ranges::any_of(lines, is_visualizer_text)) {
+    text = read_visualizer_text(path, instance, lines);
+  } else {
+    throw InputError(path.string(), "line 1",
+                     "expected a plan file (JSON), paths as 'Agent 0: (row,column)->' or the text "
+                     "of lacam, with 'solution='");
+  }
+  ClaimedPlan plan;
+  if (!text.cost) plan.unclaimed.emplace_back("cost");
+  if (!text.lower_bound) plan.unclaimed.emplace_back("lower bound");
+  if (instance.task_count() > 0) plan.unclaimed.emplace_back("order of tasks");
+  plan.solution = solution_of(instance, std::move(text));
+  return plan;
+}
+
+}  // namespace grove

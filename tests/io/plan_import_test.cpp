@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/plan_import.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "grove/io/input_error.h"
+#include "grove/io/plan_export.h"
+#include "grove/io/plan_file.h"
+#include "grove/model/check.h"
+#include "tests/support/fuzz_factor.h"
+#include "tests/support/instances.h"
+#include "tests/support/refusal.h"
+#include "tests/support/temporary_directory.h"
+
+namespace grove {
+namespace plan_import_test {
+
+using Words = std::vector<std::string>;
+
+// . @ . .   Wider than high, and the same neither mirrored nor turned round.
+// . . . .
+// . . . @
+class PlanImport : public ::testing::Test {
+ protected:
+  ClaimedPlan read(const std::string& text, const Instance& instance) {
+    return read_plan_of_any_tool(directory_.write("plan", text), instance);
+  }
+  ClaimedPlan read(const std::string& text) { return read(text, mapf_); }
+  // The first thing that is wrong; empty: nothing.
+  std::string mistake(const std::string& text) {
+    const auto violations = check(mapf_, read(text).solution);
+    return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
+  }
+  std::string refused(const std::string& text) {
+    return refusal([&] { read(text); });
+  }
+
+  const Instance mapf_ = testing::instance_of({".@..", "....", "...@"},
+                                              {{{0, 0}, Position{3, 0}}, {{2, 2}, Position{0, 1}}});
+  TemporaryDirectory directory_;
+};
+
+// (row,column), as EECBS writes them; LNS2 has no blank after the colon.
+const std::string kLists =
+    "Agent 0: (0,0)->(0,0)->(1,0)->(1,1)->(1,2)->(1,3)->(0,3)->\n"
+    "Agent 1:(2,2)->(2,1)->(2,0)->(2,0)->(1,0)->\n";
+// (x,y), as lacam3 writes them.
+const std::string kText =
+    "agents=2\nmap_file=m.map\nsolver=planner\nsolved=1\nsoc=10\nsoc_lb=8\nmakespan=6\n"
+    "comp_time=1.5\nseed=0\nstarts=(0,0),(2,2),\ngoals=(3,0),(0,1),\nsolution=\n"
+    "0:(0,0),(2,2),\n1:(0,0),(1,2),\n2:(0,1),(0,2),\n3:(1,1),(0,2),\n4:(2,1),(0,1),\n"
+    "5:(3,1),(0,1),\n6:(3,0),(0,1),\n";
+
+TEST_F(PlanImport, ReadsPathLists) {
+  const ClaimedPlan plan = read(kLists);
+  EXPECT_EQ(check(mapf_, plan.solution).size(), 0u);
+  EXPECT_EQ(plan.solution.plan->cost, 10);
+  EXPECT_EQ(plan.solution.plan->agents[1].cost, 4);
+  EXPECT_EQ(plan.unclaimed, (Words{"cost", "lower bound"}));
+}
+
+TEST_F(PlanImport, ReadsTheTextOfLacam) {
+  const ClaimedPlan plan = read(kText);
+  EXPECT_EQ(check(mapf_, plan.solution).size(), 0u);
+  EXPECT_EQ(plan.solution.plan->cost, 10);
+  EXPECT_EQ(plan.solution.lower_bound, 8);
+  EXPECT_EQ(plan.unclaimed, Words());
+  const ClaimedPlan bare = read(kText.substr(kText.find("solution=")));
+  EXPECT_EQ(check(mapf_, bare.solution).size(), 0u);
+  EXPECT_EQ(bare.unclaimed, (Words{"cost", "lower bound"}));
+}
+
+TEST_F(PlanImport, ReadsPlanFilesToo) {
+  const Solution solution = read(kText).solution;
+  write_solution(directory_ / "plan.json", mapf_, solution);
+  const ClaimedPlan plan = read_plan_of_any_tool(directory_ / "plan.json", mapf_);
+  EXPECT_EQ(plan.solution.plan->agents[0].path, solution.plan->agents[0].path);
+  EXPECT_EQ(plan.unclaimed, Words());
+}
+
+// What Grove exports comes back, with the order of tasks found out.
+TEST_F(PlanImport, FindsTheOrderOfTasks) {
+  InstanceBuilder builder(testing::grid_of({"....", "...."}));
+  builder.add_agent("to", {0, 0}, Position{3, 1});
+  builder.add_agent("free", {3, 0}, std::nullopt);
+  builder.add_task("late", {2, 0}, Words{"to", "free"});
+  builder.add_task("early", {1, 0}, Words{"to"});
+  builder.add_task("end", {2, 1}, Words{"free"});
+  const Instance instance = std::move(builder).build();
+  const auto path = [&](const std::vector<Position>& positions) {
+    Path cells;
+    for (const Position p : positions) cells.push_back(instance.grid().cell(p));
+    return cells;
+  };
+  Solution solution;
+  solution.omega = Omega::infinite();
+  solution.status = Status::kFeasible;
+  // "free" passes the task on which it ends.
+  solution.plan =
+      Plan{12,
+           {{6, {1, 0}, path({{0, 0}, {1, 0}, {1, 1}, {1, 0}, {2, 0}, {3, 0}, {3, 1}})},
+            {6, {0, 2}, path({{3, 0}, {3, 1}, {2, 1}, {2, 0}, {2, 1}, {1, 1}, {2, 1}})}}};
+  ASSERT_EQ(check(instance, solution).size(), 0u);
+  write_path_lists(directory_ / "lists", instance, solution);
+  write_visualizer_text(directory_ / "text", instance, solution, "m.map");
+  for (const char* name : {"lists", "text"}) {
+    const ClaimedPlan plan = read_plan_of_any_tool(directory_ / name, instance);
+    EXPECT_EQ(check(instance, plan.solution).size(), 0u);
+    EXPECT_EQ(plan.solution.plan->agents[0].sequence, (std::vector<TaskIndex>{1, 0}));
+    EXPECT_EQ(plan.solution.plan->agents[1].sequence, (std::vector<TaskIndex>{0, 2}));
+    EXPECT_EQ(plan.unclaimed.back(), "order of tasks");
+  }
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+TEST_F(PlanImport, LeavesLiesToTheChecker) {
+  EXPECT_EQ(mistake(replaced(kText, "soc=10", "soc=9")),
+            "/cost: the agents' costs add up to 10, but the plan says 9");
+  EXPECT_EQ(mistake(replaced(kText, "soc_lb=8", "soc_lb=11")),
+            "/lower_bound: a lower bound of 11 cannot be: this plan costs 10");
+  EXPECT_EQ(
+      mistake(replaced(kLists, "(1,1)->", "")),
+      "/agents/0/path/3: agent 'a0' jumps from [0, 1] to [2, 1]; expected a wait or a move to "
+      "one of 4 neighbors");
+  EXPECT_NE(mistake(replaced(kLists, "->(0,3)", "")).find("expected its goal"), std::string::npos);
+  EXPECT_NE(mistake(kLists.substr(0, kLists.find("Agent 1"))).find("agent 'a1' has no path"),
+            std::string::npos);
+  EXPECT_NE(
+      mistake(replaced(kText, "(0,2),\n3:(1,1),(0,2)", "(1,2),\n3:(1,1),(1,1)")).find("both on"),
+      std::string::npos);
+}
+
+TEST_F(PlanImport, KnowsWhenThereIsNoPlan) {
+  for (const std::string& text :
+       {replaced(kText, "solved=1", "solved=0"), kText.substr(0, kText.find("solution="))})
+    EXPECT_FALSE(read(text).solution.plan);
+}
+
+TEST_F(PlanImport, RefusesWithThePlace) {
+  EXPECT_EQ(refused(replaced(kLists, "Agent 1", "Agent 2")),
+            "plan: line 2, column 8: there is no agent 2 in the instance; expected less than 2");
+  EXPECT_EQ(refused(replaced(kLists, "Agent 1", "Agent 0")),
+            "plan: line 2, column 8: agent 0 appears twice");
+  EXPECT_EQ(
+      refused(replaced(kLists, "(1,3)", "(3,1)")),
+      "plan: line 1, column 45: column 1, row 3 is outside the map, which has 4 columns and 3 "
+      "rows");
+  EXPECT_EQ(refused(replaced(kLists, "->(1,1)", "->(1,1,3)")),
+            "plan: line 1, column 35: expected ')'");
+  EXPECT_EQ(refused(replaced(kLists, "->(1,1)", "-(1,1)")),
+            "plan: line 1, column 29: expected '->'");
+  EXPECT_EQ(refused(replaced(kText, "agents=2", "agents=3")),
+            "plan: line 1, column 9: expected 2 agents, as the instance has");
+  EXPECT_EQ(refused(replaced(kText, "\n4:", "\n5:")), "plan: line 17, column 1: expected '4:'");
+  EXPECT_EQ(refused(replaced(kText, "4:(2,1),(0,1),", "4:(2,1),(0,1),(1,1),")),
+            "plan: line 17, column 15: expected the end of the line, after all agents of the "
+            "instance");
+  EXPECT_EQ(refused(replaced(kText, "soc=10", "soc=-1")),
+            "plan: line 5, column 5: expected an integer of at least 0");
+  for (const char* text : {"a,b\n1,2\n", "cost 7"})
+    EXPECT_EQ(
+        refused(text),
+        "plan: line 1: expected a plan file (JSON), paths as 'Agent 0: (row,column)->' or the "
+        "text of lacam, with 'solution='");
+  EXPECT_EQ(refused("\n"), "plan: is empty; expected a JSON object");
+  EXPECT_EQ(refused(" [1]"), "plan: /: found an array; expected a JSON object");
+}
+
+// Whatever is broken: a plan, or a refusal.
+TEST_F(PlanImport, SurvivesBrokenFiles) {
+  std::mt19937 random(1);
+  int accepted = 0;
+  const int rounds = testing::fuzz_rounds(1000);
+  for (int round = 0; round < rounds; ++round) {
+    std::string text = round % 2 == 0 ? kLists : kText;
+    for (int k = 0; k < 2; ++k)
+      text[random() % text.size()] = "0123456789(),->:= \nA\xff"[random() % 22];
+    SCOPED_TRACE(text);
+    try {
+      const ClaimedPlan plan = read(text);
+      check(mapf_, plan.solution);
+      ++accepted;
+    } catch (const InputError&) {
+      continue;
+    }
+  }
+  EXPECT_GT(accepted, rounds / 50);
+}
+
+}  // namespace plan_import_test
+}  // namespace grove
