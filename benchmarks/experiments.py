@@ -8,10 +8,12 @@
     benchmarks/experiments.py classical -- --omega 0     no tasks: against other solvers
     benchmarks/experiments.py ablation --tasks 30        each technique switched off in turn
 
-Instances come from `grove generate instance` and the scenarios <map>-random-<k>.scen; every plan is
-re-checked with `grove check`. Options after `--` go to `grove solve` as they are; without `--threads` it runs on one. A case whose map
-is not there is left out, which is said. The tables are Markdown; --csv keeps a row per run.
-Exit codes: 0 all ran, 1 some failed or nothing ran, 2 wrong usage.
+Instances come from `grove generate instance` and the scenarios <map>-random-<k>.scen; every plan of Grove's, and
+paths that another solver writes, are re-checked with `grove check`. Claims that contradict each other - a plan
+below a proven bound - are said on standard error. Options after `--` go to `grove solve` as they are; without
+`--threads` it runs on one. A case whose map is not there is left out, which is said. The tables are Markdown;
+--csv keeps a row per run, for `grove report`, too.
+Exit codes: 0 all ran, 1 some failed, claims contradict each other, or nothing ran, 2 wrong usage.
 """
 
 import argparse
@@ -21,9 +23,12 @@ import re
 import subprocess
 import sys
 
-GROVE = pathlib.Path(__file__).resolve().parent.parent / "build/release/bin/grove"
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+GROVE = ROOT / "build/release/bin/grove"
+sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "tools/report")]
 
+from grove_report.proofs import contradictions  # noqa: E402
+from grove_report.rows import row_of  # noqa: E402
 from harness import tables  # noqa: E402
 from harness.instances import Case, Maps  # noqa: E402
 from harness.runs import Grove, Job, OtherSolver, run_all  # noqa: E402
@@ -74,7 +79,7 @@ def crowded(arguments):
 
 def classical(arguments):
     sizes = [(name, agents, None) for name, agents in CLASSICAL]
-    solvers = [grove_of(arguments)] + [OtherSolver(*other) for other in arguments.other]
+    solvers = [grove_of(arguments)] + [OtherSolver(arguments.grove, *other) for other in arguments.other]
     jobs = jobs_of(solvers, listed_cases(sizes, arguments), arguments)
     return jobs, lambda rows: [tables.comparison(rows)]
 
@@ -143,7 +148,8 @@ def make_parser():
                          help="another solver: its command with {map}, {scen}, {agents}, "
                               "{time_limit} and {output} (a file it may write) filled in, and what "
                               "it prints or writes when it has a plan, group 1 being the cost; may "
-                              "be given several times")
+                              "be given several times. Paths that it writes to {output}, as EECBS or "
+                              "lacam do, are re-checked")
     command = add(ablation, "the paper's cells with each technique switched off in turn", 5,
                   [1, 2, 3])
     add_cells(command)
@@ -155,19 +161,35 @@ def parse(words):
     split = words.index("--") if "--" in words else len(words)
     arguments = make_parser().parse_args(words[:split])
     arguments.options = words[split + 1:]
+    for name, _, pattern in getattr(arguments, "other", []):
+        if re.compile(pattern).groups < 1:
+            sys.exit(f"experiments.py: error: --other {name}: found '{pattern}'; expected a group that is the cost")
     return arguments
+
+
+def complain(rows):
+    """Says what is wrong with the rows, and whether anything is."""
+    found = contradictions([row_of(row, row["instance"]) for row in rows])
+    if found:
+        print("PROOFS CONTRADICT EACH OTHER: not all of these claims can be true", file=sys.stderr)
+    for each in found:
+        print(f"{each.instance}: {each.what}", file=sys.stderr)
+    failed = [row for row in rows if row["status"] == "error"]
+    for row in failed:
+        print(f"failed: {row['method']}: {row['error']}", file=sys.stderr)
+    for (method,), group in tables.grouped([row for row in rows if row.get("checked") is False], "method").items():
+        print(f"{len(group)} plans of {method} are its claims alone: it writes no paths to {{output}}", file=sys.stderr)
+    return bool(failed or found)
 
 
 def main():
     arguments = parse(sys.argv[1:])
     jobs, report = arguments.experiment(arguments)
     rows = run_all(jobs, Maps(arguments.maps), arguments.jobs, arguments.csv)
-    failed = [row for row in rows if row["status"] == "failed"]
-    for row in failed:
-        print(f"failed: {row['solver']}: {row['message']}", file=sys.stderr)
+    is_wrong = complain(rows)
     if rows:
         print("\n\n".join(report(rows)))
-    return 0 if rows and not failed else 1
+    return 0 if rows and not is_wrong else 1
 
 
 if __name__ == "__main__":

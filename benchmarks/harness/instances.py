@@ -20,6 +20,18 @@ class Case:
     scenario: int
     mg: bool = False
 
+    @property
+    def problem(self):
+        return "mapf" if self.tasks is None else "mg" if self.mg else "cts"
+
+    @property
+    def id(self):
+        """What tables call it; a scenario as it stands as `grove bench` would."""
+        if self.tasks is None:
+            return f"{self.map}-random-{self.scenario}-{self.agents}"
+        return (f"experiments/{self.map}_s{self.scenario}_n{self.agents}_m{self.tasks}"
+                + ("_mg" if self.mg else ""))
+
     def __str__(self):
         size = f"{self.agents}" if self.tasks is None else f"{self.agents}/{self.tasks}"
         return f"{self.map} {size} scenario {self.scenario}"

@@ -17,9 +17,14 @@ import time
 
 from harness.instances import instance_arguments
 
-COLUMNS = ["solver", "map", "agents", "tasks", "scenario", "status", "cost", "lower_bound",
-           "gap_percent", "seconds", "first_plan_s", "nodes", "roots", "rtsp_calls", "memory_mb",
-           "message"]
+# Of those that `grove bench` writes, so that `grove report` reads them.
+COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks", "problem", "omega",
+           "seed", "time_limit_s", "solved", "status", "cost", "lower_bound", "gap", "runtime_s",
+           "wall_s", "first_plan_s", "roots", "rtsp_calls", "nodes", "low_level_calls",
+           "peak_memory_mb", "version", "ended_at", "error", "threads"]
+FROM_STATS = {"roots": "roots_generated", "nodes": "nodes_expanded"} | {
+    name: name for name in ("seed", "threads", "rtsp_calls", "low_level_calls", "peak_memory_mb", "version")}
+PATHS = re.compile(r"^(Agent \d+:|solution=)", re.M)  # in what other solvers write
 FIRST_PLAN = re.compile(r"^[*HCLS] .* (\d+\.\d+)s$", re.M)
 GRACE_S = 10  # after its time limit a program is killed
 
@@ -38,10 +43,10 @@ def run(command, timeout=None):
     return done.stdout
 
 
-def gap_percent(cost, bound):
-    if cost is None or (bound == 0 and cost > 0):
+def gap(cost, bound):
+    if cost is None or bound is None or (bound == 0 and cost > 0):
         return None
-    return 0.0 if cost == bound else 100 * (cost - bound) / bound
+    return 0.0 if cost == bound else (cost - bound) / bound
 
 
 def first_plan_seconds(log):
@@ -59,7 +64,7 @@ class Grove:
 
     program: str
     options: tuple = ()
-    name: str = "grove"
+    name: str = "Grove"
 
     def solve(self, maps, case, time_limit, folder):
         generate, instance = instance_arguments(self.program, maps, case, folder)
@@ -73,12 +78,13 @@ class Grove:
         if "cost" in result:
             run([self.program, "check", instance[0], plan, *instance[1:]])
         stats = result["stats"]
-        cost, bound = result.get("cost"), result["lower_bound"]
-        return {"status": result["status"], "cost": cost, "lower_bound": bound,
-                "gap_percent": gap_percent(cost, bound), "seconds": stats["wall_s"],
-                "first_plan_s": first_plan_seconds(log.read_text()),
-                "nodes": stats.get("nodes_expanded", 0), "roots": stats.get("roots_generated", 0),
-                "rtsp_calls": stats.get("rtsp_calls", 0), "memory_mb": stats["peak_memory_mb"]}
+        return {"options": shlex.join(map(str, self.options)), "omega": result["omega"],
+                "solved": "cost" in result and "stopped_by" not in stats,
+                "status": result["status"], "cost": result.get("cost"),
+                "lower_bound": None if result["status"] == "infeasible" else result["lower_bound"],
+                "wall_s": stats["wall_s"], "first_plan_s": first_plan_seconds(log.read_text()),
+                "error": stats.get("stopped_by"), "checked": True,
+                **{column: stats.get(name) for column, name in FROM_STATS.items()}}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,10 +92,11 @@ class OtherSolver:
     """Any program for classical MAPF.
 
     `command` may hold {map}, {scen}, {agents}, {time_limit} and {output}, a file of its own to
-    write. `pattern` is searched in what it prints and in that file: it found a plan if there is a
-    match, whose group 1, if there is one, is the cost.
+    write. `pattern` is searched in what it prints and in that file: it claims a plan if there is a
+    match, whose group 1 is the cost. If it writes paths there, `grove check` re-checks them.
     """
 
+    grove: str
     name: str
     command: str
     pattern: str
@@ -106,12 +113,28 @@ class OtherSolver:
             text = done.stdout + done.stderr
         except subprocess.TimeoutExpired:
             text = ""
-        seconds = time.monotonic() - start
-        if output.exists():
-            text += output.read_text()
-        found = re.search(self.pattern, text, re.M)
-        cost = int(float(found.group(1))) if found and found.re.groups else None
-        return {"status": "solved" if found else "unknown", "cost": cost, "seconds": seconds}
+        row = {"options": self.command, "wall_s": time.monotonic() - start, "status": "unknown"}
+        written = output.read_text() if output.exists() else ""
+        found = re.search(self.pattern, text + written, re.M)
+        if not found:
+            return row
+        cost = int(float(found.group(1)))
+        if cost < 0:
+            raise Failure(f"claims a cost of {cost}")
+        has_paths = bool(PATHS.search(written))
+        if has_paths:
+            self.check(maps, case, output, cost)
+        return row | {"status": "feasible", "solved": True, "cost": cost, "checked": has_paths}
+
+    def check(self, maps, case, output, cost):
+        done = subprocess.run([self.grove, "check", maps.scenario(case), output, "--map", maps.map(case),
+                               "--agents", str(case.agents)], capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            first = done.stderr.splitlines()[0].removeprefix("grove: error: ").removeprefix(f"{output}: ")
+            raise Failure(f"claims a plan of cost {cost}, but its paths are wrong: {first}")
+        paths_cost = int(re.match(r"valid: cost (\d+)", done.stdout).group(1))
+        if paths_cost != cost:
+            raise Failure(f"claims a plan of cost {cost}, but its paths cost {paths_cost}")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -121,17 +144,25 @@ class Job:
     time_limit: float
 
 
+def csv_value(value):
+    return str(value).lower() if isinstance(value, bool) else value
+
+
 def row_of(job, maps):
-    """Runs a job. What goes wrong is a row of status "failed"."""
-    row = dict.fromkeys(COLUMNS)
-    row.update(solver=job.solver.name, map=job.case.map, agents=job.case.agents,
-               tasks=job.case.tasks, scenario=job.case.scenario)
+    """Runs a job. What goes wrong is a row of status "error"."""
+    case = job.case
+    row = dict.fromkeys(COLUMNS) | {
+        "instance": case.id, "method": job.solver.name, "map": case.map, "scenario": case.scenario,
+        "agents": case.agents, "tasks": case.tasks or 0, "problem": case.problem,
+        "time_limit_s": job.time_limit, "solved": False}
     with tempfile.TemporaryDirectory() as folder:
         try:
-            row.update(job.solver.solve(maps, job.case, job.time_limit, folder))
-        except (Failure, OSError, ValueError, subprocess.TimeoutExpired) as error:
-            row.update(status="failed", message=f"{job.case}: {error}")
-    return row
+            row.update(job.solver.solve(maps, case, job.time_limit, folder))
+        except (Failure, OSError, ValueError, OverflowError, subprocess.TimeoutExpired) as error:
+            row.update(status="error", error=f"{case}: {error}")
+    return row | {"gap": gap(row["cost"], row["lower_bound"]),
+                  "runtime_s": row["wall_s"] if row["solved"] else job.time_limit,
+                  "ended_at": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
 
 
 class Progress:
@@ -147,7 +178,7 @@ class Progress:
         passed = time.monotonic() - self.start
         left = passed / self.done * (self.total - self.done)
         if sys.stderr.isatty():
-            last = f"{row['map']} {row['agents']} {row['solver']}: {row['status']}"
+            last = f"{row['map']} {row['agents']} {row['method']}: {row['status']}"
             print(f"\r\033[K{self.done} of {self.total}, about {math.ceil(left / 60)} min left; "
                   f"{last}", end="", file=sys.stderr, flush=True)
         if sys.stderr.isatty() and self.done == self.total:
@@ -168,7 +199,7 @@ def run_all(jobs, maps, workers, csv_path=None):
     rows = [None] * len(jobs)
     file = open(csv_path, "w", newline="", encoding="utf-8") if csv_path else None
     try:
-        writer = csv.DictWriter(file, fieldnames=COLUMNS) if file else None
+        writer = csv.DictWriter(file, fieldnames=COLUMNS, extrasaction="ignore") if file else None
         if writer:
             writer.writeheader()
         with concurrent.futures.ThreadPoolExecutor(workers) as pool:
@@ -178,7 +209,7 @@ def run_all(jobs, maps, workers, csv_path=None):
                     row = rows[futures[future]] = future.result()
                     progress.step(row)
                     if writer:
-                        writer.writerow(row)
+                        writer.writerow({name: csv_value(value) for name, value in row.items()})
                         file.flush()
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)

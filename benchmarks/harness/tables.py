@@ -19,6 +19,11 @@ def values(rows, column):
     return [row[column] for row in rows if row[column] is not None]
 
 
+def percents(rows):
+    """The same with the gap in percent."""
+    return [row | {"gap": row["gap"] and 100 * row["gap"]} for row in rows]
+
+
 def median(numbers, digits=2):
     return f"{statistics.median(numbers):.{digits}f}" if numbers else "-"
 
@@ -54,9 +59,9 @@ def cells(rows):
         ["map", "N", "M", "proven", "status", "cost", "bound", "gap %", "roots", "rTSP calls",
          "nodes", "s"],
         [[*key, f"{count(group, *PROVEN)}/{len(group)}", listed(group, "status"),
-          listed(group, "cost"), listed(group, "lower_bound"), listed(group, "gap_percent", 2),
+          listed(group, "cost"), listed(group, "lower_bound"), listed(percents(group), "gap", 2),
           listed(group, "roots"), listed(group, "rtsp_calls"), listed(group, "nodes"),
-          listed(group, "seconds", 2)]
+          listed(group, "wall_s", 2)]
          for key, group in grouped(rows, "map", "agents", "tasks").items()])
 
 
@@ -65,7 +70,7 @@ def proofs(rows):
     def line(name, agents, group):
         return [name, agents, len(group), count(group, "optimal"),
                 sum(map(within_one_percent, group)), sum(row["cost"] is None for row in group),
-                median(values(group, "seconds"))]
+                median(values(group, "wall_s"))]
     groups = grouped(rows, "map", "agents").items()
     return table(["map", "N", "instances", "proven optimal", "within 1 % proven", "no plan",
                   "median s"],
@@ -79,19 +84,19 @@ def plans(rows):
          "proven", "memory MB"],
         [[name, f"{agents}/{tasks}", f"{len(values(group, 'cost'))}/{len(group)}",
           median(values(group, "first_plan_s")), largest(values(group, "first_plan_s")),
-          median(values(group, "gap_percent")), largest(values(group, "gap_percent")),
-          f"{count(group, *PROVEN)}/{len(group)}", largest(values(group, "memory_mb"), 0)]
+          median(values(percents(group), "gap")), largest(values(percents(group), "gap")),
+          f"{count(group, *PROVEN)}/{len(group)}", largest(values(group, "peak_memory_mb"), 0)]
          for (name, agents, tasks), group in grouped(rows, "map", "agents", "tasks").items()])
 
 
 def comparison(rows):
     """Solvers side by side: solved, and the median time of what they solved."""
-    solvers = list(dict.fromkeys(row["solver"] for row in rows))
+    solvers = list(dict.fromkeys(row["method"] for row in rows))
 
     def entries(group, solver):
-        own = [row for row in group if row["solver"] == solver]
-        solved = [row for row in own if row["status"] in (*PROVEN, "solved")]
-        return [f"{len(solved)}/{len(own)}", median(values(solved, "seconds"))]
+        own = [row for row in group if row["method"] == solver]
+        solved = [row for row in own if row["solved"]]
+        return [f"{len(solved)}/{len(own)}", median(values(solved, "wall_s"))]
     head = ["map", "agents"]
     for solver in solvers:
         head += [f"{solver}: solved", "median s"]
@@ -110,15 +115,15 @@ def ablation(rows, reference):
     """Each solver against the one named `reference`; ratios over what both proved."""
     def key(row):
         return row["map"], row["agents"], row["tasks"], row["scenario"]
-    full = {key(row): row for row in rows if row["solver"] == reference}
+    full = {key(row): row for row in rows if row["method"] == reference}
     lines = []
-    for (solver,), group in grouped(rows, "solver").items():
+    for (solver,), group in grouped(rows, "method").items():
         both = [(row, full[key(row)]) for row in group
                 if row["status"] in PROVEN and full[key(row)]["status"] in PROVEN]
         lines.append([
             solver, f"{count(group, *PROVEN)}/{len(group)}", count(group, "optimal"),
             sum(map(within_one_percent, group)), len(both),
             ratio([(row["nodes"] + 1, other["nodes"] + 1) for row, other in both]),
-            ratio([(row["seconds"] + 0.001, other["seconds"] + 0.001) for row, other in both])])
+            ratio([(row["wall_s"] + 0.001, other["wall_s"] + 0.001) for row, other in both])])
     return table(["", "solved", "optimal", "within 1 %", "both solved", "nodes ratio",
                   "time ratio"], lines)

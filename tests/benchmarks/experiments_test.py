@@ -25,8 +25,9 @@ MAP = "empty-32-32"  # what the folders of the tests call the one of the data fo
 
 
 def row(**values):
-    return dict.fromkeys(runs.COLUMNS) | {"solver": "grove", "map": "m", "agents": 5, "tasks": 9,
-                                          "scenario": 1} | values
+    found = dict.fromkeys(runs.COLUMNS) | {"method": "Grove", "map": "m", "agents": 5, "tasks": 9,
+                                           "scenario": 1} | values
+    return found | {"solved": found["status"] in ("optimal", "bounded") or found["method"] != "Grove"}
 
 
 class Folder(unittest.TestCase):
@@ -72,10 +73,16 @@ class Results(unittest.TestCase):
         self.assertIsNone(runs.first_plan_seconds(log[:100]))
 
     def test_gap(self):
-        self.assertEqual(runs.gap_percent(101, 100), 1)
-        self.assertEqual(runs.gap_percent(0, 0), 0)
-        self.assertIsNone(runs.gap_percent(None, 100))
-        self.assertIsNone(runs.gap_percent(1, 0))
+        self.assertEqual(runs.gap(101, 100), 0.01)
+        self.assertEqual(runs.gap(0, 0), 0)
+        self.assertIsNone(runs.gap(None, 100))
+        self.assertIsNone(runs.gap(1, 0))
+
+    def test_ids_tell_cases_apart(self):
+        cases = [Case("m", 5, None, 1), Case("m", 5, None, 2), Case("m", 5, 9, 1), Case("m", 5, 9, 1, mg=True)]
+        self.assertEqual([case.id for case in cases],
+                         ["m-random-1-5", "m-random-2-5", "experiments/m_s1_n5_m9", "experiments/m_s1_n5_m9_mg"])
+        self.assertEqual([case.problem for case in cases], ["mapf", "mapf", "cts", "mg"])
 
     def test_within_one_percent_is_exact(self):
         self.assertTrue(tables.within_one_percent(row(cost=707, lower_bound=700)))
@@ -89,32 +96,32 @@ class Tables(unittest.TestCase):
                 for line in text.splitlines()[2:]]
 
     def test_proofs(self):
-        rows = [row(status="optimal", cost=10, lower_bound=10, seconds=1.0),
-                row(status="feasible", cost=20, lower_bound=10, seconds=5.0),
-                row(status="unknown", lower_bound=10, seconds=9.0, agents=7)]
+        rows = [row(status="optimal", cost=10, lower_bound=10, wall_s=1.0),
+                row(status="feasible", cost=20, lower_bound=10, wall_s=5.0),
+                row(status="unknown", lower_bound=10, wall_s=9.0, agents=7)]
         self.assertEqual(self.entries(tables.proofs(rows)),
                          [["m", "5", "2", "1", "1", "0", "3.00"],
                           ["m", "7", "1", "0", "0", "1", "9.00"],
                           ["all", "", "3", "1", "1", "1", "5.00"]])
 
     def test_comparison(self):
-        rows = [row(status="optimal", seconds=1.0), row(status="feasible", seconds=9.0),
-                row(solver="other", status="solved", seconds=2.0),
-                row(solver="other", status="unknown", seconds=9.0)]
+        rows = [row(status="optimal", wall_s=1.0), row(status="feasible", wall_s=9.0),
+                row(method="other", status="feasible", wall_s=2.0),
+                row(method="other", status="unknown", wall_s=9.0) | {"solved": False}]
         self.assertEqual(self.entries(tables.comparison(rows)),
                          [["m", "5", "1/2", "1.00", "1/2", "2.00"]])
 
     def test_ablation_compares_what_both_solved(self):
         solved = {"status": "optimal", "cost": 1, "lower_bound": 1}
-        rows = [row(**solved, nodes=9, seconds=0.999), row(**solved, nodes=9, seconds=1, scenario=2),
-                row(**solved, nodes=39, seconds=1.999, solver="less"),
-                row(status="unknown", nodes=999, seconds=9, scenario=2, solver="less")]
-        self.assertEqual(self.entries(tables.ablation(rows, "grove")),
-                         [["grove", "2/2", "2", "2", "2", "1.00", "1.00"],
+        rows = [row(**solved, nodes=9, wall_s=0.999), row(**solved, nodes=9, wall_s=1, scenario=2),
+                row(**solved, nodes=39, wall_s=1.999, method="less"),
+                row(status="unknown", nodes=999, wall_s=9, scenario=2, method="less")]
+        self.assertEqual(self.entries(tables.ablation(rows, "Grove")),
+                         [["Grove", "2/2", "2", "2", "2", "1.00", "1.00"],
                           ["less", "1/2", "1", "1", "1", "4.00", "2.00"]])
 
     def test_no_plan_at_all(self):
-        rows = [row(status="failed")]
+        rows = [row(status="error")]
         for make in (tables.cells, tables.proofs, tables.plans, tables.comparison):
             self.assertEqual(len(make(rows).splitlines()) > 2, True)
 
@@ -123,24 +130,30 @@ class OtherSolvers(Folder):
     def result(self, script, pattern, time_limit=5):
         (self.folder / "solver.py").write_text(script)
         command = f"{sys.executable} {self.folder}/solver.py {{scen}} {{agents}} {{output}}"
-        return runs.row_of(runs.Job(runs.OtherSolver("other", command, pattern),
+        return runs.row_of(runs.Job(runs.OtherSolver(GROVE, "other", command, pattern),
                                     Case(MAP, 7, None, 1), time_limit), self.maps)
 
     def test_cost_from_the_output(self):
         found = self.result("import sys\nprint('agents', sys.argv[2], 'cost=123')", r"cost=(\d+)")
-        self.assertEqual((found["status"], found["cost"]), ("solved", 123))
+        self.assertEqual((found["status"], found["solved"], found["cost"]), ("feasible", True, 123))
+        self.assertIs(found["checked"], False)
 
     def test_cost_from_its_file(self):
         found = self.result("import sys\nopen(sys.argv[3], 'w').write('a,b\\n1,77\\n')",
                             r"^1,(\d+)$")
-        self.assertEqual((found["status"], found["cost"]), ("solved", 77))
+        self.assertEqual((found["status"], found["solved"], found["cost"]), ("feasible", True, 77))
 
     def test_no_match_is_no_plan(self):
-        self.assertEqual(self.result("print('timeout')", r"cost=(\d+)")["status"], "unknown")
+        found = self.result("print('timeout')", r"cost=(\d+)")
+        self.assertEqual((found["status"], found["solved"], found["runtime_s"]), ("unknown", False, 5))
+
+    def test_no_cost_is_below_nothing(self):
+        found = self.result("print('cost=-1')", r"cost=(-?\d+)")
+        self.assertEqual((found["status"], found["error"]), ("error", f"{MAP} 7 scenario 1: claims a cost of -1"))
 
     def test_a_program_that_is_not_there(self):
-        job = runs.Job(runs.OtherSolver("other", "/no/such/program", "x"), Case(MAP, 7, None, 1), 1)
-        self.assertEqual(runs.row_of(job, self.maps)["status"], "failed")
+        job = runs.Job(runs.OtherSolver(GROVE, "other", "/no/such/program", "(x)"), Case(MAP, 7, None, 1), 1)
+        self.assertEqual(runs.row_of(job, self.maps)["status"], "error")
 
 
 class WithTheProgram(Folder):
@@ -174,23 +187,82 @@ class WithTheProgram(Folder):
     def test_classical_beside_another_solver(self):
         done, rows = self.experiment(
             "classical", "--scenarios", "1", "--time-limit", "1", "--other", "echo",
-            "echo cost {agents}", r"cost (\d+)")
-        self.assertEqual({row["solver"] for row in rows}, {"grove", "echo"})
-        self.assertEqual([row["cost"] for row in rows if row["solver"] == "echo"], ["100", "150"])
+            "echo cost 99{agents}", r"cost (\d+)")
+        self.assertEqual({row["method"] for row in rows}, {"Grove", "echo"})
+        self.assertEqual([row["cost"] for row in rows if row["method"] == "echo"], ["99100", "99150"])
         self.assertIn("echo: solved", done.stdout)
+        self.assertIn("2 plans of echo are its claims alone", done.stderr)
+
+    # No plan costs less than what is proven.
+    def test_claims_below_a_proven_bound_are_told(self):
+        done, rows = self.experiment(
+            "classical", "--scenarios", "1", "--time-limit", "1", "--other", "echo",
+            "echo cost {agents}", r"cost (\d+)", code=1)
+        self.assertIn("\nPROOFS CONTRADICT EACH OTHER", done.stderr)
+        bounds = {row["agents"]: row["lower_bound"] for row in rows if row["method"] == "Grove"}
+        self.assertIn(f"{MAP}-random-1-100: a plan costs 100 (echo), below a proven lower bound: {bounds['100']} (Grove",
+                      done.stderr)
+        report = subprocess.run([GROVE, "report", self.folder / "rows.csv", "-o", self.folder / "report"],
+                                capture_output=True, text=True, check=False)
+        self.assertEqual(report.returncode, 0, report.stderr)
+        self.assertIn("proofs contradict each other", report.stderr)
+
+    # Of a solver that writes Grove's own plan, but for what `change` makes of its paths or its cost.
+    def with_paths(self, change):
+        case = Case(MAP, 5, None, 1)
+        (self.folder / "solver.py").write_text(f"""
+import json, subprocess, sys
+map_file, scen, output = sys.argv[1:]
+instance = [scen, "--map", map_file, "--agents", "5"]
+subprocess.run(["{GROVE}", "solve", *instance, "--quiet", "--output", "{self.folder}/p.json"], check=True)
+plan = json.load(open("{self.folder}/p.json"))
+paths = [[(y, x) for x, y in agent["path"]] for agent in plan["agents"]]
+cost = plan["cost"]
+{change}
+with open(output, "w") as file:
+    for i, path in enumerate(paths):
+        file.write(f"Agent {{i}}: " + "".join(f"({{r}},{{c}})->" for r, c in path) + "\\n")
+print("cost", cost)
+""")
+        command = f"{sys.executable} {self.folder}/solver.py {{map}} {{scen}} {{output}}"
+        return runs.row_of(runs.Job(runs.OtherSolver(GROVE, "other", command, r"cost (\d+)"), case, 5), self.maps)
+
+    def test_paths_of_another_solver_are_checked(self):
+        row = self.with_paths("")
+        self.assertEqual((row["status"], row["checked"]), ("feasible", True), row["error"])
+        for change, error in (("cost -= 1", "its paths cost"), ("del paths[0][1]", "jumps"),
+                              ("paths[0].pop()", "expected its goal"), ("del paths[4]", "has no path")):
+            row = self.with_paths(change)
+            self.assertEqual((row["status"], row["solved"]), ("error", False))
+            self.assertIn(error, row["error"])
+            self.assertIn("claims a plan of cost", row["error"])
+            self.assertNotIn("\n", row["error"])
+
+    def test_a_regex_without_a_cost(self):
+        done = subprocess.run([sys.executable, BENCHMARKS / "experiments.py", "classical", "--other", "x", "y", "z"],
+                              capture_output=True, text=True, check=False)
+        self.assertIn("--other x: found 'z'; expected a group that is the cost", done.stderr)
+
+    def test_grove_report_reads_the_rows(self):
+        self.experiment("paper", "--agents", "2", "--tasks", "4", "--scenarios", "1", "--map", MAP, "--", "--omega", "0")
+        subprocess.run([GROVE, "report", self.folder / "rows.csv", "-o", self.folder / "report"], check=True,
+                       capture_output=True)
+        with open(self.folder / "report/summary_cts.csv", encoding="utf-8") as file:
+            row, = csv.DictReader(file)
+        self.assertEqual((row["method"], row["omega"], row["solved"], row["within_omega"]), ("Grove", "0", "1", "1"))
 
     def test_ablation_knows_all_techniques(self):
         names = experiments.technique_names(GROVE)
         self.assertGreater(len(names), 2)
         done, rows = self.experiment("ablation", "--agents", "2", "--tasks", "3", "--scenarios", "1")
-        self.assertEqual({row["solver"] for row in rows},
-                         {"grove", *(f"without {name}" for name in names)})
-        self.assertNotIn("failed", [row["status"] for row in rows])
+        self.assertEqual({row["method"] for row in rows},
+                         {"Grove", *(f"without {name}" for name in names)})
+        self.assertNotIn("error", [row["status"] for row in rows])
 
     def test_failures_are_rows_and_an_exit_code(self):
         done, rows = self.experiment("paper", "--agents", "2", "--tasks", "3", "--scenarios", "1",
                                      "--", "--no-such-option", code=1)
-        self.assertEqual([row["status"] for row in rows], ["failed"])
+        self.assertEqual([row["status"] for row in rows], ["error"])
         self.assertIn("--no-such-option", done.stderr)
 
     def test_nothing_to_run(self):

@@ -263,6 +263,8 @@ class Batches(Program):
             self.assertEqual((row["method"], row["options"]), ("auto", "--omega 0 --ranks-per-instance 2"))
             self.run_well([GROVE, "check", folder / f"{name}.cts.json",
                            self.folder / "results" / row["plan_file"]])
+        self.run_well([GROVE, "report", "results", "-o", "report"])
+        self.assertIn("Instances that could not be read: broken.", (self.folder / "report/report.html").read_text())
 
     def test_the_same_command_goes_on(self):
         folder = self.instances(3)

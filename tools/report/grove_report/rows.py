@@ -193,6 +193,11 @@ def _row(values, place):
                         sqr=sqr if row.solved else None)
 
 
+def row_of(found, place):
+    """The row that a dictionary of columns is, whatever else it holds. `place`: for messages."""
+    return _row([found.get(name) for name in _NAMES], place)
+
+
 def _check_columns(found, place):
     missing = [name for name, (_, absent) in COLUMNS.items()
                if absent is NEEDED and name not in found]
@@ -238,7 +243,7 @@ def _read_json_lines(path, file):
             raise BadInput(f"{place}: not JSON; expected one object a line") from None
         if not isinstance(found, dict):
             raise BadInput(f"{place}: found {_shown(found)}; expected a JSON object")
-        yield _row([found.get(name) for name in _NAMES], place)
+        yield row_of(found, place)
 
 
 READERS = {".csv": _read_csv, ".jsonl": _read_json_lines}
