@@ -7,6 +7,7 @@
 // and the largest number of labels expanded in a call. Maps are made here; with GROVE_MOVINGAI
 // set to a folder of Moving AI maps the real ones are run as well.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -117,7 +118,7 @@ Case::Case(const Grid& grid, const std::vector<Cell>& cells, int goal_count) : o
   InstanceBuilder builder(grid);
   builder.add_agent("a", grid.position(cells[0]), grid.position(cells[1]));
   for (int k = 2; k < goal_count + 1; ++k)
-    builder.add_task("t" + std::to_string(k), grid.position(cells[k]),
+    builder.add_task(fmt::format("t{}", k), grid.position(cells[k]),
                      std::vector<std::string>{"a"});
   instance = std::make_unique<Instance>(std::move(builder).build());
   distances = std::make_unique<DistanceFields>(*instance);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sequencing on random places of random 32x32 grids: tables, K-best lists, sequence graphs.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <deque>
@@ -37,7 +38,7 @@ CostMatrix random_matrix(int n, std::uint32_t seed) {
   const std::string agent = "a";
   builder.add_agent(agent, grid.position(places[0]), grid.position(places[1]));
   for (int i = 0; i < n; ++i)
-    builder.add_task("t" + std::to_string(i), grid.position(places[i + 2]), {&agent, 1});
+    builder.add_task(fmt::format("t{}", i), grid.position(places[i + 2]), {&agent, 1});
   const Instance instance = std::move(builder).build();
   return cost_matrix(instance, 0, DistanceFields(instance));
 }

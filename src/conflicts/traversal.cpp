@@ -24,6 +24,7 @@
 // Turning round inside, and starting inside, are no traversals and stay allowed; nothing is said
 // about the order of visits or about other passages. Both paths of the conflict break their side.
 // "Who passes first" as a statement about time alone, without labels.
+#include <algorithm>
 #include <array>
 
 #include "grove/conflicts/reasoning.h"

@@ -4,7 +4,7 @@
 // where other readers of YAML do not.
 #pragma once
 
-#include <yaml-cpp/node/node.h>
+#include <yaml-cpp/yaml.h>
 
 #include <filesystem>
 #include <initializer_list>

@@ -2,6 +2,7 @@
 // Joint states, stored compactly and found again.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>

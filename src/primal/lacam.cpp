@@ -40,6 +40,7 @@
 #include "lacam.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <utility>

@@ -23,7 +23,6 @@ constexpr double kLeastLabels = 2000;
 constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
 constexpr double kMemoryOfWay = 0.98;       // of a way's gain and work, per neighbourhood
 constexpr int kNeighborhoodsPerTrial = 10;  // one of so many goes to a way at random
-constexpr std::int64_t kWorkPerCall = 16;   // in labels
 
 }  // namespace
 
@@ -31,7 +30,7 @@ void NeighborhoodSearch::step(const Limits& limits) {
   ++steps_;
   const std::vector<AgentIndex>& agents = neighborhoods_.choose();
   Way& way = choose_way();
-  const std::int64_t work_before = router_.expanded() + kWorkPerCall * router_.calls();
+  const std::int64_t work_before = router_.work();
   Cost old_cost = 0;
   old_paths_.clear();
   for (AgentIndex agent : agents) {
@@ -42,7 +41,7 @@ void NeighborhoodSearch::step(const Limits& limits) {
   if (!plan_anew(agents, old_cost, way, limits)) restore(agents);
   const Cost gain = others + old_cost - paths_.cost();
   neighborhoods_.reward(gain);
-  const std::int64_t work = router_.expanded() + kWorkPerCall * router_.calls() - work_before;
+  const std::int64_t work = router_.work() - work_before;
   way.gain = kMemoryOfWay * way.gain + static_cast<double>(gain);
   way.work = kMemoryOfWay * way.work + static_cast<double>(work);
 }

@@ -46,7 +46,6 @@ namespace grove {
 namespace {
 
 constexpr std::int64_t kWorkPerStep = 4000;
-constexpr std::int64_t kWorkPerCall = 16;
 constexpr std::int64_t kStepsMovedPerWork = 8;
 constexpr std::int64_t kLeastStall_neighborhoods = 200;
 constexpr std::int64_t kLeastStallPerAgent_neighborhoods = 10;
@@ -88,8 +87,7 @@ class PrimalSearch::Impl {
   }
   bool optimal() const { return met_ == agents_ && best_ <= own_costs_; }
   std::int64_t work() const {
-    return router_.expanded() + kWorkPerCall * router_.calls() +
-           (paths_.steps_moved() + planned_.steps_moved()) / kStepsMovedPerWork +
+    return router_.work() + (paths_.steps_moved() + planned_.steps_moved()) / kStepsMovedPerWork +
            joint_steps_ * agents_;
   }
   std::int64_t work_at_last_plan() const { return work_at_last_plan_; }

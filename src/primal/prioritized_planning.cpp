@@ -19,7 +19,7 @@ namespace grove {
 
 namespace {
 
-constexpr std::int64_t kLeastLabels = 200'000;
+constexpr std::int64_t kLabelsAtFirst = 200'000;
 constexpr std::int64_t kLabelsOfFound = 8;
 
 }  // namespace
@@ -38,7 +38,7 @@ void PrioritizedPlanning::begin_again() {
 
 std::int64_t PrioritizedPlanning::most_labels() const {
   const std::int64_t draws = failures_ / static_cast<std::int64_t>(order_.size());
-  return (kLeastLabels + kLabelsOfFound * labels_of_found_) << std::min<std::int64_t>(draws, 30);
+  return (kLabelsAtFirst + kLabelsOfFound * labels_of_found_) << std::min<std::int64_t>(draws, 30);
 }
 
 PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits, std::int64_t patience) {

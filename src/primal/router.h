@@ -38,8 +38,11 @@ class Router {
 
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return low_level_.expanded(); }
+  std::int64_t work() const { return expanded() + kLabelsPerCall * calls_; }  // in labels
 
  private:
+  static constexpr std::int64_t kLabelsPerCall = 16;  // what else a call takes
+
   FreeGoals& goals(AgentIndex agent);
 
   const Problem& problem_;

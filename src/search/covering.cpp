@@ -12,6 +12,7 @@
 #include "grove/search/covering.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "grove/model/omega.h"

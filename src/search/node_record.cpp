@@ -3,17 +3,10 @@
 
 #include <algorithm>
 #include <ranges>
-#include <stdexcept>
+
+#include "require.h"
 
 namespace grove {
-namespace {
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
-
-}  // namespace
-
 void check(const NodeRecord& record, const Node& root, const Instance& instance) {
   const auto is_agent = [&](AgentIndex agent) {
     return agent >= 0 && agent < instance.agent_count();

@@ -5,15 +5,12 @@
 #include "grove/search/tree_record.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
+
+#include "require.h"
 
 namespace grove {
 namespace {
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
 
 TreeRecord::Order record_of(const AgentOrder& order) {
   const PackedSteps path = order.path.view();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "grove/model/grid.h"
 #include "grove/sequencing/sequence.h"
 
 namespace grove {

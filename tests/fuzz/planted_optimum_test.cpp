@@ -210,7 +210,7 @@ TEST(PlantedOptimum, SurvivesSearchesThatGiveNodesUp) {
         optimal += given_up > 0 && solution.status == Status::kOptimal;
       });
   EXPECT_GT(evicted, 1000);
-  EXPECT_GT(restarts, 20);
+  EXPECT_GT(restarts, 10);
   EXPECT_GT(asked, 20);
   EXPECT_GT(optimal, asked / 3) << "of " << asked;
   RecordProperty("optimal", optimal);

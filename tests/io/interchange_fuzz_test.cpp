@@ -4,6 +4,7 @@
 // number of cases.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 

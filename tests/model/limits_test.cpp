@@ -39,8 +39,9 @@ TEST(Limits, StopsOnInterruptAndKeepsTheFirstReason) {
 }
 
 TEST(ResidentBytes, AreThoseOfARunningProcess) {
-  EXPECT_GT(resident_bytes(), std::size_t{100'000});
-  EXPECT_GE(peak_resident_bytes(), resident_bytes());
+  const std::size_t now = resident_bytes();
+  EXPECT_GT(now, std::size_t{100'000});
+  EXPECT_GE(peak_resident_bytes() + (std::size_t{1} << 20), now);  // the kernel counts by threads
 }
 
 }  // namespace limits_test

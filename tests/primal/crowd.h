@@ -2,6 +2,8 @@
 // Crowds on middle-sized random maps.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -49,7 +51,7 @@ inline Instance random_crowd(const Crowd& crowd, std::uint64_t seed) {
   random.shuffle(ends);
 
   InstanceBuilder builder(grid);
-  const auto id = [](const char* kind, int i) { return kind + std::to_string(i); };
+  const auto id = [](const char* kind, int i) { return fmt::format("{}{}", kind, i); };
   std::vector<Cell> elsewhere(ends.begin() + crowd.agents, ends.end());
   std::vector<int> without;
   for (int i = 0; i < crowd.agents; ++i) {

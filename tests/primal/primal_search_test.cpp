@@ -13,6 +13,7 @@
 #include "grove/search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/instances.h"
+#include "tests/support/sanitizers.h"
 
 namespace grove {
 namespace primal_search_test {
@@ -257,7 +258,7 @@ TEST(PrimalSearch, LimitsLeaveTheRaceWhole) {
 
 // The configuration search keeps off the last memory; the others go on.
 TEST(PrimalSearch, ShortMemoryEndsTheConfigurationsAlone) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef GROVE_ADDRESS_SANITIZER
   GTEST_SKIP() << "the sanitizer's own memory fills the limit";
 #endif
   const Instance instance = crowd(1);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "src/primal/configurations.h"
 #include "tests/fuzz/random.h"
 #include "tests/support/instances.h"

@@ -58,6 +58,7 @@ TEST(Completions, TheRelaxedBoundIsThatOfTheMatrix) {
     Completions completions(matrix);
     const Time bound = relaxation_bound(matrix);
     EXPECT_EQ(completions.relaxed_bound(), bound);
+    if (bound == kNever) continue;
     ASSERT_TRUE(completions.widen(bound + 3, Limits()));
     EXPECT_EQ(completions.relaxed_bound(), bound);
   }

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <numeric>
 
+#include "tests/support/movingai.h"
+
 namespace grove::testing {
 namespace {
 
@@ -38,13 +40,8 @@ CostMatrix matrix_of(const Instance& instance) {
   return cost_matrix(instance, 0, DistanceFields(instance));
 }
 
-std::string map_folder() {
-  const char* folder = std::getenv("GROVE_MOVINGAI");
-  return folder != nullptr ? folder : GROVE_MOVINGAI_DEFAULT;
-}
-
 std::optional<Grid> read_map(const std::string& name) {
-  std::ifstream file(map_folder() + "/" + name + ".map");
+  std::ifstream file(movingai_directory() / (name + ".map"));
   std::string word;
   int width = 0;
   int height = 0;

@@ -2,6 +2,7 @@
 // What an agent must visit when the low level chooses the order itself, within a sequence class.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/failing_new.h"
+#include "failing_new.h"
 
 #include <cstdlib>
 #include <new>

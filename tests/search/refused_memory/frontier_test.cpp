@@ -7,7 +7,7 @@
 #include <new>
 
 #include "grove/search/frontier.h"
-#include "tests/support/failing_new.h"
+#include "failing_new.h"
 #include "tests/support/instances.h"
 
 namespace grove {

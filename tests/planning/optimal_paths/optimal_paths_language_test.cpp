@@ -21,6 +21,7 @@
 #include "tests/planning/free_reference.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
+#include "tests/support/sanitizers.h"
 
 namespace grove {
 namespace optimal_paths_language_test {
@@ -531,7 +532,7 @@ TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
     limits.set_deadline(Limits::Clock::now() + step * std::chrono::microseconds(100));
     EXPECT_TRUE(is_sound(limits)) << "time " << step;
   }
-#ifndef __SANITIZE_ADDRESS__  // whose own memory would fill the limit
+#ifndef GROVE_ADDRESS_SANITIZER
   for (int step = 0; step < 16; ++step) {
     Limits limits;
     limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 18) * step);
