@@ -156,12 +156,11 @@ class Writer {
   pid_t process_;
 };
 
-// The one file in the folder, not called `other`, as soon as it is half written.
+// A file in the folder, not called `other`, as soon as it is half written.
 std::string half_written(const TemporaryDirectory& directory, const std::string& other) {
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
-    const Names names = directory.files();
-    if (names.size() == 1 && names[0] != other && file_content(directory / names[0]) == "half")
-      return names[0];
+    for (const std::string& name : directory.files())
+      if (name != other && file_content(directory / name) == "half") return name;
   }
 }
 
