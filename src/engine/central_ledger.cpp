@@ -15,6 +15,8 @@
 // *Pruning.* An incumbent is in the gate, checked, before anybody prunes by it.
 #include "grove/engine/central_ledger.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace grove {
@@ -27,7 +29,11 @@ std::optional<Plan> CentralLedger::plan_below(Cost cost) const {
 void CentralLedger::post(Plan plan, PlanSource source) {
   const std::lock_guard lock(posting_);
   const Cost cost = plan.cost;
+  const Cost before = gate_.incumbent_cost().value_or(cost);
   if (!gate_.post(std::move(plan))) return;
+  Found& found = found_[static_cast<std::size_t>(source)];
+  ++found.plans;
+  found.gain += before - cost;
   announcements_.incumbent(*gate_.incumbent(), source);
   nodes_.prune(cost);
   announcements_.event(RunEvent::kIncumbent);
@@ -37,6 +43,15 @@ void CentralLedger::nodes_changed() {
   const Cost trees = trees_from_;  // before the nodes': see above
   gate_.update(nodes_.bound(), trees);
   announcements_.bound(gate_.lower_bound());
+}
+
+void CentralLedger::add_counts(Stats& stats) const {
+  const std::lock_guard lock(posting_);
+  for (std::size_t source = 0; source < found_.size(); ++source) {
+    if (found_[source].plans == 0) continue;
+    stats.counts[fmt::format("plans_{}", kPlanSources[source])] += found_[source].plans;
+    stats.counts[fmt::format("gain_{}", kPlanSources[source])] += found_[source].gain;
+  }
 }
 
 void CentralLedger::resume_at(Cost lower_bound) {

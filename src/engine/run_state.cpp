@@ -111,6 +111,7 @@ Solution RunState::conclude() const {
     solution.lower_bound = 0;
   }
   trees_.add_counts(solution.stats);
+  ledger_.add_counts(solution.stats);
   if (resumed_) {
     solution.stats.counts["nodes_expanded_before"] = nodes_before();
     solution.stats.measures["seconds_before"] = before_.seconds;

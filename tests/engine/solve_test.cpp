@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <string>
@@ -240,6 +241,20 @@ TEST(Solve, ThePrimalSearchFindsAndImprovesPlans) {
   EXPECT_EQ(watcher.sources.back(), PlanSource::kNeighborhood);
   EXPECT_GT(solution.stats.counts.at("primal_low_level_calls"), 0);
   EXPECT_GT(solution.stats.counts.at("primal_neighborhoods"), 0);
+}
+
+TEST(Solve, BetterPlansAreCountedByWhereTheyCameFrom) {
+  IncumbentWatcher watcher;
+  auto counts = solve_until(two_doors(), SolveOptions(), watcher, 5).stats.counts;
+  ASSERT_GT(watcher.costs.size(), 1u);
+  Cost gain = 0;
+  for (std::size_t source = 0; source < kPlanSources.size(); ++source) {
+    const std::string name(kPlanSources[source]);
+    EXPECT_EQ(counts["plans_" + name],
+              std::ranges::count(watcher.sources, static_cast<PlanSource>(source)));
+    gain += counts["gain_" + name];
+  }
+  EXPECT_EQ(gain, watcher.costs.front() - watcher.costs.back());
 }
 
 TEST(Solve, TwoRunsFindTheSamePlans) {

@@ -54,22 +54,6 @@ const char* name_of(RunEvent event) {
   return "progress";
 }
 
-const char* name_of(PlanSource source) {
-  switch (source) {
-    case PlanSource::kStart:
-      return "start";
-    case PlanSource::kPriorities:
-      return "priorities";
-    case PlanSource::kConfigurations:
-      return "configurations";
-    case PlanSource::kNeighborhood:
-      return "neighborhood";
-    case PlanSource::kTree:
-      break;
-  }
-  return "tree";
-}
-
 Json stats_json(const Stats& stats) {
   Json json = Json::object();
   for (const auto& [name, value] : stats.texts) json[name] = value;

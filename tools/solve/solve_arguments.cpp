@@ -172,6 +172,7 @@ void add_file_options(CLI::App& app, SolveArguments& a) {
       ->type_name("text|jsonl")
       ->check(one_of({"text", "jsonl"}))
       ->capture_default_str();
+  app.add_flag("--verbose", a.verbose, "the end of the log tells what the search did");
   app.add_flag("--quiet", a.quiet, "no log on the screen");
 }
 

@@ -39,6 +39,7 @@ struct SolveArguments {
   bool require_plan = false;
   std::filesystem::path log;
   std::string log_format = "text";
+  bool verbose = false;
   bool quiet = false;
 };
 

@@ -59,7 +59,7 @@ std::unique_ptr<LogFormat> open_log(const SolveArguments& a, bool may_show_progr
   std::FILE* const screen = a.quiet ? nullptr : a.output == kStandardOutput ? stderr : stdout;
   LogSink sink(screen, a.log, may_show_progress);
   if (a.log_format == kJsonLines) return std::make_unique<JsonLog>(std::move(sink));
-  return std::make_unique<TextLog>(std::move(sink), a.time_limit_s);
+  return std::make_unique<TextLog>(std::move(sink), a.time_limit_s, a.verbose);
 }
 
 RunLog rows_of(LogFormat& log, const SolveArguments& a,

@@ -10,6 +10,7 @@
 #include "tools/common/gap_text.h"
 #include "tools/common/machine.h"
 #include "tools/common/version.h"
+#include "tools/solve/search_summary.h"
 
 namespace grove {
 namespace {
@@ -179,6 +180,8 @@ void TextLog::end(const LogEnd& end) {
     sink_.line(fmt::format("Memory        {:.0f} MB at most, {:.0f} bytes per node{}",
                            solution.stats.measures.at("peak_memory_mb"), node_bytes->second,
                            evicted_text(solution)));
+  if (verbose_)
+    for (const std::string& line : search_summary(solution.stats)) sink_.line(line);
   sink_.line(fmt::format(
       "Plan file     {}{}", end.plan_file,
       end.kept ? fmt::format(" (kept as it is, with a valid plan of cost {})", *end.kept) : ""));

@@ -9,8 +9,9 @@ namespace grove {
 
 class TextLog : public LogFormat {
  public:
-  TextLog(LogSink sink, double time_limit_s)
-      : sink_(std::move(sink)), time_limit_s_(time_limit_s) {}
+  // `verbose`: the summary tells what the search did.
+  TextLog(LogSink sink, double time_limit_s, bool verbose)
+      : sink_(std::move(sink)), time_limit_s_(time_limit_s), verbose_(verbose) {}
 
   void head(const LogHead& head) override;
   void warning(std::string_view text) override;
@@ -25,6 +26,7 @@ class TextLog : public LogFormat {
  private:
   LogSink sink_;
   const double time_limit_s_;
+  const bool verbose_;
   int rows_ = 0;
 };
 

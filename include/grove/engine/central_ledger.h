@@ -2,6 +2,7 @@
 // The one ledger of a run: what is proven and what is found.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <mutex>
 #include <optional>
@@ -35,6 +36,8 @@ class CentralLedger : public Ledger {
   Cost lower_bound() const override { return gate_.lower_bound(); }
   void post(Plan plan, PlanSource source) override;
   void nodes_changed() override;
+  // Where better plans came from, and what each source took off the cost.
+  void add_counts(Stats& stats) const;
 
   // For decisions that are the gate's.
   const Gate& gate() const { return gate_; }
@@ -54,7 +57,13 @@ class CentralLedger : public Ledger {
   Gate gate_;
   std::atomic<Cost> trees_from_;
   std::atomic<bool> out_of_nodes_{false};
-  std::mutex posting_;  // orders what is announced of plans
+
+  struct Found {
+    std::int64_t plans = 0;
+    Cost gain = 0;
+  };
+  mutable std::mutex posting_;  // orders what is announced of plans, and guards:
+  std::array<Found, kPlanSources.size()> found_;
 };
 
 }  // namespace grove

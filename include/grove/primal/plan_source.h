@@ -2,7 +2,9 @@
 // Where plans come from.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace grove {
 
@@ -14,5 +16,12 @@ enum class PlanSource : std::uint8_t {
   kNeighborhood,    // large neighbourhood search
 };
 inline constexpr PlanSource kLastPlanSource = PlanSource::kNeighborhood;
+inline constexpr std::array<std::string_view, 5> kPlanSources{"tree", "start", "priorities",
+                                                              "configurations", "neighborhood"};
+
+// As files and logs call it.
+constexpr std::string_view name_of(PlanSource source) {
+  return kPlanSources[static_cast<std::size_t>(source)];
+}
 
 }  // namespace grove

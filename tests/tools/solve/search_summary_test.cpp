@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "tools/solve/search_summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace grove {
+namespace search_summary_test {
+
+using ::testing::Contains;
+using ::testing::EndsWith;
+using ::testing::IsEmpty;
+
+TEST(SearchSummary, SaysNothingOfARunThatSearchedNothing) {
+  EXPECT_THAT(search_summary({}), IsEmpty());
+}
+
+TEST(SearchSummary, TellsWhatWasCounted) {
+  Stats stats;
+  stats.counts = {{"nodes_expanded", 7},     {"nodes_generated", 15}, {"roots_generated", 1},
+                  {"splits_no_rest_by", 2},  {"splits_bar", 5},       {"bypasses", 3},
+                  {"prices_asked", 8},       {"prices_known", 6},     {"plans_start", 1},
+                  {"plans_neighborhood", 4}, {"gain_neighborhood", 9}};
+  const auto lines = search_summary(stats);
+  EXPECT_THAT(lines, Contains("Nodes         7 expanded, 15 generated, in 1 trees"));
+  EXPECT_THAT(lines, Contains("Splits        bar 5, no-rest-by 2; 3 bypasses"));
+  EXPECT_THAT(lines, Contains(EndsWith("8, 75 % of them known")));
+  EXPECT_THAT(lines, Contains(EndsWith("0, 0 % of them known")));  // path sets: none asked
+  EXPECT_THAT(lines, Contains("Better plans  start 1, neighborhood 4 (cost -9)"));
+}
+
+}  // namespace search_summary_test
+}  // namespace grove

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "tools/solve/search_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "grove/primal/plan_source.h"
+
+namespace grove {
+namespace {
+
+class Counts {
+ public:
+  explicit Counts(const Stats& stats) : counts_(stats.counts) {}
+
+  std::int64_t operator[](const std::string& name) const {
+    const auto it = counts_.find(name);
+    return it == counts_.end() ? 0 : it->second;
+  }
+  // "8123, 45 % of them known"
+  std::string known(const std::string& what) const {
+    const std::int64_t asked = (*this)[what + "_asked"];
+    return fmt::format("{}, {} % of them known", asked,
+                       100 * (*this)[what + "_known"] / std::max<std::int64_t>(asked, 1));
+  }
+  // "parallel 812, target 44", the most first.
+  std::string splits() const {
+    constexpr std::string_view kPrefix = "splits_";
+    std::vector<std::pair<std::int64_t, std::string>> kinds;
+    for (auto it = counts_.lower_bound(std::string(kPrefix));
+         it != counts_.end() && it->first.starts_with(kPrefix); ++it)
+      kinds.emplace_back(it->second, it->first.substr(kPrefix.size()));
+    std::ranges::stable_sort(kinds, std::greater(), &std::pair<std::int64_t, std::string>::first);
+    std::string text;
+    for (auto& [count, kind] : kinds) {
+      std::ranges::replace(kind, '_', '-');
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", kind, count);
+    }
+    return text.empty() ? "none" : text;
+  }
+  // "2 priorities (-14), 1 tree": better plans, and what they took off the cost.
+  std::string plans() const {
+    std::string text;
+    for (const std::string_view source : kPlanSources) {
+      const std::int64_t plans = (*this)[fmt::format("plans_{}", source)];
+      const std::int64_t gain = (*this)[fmt::format("gain_{}", source)];
+      if (plans == 0) continue;
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", source, plans);
+      if (gain > 0) text += fmt::format(" (cost -{})", gain);
+    }
+    return text.empty() ? "none" : text;
+  }
+
+ private:
+  const std::map<std::string, std::int64_t>& counts_;
+};
+
+}  // namespace
+
+std::vector<std::string> search_summary(const Stats& stats) {
+  const Counts counts(stats);
+  if (!stats.counts.contains("nodes_expanded")) return {};
+  return {
+      fmt::format("Nodes         {} expanded, {} generated, in {} trees", counts["nodes_expanded"],
+                  counts["nodes_generated"], counts["roots_generated"]),
+      fmt::format("Splits        {}; {} bypasses", counts.splits(), counts["bypasses"]),
+      fmt::format("Low level     {} calls, {} labels", counts["low_level_calls"],
+                  counts["low_level_expanded"]),
+      fmt::format("Prices asked  {}", counts.known("prices")),
+      fmt::format("Path sets     {}", counts.known("path_sets")),
+      fmt::format("Pair bounds   {} pairs compared, {} small searches", counts["joint_pairs"],
+                  counts["pair_expansions"]),
+      fmt::format(
+          "Plan search   {} attempts, {} joint steps, {} neighbourhoods; {} calls, {} labels",
+          counts["primal_attempts"], counts["primal_joint_steps"], counts["primal_neighborhoods"],
+          counts["primal_low_level_calls"], counts["primal_low_level_expanded"]),
+      fmt::format("Better plans  {}", counts.plans()),
+  };
+}
+
+}  // namespace grove

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// What a search did, for who asks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grove/model/plan.h"
+
+namespace grove {
+
+// Lines for the end of a log; none about what `stats` do not know.
+std::vector<std::string> search_summary(const Stats& stats);
+
+}  // namespace grove
