@@ -21,7 +21,7 @@ from harness.instances import instance_arguments
 COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks", "problem", "omega",
            "seed", "time_limit_s", "solved", "status", "cost", "lower_bound", "gap", "runtime_s",
            "wall_s", "first_plan_s", "roots", "rtsp_calls", "nodes", "low_level_calls",
-           "peak_memory_mb", "version", "ended_at", "error", "threads"]
+           "peak_memory_mb", "version", "ended_at", "error", "threads", "counts"]
 FROM_STATS = {"roots": "roots_generated", "nodes": "nodes_expanded"} | {
     name: name for name in ("seed", "threads", "rtsp_calls", "low_level_calls", "peak_memory_mb", "version")}
 PATHS = re.compile(r"^(Agent \d+:|solution=)", re.M)  # in what other solvers write
@@ -84,6 +84,8 @@ class Grove:
                 "lower_bound": None if result["status"] == "infeasible" else result["lower_bound"],
                 "wall_s": stats["wall_s"], "first_plan_s": first_plan_seconds(log.read_text()),
                 "error": stats.get("stopped_by"), "checked": True,
+                "counts": " ".join(f"{name}={value}" for name, value in stats.items() if name not in FROM_STATS.values()
+                                   and isinstance(value, int) and value),
                 **{column: stats.get(name) for column, name in FROM_STATS.items()}}
 
 

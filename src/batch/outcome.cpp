@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "grove/io/input_error.h"
 #include "grove/model/check.h"
 
@@ -13,6 +17,19 @@ template <typename Map>
 std::optional<typename Map::mapped_type> find(const Map& map, const char* name) {
   const auto it = map.find(name);
   return it == map.end() ? std::nullopt : std::optional(it->second);
+}
+
+// Those that have no column, without zeros.
+std::string other_counts(const Stats& stats) {
+  constexpr std::array<std::string_view, 7> kColumns{
+      "roots_generated", "rtsp_calls", "nodes_expanded", "low_level_calls", "seed",
+      "threads",         "ranks"};
+  std::string text;
+  for (const auto& [name, count] : stats.counts) {
+    if (count == 0 || std::ranges::find(kColumns, name) != kColumns.end()) continue;
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, count);
+  }
+  return text;
 }
 
 // What is wrong with the claim; empty: nothing.
@@ -36,6 +53,7 @@ Outcome outcome_of(const Instance& instance, const Solution& solution) {
                   .nodes = find(stats.counts, "nodes_expanded"),
                   .low_level_calls = find(stats.counts, "low_level_calls"),
                   .peak_memory_mb = find(stats.measures, "peak_memory_mb"),
+                  .counts = other_counts(stats),
                   .version = find(stats.texts, "version").value_or(""),
                   .error = mistake(instance, solution)};
   if (!outcome.error.empty()) return outcome;

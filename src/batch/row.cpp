@@ -83,7 +83,8 @@ std::vector<std::pair<std::string, Json>> columns(const Row& row) {
       {"threads", row.threads},
       {"memory_limit_gb", optional_json(settings.memory_limit_gb)},
       {"plan_file", text_or_null(row.plan_file)},
-      {"instance_digest", row.run.digest}};
+      {"instance_digest", row.run.digest},
+      {"counts", text_or_null(outcome.counts)}};
 }
 
 template <typename Value>
@@ -125,6 +126,7 @@ Outcome outcome_of(const nlohmann::json& json) {
                   .nodes = optional_member<std::int64_t>(json, "nodes"),
                   .low_level_calls = optional_member<std::int64_t>(json, "low_level_calls"),
                   .peak_memory_mb = optional_member<double>(json, "peak_memory_mb"),
+                  .counts = json.contains("counts") ? text_member(json, "counts") : "",
                   .version = json.at("version").get<std::string>(),
                   .error = text_member(json, "error")};
   if (!outcome.failed() && !parse_status(outcome.status))

@@ -21,6 +21,7 @@ struct Outcome {
   std::optional<std::int64_t> nodes = {};
   std::optional<std::int64_t> low_level_calls = {};
   std::optional<double> peak_memory_mb = {};
+  std::string counts = {};   // what else the search counted: "name=number name=number"
   std::string version = {};  // of the program
   std::string error = {};    // why the status is error, or the limit that struck
 

@@ -22,6 +22,9 @@
 //     memory_limit_gb                absent: the machine decides
 //     plan_file                      relative to the table's folder; absent: it was not kept
 //     instance_digest                tells when an instance has changed
+//     counts                         what else the search counted: "bypasses=2 joint_pairs=77", by
+//     the
+//                                    names of the plan file, without zeros; absent in older tables
 #pragma once
 
 #include <cstdint>

@@ -126,6 +126,9 @@ class Results(Program):
                                 ("low_level_calls", "low_level_calls"), ("seed", "seed"),
                                 ("threads", "threads")):
                 self.assertEqual(row[column], stats[key], column)
+            counts = dict(word.split("=") for word in row["counts"].split())
+            self.assertEqual(counts, {name: str(stats[name]) for name in counts})
+            self.assertIn("nodes_generated", counts)
             self.assertEqual((row["seed"], row["threads"], row["time_limit_s"]), (3, 1, 10))
             self.assertEqual(row["omega"], "0" if method == "exact" else "0.01")
             self.assertEqual(str(plan["omega"]), row["omega"])
