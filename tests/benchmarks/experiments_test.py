@@ -250,6 +250,10 @@ print("cost", cost)
         with open(self.folder / "report/summary_cts.csv", encoding="utf-8") as file:
             row, = csv.DictReader(file)
         self.assertEqual((row["method"], row["omega"], row["solved"], row["within_omega"]), ("Grove", "0", "1", "1"))
+        with open(self.folder / "report/search_cts.csv", encoding="utf-8") as file:
+            row, = csv.DictReader(file)
+        self.assertGreater(int(row["nodes_generated"]), 0)
+        self.assertNotIn("seed", row)
 
     def test_ablation_knows_all_techniques(self):
         names = experiments.technique_names(GROVE)

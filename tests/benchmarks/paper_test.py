@@ -29,7 +29,7 @@ def rows(path):
 class Paper(unittest.TestCase):
     def run_paper(self, folder, *options):
         done = subprocess.run([sys.executable, PAPER, folder, "--grove", GROVE, "--scenarios", "1", "--tasks", "4",
-                               "--time-limit", "1", *options], capture_output=True, text=True, check=False)
+                               "--time-limit", "0.3", *options], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_goes_on_with_more_agents(self):

@@ -173,6 +173,9 @@ class Refusals(Folder):
                 ("solved", 1, "true or false"), ("omega", "nan", "a number of at least 0, or inf"),
                 ("omega", "-1", "a number of at least 0, or inf"), ("method", 3, "a text"),
                 ("problem", "tsp", "one of mg, cts, mixed, mapf"),
+                ("counts", "bypasses", "numbers as name=7, with blanks between"),
+                ("counts", {"bypasses": 7}, "numbers as name=7, with blanks between"),
+                ("counts", "bypasses=-1 a=2", "numbers as name=7, with blanks between"),
                 ("status", "timeout", "one of optimal, bounded, feasible, infeasible, unknown, error")):
             for name, place in (("a.csv", "row 2 (line 3)"), ("a.jsonl", "row 2")):
                 if name == "a.csv" and not isinstance(wrong, str):

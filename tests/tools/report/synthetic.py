@@ -15,7 +15,7 @@ COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks"
            "seed", "time_limit_s", "solved", "status", "cost", "lower_bound", "gap", "root_cost", "sqr",
            "runtime_s", "wall_s", "first_plan_s", "roots", "rtsp_calls", "nodes", "low_level_calls", "peak_memory_mb",
            "version", "machine", "ended_at", "error",
-           "ranks", "threads", "memory_limit_gb", "plan_file", "instance_digest"]
+           "ranks", "threads", "memory_limit_gb", "plan_file", "instance_digest", "counts"]
 MAPS = {"empty-32-32": 0.5, "random-32-32-20": 1.5, "room-32-32-4": 2.6}  # how hard
 AGENTS = (5, 10, 20)
 TASKS = (10, 20, 30, 40, 50)
@@ -36,6 +36,16 @@ def difficulty(hardness, agents, tasks):
 def _optimum(hardness, agents, tasks, scenario):
     root = 30 * agents + 12 * tasks + scenario
     return root, root + round(root * 0.004 * hardness * math.log2(agents))
+
+
+def _counts(method, nodes):
+    """Baselines count nothing."""
+    if not method.startswith(("auto", "cts")):
+        return None
+    found = {"bypasses": nodes // 9, "joint_pairs": 30 * nodes, "prices_asked": 8 * nodes, "prices_known": 6 * nodes,
+             "splits_bar": nodes // 2, "splits_no_traversal": nodes // 5, "splits_rest_by": nodes // 30,
+             "splits_no_rest_by": nodes // 7}
+    return " ".join(f"{name}={number}" for name, number in found.items() if number) or None
 
 
 def _row(dice, instance, method, options, omega, shape):
@@ -65,7 +75,8 @@ def _row(dice, instance, method, options, omega, shape):
         "peak_memory_mb": round(20 + spent, 1), "version": "grove 0.1.0 (git 0123456789ab)",
         "machine": "Example processor, 2 cores", "ended_at": "2026-01-02T03:04:05Z",
         "error": None if solved else "time limit", "ranks": 1, "threads": 1, "memory_limit_gb": None,
-        "instance_digest": f"{scenario:02x}{agents:02x}{tasks:02x}{problem}"}
+        "instance_digest": f"{scenario:02x}{agents:02x}{tasks:02x}{problem}",
+        "counts": _counts(method, int(spent * 900))}
 
 
 def rows(scenarios=15, maps=tuple(MAPS), agents=AGENTS, tasks=TASKS, seed=1, study=True):

@@ -5,6 +5,7 @@ import html
 from collections import Counter, defaultdict
 from pathlib import Path
 
+from .counters import label, other_names, remembered_things
 from .lines import line_of, omega_text, seconds_text
 from .report import PROBLEM_NAMES
 from .rows import STATUSES_WITH_PLAN
@@ -287,6 +288,31 @@ def _only(problem, lines):
     return html_table(["method", Entry("all maps"), *map(Entry, maps)], rows)
 
 
+def _counters(problem, lines):
+    """A row for each counter, a column for each line that tells."""
+    counters = problem.counters
+    told = [line for line in problem.lines if line in counters]
+    rows = [[word(label(name)), *(Entry(count(counters[line].mean(name))) for line in told)]
+            for name in other_names(counters)]
+    for what in remembered_things(counters):
+        shares = [counters[line].remembered(what) for line in told]
+        rows.append([word(f"{label(what)}: share remembered"),
+                     *(Entry("–" if share is None else percent(share)) for share in shares)])
+    return html_table(["mean per run", *(Entry(lines.label(line)) for line in told)], rows)
+
+
+def _search(report, problem):
+    if not problem.counters:
+        return []
+    name = problem.name
+    parts = ["<h3>What the search did</h3>"]
+    if problem.splits:
+        parts.append(_figure(problem.splits, "Of all runs that tell, failures included. Long runs count for more: they "
+                             "split more nodes."))
+    return [*parts, "<details><summary>Table: other counters</summary>", _counters(problem, report.lines), "</details>",
+            _file(report, "All of them, summed over the runs", f"search_{name}.csv")]
+
+
 def _problem(report, problem):
     name, lines = problem.name, report.lines
     compared = next(iter(problem.by_line.values())).common
@@ -323,6 +349,7 @@ def _problem(report, problem):
               _figure(problem.cactus, "How many instances each method has solved when a given time per "
                       "instance has passed (cactus plot). Further up and further left is better; dotted: "
                       "all there are."),
+              *_search(report, problem),
               "<h3>Speed-up over the baselines</h3>",
               *_speedups(problem, lines), _file(report, "As a file", f"speedup_{name}.csv"),
               "<h3>Instances that a single method solves</h3>", _only(problem, lines),

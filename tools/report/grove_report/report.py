@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from . import figures, metrics, proofs
+from .counters import counters_by_line
 from .lines import GROVE, Lines, families, line_of, method_name, omega_text, omega_value, seconds_text
 from .rows import PROBLEMS, BadInput
 from .speedup import ALL_MAPS, hard_instances, speedups
@@ -20,8 +21,8 @@ PROBLEM_NAMES = {"mg": "MG-MAPF (agents without destinations)",
 # So many columns of a comparison can be read side by side on a narrow page.
 WIDEST = 3
 # What a report is made of: old ones are removed from its folder.
-OWN_FILE = re.compile(rf"((summary|comparison|cactus|speedup|only_solver)_({'|'.join(PROBLEMS)})|omega_study)(_[0-9]+)?"
-                      r"\.(svg|png|csv)|contradictions\.csv")
+OWN_FILE = re.compile(rf"((summary|comparison|cactus|splits|search|speedup|only_solver)_({'|'.join(PROBLEMS)})|omega_study)"
+                      r"(_[0-9]+)?\.(svg|png|csv)|contradictions\.csv")
 
 
 class Figure(NamedTuple):
@@ -44,6 +45,8 @@ class Problem(NamedTuple):
     hard: int           # instances that the best baseline solves, in more than a second
     comparison: list    # Figures
     cactus: Figure
+    counters: dict      # {line: Counters}
+    splits: object      # Figure; None: no run tells of any
 
 
 class Study(NamedTuple):
@@ -142,6 +145,13 @@ def _cactus_figure(output, problem, runs, lines, looks):
                          figures.cactus(groups, lines, looks))
 
 
+def _splits_figure(output, problem, counters, lines, looks):
+    told = [line for line in lines if line in counters and counters[line].splits()]
+    if not told:
+        return None
+    return output.figure(f"splits_{problem}", "What nodes were split on", figures.splits(counters, told, looks))
+
+
 LINE_COLUMNS = ["method", "omega", "time_limit_s"]
 MEASURE_COLUMNS = ["runs", "solved", "within_omega", "success_rate", "mean_runtime_s", "median_runtime_s", "par2_s",
                    "mean_sqr", "mean_cost_ratio", "common", "common_sqr", "common_cost_ratio", "mean_roots", "mean_rtsp_calls"]
@@ -152,12 +162,14 @@ def _problem(output, name, rows, best, lines, looks):
     ordered = [line for line in lines.all if line in here]
     cells = metrics.by_cell(rows, best)
     runs = metrics.median_runs(rows)
+    counters = counters_by_line(rows)
     problem = Problem(
         name, ordered, rows, metrics.measures_by_line(rows, best), cells,
         len(runs), metrics.only_solver(runs), metrics.beyond_baselines(runs, lines.is_baseline),
         speedups(runs, lines.is_baseline), len(hard_instances(runs, lines.is_baseline)),
         list(_comparison_figures(output, name, cells, ordered, looks)),
-        _cactus_figure(output, name, runs, ordered, looks))
+        _cactus_figure(output, name, runs, ordered, looks),
+        counters, _splits_figure(output, name, counters, ordered, looks))
     _write_tables(output, problem, lines)
     return problem
 
@@ -184,6 +196,11 @@ def _write_tables(output, problem, lines):
                  [*LINE_COLUMNS, "map", "agents", "tasks", "instance", "runtime_s"],
                  [[*line, row.map, row.agents, row.tasks, row.instance, row.runtime_s]
                   for line in ordered for row in problem.only.get(line, ())])
+    if problem.counters:
+        names = sorted({counter for each in problem.counters.values() for counter in each.totals})
+        output.table(f"search_{name}", [*LINE_COLUMNS, "runs", *names],
+                     [[*line, found.runs, *(found.totals.get(counter, 0) for counter in names)]
+                      for line, found in problem.counters.items()])
 
 
 def _shown_cell(cells, wanted_map, wanted_agents):
@@ -366,11 +383,11 @@ def make_report(results, options, folder):
     for row in rows:
         rows_of[row.problem].append(row)
     best = metrics.best_costs(rows)
+    studies = _studies(output, rows_of, best, looks, options)  # first: it refuses options that fit no rows
     problems = [_problem(output, name, rows_of[name], best, lines, looks)
                 for name in PROBLEMS if name in rows_of]
     contradictions = proofs.contradictions(rows)
     output.table("contradictions", proofs.Contradiction._fields, contradictions)
-    studies = _studies(output, rows_of, best, looks, options)
     output.remove_others()
     return Report(results._replace(rows=rows), lines, problems, studies, contradictions,
                   proofs.optimal_agreements(rows), _errors(rows, lines),

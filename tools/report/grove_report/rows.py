@@ -50,6 +50,7 @@ class Row(NamedTuple):
     ranks: Optional[int]
     threads: Optional[int]
     instance_digest: str  # of the files of the instance: the same id may mean two
+    counts: dict  # {name: number}: what else the search counted; empty: it does not tell
 
 
 def printable(text):
@@ -125,6 +126,15 @@ def _one_of(words):
     return read
 
 
+def _counts(value):
+    """Of "bypasses=2 joint_pairs=77"."""
+    try:
+        pairs = [word.split("=") for word in value.split()]
+        return {_text(name): _integer(number) for name, number in pairs}
+    except (AttributeError, ValueError):
+        raise ValueError("numbers as name=7, with blanks between") from None
+
+
 # Column: how it is read, and what it is when absent; the columns without the latter are needed.
 NEEDED = object()
 COLUMNS = {
@@ -138,7 +148,7 @@ COLUMNS = {
     "roots": (_integer, None), "rtsp_calls": (_integer, None), "nodes": (_integer, None),
     "low_level_calls": (_integer, None), "peak_memory_mb": (_number, None), "version": (_text, ""),
     "machine": (_text, ""), "ended_at": (_text, ""), "error": (_text, ""), "ranks": (_integer, None),
-    "threads": (_integer, None), "instance_digest": (_text, ""),
+    "threads": (_integer, None), "instance_digest": (_text, ""), "counts": (_counts, {}),
 }
 assert tuple(COLUMNS) == Row._fields
 _NAMES = tuple(COLUMNS)

@@ -9,6 +9,9 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#5
            "#7B3294", "#7F7F7F", "#A50026", "#66A61E")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")
 
+# Of the parts of a bar: light, as numbers stand on them, and of different lightness for those who print.
+KIND_COLOURS = ("#9ECAE1", "#FDD0A2", "#74C476", "#DADAEB", "#E7969C", "#D9D9D9", "#F2E394", "#BC9F8B")
+
 # Factors that make markers of one size look it.
 EVEN = {"s": 0.86, "D": 0.74, "*": 1.3}
 
