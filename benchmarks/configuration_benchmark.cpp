@@ -9,8 +9,8 @@
 
 #include "grove/io/map_file.h"
 #include "grove/io/scenario_file.h"
-#include "grove/primal/configuration_search.h"
-#include "grove/primal/visit_orders.h"
+#include "src/primal/configuration_search.h"
+#include "src/primal/visit_orders.h"
 #include "tools/generate/instance_generator.h"
 
 namespace grove {

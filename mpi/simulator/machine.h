@@ -13,9 +13,8 @@ struct Machine {
   double bandwidth = 1e9;      // bytes per second, packing and unpacking included
   double message_cost = 2e-6;  // seconds
   double poll = 1e-3;          // seconds; as solve_distributed()
-  // Expanding takes so many seconds per unit of work, which is about one label of the low level
-  // (simulated_worker.cpp), or, if 0, the processor time that it really took here, with which no
-  // two runs are the same.
+  // A turn takes so many seconds per unit of its work (search/work.h), or, if 0, the processor time
+  // that it really took here, with which no two runs are the same.
   double seconds_per_work = 0;
 };
 

@@ -3,34 +3,32 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
-#include "grove/engine/shared_search.h"
-#include "grove/model/limits.h"
-#include "grove/search/expander.h"
+#include "grove/engine/worker.h"
 #include "mpi/simulator/machine.h"
 
 namespace grove {
 
-// Does what a Worker does that never looks for plans beside the tree: takes a node, expands it and
-// brings back what it led to. Between the two simulated time passes. Of one thread.
+// Plays a worker's turns on a simulated clock: between what a turn chooses and does and what others
+// see of it time passes, by its work. Of one thread.
 class SimulatedWorker {
  public:
   struct Tally {
     std::int64_t turns = 0;
-    double work = 0;          // in units of about one label of the low level
+    double work = 0;          // see search/work.h
     double busy_s = 0;        // simulated
     double processor_s = 0;   // that it really took
     double first_turn_s = 0;  // if any: when it began
   };
 
-  // All must outlive this.
-  SimulatedWorker(SharedSearch& search, const Limits& limits, const Machine& machine)
-      : search_(search), limits_(limits), machine_(machine) {}
+  // Both must outlive this.
+  SimulatedWorker(Worker& worker, const Machine& machine) : worker_(worker), machine_(machine) {}
 
-  // Takes a node if there is one, and expands it: it is busy then. The expander is any one of the
-  // same problem.
+  // Begins a turn if there is anything to do: it is busy then. The expander is any one of the same
+  // problem.
   void begin(double now, Expander& expander);
-  bool busy() const { return static_cast<bool>(node_); }
+  bool busy() const { return turn_.has_value(); }
   // Of the present turn, or the last.
   double began() const { return began_; }
   double busy_until() const { return busy_until_; }
@@ -42,11 +40,9 @@ class SimulatedWorker {
   const Tally& tally() const { return tally_; }
 
  private:
-  SharedSearch& search_;
-  const Limits& limits_;
+  Worker& worker_;
   const Machine& machine_;
-  NodePtr node_;  // null: not busy
-  Expansion expansion_;
+  std::optional<Worker::Turn> turn_;  // none: not busy
   double began_ = 0;
   double busy_until_ = 0;
   Tally tally_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Discrete events. A rank has a worker and a talker; an event is that one of them is due, and what
 // it does then makes others due. One thread plays all ranks with the engine's own coordinator,
-// ranks and nodes, and one expander serves them all, which turns to the memory of the rank whose
-// node it expands: what a rank has found out about agents, pairs and groups is its own, but for
+// ranks, nodes and workers, and one expander serves them all, which turns to the memory of the rank
+// whose turn it is: what a rank has found out about agents, pairs and groups is its own, but for
 // what goes along with a batch about the pairs and groups at its nodes.
 //
 // The talker looks at the network every so often, but that matters only if there is a message or
@@ -30,12 +30,18 @@ namespace {
 constexpr double kNotDue = std::numeric_limits<double>::infinity();
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 
+// Nobody looks for plans beside the tree.
+SolveOptions without_primal(SolveOptions options) {
+  options.techniques = options.techniques.without(Technique::kPrimal);
+  return options;
+}
+
 // What all ranks have in common.
 struct World {
   World(const Problem& the_problem, const SolveOptions& the_options, const Limits& the_limits,
         int ranks, const Machine& the_machine)
       : problem(the_problem),
-        options(the_options),
+        options(without_primal(the_options)),
         limits(the_limits),
         machine(the_machine),
         network(ranks, [this](int, int, std::size_t) { return talk.takes_s + machine.latency; }),
@@ -44,7 +50,7 @@ struct World {
   }
 
   const Problem& problem;
-  const SolveOptions& options;
+  const SolveOptions options;
   const Limits& limits;
   const Machine& machine;
   RunObserver observer;
@@ -57,7 +63,9 @@ struct SimulatedRank {
   SimulatedRank(World& world, int rank)
       : transport(world.network, rank, world.machine, world.talk),
         member(world.problem, world.options, limits, world.observer, transport, world.stops),
-        worker(member.rank().search(), world.limits, world.machine),
+        worker(world.problem, world.options, world.limits, member.rank().search(), world.stops,
+               rank),
+        player(worker, world.machine),
         first_look(world.machine.poll * (rank * kGoldenRatio - std::floor(rank * kGoldenRatio))) {}
 
   bool has_open_nodes() { return member.rank().nodes().frontier.open() > 0; }
@@ -65,7 +73,8 @@ struct SimulatedRank {
   Limits limits;  // of its own, for ranks end one after the other
   TimedTransport transport;
   Member member;
-  SimulatedWorker worker;
+  Worker worker;
+  SimulatedWorker player;
   double first_look;  // at the network
   double talk_due = kNotDue;
   double talks_until = 0;   // now, or did last
@@ -79,8 +88,7 @@ struct SimulatedRank {
 class Simulation {
  public:
   explicit Simulation(World& world, int ranks)
-      : world_(world),
-        expander_(world.problem, world.stops, search_options_of(world.options)) {
+      : world_(world), expander_(world.problem, world.stops, search_options_of(world.options)) {
     for (int rank = 0; rank < ranks; ++rank) ranks_.emplace_back(world, rank);
     talked(0, 0);
   }
@@ -139,7 +147,7 @@ class Simulation {
     const double before_s = processor_time();
     r.member.converse(now_);
     if (r.member.rank().ended() && !r.said_farewell) {
-      if (r.worker.busy()) abandon_work(r);
+      if (r.player.busy()) abandon_work(r);
       r.member.rank().farewell({});
       r.said_farewell = true;
     }
@@ -156,7 +164,7 @@ class Simulation {
     if (const double next = world_.network.next_arrival(rank); next < kNotDue)
       talk_from(next, rank);
     if (r.silent_until > time) talk_from(r.silent_until, rank);
-    if (!r.said_farewell && !r.worker.busy() && r.has_open_nodes())
+    if (!r.said_farewell && !r.player.busy() && r.has_open_nodes())
       foresee(r.talks_until, rank, Who::kWorker);
     if (!r.said_farewell || r.left || !r.member.left()) return;
     r.left = true;
@@ -167,20 +175,20 @@ class Simulation {
   void work(int rank) {
     SimulatedRank& r = at(rank);
     if (r.said_farewell) return;
-    if (r.worker.busy()) {
-      if (r.worker.busy_until() > now_) return;  // it had begun before
-      r.worker.end();
-      profile_.add(r.worker.began(), now_);
+    if (r.player.busy()) {
+      if (r.player.busy_until() > now_) return;  // it had begun before
+      r.player.end();
+      profile_.add(r.player.began(), now_);
       r.silent_until = now_ + Rank::pause(static_cast<int>(ranks_.size()));
       talk_from(now_, rank);
     }
-    r.worker.begin(now_, expander_);
-    if (r.worker.busy()) foresee(r.worker.busy_until(), rank, Who::kWorker);
+    r.player.begin(now_, expander_);
+    if (r.player.busy()) foresee(r.player.busy_until(), rank, Who::kWorker);
   }
 
   void abandon_work(SimulatedRank& r) {
-    r.worker.abandon(now_);
-    profile_.add(r.worker.began(), now_);
+    r.player.abandon(now_);
+    profile_.add(r.player.began(), now_);
   }
 
   SimulatedRun result(bool ended) {
@@ -189,7 +197,7 @@ class Simulation {
     run.solution = at(0).member.coordinator()->conclude();
     run.wall_s = ended ? wall_s_ : now_;
     for (const SimulatedRank& r : ranks_)
-      run.ranks.push_back({r.worker.tally(), r.talking_s, r.transport.messages(),
+      run.ranks.push_back({r.player.tally(), r.talking_s, r.transport.messages(),
                            r.transport.bytes(), r.transport.received(), r.transport.waited_s(),
                            r.talking_processor_s});
     run.busy = profile_.means(run.wall_s, SimulatedRun::kParts);

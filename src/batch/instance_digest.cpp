@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/instance_digest.h"
+#include "instance_digest.h"
 
 #include <fmt/format.h>
 

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "grove/batch/instance_digest.h"
 #include "grove/io/input_error.h"
 #include "grove/io/text_file.h"
+#include "instance_digest.h"
 
 namespace grove::batch {
 namespace {

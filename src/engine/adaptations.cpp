@@ -18,7 +18,7 @@
 #include <string_view>
 #include <utility>
 
-#include "grove/engine/destinations.h"
+#include "destinations.h"
 #include "stop_text.h"
 
 namespace grove {

@@ -17,7 +17,7 @@
 // the ends that are within reach of the best one, which are widened until no other end can matter:
 // an end outside costs beyond() or more, and an assignment that uses it that and the best of all
 // others.
-#include "grove/engine/destinations.h"
+#include "destinations.h"
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@
 // of a second, whatever plan there is, so it grows into that freedom: it may not have more than 1/4
 // until the tree has done a thirty-second of kTreeIsLong_work, and 8 when it has done all. None of
 // this knows how large the instance is or how fast the machine.
-#include "grove/engine/primal_share.h"
+#include "primal_share.h"
 
 #include <algorithm>
 

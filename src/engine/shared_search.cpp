@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "grove/engine/techniques_of.h"
+#include "memory_shares.h"
 
 namespace grove {
 namespace {
@@ -36,8 +37,10 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
       ledger_(ledger),
       trees_(trees),
       observer_(observer),
-      shares_(limits, options.node_memory),
+      shares_(std::make_unique<MemoryShares>(limits, options.node_memory)),
       known_(std::make_shared<CommonMemory>()) {}
+
+SharedSearch::~SharedSearch() = default;
 
 NodePtr SharedSearch::take() {
   trees_.bring_due_tree();
@@ -94,15 +97,15 @@ void SharedSearch::keep_within_memory() {
   const std::unique_lock lock(keeping_, std::try_to_lock);
   if (!lock) return;
   const std::size_t known = known_.load()->bytes();
-  if (shares_.is_short()) {
-    shares_.cut(pool_.bytes(), known);
-    evict_to(shares_.for_nodes());
+  if (shares_->is_short()) {
+    shares_->cut(pool_.bytes(), known);
+    evict_to(shares_->for_nodes());
     ::malloc_trim(0);
-    shares_.settled();
-  } else if (pool_.bytes() > shares_.for_nodes()) {
-    evict_to(shares_.for_nodes() / 8 * 7);
+    shares_->settled();
+  } else if (pool_.bytes() > shares_->for_nodes()) {
+    evict_to(shares_->for_nodes() / 8 * 7);
   }
-  if (known > std::min(kMostKnown, shares_.for_expanders()))
+  if (known > std::min(kMostKnown, shares_->for_expanders()))
     known_.store(std::make_shared<CommonMemory>(CommonMemory::Successor{}));
 }
 

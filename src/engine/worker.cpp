@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "grove/engine/techniques_of.h"
+#include "primal_share.h"
 
 namespace grove {
 namespace {
 
 constexpr std::int64_t kRootWorkPerPair = 8;   // of agents
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
-constexpr std::int64_t kStepsPerWork = 4;      // of the paths of a node that is looked through
 
 // What the answer's statistics call the splits of this kind.
 std::string count_of_splits(ConstraintKind kind) {
@@ -33,11 +33,13 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
       number_(number),
       expander_stops_(stops),
       primal_stops_(stops),
-      share_(problem.instance.agent_count()) {
+      share_(std::make_unique<PrimalShare>(problem.instance.agent_count())) {
   // To expand the root can take long where there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
-  share_.tree_worked(kRootWorkPerPair * agents * agents);
+  share_->tree_worked(kRootWorkPerPair * agents * agents);
 }
+
+Worker::~Worker() = default;
 
 std::optional<Worker::Turn> Worker::choose() {
   using Job = Turn::Job;
@@ -48,7 +50,7 @@ std::optional<Worker::Turn> Worker::choose() {
   };
   shared_.keep_within_memory();
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
-  if (has_primal && share_.may_begin() && share_.due(primal())) return one(Job::kPrimal);
+  if (has_primal && share_->may_begin() && share_->due(primal())) return one(Job::kPrimal);
   if (NodePtr node = shared_.take()) return one(Job::kExpand, std::move(node));
   if (NodePtr node = shared_.unfinished(); node && node != helped_)
     return one(Job::kHelp, std::move(node));
@@ -93,7 +95,7 @@ void Worker::expand(Turn& turn, Expander& by) const {
   by.turn_to(turn.memory);
   const std::int64_t before = by.work();
   turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_);
-  turn.work = by.work() - before + turn.node->cost() / kStepsPerWork + 1;
+  turn.work = by.work() - before;
   turn.found = by.take_found();
 }
 
@@ -102,7 +104,7 @@ void Worker::help(Turn& turn, Expander& by) {
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
   const std::int64_t before = by.work();
   if (!by.help(turn.node, shared_.ledger().cutoff(), share, limits_)) helped_ = turn.node;
-  turn.work = by.work() - before + turn.node->cost() / kStepsPerWork + 1;
+  turn.work = by.work() - before;
   turn.found = by.take_found();
   ++helps_;
 }
@@ -120,11 +122,11 @@ void Worker::publish(Turn& turn) {
 void Worker::commit(Turn& turn) {
   if (turn.job == Turn::Job::kPrimal) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
-    share_.primal_worked(*primal_, turn.work);
+    share_->primal_worked(*primal_, turn.work);
   } else if (turn.job != Turn::Job::kPrepare) {
     turn.memory->trim();
     if (turn.job == Turn::Job::kExpand) shared_.finish(turn.node, std::move(turn.expansion));
-    share_.tree_worked(turn.work);
+    share_->tree_worked(turn.work);
   }
   shared_.observer().worked();
 }

@@ -4,7 +4,7 @@
 // agents on some 120 cells with dead ends 291 were solved with the first seed within 20,000 steps,
 // and 7 of the other 9 with one of two more. As the steps double, a finite space is still
 // exhausted.
-#include "grove/primal/configuration_search.h"
+#include "configuration_search.h"
 
 #include <algorithm>
 #include <vector>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "configuration_generator.h"
+#include "configuration_search.h"
 #include "configurations.h"
-#include "grove/primal/configuration_search.h"
 
 namespace grove {
 

@@ -34,19 +34,19 @@
 #include <utility>
 #include <vector>
 
+#include "configuration_search.h"
 #include "grove/model/random.h"
-#include "grove/primal/configuration_search.h"
-#include "grove/primal/visit_orders.h"
+#include "grove/search/work.h"
 #include "neighborhood_search.h"
 #include "path_set.h"
 #include "prioritized_planning.h"
 #include "router.h"
+#include "visit_orders.h"
 
 namespace grove {
 namespace {
 
 constexpr std::int64_t kWorkPerStep = 4000;
-constexpr std::int64_t kStepsMovedPerWork = 8;
 constexpr std::int64_t kLeastStall_neighborhoods = 200;
 constexpr std::int64_t kLeastStallPerAgent_neighborhoods = 10;
 constexpr std::int64_t kHeadStart = 4;  // of the work to meet all agents
@@ -87,7 +87,7 @@ class PrimalSearch::Impl {
   }
   bool optimal() const { return met_ == agents_ && best_ <= own_costs_; }
   std::int64_t work() const {
-    return router_.work() + (paths_.steps_moved() + planned_.steps_moved()) / kStepsMovedPerWork +
+    return router_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
            joint_steps_ * agents_;
   }
   std::int64_t work_at_last_plan() const { return work_at_last_plan_; }

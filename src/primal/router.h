@@ -9,6 +9,7 @@
 #include "grove/planning/agent_stops_store.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/search/problem.h"
+#include "grove/search/work.h"
 
 namespace grove {
 
@@ -38,11 +39,9 @@ class Router {
 
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return low_level_.expanded(); }
-  std::int64_t work() const { return expanded() + kLabelsPerCall * calls_; }  // in labels
+  std::int64_t work() const { return expanded() + work::kPerCall * calls_; }
 
  private:
-  static constexpr std::int64_t kLabelsPerCall = 16;  // what else a call takes
-
   FreeGoals& goals(AgentIndex agent);
 
   const Problem& problem_;

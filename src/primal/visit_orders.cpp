@@ -2,7 +2,7 @@
 // Agents without a destination must not all head for the same stop, nor for another's destination.
 // Which of them ends where is a matching of agents with cells, found by augmenting paths (Kuhn's
 // algorithm) that ask for the end of the cheapest sequence first.
-#include "grove/primal/visit_orders.h"
+#include "visit_orders.h"
 
 #include <algorithm>
 #include <numeric>

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "grove/search/work.h"
+
 namespace grove {
 
 struct Expander::Leaving {
@@ -30,6 +32,11 @@ Expander::Expander(const Problem& problem, AgentStopsStore& stops, const SearchO
   std::iota(all_.begin(), all_.end(), 0);
 }
 
+void Expander::enter(const NodePtr& node) {
+  view_.enter(node, all_);
+  work_on_nodes_ += node->cost() / work::kStepsSeen + 1;
+}
+
 Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limits) {
   const Leaving at_last{*this};
   Expansion expansion;
@@ -38,7 +45,7 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
     nothing.stopped = true;
     return nothing;
   };
-  view_.enter(node, all_);
+  enter(node);
   if (view_.conflict_free()) {
     expansion.plan = plan(*node);
     return expansion;
@@ -81,7 +88,7 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
 
 bool Expander::help(const NodePtr& node, Cost cutoff, double share, const Limits& limits) {
   const Leaving at_last{*this};
-  view_.enter(node, all_);
+  enter(node);
   return dependencies_.help(node, view_, cutoff, share, limits);
 }
 
@@ -96,6 +103,16 @@ Plan Expander::plan(const Node& node) {
     plan.agents.push_back({cost, tasks_in_order(problem_.instance.agent(i), sequence), path});
   }
   return plan;
+}
+
+double Expander::whole_work() const {
+  const ExpansionCounts done = counts();
+  return static_cast<double>(planner_.work()) +
+         work::kPerOptimalNode * static_cast<double>(done.optimal_nodes) +
+         work::kPerJointPair * static_cast<double>(done.joint_pairs) +
+         work::kPerSituation * static_cast<double>(done.situations) +
+         work::kPerGroup * static_cast<double>(done.groups) +
+         work::kPerStepSeen * static_cast<double>(done.path_steps);
 }
 
 ExpansionCounts Expander::counts() const {

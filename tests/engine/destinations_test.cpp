@@ -2,7 +2,7 @@
 // Destinations for agents with more tasks than a table of completions holds, so that the costs of
 // their ends are learnt bit by bit: against Held-Karp and every choice. (Fewer tasks:
 // tests/fuzz/methods_test.cpp.)
-#include "grove/engine/destinations.h"
+#include "src/engine/destinations.h"
 
 #include <gtest/gtest.h>
 

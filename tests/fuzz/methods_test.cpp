@@ -7,9 +7,9 @@
 #include <chrono>
 #include <random>
 
-#include "grove/engine/destinations.h"
 #include "grove/engine/method.h"
 #include "grove/engine/run_observer.h"
+#include "src/engine/destinations.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/fuzz_factor.h"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "crowd.h"
-#include "grove/primal/visit_orders.h"
+#include "src/primal/visit_orders.h"
 #include "tests/support/instances.h"
 
 namespace grove {

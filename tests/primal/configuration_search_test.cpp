@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // GROVE_FUZZ_FACTOR multiplies the number of random instances.
-#include "grove/primal/configuration_search.h"
+#include "src/primal/configuration_search.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "crowd.h"
 #include "grove/model/check.h"
-#include "grove/primal/visit_orders.h"
+#include "src/primal/visit_orders.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/support/fuzz_factor.h"

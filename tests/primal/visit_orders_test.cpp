@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/primal/visit_orders.h"
+#include "src/primal/visit_orders.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,6 @@
 
 #include "grove/engine/ledger.h"
 #include "grove/engine/local_nodes.h"
-#include "grove/engine/memory_shares.h"
 #include "grove/engine/solve.h"
 #include "grove/engine/tree_source.h"
 #include "grove/engine/turn_observer.h"
@@ -18,6 +17,8 @@
 #include "grove/search/memory.h"
 
 namespace grove {
+
+class MemoryShares;
 
 // The nodes that this process holds. CTS-CBS (paper, Algorithms 1 and 4) is what happens when
 // workers take nodes here and bring back what they led to. All methods may be called from any
@@ -27,6 +28,7 @@ class SharedSearch {
   // All must outlive this.
   SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes, Ledger& ledger,
                TreeSource& trees, TurnObserver& observer);
+  ~SharedSearch();
 
   Ledger& ledger() { return ledger_; }
   TreeSource& trees() { return trees_; }
@@ -69,7 +71,7 @@ class SharedSearch {
   std::atomic<std::uint32_t> estimates_turn_{0};
 
   std::mutex keeping_;  // guards the shares
-  MemoryShares shares_;
+  const std::unique_ptr<MemoryShares> shares_;
   std::atomic<std::shared_ptr<CommonMemory>> known_;
 
   mutable std::mutex helping_;

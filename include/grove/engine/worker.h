@@ -6,13 +6,14 @@
 #include <optional>
 #include <utility>
 
-#include "grove/engine/primal_share.h"
 #include "grove/engine/shared_search.h"
 #include "grove/engine/solve.h"
 #include "grove/primal/primal_search.h"
 #include "grove/search/expander.h"
 
 namespace grove {
+
+class PrimalShare;
 
 // An expander and a primal search, which take turns. For one thread at a time, but for what says
 // otherwise.
@@ -22,6 +23,7 @@ class Worker {
   // looks for plans from another seed.
   Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
          SharedSearch& shared, const AgentStopsStore& stops, int number);
+  ~Worker();
 
   // What is done at one go, and what became of it.
   struct Turn {
@@ -35,7 +37,7 @@ class Worker {
     FoundOut found;
     Expansion expansion;
     std::optional<Plan> plan;
-    std::int64_t work = 0;
+    std::int64_t work = 0;  // see search/work.h
   };
 
   // Does the best there is to do: expands a node, helps another worker with one, goes on with the
@@ -81,7 +83,7 @@ class Worker {
   std::unique_ptr<Expander> expander_;
   AgentStopsStore primal_stops_;
   std::unique_ptr<PrimalSearch> primal_;
-  PrimalShare share_;
+  const std::unique_ptr<PrimalShare> share_;
   NodePtr helped_;  // the last node that there was nothing left to help with
   std::int64_t helps_ = 0;
 };

@@ -54,8 +54,7 @@ class PrimalSearch {
   // Every agent is on a path as short as if it were alone: there is nothing left to do.
   bool optimal() const;
 
-  // Work done so far, in units of about one label of the low level expanded. No clock, so the same
-  // in every run.
+  // Work done so far; see search/work.h.
   std::int64_t work() const;
   // The work after which the last plan was returned.
   std::int64_t work_at_last_plan() const;

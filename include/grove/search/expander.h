@@ -74,8 +74,9 @@ class Expander {
   bool help(const NodePtr& node, Cost cutoff, double share, const Limits& limits);
 
   ExpansionCounts counts() const;
-  // All that the low level has done so far, in units of about one label.
-  std::int64_t work() const { return planner_.work(); }
+  // Work done so far: as it is weighed, and all of it; see work.h.
+  std::int64_t work() const { return planner_.work() + work_on_nodes_; }
+  double whole_work() const;
 
   // What was found out is known to this expander only, until it is published, or handed over for
   // others to add to the memory.
@@ -88,6 +89,7 @@ class Expander {
  private:
   struct Leaving;
 
+  void enter(const NodePtr& node);
   Plan plan(const Node& node);
 
   const Problem& problem_;
@@ -99,6 +101,7 @@ class Expander {
   Dependencies dependencies_;
   std::vector<AgentIndex> all_;
   std::vector<Split> splits_;
+  std::int64_t work_on_nodes_ = 0;
 };
 
 }  // namespace grove

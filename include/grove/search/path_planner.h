@@ -13,6 +13,7 @@
 #include "grove/planning/low_level_search.h"
 #include "grove/planning/optimal_paths.h"
 #include "grove/search/node.h"
+#include "grove/search/work.h"
 
 namespace grove {
 
@@ -50,13 +51,11 @@ class PathPlanner {
   std::int64_t expanded() const { return fixed_.expanded() + free_->expanded(); }
   // Nodes of sets of optimal paths, so far.
   std::int64_t optimal_nodes() const { return optimal_.nodes(); }
-  // Calls and labels, in units of about one label.
-  std::int64_t work() const { return expanded() + kWorkPerCall * calls_; }
+  // Calls and labels; see work.h.
+  std::int64_t work() const { return expanded() + work::kPerCall * calls_; }
 
  private:
   using Constraints = std::span<const Constraint>;
-
-  static constexpr std::int64_t kWorkPerCall = 16;  // what a call costs beside its labels
 
   FreeGoals& free_goals(AgentIndex agent, const AgentOrder& order, Constraints constraints);
   FreeGoals& free_goals(AgentIndex agent, const SequenceClass& work);

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// How work is divided between the tree and the primal search, in figures. The rule is at the head
+// of primal_share.cpp.
+#include "src/engine/primal_share.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tests/primal/crowd.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace primal_share_test {
+
+constexpr std::int64_t kLong = 6'400'000;  // work of a tree that is long
+
+// A primal search of an instance; one with Techniques() never says that it expects a plan.
+struct Setting {
+  explicit Setting(Instance the_instance, Techniques techniques = Techniques())
+      : instance(std::move(the_instance)), primal(problem, stops, 1, techniques) {}
+
+  Limits limits;
+  Instance instance;
+  Problem problem{instance, limits};
+  AgentStopsStore stops{instance, problem.distances};
+  PrimalSearch primal;
+};
+
+Instance crowd() {
+  return testing::random_crowd({.size = 8, .obstacles = 10, .agents = 12, .tasks = 12}, 1);
+}
+
+// Of a long tree, after the primal search has used up its credit.
+PrimalShare settled(const PrimalSearch& primal, int agents) {
+  PrimalShare share(agents);
+  share.tree_worked(kLong);
+  share.primal_worked(primal, 8 * kLong);
+  return share;
+}
+
+// Is the primal search still due when it has done so much after the tree has done that?
+bool may_do(PrimalShare share, const PrimalSearch& primal, std::int64_t tree, std::int64_t work) {
+  share.tree_worked(tree);
+  share.primal_worked(primal, work);
+  return share.due(primal);
+}
+
+void expect_ratio(const PrimalShare& share, const PrimalSearch& primal, double ratio) {
+  const auto most = static_cast<std::int64_t>(std::llround(1e6 * ratio));
+  EXPECT_TRUE(may_do(share, primal, 1'000'000, most - 1)) << ratio;
+  EXPECT_FALSE(may_do(share, primal, 1'000'000, most + 1)) << ratio;
+}
+
+TEST(PrimalShare, TheTreeBegins) {
+  PrimalShare share(2);
+  share.tree_worked(1999);
+  EXPECT_FALSE(share.may_begin());
+  share.tree_worked(1);
+  EXPECT_TRUE(share.may_begin());
+}
+
+TEST(PrimalShare, WhileTheTreeIsShortItLeavesAQuarterAndThenEverMore) {
+  const Setting s(crowd());
+  const PrimalShare share(12);
+  EXPECT_TRUE(may_do(share, s.primal, 2000, 500));
+  EXPECT_FALSE(may_do(share, s.primal, 2000, 501));
+  EXPECT_TRUE(may_do(share, s.primal, kLong / 32, kLong / 128));
+  EXPECT_FALSE(may_do(share, s.primal, kLong / 32, kLong / 128 + 1));
+  EXPECT_TRUE(may_do(share, s.primal, kLong / 2, 2 * kLong));
+  EXPECT_FALSE(may_do(share, s.primal, kLong / 2, 2 * kLong + 1));
+}
+
+TEST(PrimalShare, WithoutAPlanItIsEightTimesTheTreesUntilItHasFailedOften) {
+  // They cannot pass each other, which the primal search does not know.
+  Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
+  expect_ratio(settled(s.primal, 2), s.primal, 8);
+  for (int i = 0; i < 10'000 && s.primal.counts().attempts <= 4; ++i) s.primal.step(s.limits);
+  ASSERT_GT(s.primal.counts().attempts, 4);
+  expect_ratio(settled(s.primal, 2), s.primal, 1);
+}
+
+TEST(PrimalShare, WithAPlanItFollowsItsSuccess) {
+  Setting s(crowd());
+  double least = 1;
+  double greatest = 0;
+  for (int i = 0; i < 400; ++i) {
+    s.primal.step(s.limits);
+    if (!s.primal.best_cost()) continue;
+    ASSERT_FALSE(s.primal.optimal());
+    const double x =
+        static_cast<double>(s.primal.work_at_last_plan()) / static_cast<double>(s.primal.work());
+    least = std::min(least, x);
+    greatest = std::max(greatest, x);
+    expect_ratio(settled(s.primal, 12), s.primal, std::clamp(8 * x * x * x, 1.0 / 32, 8.0));
+  }
+  EXPECT_LT(least, 0.2) << "too successful to be a test";
+  EXPECT_EQ(greatest, 1);
+}
+
+TEST(PrimalShare, ASearchThatExpectsAPlanIsDueAndNotCharged) {
+  const Setting s(crowd());
+  const Setting expecting(crowd(), Techniques::usual());
+  ASSERT_TRUE(expecting.primal.expects_plan());
+  PrimalShare share = settled(s.primal, 12);
+  share.primal_worked(expecting.primal, kLong);
+  EXPECT_TRUE(share.due(s.primal)) << "nothing was charged";
+  share.primal_worked(s.primal, 1);
+  EXPECT_FALSE(share.due(s.primal));
+  EXPECT_TRUE(share.due(expecting.primal));
+}
+
+TEST(PrimalShare, ASearchThatHasNothingLeftToDoIsNeverDue) {
+  Setting s(testing::instance_of({"...."}, {{{0, 0}, Position{3, 0}}}));
+  PrimalShare share(1);
+  share.tree_worked(kLong);
+  EXPECT_TRUE(share.due(s.primal));
+  s.primal.step(s.limits);
+  ASSERT_TRUE(s.primal.optimal());
+  EXPECT_FALSE(share.due(s.primal));
+}
+
+}  // namespace primal_share_test
+}  // namespace grove

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Which node a worker is given, and what becomes of it.
+#include "grove/engine/shared_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "small_search.h"
+
+namespace grove {
+namespace shared_search_test {
+
+class SharedSearchTest : public ::testing::Test, public testing::SmallSearch {
+ protected:
+  SharedSearchTest() {
+    ledger.nodes = source.nodes = &nodes;
+    options.omega = Omega();
+  }
+  SharedSearch& shared() {
+    if (!shared_) shared_.emplace(options, limits, nodes, ledger, source, observer);
+    return *shared_;
+  }
+  Cost bound_taken() {
+    const NodePtr node = shared().take();
+    return node ? node->bound() : -1;
+  }
+
+  SolveOptions options;
+  testing::ToldLedger ledger;
+  testing::CountingSource source;
+  testing::CountingObserver observer;
+
+ private:
+  std::optional<SharedSearch> shared_;
+};
+
+TEST_F(SharedSearchTest, GivesTheBestNodeAndAsksForADueTreeFirst) {
+  for (const Cost bound : {12, 9, 10}) nodes.push(child(bound));
+  EXPECT_EQ(bound_taken(), 9);
+  EXPECT_EQ(bound_taken(), 10);
+  EXPECT_EQ(source.due, 2);
+  EXPECT_EQ(source.nodes_asked, 0);
+}
+
+TEST_F(SharedSearchTest, AsksForNodesOnlyWhenNoneIsLive) {
+  nodes.push(root);
+  const NodePtr taken = shared().take();
+  EXPECT_FALSE(shared().take()) << "one is in hand";
+  EXPECT_FALSE(shared().may_take());
+  EXPECT_EQ(source.nodes_asked, 0);
+  shared().finish(taken, {});
+  EXPECT_TRUE(shared().may_take()) << "to find out that there is none";
+  source.next = child(9);
+  EXPECT_EQ(bound_taken(), 9);
+  EXPECT_EQ(source.nodes_asked, 1);
+}
+
+TEST_F(SharedSearchTest, WhileThereIsNoPlanEveryOtherNodeIsThatOfMostPromise) {
+  options.omega = Omega::parse("1");
+  ledger.bound = 8;
+  for (const auto& [bound, conflicts] : {std::pair(9, 90u), {9, 8u}, {10, 0u}, {11, 0u}})
+    nodes.push(child(bound, conflicts));
+  EXPECT_EQ(bound_taken(), 10) << "no conflicts";
+  EXPECT_EQ(bound_taken(), 9) << "the best";
+  ledger.incumbent = Plan{16, {}};
+  nodes.push(child(15));
+  for (const Cost bound : {9, 11, 15})
+    EXPECT_EQ(bound_taken(), bound) << "what is promised is of no use any more";
+}
+
+TEST_F(SharedSearchTest, AnExpandedNodeIsLiveUntilWhatItLedToIsThere) {
+  nodes.push(root);
+  const NodePtr taken = shared().take();
+  ledger.incumbent = Plan{12, {}};
+  Expansion expansion;
+  expansion.children = {child(11), child(12), child(9)};
+  expansion.plan = Plan{11, {}};
+  shared().finish(taken, std::move(expansion));
+  ASSERT_EQ(ledger.posted.size(), 1u);
+  EXPECT_EQ(ledger.posted[0].first.cost, 11);
+  EXPECT_EQ(ledger.posted[0].second, PlanSource::kTree);
+  EXPECT_EQ(ledger.live_when_posted, 3u) << "two children are below the incumbent, and the node";
+  EXPECT_EQ(ledger.live_when_changed, 2u);
+  EXPECT_EQ(nodes.frontier.bound(), 9);
+  EXPECT_EQ(observer.expansions, 1);
+  Stats stats;
+  shared().add_counts(stats);
+  EXPECT_EQ(stats.counts["nodes_expanded"], 1);
+  EXPECT_EQ(stats.counts["nodes_generated"], 3);
+}
+
+TEST_F(SharedSearchTest, WhatIsNotFinishedGoesBack) {
+  nodes.push(root);
+  Expansion stopped;
+  stopped.stopped = true;
+  shared().finish(shared().take(), std::move(stopped));
+  EXPECT_EQ(nodes.frontier.open(), 1u);
+  EXPECT_FALSE(shared().unfinished());
+  Expansion unfinished;
+  unfinished.unfinished = true;
+  shared().finish(shared().take(), std::move(unfinished));
+  EXPECT_EQ(nodes.frontier.open(), 1u);
+  EXPECT_EQ(shared().unfinished(), root);
+  EXPECT_EQ(nodes.expanded, 0);
+  shared().finish(shared().take(), {});
+  EXPECT_FALSE(shared().unfinished());
+  EXPECT_EQ(nodes.frontier.live(), 0u);
+  EXPECT_EQ(nodes.expanded, 1);
+}
+
+TEST_F(SharedSearchTest, KeepsNodesWithinTheirMemoryAndTheBestOfThem) {
+  for (Cost bound = 9; bound < 409; ++bound) nodes.push(child(bound));
+  options.node_memory = nodes.pool.bytes() / 2;
+  shared().keep_within_memory();
+  EXPECT_LE(nodes.pool.bytes(), options.node_memory);
+  EXPECT_GT(nodes.pool.bytes(), options.node_memory / 2) << "no more than must be";
+  EXPECT_EQ(bound_taken(), 9);
+  ASSERT_FALSE(observer.evicted_bounds.empty());
+  EXPECT_EQ(nodes.evicted_bound(), *std::ranges::min_element(observer.evicted_bounds));
+  EXPECT_EQ(nodes.evicted_bound(), 409 - std::ssize(observer.evicted_bounds)) << "the worst";
+  Stats stats;
+  shared().add_counts(stats);
+  EXPECT_EQ(stats.counts["nodes_evicted"], std::ssize(observer.evicted_bounds));
+}
+
+TEST_F(SharedSearchTest, WithoutABudgetNothingIsGivenUp) {
+  for (Cost bound = 9; bound < 109; ++bound) nodes.push(child(bound));
+  shared().keep_within_memory();
+  EXPECT_TRUE(observer.evicted_bounds.empty());
+}
+
+}  // namespace shared_search_test
+}  // namespace grove

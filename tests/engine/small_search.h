@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// A small search for tests of those who take part in one: nodes made by hand below a real root, and
+// parties that do what the test says.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "grove/engine/ledger.h"
+#include "grove/engine/local_nodes.h"
+#include "grove/engine/tree_source.h"
+#include "grove/engine/turn_observer.h"
+#include "grove/search/single_tree.h"
+#include "tests/support/instances.h"
+
+namespace grove::testing {
+
+// Two agents that must pass each other in a bay: their own paths cost 8 together, the optimum 11.
+inline Instance two_in_a_bay() {
+  return instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
+}
+
+// A search of that instance that has its root, of cost 8, and where nodes live.
+struct SmallSearch {
+  explicit SmallSearch(Instance the_instance = two_in_a_bay())
+      : instance(std::move(the_instance)), root(forest.next_root()) {}
+
+  NodePtr child(Cost bound, std::uint32_t conflicts = 0) {
+    Change change;
+    change.cost = change.bound = bound;
+    change.conflicts = conflicts;
+    return Node::child(root, instance.grid(), change);
+  }
+
+  Limits limits;
+  Instance instance;
+  Problem problem{instance, limits};
+  AgentStopsStore stops{instance, problem.distances};
+  LocalNodes nodes;
+  SingleTree forest{problem, stops, nodes.pool, limits};
+  NodePtr root;
+};
+
+// A ledger that says what it is told to and remembers what it hears.
+struct ToldLedger : Ledger {
+  bool over() const override { return is_over; }
+  Cost cutoff() const override { return incumbent ? incumbent->cost : kInfiniteCost; }
+  std::optional<Plan> plan_below(Cost cost) const override {
+    return cutoff() < cost ? incumbent : std::nullopt;
+  }
+  Cost lower_bound() const override { return bound; }
+  void post(Plan plan, PlanSource source) override {
+    live_when_posted = nodes ? nodes->frontier.live() : 0;
+    posted.emplace_back(std::move(plan), source);
+  }
+  void nodes_changed() override { live_when_changed = nodes ? nodes->frontier.live() : 0; }
+
+  bool is_over = false;
+  std::optional<Plan> incumbent;
+  Cost bound = 0;
+  std::vector<std::pair<Plan, PlanSource>> posted;
+  const LocalNodes* nodes = nullptr;  // looked at when something is heard
+  std::size_t live_when_posted = 0;
+  std::size_t live_when_changed = 0;
+};
+
+// Counts how often it is asked.
+struct CountingSource : TreeSource {
+  void bring_due_tree() override { ++due; }
+  void bring_nodes() override {
+    ++nodes_asked;
+    if (next) nodes->push(std::exchange(next, nullptr));
+  }
+  bool claim_preparation() override { return std::exchange(may_prepare, false); }
+  void prepare_tree() override { ++prepared; }
+
+  int due = 0;
+  int nodes_asked = 0;
+  bool may_prepare = false;
+  int prepared = 0;
+  LocalNodes* nodes = nullptr;
+  NodePtr next;  // to be brought
+};
+
+struct CountingObserver : TurnObserver {
+  void expanded(const NodePtr&, const Expansion&) override { ++expansions; }
+  void evicted(std::span<const NodePtr> nodes) override {
+    for (const NodePtr& node : nodes) evicted_bounds.push_back(node->bound());
+  }
+  void worked() override { ++turns; }
+
+  int expansions = 0;
+  int turns = 0;
+  std::vector<Cost> evicted_bounds;
+};
+
+}  // namespace grove::testing
