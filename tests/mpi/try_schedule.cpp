@@ -151,6 +151,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   fuzz::Random dice(seed);
   fuzz::FuzzCase fuzz_case = fuzz::random_case(seed);
   SolveOptions& options = fuzz_case.options;
+  options.low_level = LowLevel::kOwn;  // others are slow, and all one to what ranks say
   options.threads = 1;
   options.deterministic = false;
   make_search_poor(options.techniques, dice);
