@@ -9,7 +9,7 @@ if(GROVE_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
     env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros ${GROVE_CCACHE})
 endif()
 
-# A linker that takes a tenth of the time.
+# A faster linker.
 include(CheckLinkerFlag)
 foreach(linker mold lld)
   check_linker_flag(CXX -fuse-ld=${linker} GROVE_LINKS_WITH_${linker})
@@ -19,5 +19,5 @@ foreach(linker mold lld)
   endif()
 endforeach()
 
-# GCC collects its garbage often, which takes a tenth of its time; our units need some 600 MB without.
+# GCC collects its garbage less often: that takes time, and memory is there.
 add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)

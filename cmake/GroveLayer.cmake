@@ -9,8 +9,7 @@ target_link_libraries(grove_options INTERFACE fmt::fmt)
 target_compile_options(grove_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   $<$<BOOL:${GROVE_WERROR}>:-Werror>
-  # GCC 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug
-  # 105651).
+  # GCC 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # It does not take several sources compiled as one for what they are, and warns of classes with
   # members from unnamed namespaces.

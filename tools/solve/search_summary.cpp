@@ -44,7 +44,7 @@ class Counts {
     }
     return text.empty() ? "none" : text;
   }
-  // "2 priorities (-14), 1 tree": better plans, and what they took off the cost.
+  // "tree 1, priorities 2 (cost -14)": better plans, and what they took off the cost.
   std::string plans() const {
     std::string text;
     for (const std::string_view source : kPlanSources) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -18,6 +19,7 @@ enum class PlanSource : std::uint8_t {
 inline constexpr PlanSource kLastPlanSource = PlanSource::kNeighborhood;
 inline constexpr std::array<std::string_view, 5> kPlanSources{"tree", "start", "priorities",
                                                               "configurations", "neighborhood"};
+static_assert(kPlanSources.size() == static_cast<std::size_t>(kLastPlanSource) + 1);
 
 // As files and logs call it.
 constexpr std::string_view name_of(PlanSource source) {
