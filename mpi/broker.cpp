@@ -11,9 +11,6 @@
 namespace grove {
 namespace {
 
-constexpr std::int64_t kMostInAGift = 64;
-constexpr std::int64_t kPlenty = 8;
-
 // What a rank with these open nodes can spare of its best bound; see Frontier::take_spare().
 std::optional<Frontier::Level> spare(const std::vector<Frontier::Level>& levels) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -25,7 +22,8 @@ std::optional<Frontier::Level> spare(const std::vector<Frontier::Level>& levels)
 
 }  // namespace
 
-Broker::Broker(int ranks) : ranks_(static_cast<std::size_t>(ranks)) {
+Broker::Broker(int ranks, const Tuning& tuning)
+    : tuning_(tuning), ranks_(static_cast<std::size_t>(ranks)) {
   for (int rank = 0; rank < ranks; ++rank) place(rank);
 }
 
@@ -58,9 +56,10 @@ std::optional<Broker::Gift> Broker::next() {
   const auto [bound, minus_nodes, from] = *offers_.begin();
   const auto [busy, minus_best, to] = *wants_.begin();
   const Cost best = -minus_best;
-  const bool helps = best == kInfiniteCost || (best > bound && -minus_nodes >= kPlenty);
+  const bool helps =
+      best == kInfiniteCost || (best > bound && -minus_nodes >= tuning_.plenty_nodes);
   if (from == to || !helps) return std::nullopt;
-  const Gift gift{from, to, std::min(-minus_nodes, kMostInAGift)};
+  const Gift gift{from, to, std::min(-minus_nodes, tuning_.gift_nodes)};
   for (Frontier::Level& level : view(from).levels)
     if (level.bound == bound) level.open -= gift.nodes;
   view(to).awaits = true;

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "grove/model/tuning.h"
 #include "mpi/messages.h"
 
 namespace grove {
@@ -23,7 +24,7 @@ class Broker {
   };
 
   // Nobody has nodes yet.
-  explicit Broker(int ranks);
+  explicit Broker(int ranks, const Tuning& tuning = {});
 
   // A rank's new status.
   void heard(int rank, const message::Status& status);
@@ -47,6 +48,7 @@ class Broker {
   View& view(int rank) { return ranks_[static_cast<std::size_t>(rank)]; }
   void place(int rank);
 
+  const Tuning tuning_;
   std::vector<View> ranks_;
   std::set<Offer> offers_;
   std::set<Want> wants_;

@@ -51,7 +51,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       announcer_(observer, transport),
       nodes_(transport),
       run_(problem, options, limits, announcer_, pool_, nodes_),
-      broker_(transport.ranks()),
+      broker_(transport.ranks(), options.tuning),
       timer_(options.checkpoints),
       batches_to_(static_cast<std::size_t>(transport.ranks())) {}
 

@@ -118,7 +118,7 @@ void add_options(CLI::App& app, SimArguments& a) {
 std::optional<Plan> find_plan(const Problem& problem, const SolveOptions& options,
                               const Limits& limits, std::int64_t steps) {
   AgentStopsStore stops(problem.instance, problem.distances);
-  PrimalSearch primal(problem, stops, options.seed, options.techniques);
+  PrimalSearch primal(problem, stops, options.seed, options.techniques, options.tuning);
   std::optional<Plan> best;
   for (std::int64_t i = 0; i < steps && !primal.optimal() && !limits.stop_requested(); ++i)
     if (auto plan = primal.step(limits)) best = std::move(plan);

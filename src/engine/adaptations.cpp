@@ -134,7 +134,7 @@ Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
   const Problem problem(instance, limits);
   if (auto answer = answer_without_search(problem, options, limits, observer))
     return std::move(*answer);
-  const auto destinations = choose_destinations(problem, limits);
+  const auto destinations = choose_destinations(problem, options.tuning.visitor_steps, limits);
   if (!destinations && limits.stop_requested()) return stopped(options, limits);
   if (!destinations)
     throw std::logic_error("internal error: agents that can rest have nowhere to do so");

@@ -7,9 +7,9 @@
 // has to come before, which under fixed sequences often cannot be had at any bearable price.
 // Without a charge for that the choice costs hardly more than the instance without destinations,
 // and is hardly easier to solve: of 36 instances (the paper's three maps, N = 5 and 10, M = 10 to
-// 30; policy fixed, 4 s) CTS-CBS-A solves 17 or 18, B with a charge of 0, 12, 16, 20, 24 steps
-// a visitor 23, 32, 32, 33 and 32, with a mean SQR of 0.987, 0.955, 0.941, 0.937 and 0.928. (To
-// charge for destinations in corridors too solved no more.)
+// 30; policy fixed, 4 s) CTS-CBS-A solves 17 or 18, B without a charge 23, with one of 12 steps a
+// visitor 32 (visitor_steps in model/tunables.def). (To charge for destinations in corridors too
+// solved no more.)
 //
 // *All ends at once.* A sequence from the start that ends on e, read backwards, begins on e and
 // ends at the start; distances are symmetric. So the completions of a matrix whose destination is
@@ -82,7 +82,8 @@ class Ends {
 
 class Chooser {
  public:
-  Chooser(const Problem& problem, const Limits& limits) : problem_(problem), limits_(limits) {
+  Chooser(const Problem& problem, Cost visitor_steps, const Limits& limits)
+      : problem_(problem), visitor_steps_(visitor_steps), limits_(limits) {
     const Instance& instance = problem.instance;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
       if (!instance.agent(agent).goal) ends_.emplace_back(problem, agent);
@@ -127,7 +128,7 @@ class Chooser {
   Cost cost_of(const Ends& ends, TaskIndex task) const {
     const auto stop = std::ranges::find(ends.tasks(), task) - ends.tasks().begin();
     const auto visitors = std::ssize(problem_.instance.task(task).agents) - 1;
-    return ends.cost(static_cast<int>(stop)) + kStepsPerVisitor * visitors;
+    return ends.cost(static_cast<int>(stop)) + visitor_steps_ * visitors;
   }
   bool is_destination(TaskIndex task) const {
     return std::ranges::any_of(problem_.instance.agents(), [&](const Agent& agent) {
@@ -157,14 +158,16 @@ class Chooser {
   }
 
   const Problem& problem_;
+  const Cost visitor_steps_;
   const Limits& limits_;
   std::vector<Ends> ends_;
 };
 
 }  // namespace
 
-std::optional<Destinations> choose_destinations(const Problem& problem, const Limits& limits) {
-  return Chooser(problem, limits).choose();
+std::optional<Destinations> choose_destinations(const Problem& problem, Cost visitor_steps,
+                                                const Limits& limits) {
+  return Chooser(problem, visitor_steps, limits).choose();
 }
 
 Instance with_destinations(const Instance& instance, const Destinations& destinations) {

@@ -21,14 +21,12 @@ struct Destinations {
   Cost bound = 0;
 };
 
-// What it counts for, in steps, that another agent must visit a destination too: it must do so
-// before, or be in time to go round.
-inline constexpr Time kStepsPerVisitor = 12;
-
 // Distinct ones, each among its agent's tasks and no other's destination, such that the agents'
-// best sequences that end there and kStepsPerVisitor for every visitor are least in sum; how that
-// is found is at the head of destinations.cpp. None if a limit struck or there is no such choice.
-std::optional<Destinations> choose_destinations(const Problem& problem, const Limits& limits);
+// best sequences that end there, and `visitor_steps` for every other agent that must visit one, are
+// least in sum; how that is found is at the head of destinations.cpp. None if a limit struck or
+// there is no such choice.
+std::optional<Destinations> choose_destinations(const Problem& problem, Cost visitor_steps,
+                                                const Limits& limits);
 
 // The instance in which they are destinations, and no longer tasks of these agents.
 Instance with_destinations(const Instance& instance, const Destinations& destinations);

@@ -9,45 +9,23 @@
 // work it may do 8 x^3: much more than the tree while it improves, as much at x = 1/2, an eighth at
 // 1/4; and never less than 1/32. But the tree closes most small instances within its first tenths
 // of a second, whatever plan there is, so it grows into that freedom: it may not have more than 1/4
-// until the tree has done a thirty-second of kTreeIsLong_work, and 8 when it has done all. None of
+// until the tree has done a thirty-second of tree_is_long_work, and 8 when it has done all. None of
 // this knows how large the instance is or how fast the machine.
 #include "primal_share.h"
 
 #include <algorithm>
 
 namespace grove {
-namespace {
-
-constexpr std::int64_t kTreeBegins_work = 2000;
-constexpr std::int64_t kTreeIsLong_work = 6'400'000;
-constexpr double kMostRatio = 8;
-constexpr double kMostRatioAtFirst = 1.0 / 4;
-constexpr double kRatioInDoubt = 1;
-constexpr double kLeastRatio = 1.0 / 32;
-constexpr std::int64_t kAttemptsPerAgent = 2;
-
-double ratio_with_plan(const PrimalSearch& primal) {
-  const double x =
-      static_cast<double>(primal.work_at_last_plan()) / static_cast<double>(primal.work());
-  return std::clamp(kMostRatio * x * x * x, kLeastRatio, kMostRatio);
-}
-
-double most_ratio_after(std::int64_t tree_work) {
-  const double part = static_cast<double>(tree_work) / static_cast<double>(kTreeIsLong_work);
-  return std::clamp(kMostRatio * part, kMostRatioAtFirst, kMostRatio);
-}
-
-}  // namespace
-
-PrimalShare::PrimalShare(int agents) : agents_(agents), ratio_(kMostRatio) {}
+PrimalShare::PrimalShare(int agents, const Tuning& tuning)
+    : agents_(agents), tuning_(tuning), ratio_(tuning.most_primal) {}
 
 void PrimalShare::tree_worked(std::int64_t work) {
   tree_ += work;
-  credit_ += std::min(ratio_, most_ratio_after(tree_)) * static_cast<double>(work);
+  credit_ += std::min(ratio_, most_ratio_now()) * static_cast<double>(work);
 }
 
 bool PrimalShare::may_begin() const {
-  return tree_ >= kTreeBegins_work;
+  return tree_ >= tuning_.tree_begins_work;
 }
 
 bool PrimalShare::due(const PrimalSearch& primal) const {
@@ -58,10 +36,23 @@ void PrimalShare::primal_worked(const PrimalSearch& primal, std::int64_t work) {
   if (primal.best_cost())
     ratio_ = ratio_with_plan(primal);
   else
-    ratio_ = primal.counts().attempts <= kAttemptsPerAgent * agents_ ? kMostRatio : kRatioInDoubt;
+    ratio_ = primal.counts().attempts <= tuning_.attempts_before_doubt * agents_
+                 ? tuning_.most_primal
+                 : tuning_.primal_in_doubt;
   if (primal.expects_plan()) return;
   credit_ = std::max(0.0, credit_);
   credit_ -= static_cast<double>(work);
+}
+
+double PrimalShare::ratio_with_plan(const PrimalSearch& primal) const {
+  const double x =
+      static_cast<double>(primal.work_at_last_plan()) / static_cast<double>(primal.work());
+  return std::clamp(tuning_.most_primal * x * x * x, tuning_.least_primal, tuning_.most_primal);
+}
+
+double PrimalShare::most_ratio_now() const {
+  const double part = static_cast<double>(tree_) / static_cast<double>(tuning_.tree_is_long_work);
+  return std::clamp(tuning_.most_primal * part, tuning_.most_primal_at_first, tuning_.most_primal);
 }
 
 }  // namespace grove

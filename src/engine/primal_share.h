@@ -11,7 +11,7 @@ namespace grove {
 // Counts work, not seconds, so that a run can be repeated. The rule is at the head of the .cpp.
 class PrimalShare {
  public:
-  explicit PrimalShare(int agents);
+  PrimalShare(int agents, const Tuning& tuning);
 
   // The tree has done so much more work, in the units of PrimalSearch::work().
   void tree_worked(std::int64_t work);
@@ -22,7 +22,11 @@ class PrimalShare {
   void primal_worked(const PrimalSearch& primal, std::int64_t work);
 
  private:
+  double ratio_with_plan(const PrimalSearch& primal) const;
+  double most_ratio_now() const;
+
   const std::int64_t agents_;
+  const Tuning tuning_;
   std::int64_t tree_ = 0;
   double credit_ = 0;  // work that the primal search may do at once
   double ratio_;       // and for each unit that the tree does

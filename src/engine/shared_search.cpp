@@ -23,7 +23,6 @@ namespace grove {
 namespace {
 
 constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // bytes of what was found out
-constexpr double kExpectedPerConflict = 0.5;  // by measurement; 1 is a little worse, 0.15 much
 
 }  // namespace
 
@@ -31,6 +30,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
                            Ledger& ledger, TreeSource& trees, TurnObserver& observer)
     : omega_(options.omega),
       uses_estimates_(techniques_of(options).has(Technique::kEstimates)),
+      cost_per_conflict_(options.tuning.cost_per_conflict),
       nodes_(nodes),
       pool_(nodes.pool),
       frontier_(nodes.frontier),
@@ -53,7 +53,7 @@ NodePtr SharedSearch::take() {
 NodePtr SharedSearch::take_open() {
   NodePtr node;
   if (plan_is_wanted())
-    node = frontier_.take_promising(omega_, ledger_.lower_bound(), kExpectedPerConflict);
+    node = frontier_.take_promising(omega_, ledger_.lower_bound(), cost_per_conflict_);
   return node ? node : frontier_.take();
 }
 

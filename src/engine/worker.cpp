@@ -12,7 +12,6 @@
 namespace grove {
 namespace {
 
-constexpr std::int64_t kRootWorkPerPair = 8;   // of agents
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 
 // What the answer's statistics call the splits of this kind.
@@ -33,10 +32,10 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
       number_(number),
       expander_stops_(stops),
       primal_stops_(stops),
-      share_(std::make_unique<PrimalShare>(problem.instance.agent_count())) {
+      share_(std::make_unique<PrimalShare>(problem.instance.agent_count(), options.tuning)) {
   // To expand the root can take long where there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
-  share_->tree_worked(kRootWorkPerPair * agents * agents);
+  share_->tree_worked(options.tuning.root_work_per_pair * agents * agents);
 }
 
 Worker::~Worker() = default;
@@ -64,7 +63,7 @@ PrimalSearch& Worker::primal() {
   if (!primal_)
     primal_ = std::make_unique<PrimalSearch>(problem_, primal_stops_,
                                              options_.seed + static_cast<std::uint64_t>(number_),
-                                             options_.techniques);
+                                             options_.techniques, options_.tuning);
   if (const auto plan = shared_.ledger().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
     primal_->adopt(*plan);
   return *primal_;

@@ -12,16 +12,12 @@
 #include "lacam.h"
 
 namespace grove {
-namespace {
-
-constexpr std::int64_t kFirstSteps = 4096;
-
-}  // namespace
 
 class ConfigurationSearch::Search {
  public:
-  Search(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed)
-      : problem_(problem), orders_(orders.begin(), orders.end()), dice_(seed) {
+  Search(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
+         std::int64_t first_steps)
+      : problem_(problem), orders_(orders.begin(), orders.end()), dice_(seed), steps_(first_steps) {
     begin();
   }
 
@@ -56,13 +52,13 @@ class ConfigurationSearch::Search {
   Dice dice_;  // the seeds
   std::unique_ptr<Lacam> lacam_;
   std::int64_t steps_made_ = 0;
-  std::int64_t left_ = 0;             // steps of this search
-  std::int64_t steps_ = kFirstSteps;  // of the next
+  std::int64_t left_ = 0;  // steps of this search
+  std::int64_t steps_;     // of the next
 };
 
 ConfigurationSearch::ConfigurationSearch(const Problem& problem, std::span<const Sequence> orders,
-                                         std::uint64_t seed)
-    : search_(std::make_unique<Search>(problem, orders, seed)) {}
+                                         std::uint64_t seed, std::int64_t first_steps)
+    : search_(std::make_unique<Search>(problem, orders, seed, first_steps)) {}
 ConfigurationSearch::~ConfigurationSearch() = default;
 ConfigurationSearch::ConfigurationSearch(ConfigurationSearch&&) noexcept = default;
 ConfigurationSearch& ConfigurationSearch::operator=(ConfigurationSearch&&) noexcept = default;

@@ -9,6 +9,7 @@
 
 #include "grove/model/limits.h"
 #include "grove/model/plan.h"
+#include "grove/model/tuning.h"
 #include "grove/search/problem.h"
 #include "grove/sequencing/sequence.h"
 
@@ -30,8 +31,10 @@ class ConfigurationSearch {
   // `orders`: in what order each agent heads for its stops, a complete sequence by AgentIndex;
   // stops met on the way count too. An agent without a destination heads for the last one to rest
   // there. Any orders will do; good ones make good plans (visit_orders.h). `problem` must outlive
-  // this. Throws std::invalid_argument for an order that is not complete.
-  ConfigurationSearch(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed);
+  // this. It begins anew after `first_steps`, then after twice as many, and so on. Throws
+  // std::invalid_argument for an order that is not complete.
+  ConfigurationSearch(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
+                      std::int64_t first_steps = Tuning().first_joint_steps);
   ~ConfigurationSearch();
   ConfigurationSearch(ConfigurationSearch&&) noexcept;
   ConfigurationSearch& operator=(ConfigurationSearch&&) noexcept;

@@ -18,11 +18,7 @@
 namespace grove {
 namespace {
 
-constexpr double kLabelsOfOthers = 16;  // a call may take so many times what others did
-constexpr double kLeastLabels = 2000;
 constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
-constexpr double kMemoryOfWay = 0.98;       // of a way's gain and work, per neighbourhood
-constexpr int kNeighborhoodsPerTrial = 10;  // one of so many goes to a way at random
 
 }  // namespace
 
@@ -42,12 +38,13 @@ void NeighborhoodSearch::step(const Limits& limits) {
   const Cost gain = others + old_cost - paths_.cost();
   neighborhoods_.reward(gain);
   const std::int64_t work = router_.work() - work_before;
-  way.gain = kMemoryOfWay * way.gain + static_cast<double>(gain);
-  way.work = kMemoryOfWay * way.work + static_cast<double>(work);
+  way.gain = tuning_.way_memory * way.gain + static_cast<double>(gain);
+  way.work = tuning_.way_memory * way.work + static_cast<double>(work);
 }
 
 NeighborhoodSearch::Way& NeighborhoodSearch::choose_way() {
-  if (random_.below(kNeighborhoodsPerTrial) == 0) return ways_[random_.below(ways_.size())];
+  if (random_.below(tuning_.neighborhoods_per_trial) == 0)
+    return ways_[random_.below(ways_.size())];
   return *std::ranges::max_element(ways_, {},
                                    [](const Way& way) { return (way.gain + 1) / way.work; });
 }
@@ -68,7 +65,8 @@ bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost o
 }
 
 bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Limits& limits) {
-  const double of_others = kLeastLabels + kLabelsOfOthers * way.labels / way.found;
+  const double of_others =
+      tuning_.replan_labels + tuning_.replan_labels_of_found * way.labels / way.found;
   const PathQuery query{
       .cutoff = static_cast<Time>(cutoff),
       .most_labels = way.found > 0 ? static_cast<std::int64_t>(of_others) : way.first_labels,
@@ -80,8 +78,8 @@ bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Lim
     if (way.found <= 0 && way.first_labels < kMostFirstLabels) way.first_labels *= 2;
     return false;
   }
-  way.labels = kMemoryOfWay * way.labels + static_cast<double>(router_.expanded() - before);
-  way.found = kMemoryOfWay * way.found + 1;
+  way.labels = tuning_.way_memory * way.labels + static_cast<double>(router_.expanded() - before);
+  way.found = tuning_.way_memory * way.found + 1;
   return true;
 }
 

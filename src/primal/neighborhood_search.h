@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grove/model/random.h"
+#include "grove/model/tuning.h"
 #include "neighborhoods.h"
 #include "path_set.h"
 #include "router.h"
@@ -18,11 +19,13 @@ namespace grove {
 class NeighborhoodSearch {
  public:
   // All must outlive this.
-  NeighborhoodSearch(const Problem& problem, Router& router, PathSet& paths, Random& random)
+  NeighborhoodSearch(const Problem& problem, Router& router, PathSet& paths, Random& random,
+                     const Tuning& tuning)
       : router_(router),
         paths_(paths),
         random_(random),
-        neighborhoods_(problem, router, paths, random) {}
+        tuning_(tuning),
+        neighborhoods_(problem, router, paths, random, tuning) {}
 
   // One neighbourhood; all agents must have paths, and have them afterwards whatever happens.
   void step(const Limits& limits);
@@ -49,6 +52,7 @@ class NeighborhoodSearch {
   Router& router_;
   PathSet& paths_;
   Random& random_;
+  const Tuning& tuning_;
   Neighborhoods neighborhoods_;
   std::vector<Way> ways_{{0}, {30}};
   std::vector<Path> old_paths_;

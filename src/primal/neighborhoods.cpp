@@ -9,25 +9,17 @@
 #include <algorithm>
 
 namespace grove {
-namespace {
-
-constexpr int kFewest = 2;
-constexpr int kMost = 8;
-constexpr double kMemoryOfWeight = 0.99;  // of a kind's weight, per neighbourhood
-constexpr double kLeastWeight = 0.02;     // of the sum of all
-constexpr int kDelayedStarts = 8;         // tries to fill a neighbourhood of the delayed kind
-constexpr Time kAboutNow = 8;             // steps before and after, at one spot
-
-}  // namespace
 
 const std::vector<AgentIndex>& Neighborhoods::choose() {
   const int agents = problem_.instance.agent_count();
   chosen_.clear();
-  wanted_ = std::min(agents, kFewest + random_.below(kMost - kFewest + 1));
+  const std::int64_t spread = tuning_.most_replanned - tuning_.fewest_replanned;
+  wanted_ = std::min<std::int64_t>(
+      agents, tuning_.fewest_replanned + random_.below(std::max<std::int64_t>(spread, 0) + 1));
   kind_ = choose_kind();
   if (kind_ == kDelayed) add_delayed();
   if (kind_ == kOneSpot) add_around_spot();
-  if (chosen_.size() < kFewest) add_anyone();
+  if (std::ssize(chosen_) < tuning_.fewest_replanned) add_anyone();
   random_.shuffle(chosen_);
   return chosen_;
 }
@@ -35,9 +27,9 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
 Neighborhoods::Kind Neighborhoods::choose_kind() {
   double sum = 0;
   for (double weight : weights_) sum += weight;
-  double at = random_.unit() * sum * (1 + kKinds * kLeastWeight);
+  double at = random_.unit() * sum * (1 + kKinds * tuning_.least_kind);
   for (int kind = 0; kind < kKinds; ++kind) {
-    at -= weights_[static_cast<std::size_t>(kind)] + sum * kLeastWeight;
+    at -= weights_[static_cast<std::size_t>(kind)] + sum * tuning_.least_kind;
     if (at < 0) return static_cast<Kind>(kind);
   }
   return kAnyone;
@@ -45,7 +37,7 @@ Neighborhoods::Kind Neighborhoods::choose_kind() {
 
 void Neighborhoods::reward(Cost gain) {
   double& weight = weights_[kind_];
-  weight = kMemoryOfWeight * weight + (1 - kMemoryOfWeight) * static_cast<double>(gain);
+  weight = tuning_.kind_memory * weight + (1 - tuning_.kind_memory) * static_cast<double>(gain);
 }
 
 void Neighborhoods::add(AgentIndex agent) {
@@ -63,7 +55,7 @@ void Neighborhoods::add_delayed() {
   add(agent);
   add_those_in_the_way(agent, 0);
   const Time delay = paths_.cost(agent) - router_.own_cost(agent);
-  for (int tries = 0; tries < kDelayedStarts && !full(); ++tries) {
+  for (int tries = 0; tries < tuning_.delayed_starts && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
     add_those_in_the_way(member, random_.below(delay + 1));
   }
@@ -124,7 +116,8 @@ void Neighborhoods::add_around_spot() {
 
 void Neighborhoods::add_visitors(Cell cell, Time time) {
   for (const Reservations::Stay& stay : paths_.reservations().stays(cell))
-    if (stay.first <= time + kAboutNow && stay.last >= time - kAboutNow) add(stay.agent);
+    if (stay.first <= time + tuning_.spot_steps && stay.last >= time - tuning_.spot_steps)
+      add(stay.agent);
 }
 
 }  // namespace grove

@@ -7,19 +7,21 @@
 #include <vector>
 
 #include "grove/model/random.h"
+#include "grove/model/tuning.h"
 #include "grove/search/problem.h"
 #include "path_set.h"
 #include "router.h"
 
 namespace grove {
 
-// Chooses neighbourhoods of 2 to 8 agents, of three kinds, each as often as it did well of late
+// Chooses neighbourhoods of a few agents, of three kinds, each as often as it did well of late
 // (adaptive large neighbourhood search: Ropke and Pisinger 2006; for MAPF: Li et al., IJCAI 2021).
 class Neighborhoods {
  public:
   // All must outlive this.
-  Neighborhoods(const Problem& problem, const Router& router, const PathSet& paths, Random& random)
-      : problem_(problem), router_(router), paths_(paths), random_(random) {}
+  Neighborhoods(const Problem& problem, const Router& router, const PathSet& paths, Random& random,
+                const Tuning& tuning)
+      : problem_(problem), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
 
   // The next one, in random order; all agents must have paths. Valid until the next call.
   const std::vector<AgentIndex>& choose();
@@ -32,7 +34,7 @@ class Neighborhoods {
 
   Kind choose_kind();
   void add(AgentIndex agent);
-  bool full() const { return static_cast<int>(chosen_.size()) >= wanted_; }
+  bool full() const { return std::ssize(chosen_) >= wanted_; }
   void add_anyone();
   void add_delayed();
   AgentIndex some_delayed_agent();
@@ -44,9 +46,10 @@ class Neighborhoods {
   const Router& router_;
   const PathSet& paths_;
   Random& random_;
+  const Tuning& tuning_;
   std::array<double, kKinds> weights_{1, 1, 1};
   Kind kind_ = kAnyone;
-  int wanted_ = 0;
+  std::int64_t wanted_ = 0;
   std::vector<AgentIndex> chosen_;
   std::vector<Cell> queue_;
   std::vector<std::int32_t> seen_at_;  // by cell: the search that saw it

@@ -19,8 +19,8 @@
 // so no round waits for a plan that never comes.
 //
 // The tree waits for that cheaper plan, but no longer than its root takes: that looks at all pairs
-// of agents, so it is taken to be as many meetings as go into the meeting's work by kMeetingOfRoot,
-// kLongPlanning at most. (5 agents on empty-32-32 met with a work of 735: the tree does not wait.)
+// of agents, so it is taken to be as many meetings as go into the meeting's work by
+// meeting_of_root_work, long_planning at most.
 //
 // The first order is by the agents' own costs, the cheapest first: an agent may not come to rest
 // where one before it still passes, so cheap agents planned late would wait for dear ones, while
@@ -46,22 +46,16 @@
 namespace grove {
 namespace {
 
-constexpr std::int64_t kWorkPerStep = 4000;
-constexpr std::int64_t kLeastStall_neighborhoods = 200;
-constexpr std::int64_t kLeastStallPerAgent_neighborhoods = 10;
-constexpr std::int64_t kHeadStart = 4;  // of the work to meet all agents
 constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t kJointStepsToPlan = 4096;
-constexpr std::int64_t kLongPlanning = 48;     // of the work to meet all agents
-constexpr std::int64_t kMeetingOfRoot = 2000;  // work
-constexpr double kSpread = 0.5;  // of the costs by which later rounds sort, as a part of them
 
 }  // namespace
 
 class PrimalSearch::Impl {
  public:
-  Impl(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed, Techniques techniques)
+  Impl(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed, Techniques techniques,
+       const Tuning& tuning)
       : problem_(problem),
+        tuning_(tuning),
         seed_(seed),
         may_configure_(techniques.has(Technique::kConfigurations)),
         agents_(problem.instance.agent_count()),
@@ -69,8 +63,8 @@ class PrimalSearch::Impl {
         router_(problem, stops),
         paths_(problem.instance.grid(), agents_),
         planned_(problem.instance.grid(), agents_),
-        planning_(router_, planned_, random_),
-        neighborhoods_(problem, router_, paths_, random_) {}
+        planning_(router_, planned_, random_, tuning_),
+        neighborhoods_(problem, router_, paths_, random_, tuning_) {}
 
   std::optional<Plan> step(const Limits& limits);
   void adopt(const Plan& plan);
@@ -81,8 +75,9 @@ class PrimalSearch::Impl {
   }
   bool expects_plan() const {
     if (!may_configure_ || optimal()) return false;
-    if (best_ == kInfiniteCost) return joint_steps_ < kJointStepsToPlan;
-    const std::int64_t meetings = std::min(kLongPlanning, meeting_work_ / kMeetingOfRoot);
+    if (best_ == kInfiniteCost) return joint_steps_ < tuning_.joint_steps_to_plan;
+    const std::int64_t meetings =
+        std::min(tuning_.long_planning, meeting_work_ / tuning_.meeting_of_root_work);
     return planning_now_ && first_round_ && planning_work_ < meetings * meeting_work_;
   }
   bool optimal() const { return met_ == agents_ && best_ <= own_costs_; }
@@ -113,6 +108,7 @@ class PrimalSearch::Impl {
   bool stalled() const;
 
   const Problem& problem_;
+  const Tuning tuning_;
   const std::uint64_t seed_;
   bool may_configure_;
   const int agents_;
@@ -152,7 +148,7 @@ std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
   ++steps_;
   const Cost before = best_;
   if (improving_ && !planning_now_ && stalled()) begin_round(false);
-  for (const std::int64_t end = work() + kWorkPerStep; work() < end && !optimal();) {
+  for (const std::int64_t end = work() + tuning_.primal_step_work; work() < end && !optimal();) {
     if (limits.stop_requested()) break;
     advance(limits);
     if (!improving_ || paths_.cost() >= best_) continue;
@@ -196,7 +192,7 @@ void PrimalSearch::Impl::meet(const Limits& limits) {
 void PrimalSearch::Impl::begin_round(bool first) {
   std::vector<std::pair<double, AgentIndex>> keys;
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    const double spread = first ? 0 : kSpread * (random_.unit() - 0.5);
+    const double spread = first ? 0 : tuning_.order_spread * (random_.unit() - 0.5);
     keys.emplace_back((1 + spread) * router_.own_cost(agent), agent);
   }
   std::ranges::sort(keys);
@@ -206,7 +202,7 @@ void PrimalSearch::Impl::begin_round(bool first) {
   planning_now_ = true;
   first_round_ = first;
   attempts_before_ = planning_.attempts();
-  patience_ = kHeadStart * meeting_work_;
+  patience_ = tuning_.planning_head_start * meeting_work_;
   planning_work_ = 0;
   other_work_ = 0;
   round_began_ = work();
@@ -215,8 +211,8 @@ void PrimalSearch::Impl::begin_round(bool first) {
 bool PrimalSearch::Impl::planning_is_due() const {
   if (!planning_now_) return false;
   if (!is_raced()) return true;
-  const bool ahead =
-      planning_.attempts() == attempts_before_ && planning_work_ < kHeadStart * meeting_work_;
+  const bool ahead = planning_.attempts() == attempts_before_ &&
+                     planning_work_ < tuning_.planning_head_start * meeting_work_;
   return ahead || planning_work_ <= other_work_;
 }
 
@@ -241,10 +237,11 @@ void PrimalSearch::Impl::take_over_planned() {
 void PrimalSearch::Impl::configure(const Limits& limits) {
   using Outcome = ConfigurationSearch::Outcome;
   if (!configurations_)
-    configurations_ = std::make_unique<ConfigurationSearch>(problem_, own_orders(), seed_);
+    configurations_ = std::make_unique<ConfigurationSearch>(problem_, own_orders(), seed_,
+                                                            tuning_.first_joint_steps);
   const std::int64_t before = configurations_->steps();
   const Outcome outcome =
-      configurations_->run(limits, std::max<std::int64_t>(1, kWorkPerStep / agents_));
+      configurations_->run(limits, std::max<std::int64_t>(1, tuning_.primal_step_work / agents_));
   joint_steps_ += configurations_->steps() - before;
   if (outcome == Outcome::kFound) {
     put_all(*configurations_->plan(), PlanSource::kConfigurations);
@@ -282,7 +279,7 @@ void PrimalSearch::Impl::improve(const Limits& limits) {
 
 bool PrimalSearch::Impl::stalled() const {
   const std::int64_t least =
-      std::max(kLeastStall_neighborhoods, kLeastStallPerAgent_neighborhoods * agents_);
+      std::max(tuning_.stall_neighborhoods, tuning_.stall_neighborhoods_per_agent * agents_);
   return neighborhoods_.steps() - round_improved_step_ >= least &&
          work() - round_improved_ >= round_improved_ - round_began_;
 }
@@ -311,8 +308,8 @@ void PrimalSearch::Impl::put_all(const Plan& plan, PlanSource source) {
 }
 
 PrimalSearch::PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed,
-                           Techniques techniques)
-    : impl_(std::make_unique<Impl>(problem, stops, seed, techniques)) {}
+                           Techniques techniques, const Tuning& tuning)
+    : impl_(std::make_unique<Impl>(problem, stops, seed, techniques, tuning)) {}
 PrimalSearch::~PrimalSearch() = default;
 
 std::optional<Plan> PrimalSearch::step(const Limits& limits) {

@@ -17,13 +17,6 @@
 
 namespace grove {
 
-namespace {
-
-constexpr std::int64_t kLabelsAtFirst = 200'000;
-constexpr std::int64_t kLabelsOfFound = 8;
-
-}  // namespace
-
 void PrioritizedPlanning::begin(std::vector<AgentIndex> order) {
   order_ = std::move(order);
   failures_ = 0;
@@ -38,7 +31,8 @@ void PrioritizedPlanning::begin_again() {
 
 std::int64_t PrioritizedPlanning::most_labels() const {
   const std::int64_t draws = failures_ / static_cast<std::int64_t>(order_.size());
-  return (kLabelsAtFirst + kLabelsOfFound * labels_of_found_) << std::min<std::int64_t>(draws, 30);
+  return (tuning_.planning_labels + tuning_.planning_labels_of_found * labels_of_found_)
+         << std::min<std::int64_t>(draws, 30);
 }
 
 PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits, std::int64_t patience) {

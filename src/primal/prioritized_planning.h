@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grove/model/random.h"
+#include "grove/model/tuning.h"
 #include "path_set.h"
 #include "router.h"
 
@@ -24,8 +25,8 @@ class PrioritizedPlanning {
   };
 
   // All must outlive this.
-  PrioritizedPlanning(Router& router, PathSet& paths, Random& random)
-      : router_(router), paths_(paths), random_(random) {}
+  PrioritizedPlanning(Router& router, PathSet& paths, Random& random, const Tuning& tuning)
+      : router_(router), paths_(paths), random_(random), tuning_(tuning) {}
 
   // Takes all paths away and begins; agents must have been met.
   void begin(std::vector<AgentIndex> order);
@@ -44,6 +45,7 @@ class PrioritizedPlanning {
   Router& router_;
   PathSet& paths_;
   Random& random_;
+  const Tuning& tuning_;
   std::vector<AgentIndex> order_;
   std::size_t next_ = 0;  // in order_
   std::int64_t attempts_ = 0;

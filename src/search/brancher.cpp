@@ -34,10 +34,6 @@
 namespace grove {
 namespace {
 
-// Each bypass saves conflicts, but by a count in which two rests on one cell are not symmetric, so
-// that alone does not prove that bypasses end.
-constexpr int kMostBypasses = 64;
-
 // A hash of the pair (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(conflict.first) << 32) +
@@ -55,21 +51,24 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
       options_(options),
       planner_(planner),
       memory_(memory),
-      prices_(planner, memory),
+      prices_(planner, memory, options.tuning.price_labels),
       others_(problem.instance.grid()),
       shown_(problem.instance.agent_count()) {}
 
+// Each bypass saves conflicts, but by a count in which two rests on one cell are not symmetric, so
+// that alone does not prove that bypasses end.
 Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff, std::span<const Split> last_resorts,
                                    const Limits& limits, std::vector<NodePtr>& children) {
   const Task task{view, cutoff - view.node()->cost() - 1, limits};
   if (task.slack < 0) return Outcome::kBranched;
-  for (int round = 0; !view.conflict_free(); ++round) {
+  for (std::int64_t round = 0; !view.conflict_free(); ++round) {
     show_others(view);
     Split split;
     if (!choose(task, last_resorts, split)) return Outcome::kStopped;
     for (int i = 0; i < 2; ++i)
       if (!make_side(task, split[i], sides_[i])) return Outcome::kStopped;
-    if (round < kMostBypasses && (bypass(view, sides_[0]) || bypass(view, sides_[1]))) continue;
+    if (round < options_.tuning.bypasses && (bypass(view, sides_[0]) || bypass(view, sides_[1])))
+      continue;
     ++splits_made_[static_cast<std::size_t>(split[1].constraint.kind)];
     const NodePtr parent = view.node_as_routed();
     for (int i = 0; i < 2; ++i)

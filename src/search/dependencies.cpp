@@ -44,15 +44,6 @@
 #include <numeric>
 
 namespace grove {
-namespace {
-
-constexpr std::int32_t kExpansionsPerPair = 16;
-constexpr std::int32_t kExpansionsPerGroup = 32;
-constexpr std::size_t kMostInGroup = 6;
-constexpr std::int64_t kMostWorkAtOnce = 100'000;  // in labels: some ten milliseconds
-constexpr std::size_t kMostPairs = 50'000;         // of nodes, in a comparison
-
-}  // namespace
 
 Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
                            PathPlanner& planner, Memory& memory)
@@ -60,6 +51,7 @@ Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
       planner_(planner),
       agents_(problem.instance.agent_count()),
       techniques_(options.techniques),
+      tuning_(options.tuning),
       memory_(memory),
       pair_view_(problem, options, memory),
       pair_brancher_(problem, options, planner, memory),
@@ -74,7 +66,7 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& vi
   look_at(view);
   // What had to be forgotten once may be again: then nothing is left for later.
   give_up_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
-                                                  : planner_.work() + kMostWorkAtOnce;
+                                                  : planner_.work() + tuning_.bound_work;
   Outcome outcome = solve_conflicting(node, view, slack, 0, limits);
   if (outcome == Outcome::kDone && techniques_.has(Technique::kClusters))
     outcome = solve_groups(node, view, slack, limits);
@@ -83,7 +75,7 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& vi
   collect(statements);
   // One that is above the cutoff by itself settles it.
   if (std::ranges::none_of(statements, [&](const GroupExcess& s) { return s.excess > slack; }))
-    bound = std::min(cutoff, node->cost() + covering_bound(statements));
+    bound = std::min(cutoff, node->cost() + covering_bound(statements, tuning_.covering_steps));
   return Outcome::kDone;
 }
 
@@ -93,7 +85,7 @@ bool Dependencies::help(const NodePtr& node, NodeView& view, Cost cutoff, double
   if (slack < 0) return false;
   look_at(view);
   const std::int64_t before = planner_.work();
-  give_up_at_ = before + kMostWorkAtOnce;
+  give_up_at_ = before + tuning_.bound_work;
   solve_conflicting(node, view, slack, share, limits);
   return planner_.work() > before;
 }
@@ -123,7 +115,7 @@ Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, NodeV
       known.excess = *dependence == Dependence::kDependent ? 1 : 0;
     }
     const bool solved =
-        known.exact || solve(node, std::array{a, b}, slack, kExpansionsPerPair, limits, known);
+        known.exact || solve(node, std::array{a, b}, slack, tuning_.pair_expansions, limits, known);
     if (!solved) return Outcome::kStopped;
     memory_.learn_pair(situation_[a], situation_[b], b, known);
   }
@@ -137,7 +129,8 @@ std::optional<Dependence> Dependencies::compare(NodeView& view, AgentIndex a, Ag
   const OptimalPaths* of_b = optimal_paths(view, b, limits);
   if (!of_a || !of_b) return std::nullopt;
   if (of_a->empty() || of_b->empty()) return Dependence::kUnknown;
-  const Dependence dependence = pair_dependency_.find(*of_a, *of_b, kMostPairs, limits);
+  const Dependence dependence =
+      pair_dependency_.find(*of_a, *of_b, static_cast<std::size_t>(tuning_.compared_pairs), limits);
   if (limits.stop_requested()) return std::nullopt;
   return dependence;
 }
@@ -153,12 +146,13 @@ const OptimalPaths* Dependencies::optimal_paths(NodeView& view, AgentIndex agent
 Dependencies::Outcome Dependencies::solve_groups(const NodePtr& node, NodeView& view, Cost slack,
                                                  const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
-    if (group.size() < 3 || group.size() > kMostInGroup) continue;
+    if (group.size() < 3 || std::ssize(group) > tuning_.group_agents) continue;
     const auto situations = key(group);
     Known known = memory_.of_group(situations);
     if (known.exact || known.expansions > 0) continue;
     if (planner_.work() >= give_up_at_) return Outcome::kUnfinished;
-    if (!solve(node, group, slack, kExpansionsPerGroup, limits, known)) return Outcome::kStopped;
+    if (!solve(node, group, slack, tuning_.group_expansions, limits, known))
+      return Outcome::kStopped;
     memory_.learn_group(group, situations, known);
   }
   return Outcome::kDone;
@@ -187,11 +181,11 @@ std::vector<Situations::Id> Dependencies::key(std::span<const AgentIndex> group)
 }
 
 bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
-                         std::int32_t most_expansions, const Limits& limits, Known& known) {
+                         std::int64_t most_expansions, const Limits& limits, Known& known) {
   const Cost base = node->cost();
   open_.clear();
   open_.push_back({base, node});
-  for (std::int32_t i = 0; i < most_expansions && !open_.empty(); ++i) {
+  for (std::int64_t i = 0; i < most_expansions && !open_.empty(); ++i) {
     // Of equal cost the newest: the first conflict-free node ends the search.
     const auto best = std::ranges::min_element(open_.rbegin(), open_.rend(), {}, &Open::cost);
     const Open next = *best;

@@ -24,7 +24,7 @@ Expander::Expander(const Problem& problem, AgentStopsStore& stops, const SearchO
     : problem_(problem),
       techniques_(options.techniques),
       planner_(problem, stops, std::move(planner)),
-      memory_(planner_, std::move(memory)),
+      memory_(planner_, std::move(memory), options.tuning.path_set_nodes),
       view_(problem, options, memory_),
       brancher_(problem, options, planner_, memory_),
       dependencies_(problem, options, planner_, memory_),

@@ -6,9 +6,8 @@
 namespace grove {
 namespace {
 
-constexpr std::size_t kMostNodes = 20'000;         // of one set
-constexpr std::size_t kMostNodesKept = 4'000'000;  // of all
-constexpr std::size_t kBytesPerNode = 24;          // about
+constexpr std::size_t kMostNodesKept = 4'000'000;
+constexpr std::size_t kBytesPerNode = 24;  // about
 constexpr std::size_t kBytesPerSet = 176;
 
 }  // namespace
@@ -30,10 +29,10 @@ void PathSets::add(Situations::Id id, const Set& set) {
 
 PathSets::Set PathSets::make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,
                              std::span<const Constraint> constraints, Time cost,
-                             const Limits& limits) {
+                             std::size_t most_nodes, const Limits& limits) {
   OptimalPaths paths;
   const auto outcome =
-      planner.optimal_paths(agent, order, constraints, cost, kMostNodes, limits, paths);
+      planner.optimal_paths(agent, order, constraints, cost, most_nodes, limits, paths);
   if (outcome == OptimalPathsBuilder::Outcome::kStopped) return nullptr;
   return std::make_shared<const OptimalPaths>(std::move(paths));
 }

@@ -2,14 +2,8 @@
 #include "grove/search/prices.h"
 
 namespace grove {
-namespace {
-
-// A split that takes longer to price is not considered: with time windows, which is what cells
-// barred for ever make, the low level is NP-hard, and one call could take all the time there is.
-constexpr std::int64_t kMostLabelsForAPrice = 1 << 18;
-
-}  // namespace
-
+// With time windows, which is what cells barred for ever make, the low level is NP-hard, and one
+// call could take all the time there is.
 Prices::Outcome Prices::increase(NodeView& view, const AgentConstraint& demand, Cost slack,
                                  const Limits& limits, Cost& increase) {
   increase = 0;
@@ -18,7 +12,7 @@ Prices::Outcome Prices::increase(NodeView& view, const AgentConstraint& demand, 
     const Time cutoff = cutoff_for(view, agent, slack - increase);
     Time least = 0;
     const Outcome outcome =
-        cost(view, agent, *demand_on(agent, demand), cutoff, kMostLabelsForAPrice, limits, least);
+        cost(view, agent, *demand_on(agent, demand), cutoff, most_labels_, limits, least);
     if (outcome != Outcome::kDone) return outcome;
     if (least > cutoff) {
       increase = kInfiniteCost;

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "grove/model/distance_field.h"
+#include "grove/model/tuning.h"
 #include "src/sequencing/rtsp_backends.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
@@ -72,12 +73,13 @@ TEST(Destinations, OfManyTasksAreTheCheapestDistinctOnes) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = pair_of_agents(static_cast<unsigned>(seed));
     const Problem problem(instance, Limits());
-    const auto chosen = choose_destinations(problem, Limits());
+    const auto chosen = choose_destinations(problem, Tuning().visitor_steps, Limits());
     ASSERT_TRUE(chosen);
     const std::vector<Cost> ends[] = {costs_of_ends(instance, 0), costs_of_ends(instance, 1)};
     const auto charged = [&](AgentIndex agent, int stop) {
       const TaskIndex task = instance.agent(agent).tasks[stop];
-      return ends[agent][stop] + kStepsPerVisitor * (std::ssize(instance.task(task).agents) - 1);
+      return ends[agent][stop] +
+             Tuning().visitor_steps * (std::ssize(instance.task(task).agents) - 1);
     };
     Cost best = kInfiniteCost;
     Cost cost = kInfiniteCost;  // of the choice

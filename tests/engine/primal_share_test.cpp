@@ -35,7 +35,7 @@ Instance crowd() {
 
 // Of a long tree, after the primal search has used up its credit.
 PrimalShare settled(const PrimalSearch& primal, int agents) {
-  PrimalShare share(agents);
+  PrimalShare share(agents, Tuning());
   share.tree_worked(kLong);
   share.primal_worked(primal, 8 * kLong);
   return share;
@@ -55,7 +55,7 @@ void expect_ratio(const PrimalShare& share, const PrimalSearch& primal, double r
 }
 
 TEST(PrimalShare, TheTreeBegins) {
-  PrimalShare share(2);
+  PrimalShare share(2, Tuning());
   share.tree_worked(1999);
   EXPECT_FALSE(share.may_begin());
   share.tree_worked(1);
@@ -64,7 +64,7 @@ TEST(PrimalShare, TheTreeBegins) {
 
 TEST(PrimalShare, WhileTheTreeIsShortItLeavesAQuarterAndThenEverMore) {
   const Setting s(crowd());
-  const PrimalShare share(12);
+  const PrimalShare share(12, Tuning());
   EXPECT_TRUE(may_do(share, s.primal, 2000, 500));
   EXPECT_FALSE(may_do(share, s.primal, 2000, 501));
   EXPECT_TRUE(may_do(share, s.primal, kLong / 32, kLong / 128));
@@ -114,7 +114,7 @@ TEST(PrimalShare, ASearchThatExpectsAPlanIsDueAndNotCharged) {
 
 TEST(PrimalShare, ASearchThatHasNothingLeftToDoIsNeverDue) {
   Setting s(testing::instance_of({"...."}, {{{0, 0}, Position{3, 0}}}));
-  PrimalShare share(1);
+  PrimalShare share(1, Tuning());
   share.tree_worked(kLong);
   EXPECT_TRUE(share.due(s.primal));
   s.primal.step(s.limits);

@@ -87,6 +87,8 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     fuzz_case.options.techniques = fuzz_case.options.techniques.with(value_of_technique(value));
   else if (key == "without")
     fuzz_case.options.techniques = fuzz_case.options.techniques.without(value_of_technique(value));
+  else if (key == "tune")
+    set(fuzz_case.options.tuning, value);
   else if (key == "strike")
     fuzz_case.strike = value_of(kStrikes, value);
   else
@@ -126,6 +128,27 @@ std::size_t random_node_memory(Random& random) {
   return random.pick<std::size_t>({kUnlimited, kUnlimited, kUnlimited, 1'000, 3'000, 10'000});
 }
 
+// Mostly what it is; else a few numbers are at an end of their range, or far from their default
+// but not so far that a run takes longer than the fuzzer waits.
+Tuning random_tuning(Random& random) {
+  Tuning tuning;
+  if (random.below(4) > 0) return tuning;
+  const auto all = tunables();
+  for (int left = random.between(1, 8); left > 0; --left) {
+    const Tunable& t = all[random.below(all.size())];
+    std::visit(
+        [&](auto at) {
+          using Number = std::remove_cvref_t<decltype(tuning.*at)>;
+          const double usual = static_cast<double>(Tuning().*at);
+          const double some =
+              random.pick<double>({t.least, usual / 8, usual / 2, 2 * usual, 8 * usual});
+          tuning.*at = static_cast<Number>(std::clamp(some, t.least, t.most));
+        },
+        t.place);
+  }
+  return tuning;
+}
+
 Strike random_strike(Random& random) {
   const int dice = random.below(100);
   return dice < 84   ? Strike::kNothing
@@ -151,6 +174,9 @@ std::string FuzzCase::to_text() const {
       text += fmt::format("{} {}\n", options.techniques.has(t) ? "with" : "without", name);
   if (options.node_memory != SolveOptions::kUnlimited)
     text += fmt::format("node-memory {}\n", options.node_memory);
+  for (const Tunable& t : tunables())
+    if (t.value(options.tuning) != t.value({}))
+      text += fmt::format("tune {}={}\n", t.name(), t.value(options.tuning));
   return text;
 }
 
@@ -184,6 +210,7 @@ FuzzCase random_case(std::uint64_t seed) {
   if (fuzz_case.options.policy != Policy::kFixed && random.below(6) == 0)
     fuzz_case.options.low_level = random.pick<LowLevel>(
         {LowLevel::kVisitedSets, LowLevel::kSingleLegs, LowLevel::kTimeIntervalForest});
+  fuzz_case.options.tuning = random_tuning(random);
   return fuzz_case;
 }
 

@@ -32,6 +32,7 @@ enum class Strike : std::uint8_t {
 //     deterministic yes
 //     without bypass       (a technique; may come again)
 //     node-memory 4000     (bytes)
+//     tune bypasses=2      (a number of the search; may come again)
 //     strike nothing       (nothing, expired, soon, memory, interrupt)
 //
 // in which every line may be missing.

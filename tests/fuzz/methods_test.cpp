@@ -107,7 +107,7 @@ Cost best_choice(const Instance& instance, AgentIndex agent, std::vector<Cell>& 
     if (std::ranges::count(taken, cell) > 0) continue;
     taken.push_back(cell);
     const Cost visitors = std::ssize(instance.task(task).agents) - 1;
-    best = std::min(best, alone(instance, agent, cell, task) + kStepsPerVisitor * visitors +
+    best = std::min(best, alone(instance, agent, cell, task) + Tuning().visitor_steps * visitors +
                               best_choice(instance, agent + 1, taken));
     taken.pop_back();
   }
@@ -124,7 +124,7 @@ TEST(Destinations, AreTheCheapestDistinctOnes) {
     const Problem problem(instance, Limits());
     RunObserver silent;
     if (!has_free_end(instance) || answer_without_search(problem, {}, Limits(), silent)) continue;
-    const auto destinations = choose_destinations(problem, Limits());
+    const auto destinations = choose_destinations(problem, Tuning().visitor_steps, Limits());
     ASSERT_TRUE(destinations);
     ++chosen;
     Cost bound = 0;
@@ -135,7 +135,7 @@ TEST(Destinations, AreTheCheapestDistinctOnes) {
       bound += alone(instance, agent, instance.agent(agent).goal, kNoTask);
       cost += alone(with, agent, with.agent(agent).goal, kNoTask);
       if (const TaskIndex end = destinations->tasks[agent]; end != kNoTask)
-        cost += kStepsPerVisitor * (std::ssize(instance.task(end).agents) - 1);
+        cost += Tuning().visitor_steps * (std::ssize(instance.task(end).agents) - 1);
       if (const auto goal = instance.agent(agent).goal) taken.push_back(*goal);
     }
     EXPECT_EQ(destinations->bound, bound);
@@ -292,7 +292,7 @@ TEST(AdaptationB, IsOptimalForItsDestinations) {
     if (!has_free_end(instance) || answer_without_search(problem, {}, Limits(), silent)) continue;
     const auto [solution, stopped] = run(Method::kCtsCbsB, instance, {});
     if (stopped) continue;
-    const auto destinations = choose_destinations(problem, Limits());
+    const auto destinations = choose_destinations(problem, Tuning().visitor_steps, Limits());
     const auto truth = oracle::solve_jointly(with_destinations(instance, *destinations));
     ASSERT_EQ(solution.plan.has_value(), truth.plan.has_value());
     if (!truth.plan) continue;

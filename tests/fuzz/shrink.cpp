@@ -114,10 +114,18 @@ class Steps {
     offer(std::move(candidate));
   }
 
+  void plainer_number(const Tunable& t) {
+    FuzzCase candidate = from_;
+    set(candidate.options.tuning, t.name() + "=" + t.value({}));
+    if (candidate.options.tuning != from_.options.tuning) offer(std::move(candidate));
+  }
+
   void plainer_options() {
     plainer<Strike>([](FuzzCase& c) -> Strike& { return c.strike; }, Strike::kNothing);
     plainer<std::size_t>([](FuzzCase& c) -> std::size_t& { return c.options.node_memory; },
                          SolveOptions::kUnlimited);
+    plainer<Tuning>([](FuzzCase& c) -> Tuning& { return c.options.tuning; }, {});
+    for (const Tunable& t : tunables()) plainer_number(t);
     plainer<Policy>([](FuzzCase& c) -> Policy& { return c.options.policy; }, Policy::kAuto);
     plainer<RtspBackend>([](FuzzCase& c) -> RtspBackend& { return c.options.rtsp; },
                          RtspBackend::kAuto);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/planning/free_reference.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -96,7 +98,7 @@ Instance instance_of(const FreeProblem& problem) {
   if (problem.destination) goal = problem.grid->position(*problem.destination);
   builder.add_agent("a", problem.grid->position(problem.start), goal);
   for (std::size_t k = 0; k < problem.stops.size(); ++k)
-    builder.add_task("t" + std::to_string(k), problem.grid->position(problem.stops[k]),
+    builder.add_task(fmt::format("t{}", k), problem.grid->position(problem.stops[k]),
                      std::vector<std::string>{"a"});
   return std::move(builder).build();
 }

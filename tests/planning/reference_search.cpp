@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/planning/reference_search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -127,17 +129,17 @@ std::string path_error(const Problem& problem, const Path& path) {
   if (path.back() != problem.goals.back()) return "does not end at the last goal";
   std::size_t visited = 0;
   for (Time t = 0; t < static_cast<Time>(path.size()); ++t) {
-    const std::string when = " at time " + std::to_string(t);
+    const std::string when = fmt::format(" at time {}", t);
     if (!problem.grid->passable(path[t])) return "on a blocked cell" + when;
     while (visited < problem.goals.size() && problem.goals[visited] == path[t]) ++visited;
     if (t > 0 && path[t] != path[t - 1] &&
         std::ranges::count(problem.grid->neighbors(path[t - 1]), path[t]) == 0)
       return "jumps" + when;
   }
-  if (visited < problem.goals.size()) return "misses goal " + std::to_string(visited);
+  if (visited < problem.goals.size()) return fmt::format("misses goal {}", visited);
   for (std::size_t i = 0; i < problem.constraints.size(); ++i)
     if (!obeys(*problem.grid, path, problem.constraints[i]))
-      return "breaks constraint " + std::to_string(i);
+      return fmt::format("breaks constraint {}", i);
   return "";
 }
 

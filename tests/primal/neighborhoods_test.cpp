@@ -30,7 +30,8 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
   Router router(problem, stops);
   PathSet paths(instance.grid(), instance.agent_count());
   Random random(1);
-  PrioritizedPlanning planning(router, paths, random);
+  const Tuning tuning;
+  PrioritizedPlanning planning(router, paths, random, tuning);
   std::vector<AgentIndex> order;
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     ASSERT_TRUE(router.meet(agent, Limits()));
@@ -40,7 +41,7 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
   while (planning.step(Limits()) == PrioritizedPlanning::State::kWorking) {
   }
 
-  Neighborhoods neighborhoods(problem, router, paths, random);
+  Neighborhoods neighborhoods(problem, router, paths, random, tuning);
   std::set<std::size_t> sizes;
   std::set<AgentIndex> seen;
   for (int round = 0; round < 500; ++round) {

@@ -61,7 +61,9 @@ TEST(Excesses, KnowGroupsBySituations) {
 }
 
 struct TwoWorkers : testing::NodeAtHand {
-  TwoWorkers() : NodeAtHand({"..."}, {{{0, 0}, Position{2, 0}}}), other(planner, memory.common()) {}
+  TwoWorkers()
+      : NodeAtHand({"..."}, {{{0, 0}, Position{2, 0}}}),
+        other(planner, memory.common(), options.tuning.path_set_nodes) {}
 
   Memory other;
 };

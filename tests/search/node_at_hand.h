@@ -24,7 +24,7 @@ struct NodeAtHand {
         forest(problem, stops, pool, limits),
         root(forest.next_root()),
         planner(problem, stops),
-        memory(planner, std::make_shared<CommonMemory>()),
+        memory(planner, std::make_shared<CommonMemory>(), options.tuning.path_set_nodes),
         view(problem, options, memory),
         all(agents.size()) {
     std::iota(all.begin(), all.end(), 0);

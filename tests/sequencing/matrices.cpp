@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "matrices.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <numeric>
@@ -32,7 +34,7 @@ Instance instance_on(const Grid& grid, int n, Variant variant, Random& random) {
       agent, grid.position(cells.at(0)),
       variant == Variant::kMg ? std::nullopt : std::optional(grid.position(cells.at(1))));
   for (int i = 0; i < n; ++i)
-    builder.add_task("t" + std::to_string(i), grid.position(cells.at(i + 2)), {&agent, 1});
+    builder.add_task(fmt::format("t{}", i), grid.position(cells.at(i + 2)), {&agent, 1});
   return std::move(builder).build();
 }
 

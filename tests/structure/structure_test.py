@@ -125,6 +125,13 @@ class TheTree(unittest.TestCase):
         self.assertTrue(list(self.layer_sources("model")))
         self.assertIn("model", self.declared())
 
+    def test_every_tunable_is_used(self):
+        names = re.findall(r"^GROVE_TUNABLE\(\w+, (\w+),",
+                           (ROOT / "include/grove/model/tunables.def").read_text(), re.M)
+        code = "".join(text for _, text in self.sources("src", "mpi"))
+        self.assertTrue(names)
+        self.assertEqual([n for n in names if not re.search(rf"\btuning_?\.{n}\b", code)], [])
+
     def test_every_folder_is_a_known_layer(self):
         for folder in [*(ROOT / "include/grove").iterdir(), *(ROOT / "src").iterdir()]:
             if folder.is_dir():

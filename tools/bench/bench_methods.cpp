@@ -108,8 +108,8 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   bench::Method method;
   try {
     app.parse(words);
-  } catch (const CLI::CallForHelp&) {
-    refuse(text, "--help: expected options of a search");
+  } catch (const CLI::Success&) {
+    refuse(text, "asks for help; expected options of a search");
   } catch (const CLI::ParseError& error) {
     refuse(text, parse_error_text(app, error));
   }

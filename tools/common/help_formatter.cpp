@@ -10,6 +10,11 @@ constexpr std::size_t kDescriptionWidth = 70;
 
 }  // namespace
 
+std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
+  if (option->get_description().empty()) return {};
+  return CLI::Formatter::make_option(option, is_positional);
+}
+
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
   std::istringstream words(option->get_description());
   std::string wrapped;

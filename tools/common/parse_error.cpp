@@ -32,14 +32,6 @@ std::size_t distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
-std::string suggestion(const std::string& word, const Words& known) {
-  if (word.size() < kShortest) return {};
-  const auto typos = [&](const std::string& name) { return distance(word, name); };
-  const auto nearest = std::ranges::min_element(known, {}, typos);
-  if (nearest == known.end() || typos(*nearest) > kMostTypos) return {};
-  return fmt::format("; did you mean '{}'?", *nearest);
-}
-
 Words commands_of(const CLI::App& app) {
   Words names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -63,6 +55,14 @@ std::string unknown_text(const CLI::App& command) {
 }
 
 }  // namespace
+
+std::string suggestion(const std::string& word, const Words& known) {
+  if (word.size() < kShortest) return {};
+  const auto typos = [&](const std::string& name) { return distance(word, name); };
+  const auto nearest = std::ranges::min_element(known, {}, typos);
+  if (nearest == known.end() || typos(*nearest) > kMostTypos) return {};
+  return fmt::format("; did you mean '{}'?", *nearest);
+}
 
 std::string parse_error_text(const CLI::App& command, const CLI::ParseError& error) {
   if (command.remaining_size() == 0) return error.what();

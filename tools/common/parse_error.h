@@ -4,6 +4,7 @@
 
 #include <CLI/App.hpp>
 #include <string>
+#include <vector>
 
 namespace grove {
 
@@ -11,6 +12,9 @@ namespace grove {
 // an argument that is not known: that is named, and of options and commands the one that resembles
 // it.
 std::string parse_error_text(const CLI::App& command, const CLI::ParseError& error);
+
+// "; did you mean 'KNOWN'?", of the known word that resembles this one; empty if none does.
+std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
 // That `command` has no such subcommand, and which one resembles it.
 std::string unknown_command_text(const CLI::App& command, const std::string& word);

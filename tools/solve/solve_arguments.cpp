@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
 #include "tools/common/options.h"
+#include "tools/common/parse_error.h"
 #include "tools/common/signals.h"
 
 namespace grove {
@@ -71,6 +73,34 @@ Techniques techniques_of(const SolveArguments& arguments) {
   return techniques;
 }
 
+std::string help_on_tuning() {
+  std::string text =
+      "--tune NAME=VALUE: numbers of the search, for experiments. They change how "
+      "fast it is, never what it proves.\n";
+  for (const Tunable& t : tunables())
+    text +=
+        fmt::format("\n{}={}  (from {} to {})\n  {}\n{}", t.name(), t.value({}), t.least, t.most,
+                    t.what, t.measured.empty() ? "" : fmt::format("  [{}]\n", t.measured));
+  return text;
+}
+
+std::string check_tuning(const std::string& text) {
+  if (text == "help") throw CLI::CallForVersion(help_on_tuning(), 0);
+  std::vector<std::string> names;
+  for (const Tunable& t : tunables()) names.push_back(t.name());
+  const std::string name = text.substr(0, text.find('='));
+  if (std::ranges::find(names, name) == names.end())
+    return fmt::format("found '{}'; expected one of those that '--tune help' lists{}", name,
+                       suggestion(name, names));
+  try {
+    Tuning scratch;
+    set(scratch, text);
+    return {};
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
 }  // namespace
 
 void add_omega_option(CLI::App& app, SolveArguments& a) {
@@ -131,6 +161,10 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
       ->type_name("TECHNIQUE")
       ->delimiter(',')
       ->check(technique_of(unusual));
+  app.add_option("--tune", a.tune)  // not in the help
+      ->type_name("NAME=VALUE")
+      ->delimiter(',')
+      ->check(CLI::Validator(check_tuning, ""));
 }
 
 void add_search_options(CLI::App& app, SolveArguments& a) {
@@ -222,6 +256,7 @@ SolveOptions solve_options(const SolveArguments& a) {
   options.threads = static_cast<int>(a.threads);
   options.deterministic = a.deterministic;
   options.techniques = techniques_of(a);
+  for (const std::string& text : a.tune) set(options.tuning, text);
   options.checkpoints.directory = a.checkpoints.directory;
   try {
     options = options_of(method_of(a), options);

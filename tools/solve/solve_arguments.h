@@ -31,6 +31,7 @@ struct SolveArguments {
   std::int64_t seed = 0;
   std::vector<std::string> with;
   std::vector<std::string> without;
+  std::vector<std::string> tune;
   bool deterministic = false;
   CheckpointArguments checkpoints;
   std::filesystem::path start;

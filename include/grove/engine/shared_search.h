@@ -59,6 +59,7 @@ class SharedSearch {
 
   const Omega omega_;
   const bool uses_estimates_;
+  const double cost_per_conflict_;
   LocalNodes& nodes_;
   NodePool& pool_;
   Frontier& frontier_;

@@ -44,6 +44,7 @@ struct SolveOptions {
   std::uint64_t seed = 0;
   // Technique::kPrimal is not used with kFixed.
   Techniques techniques = Techniques::usual();
+  Tuning tuning = {};
   std::optional<Plan> start = std::nullopt;  // the first incumbent, a valid plan
   Checkpoints checkpoints = {};
   // Where an earlier run, of the same instance and policy, is to go on from; null: nowhere. Read by

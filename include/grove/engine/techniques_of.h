@@ -13,7 +13,7 @@ inline Techniques techniques_of(const SolveOptions& options) {
 }
 
 inline SearchOptions search_options_of(const SolveOptions& options) {
-  return {techniques_of(options), options.seed, options.audit};
+  return {techniques_of(options), options.seed, options.audit, options.tuning};
 }
 
 }  // namespace grove

@@ -8,6 +8,7 @@
 
 #include "grove/model/limits.h"
 #include "grove/model/plan.h"
+#include "grove/model/tuning.h"
 #include "grove/planning/agent_stops_store.h"
 #include "grove/primal/plan_source.h"
 #include "grove/search/problem.h"
@@ -32,7 +33,7 @@ class PrimalSearch {
 
   // All must outlive this; `stops` may be shared with other searches of the same thread.
   PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed,
-               Techniques techniques = Techniques::usual());
+               Techniques techniques = Techniques::usual(), const Tuning& tuning = {});
   ~PrimalSearch();
 
   // Goes on for about a millisecond (or one call of the low level, where that is longer). Returns a

@@ -75,13 +75,14 @@ class Dependencies {
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const NodeView& view) const;
   std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;
   bool solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
-             std::int32_t most_expansions, const Limits& limits, Known& known);
+             std::int64_t most_expansions, const Limits& limits, Known& known);
   void collect(std::vector<GroupExcess>& statements);
 
   const Instance& instance_;
   const PathPlanner& planner_;
   const int agents_;
   const Techniques techniques_;
+  const Tuning tuning_;
   Memory& memory_;
   NodeView pair_view_;  // of a pair or group
   Brancher pair_brancher_;

@@ -69,9 +69,9 @@ class Memory {
  public:
   using Id = Situations::Id;
 
-  // `planner` must outlive this.
-  Memory(PathPlanner& planner, std::shared_ptr<CommonMemory> common)
-      : planner_(planner), common_(std::move(common)) {}
+  // `planner` must outlive this. Sets of optimal paths have `most_set_nodes` or are not made.
+  Memory(PathPlanner& planner, std::shared_ptr<CommonMemory> common, std::int64_t most_set_nodes)
+      : planner_(planner), common_(std::move(common)), most_set_nodes_(most_set_nodes) {}
 
   // Hands over what was found out since the last time; it is not known here any more until it is
   // common.
@@ -112,6 +112,7 @@ class Memory {
  private:
   PathPlanner& planner_;
   std::shared_ptr<CommonMemory> common_;
+  const std::int64_t most_set_nodes_;
   std::int64_t asked_ = 0;
   mutable std::int64_t groups_asked_ = 0;
   std::int64_t sets_asked_ = 0;

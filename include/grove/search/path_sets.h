@@ -24,10 +24,11 @@ class PathSets {
   // The set of a situation; ignored if one is known.
   void add(Situations::Id id, const Set& set);
 
-  // Makes the set of the situation that the arguments are, of least cost `cost`. Empty if there are
-  // too many; null if a limit struck. `planner` is the calling thread's.
+  // Makes the set of the situation that the arguments are, of least cost `cost`. Empty if it takes
+  // more than `most_nodes`; null if a limit struck. `planner` is the calling thread's.
   static Set make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,
-                  std::span<const Constraint> constraints, Time cost, const Limits& limits);
+                  std::span<const Constraint> constraints, Time cost, std::size_t most_nodes,
+                  const Limits& limits);
 
   // Forgets sets if there are too many.
   void trim();

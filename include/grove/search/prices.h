@@ -22,8 +22,9 @@ class Prices {
     kStopped,  // a limit struck
   };
 
-  // Both must outlive this.
-  Prices(PathPlanner& planner, Memory& memory) : planner_(planner), memory_(memory) {}
+  // Both must outlive this. A split whose price takes more than `most_labels` is not considered.
+  Prices(PathPlanner& planner, Memory& memory, std::int64_t most_labels)
+      : planner_(planner), memory_(memory), most_labels_(most_labels) {}
 
   // By how much the costs of the agents in scope rise, each alone, when `demand` is made; if by
   // more than `slack`, kInfiniteCost.
@@ -42,6 +43,7 @@ class Prices {
  private:
   PathPlanner& planner_;
   Memory& memory_;
+  const std::int64_t most_labels_;
   std::vector<AgentIndex> disturbed_;
   Path path_;
   std::int64_t asked_ = 0;

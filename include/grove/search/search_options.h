@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "grove/model/tuning.h"
 #include "grove/search/techniques.h"
 
 namespace grove {
@@ -14,6 +15,7 @@ struct SearchOptions {
   // Checks every node that is looked at, and the tables kept from node to node, against what they
   // stand for (audit.h). Costs several times what the search does.
   bool audit = false;
+  Tuning tuning = {};
 };
 
 }  // namespace grove

@@ -104,6 +104,39 @@ TEST_F(SolveCommand, CountsTheLastOfTwoOptions) {
             "--omega 0 --without primal,bypass,target --output p.json");
 }
 
+TEST_F(SolveCommand, TunesNumbersOfTheSearch) {
+  const auto nodes = [&](std::vector<std::string> tune) {
+    std::vector<std::string> arguments = {data("rooms-32x32_n10_m30.cts.json"),
+                                          "--omega",
+                                          "0",
+                                          "--threads",
+                                          "1",
+                                          "--output",
+                                          "p.json"};
+    arguments.insert(arguments.end(), tune.begin(), tune.end());
+    const ProcessResult solved = solve(arguments);
+    EXPECT_EQ(solved.exit_code, 0) << solved.err;
+    EXPECT_EQ(plan("p.json")["cost"], 1070);
+    return plan("p.json")["stats"]["pair_expansions"].get<int>();
+  };
+  const int usual = nodes({});
+  EXPECT_EQ(nodes({"--tune", "pair-expansions=16"}), usual);
+  EXPECT_LT(nodes({"--tune", "pair-expansions=1,order-spread=0", "--tune", "bypasses=3"}), usual);
+  EXPECT_THAT(plan("p.json")["stats"]["options"].get<std::string>(),
+              HasSubstr("--tune pair-expansions=1,order-spread=0,bypasses=3"));
+  EXPECT_EQ(complaint(solve({data("first.cts.json"), "--tune", "bypass=3"})),
+            "--tune: found 'bypass'; expected one of those that '--tune help' lists; did you mean "
+            "'bypasses'? (see 'grove solve --help')");
+  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "bypasses=-1"})),
+              HasSubstr("--tune: bypasses: found '-1'; expected an integer from 0 to 1000000"));
+  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "bypasses"})),
+              HasSubstr("expected NAME=VALUE"));
+  const ProcessResult help = solve({"--tune", "help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, HasSubstr("\npair-expansions=16  (from 1 to 1000000)\n"));
+  EXPECT_THAT(solve({"--help"}).out, Not(HasSubstr("--tune")));
+}
+
 TEST_F(SolveCommand, LogsHeadTableAndSummary) {
   const ProcessResult solved = solve({data("first.cts.json"), "--log", "run.log", "--seed", "4"});
   EXPECT_EQ(solved.err, "");

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "grove/model/tuning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <type_traits>
+
+namespace grove {
+namespace {
+
+constexpr Tunable kTunables[] = {
+#define GROVE_TUNABLE(type, name, value, least, most, what, measured) \
+  {#name, &Tuning::name, least, most, what, measured},
+#include "grove/model/tunables.def"
+#undef GROVE_TUNABLE
+};
+
+}  // namespace
+
+std::span<const Tunable> tunables() {
+  return kTunables;
+}
+
+std::string Tunable::name() const {
+  std::string name(member);
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
+std::string Tunable::value(const Tuning& tuning) const {
+  return std::visit([&](auto at) { return fmt::format("{}", tuning.*at); }, place);
+}
+
+void set(Tuning& tuning, std::string_view text) {
+  const std::string_view name = text.substr(0, text.find('='));
+  const auto tunable = std::ranges::find(kTunables, name, &Tunable::name);
+  if (tunable == std::end(kTunables) || name.size() == text.size())
+    throw std::invalid_argument(fmt::format("found '{}'; expected NAME=VALUE", text));
+  const std::string_view value = text.substr(name.size() + 1);
+  std::visit(
+      [&](auto at) {
+        auto number = tuning.*at;
+        const auto [end, error] = std::from_chars(value.begin(), value.end(), number);
+        const bool is_number = error == std::errc() && end == value.end();
+        const auto real = static_cast<double>(number);
+        if (!is_number || !(real >= tunable->least && real <= tunable->most))
+          throw std::invalid_argument(
+              fmt::format("{}: found '{}'; expected {} from {} to {}", name, value,
+                          std::is_integral_v<decltype(number)> ? "an integer" : "a number",
+                          tunable->least, tunable->most));
+        tuning.*at = number;
+      },
+      tunable->place);
+}
+
+}  // namespace grove

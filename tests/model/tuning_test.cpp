@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// That each number is used somewhere: tests/structure. That none makes a wrong answer: tests/fuzz.
+#include "grove/model/tuning.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+
+namespace grove {
+namespace tuning_test {
+
+using ::testing::HasSubstr;
+
+std::string complaint(const std::string& text) {
+  try {
+    Tuning tuning;
+    set(tuning, text);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Tuning, SetsTheNumberOfThatNameAndNoOther) {
+  std::set<std::string> names;
+  for (const Tunable& t : tunables()) {
+    SCOPED_TRACE(t.name());
+    EXPECT_TRUE(names.insert(t.name()).second);
+    Tuning tuning;
+    const std::string before = t.value(tuning);
+    const std::string other = before == fmt::format("{}", t.least) ? fmt::format("{}", t.least + 1)
+                                                                   : fmt::format("{}", t.least);
+    set(tuning, t.name() + "=" + other);
+    for (const Tunable& u : tunables())
+      EXPECT_EQ(u.value(tuning), &u == &t ? other : u.value({})) << u.name();
+    EXPECT_NE(tuning, Tuning());
+    set(tuning, t.name() + "=" + before);
+    EXPECT_EQ(tuning, Tuning());
+  }
+  EXPECT_GT(names.size(), 30u);
+}
+
+TEST(Tuning, DefaultsAreWithinTheirRanges) {
+  for (const Tunable& t : tunables()) {
+    EXPECT_LT(t.least, t.most) << t.name();
+    EXPECT_EQ(complaint(t.name() + "=" + t.value({})), "none");
+  }
+}
+
+TEST(Tuning, TakesBothEndsOfARangeAndNothingBeyond) {
+  for (const char* good : {"group-agents=2", "group-agents=64", "way-memory=0", "way-memory=1.0",
+                           "order-spread=5e-1", "bound-work=1000000000000000"})
+    EXPECT_EQ(complaint(good), "none");
+  EXPECT_EQ(complaint("group-agents=1"),
+            "group-agents: found '1'; expected an integer from 2 to 64");
+  EXPECT_EQ(complaint("way-memory=1.01"),
+            "way-memory: found '1.01'; expected a number from 0 to 1");
+  for (const char* bad : {"group-agents=65", "group-agents=3.5", "group-agents=", "group-agents= 3",
+                          "group-agents=3x", "way-memory=-0.1", "way-memory=nan", "bound-work=1e3",
+                          "bound-work=99999999999999999999"})
+    EXPECT_THAT(complaint(bad), HasSubstr("expected a")) << bad;
+  for (const char* bad : {"", "=", "group-agents", "group_agents=3", "agents=3"})
+    EXPECT_THAT(complaint(bad), HasSubstr("expected NAME=VALUE")) << bad;
+}
+
+}  // namespace tuning_test
+}  // namespace grove
