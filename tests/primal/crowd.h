@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct Crowd {
   int agents = 20;
   int tasks = 20;
   int no_destination = 0;  // percent of the agents
+
+  // In the names of tests.
+  friend void PrintTo(const Crowd& crowd, std::ostream* out) {
+    *out << fmt::format("{} agents, {} tasks, size {}, {} % obstacles, {} % without destination",
+                        crowd.agents, crowd.tasks, crowd.size, crowd.obstacles, crowd.no_destination);
+  }
 };
 
 // The cells of the largest connected part.

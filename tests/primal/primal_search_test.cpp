@@ -258,7 +258,7 @@ TEST(PrimalSearch, LimitsLeaveTheRaceWhole) {
 
 // The configuration search keeps off the last memory; the others go on.
 TEST(PrimalSearch, ShortMemoryEndsTheConfigurationsAlone) {
-#ifdef GROVE_ADDRESS_SANITIZER
+#ifdef GROVE_SANITIZERS_MEMORY
   GTEST_SKIP() << "the sanitizer's own memory fills the limit";
 #endif
   const Instance instance = crowd(1);

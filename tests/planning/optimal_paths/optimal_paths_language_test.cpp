@@ -532,7 +532,7 @@ TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
     limits.set_deadline(Limits::Clock::now() + step * std::chrono::microseconds(100));
     EXPECT_TRUE(is_sound(limits)) << "time " << step;
   }
-#ifndef GROVE_ADDRESS_SANITIZER
+#ifndef GROVE_SANITIZERS_MEMORY
   for (int step = 0; step < 16; ++step) {
     Limits limits;
     limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 18) * step);
