@@ -47,6 +47,10 @@ class SolveCommand : public ::testing::Test {
     arguments.insert(arguments.begin(), "solve");
     return run_grove(arguments, options_);
   }
+  // In bash: $0 is the program, $1 the instance.
+  ProcessResult in_shell(const std::string& instance, const std::string& command) const {
+    return run_program({"/bin/bash", "-c", command, GROVE_PROGRAM, data(instance)}, options_);
+  }
   json plan(const std::string& name) const {
     std::ifstream file(directory_ / name);
     return json::parse(file);
@@ -287,19 +291,17 @@ TEST_F(SolveCommand, DoesNotWriteOverItsInputs) {
 }
 
 TEST_F(SolveCommand, KeepsThePlanWhenNobodyReadsTheLog) {
-  const std::string pipeline =
-      std::string(GROVE_PROGRAM) + " solve " + data("rooms-32x32_n10_m30.cts.json") +
-      " --omega 0 --policy fixed --output p.json | true; exit ${PIPESTATUS[0]}";
-  const ProcessResult solved = run_program({"/bin/bash", "-c", pipeline}, options_);
+  const ProcessResult solved = in_shell(
+      "rooms-32x32_n10_m30.cts.json",
+      R"("$0" solve "$1" --omega 0 --policy fixed --output p.json | true; exit ${PIPESTATUS[0]})");
   EXPECT_EQ(solved.exit_code, 0);
   EXPECT_THAT(solved.err, HasSubstr("warning: standard output cannot be written"));
   EXPECT_EQ(plan("p.json")["status"], "optimal");
 }
 
 TEST_F(SolveCommand, GoesOnWhenNothingCanBeSaidAtAll) {
-  const std::string command = std::string(GROVE_PROGRAM) + " solve " + data("first.cts.json") +
-                              " --output p.json >/dev/full 2>/dev/full";
-  EXPECT_EQ(run_program({"/bin/sh", "-c", command}, options_).exit_code, 0);
+  const char* command = R"("$0" solve "$1" --output p.json >/dev/full 2>/dev/full)";
+  EXPECT_EQ(in_shell("first.cts.json", command).exit_code, 0);
   EXPECT_EQ(plan("p.json")["status"], "optimal");
 }
 
@@ -401,9 +403,8 @@ TEST_F(SolveCommand, WritesThePlanToStandardOutput) {
   EXPECT_THAT(solved.err, HasSubstr("Plan file     standard output"));
   EXPECT_EQ(directory_.files(), (std::vector<std::string>{"puzzle.json", "puzzle.map"}));
   EXPECT_EQ(solve({data("first.cts.json"), "-o", "-", "--quiet"}).err, "");
-  const std::string command =
-      std::string(GROVE_PROGRAM) + " solve " + data("first.cts.json") + " -o - --quiet >/dev/full";
-  EXPECT_EQ(run_program({"/bin/sh", "-c", command}).exit_code, 1);
+  const char* command = R"("$0" solve "$1" -o - --quiet >/dev/full)";
+  EXPECT_EQ(in_shell("first.cts.json", command).exit_code, 1);
 }
 
 // --- the log for programs ---
