@@ -13,14 +13,13 @@ constexpr const char* kDescription =
     "destination, without collisions, at the least sum of finish times - with a proof of how far\n"
     "from the least the answer can be.\n";
 
-constexpr const char* kProgramFooter =
-    "Exit codes:\n"
-    "  0  ended cleanly; a plan file says how\n"
-    "  1  internal failure\n"
-    "  2  bad usage or input: one line on stderr with file, place and what was expected\n"
-    "  3  no plan was found, where --require-plan asks for one\n"
-    "\n"
-    "'grove help COMMAND' and 'grove COMMAND --help' explain a command, with examples.";
+constexpr const char* kProgramFooter = R"(Exit codes:
+  0  ended cleanly; a plan file says how
+  1  internal failure
+  2  bad usage or input: one line on stderr with file, place and what was expected
+  3  no plan was found, where --require-plan asks for one
+
+'grove help COMMAND' and 'grove COMMAND --help' explain a command, with examples.)";
 
 int main(int argc, char** argv) {
   CLI::App app(kDescription, "grove");

@@ -19,13 +19,12 @@ constexpr const char* kDescription =
     "Grove by several processes, on one machine or many: each rank searches with threads of its\n"
     "own, all share one search. Start it with mpirun or srun.\n";
 
-constexpr const char* kProgramFooter =
-    "Exit codes:\n"
-    "  0  ended cleanly; a plan file says how\n"
-    "  1  internal failure\n"
-    "  2  bad usage or input: one line on stderr with file, place and what was expected\n"
-    "\n"
-    "'grove-mpi help COMMAND' and 'grove-mpi COMMAND --help' explain a command, with examples.";
+constexpr const char* kProgramFooter = R"(Exit codes:
+  0  ended cleanly; a plan file says how
+  1  internal failure
+  2  bad usage or input: one line on stderr with file, place and what was expected
+
+'grove-mpi help COMMAND' and 'grove-mpi COMMAND --help' explain a command, with examples.)";
 
 int main(int argc, char** argv) {
   stop_on_signals();  // one may come while MPI begins, and would kill the job

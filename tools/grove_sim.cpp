@@ -29,42 +29,40 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kDescription =
-    "Predicts how fast grove-mpi would solve an instance on a machine with many more processors\n"
-    "than this one has. It really solves the instance, once for each number of ranks: one thread\n"
-    "plays all ranks in turn, with the engine's own code, on a simulated clock. An expansion "
-    "takes\n"
-    "as long as its work takes on this processor, a message what the network's figures below say.\n"
-    "So each number of ranks takes about as long to simulate as one thread takes to solve.\n";
+    R"(Predicts how fast grove-mpi would solve an instance on a machine with many more processors
+than this one has. It really solves the instance, once for each number of ranks: one thread
+plays all ranks in turn, with the engine's own code, on a simulated clock. An expansion takes
+as long as its work takes on this processor, a message what the network's figures below say.
+So each number of ranks takes about as long to simulate as one thread takes to solve.
+)";
 
 constexpr const char* kFooter =
-    "The table (CSV, one row per number of ranks; wall_s: simulated seconds):\n"
-    "  speed_up, efficiency        against one rank; efficiency = speed-up / ranks\n"
-    "  nodes_overhead, expanding_overhead\n"
-    "                              nodes, and time to expand them, beyond those of one rank\n"
-    "  messages..., bytes..., nodes_sent\n"
-    "                              sent by all ranks\n"
-    "  talking_share               of the ranks' time, sending and receiving\n"
-    "  coordinator_talking_share   of rank 0's: near 1, rank 0 is what limits the search\n"
-    "  coordinator_wait_s          how long a message waits for rank 0 to look at it\n"
-    "  max_over_mean, idle_share   how evenly the work is spread; the workers' time without any\n"
-    "  first_node_s, ranks_without_node\n"
-    "                              when ranks were given their first node; how many never were\n"
-    "\n"
-    "Assumed: each rank has one worker, and a processor for its messages; processors do not slow\n"
-    "each other down; the network has no traffic but this. Nobody looks for plans beside the "
-    "tree,\n"
-    "so begin with a good one: --start, or what the search for plans finds in --primal-steps. "
-    "With\n"
-    "--omega 0 and an optimal plan what must be expanded is nearly fixed, and what is seen is\n"
-    "scaling; else luck as well. The time to read the instance and to start ranks is left out.\n"
-    "\n"
-    "Without --cost-per-work the run of one rank is timed, and its mean time per unit of work\n"
-    "(about one label of the low level) is what work costs in the others. Given the figure, all\n"
-    "is repeatable.\n"
-    "\n"
-    "Examples:\n"
-    "  grove-sim benchmarks/data/rooms-32x32_n10_m30.cts.json --omega 0 --ranks 1,2,16\n"
-    "  grove-sim INSTANCE.cts.json --omega 0 --start PLAN --output scaling.csv";
+    R"(The table (CSV, one row per number of ranks; wall_s: simulated seconds):
+  speed_up, efficiency        against one rank; efficiency = speed-up / ranks
+  nodes_overhead, expanding_overhead
+                              nodes, and time to expand them, beyond those of one rank
+  messages..., bytes..., nodes_sent
+                              sent by all ranks
+  talking_share               of the ranks' time, sending and receiving
+  coordinator_talking_share   of rank 0's: near 1, rank 0 is what limits the search
+  coordinator_wait_s          how long a message waits for rank 0 to look at it
+  max_over_mean, idle_share   how evenly the work is spread; the workers' time without any
+  first_node_s, ranks_without_node
+                              when ranks were given their first node; how many never were
+
+Assumed: each rank has one worker, and a processor for its messages; processors do not slow
+each other down; the network has no traffic but this. Nobody looks for plans beside the tree,
+so begin with a good one: --start, or what the search for plans finds in --primal-steps. With
+--omega 0 and an optimal plan what must be expanded is nearly fixed, and what is seen is
+scaling; else luck as well. The time to read the instance and to start ranks is left out.
+
+Without --cost-per-work the run of one rank is timed, and its mean time per unit of work
+(about one label of the low level) is what work costs in the others. Given the figure, all
+is repeatable.
+
+Examples:
+  grove-sim benchmarks/data/rooms-32x32_n10_m30.cts.json --omega 0 --ranks 1,2,16
+  grove-sim INSTANCE.cts.json --omega 0 --start PLAN --output scaling.csv)";
 
 struct SimArguments {
   SolveArguments solve;

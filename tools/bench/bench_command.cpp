@@ -27,42 +27,29 @@ constexpr double kShareOfMemory = 0.8;
 constexpr double kSmallestRoom_gb = 0.1;
 
 constexpr const char* kBenchFooter =
-    "INSTANCES is a list (a path on each line, relative to the list, or FILE.scen --map M --agents "
-    "K;\n"
-    "# begins a comment), as 'grove generate paper' writes it, or a folder, with all *.cts.json "
-    "below it.\n"
-    "\n"
-    "A run is 'NAME: OPTIONS OF grove solve'; NAME alone is short for 'NAME: --method NAME'. Each "
-    "is a\n"
-    "process of its own, on one thread and with omega 0.01 unless its options say otherwise. All "
-    "methods run on one "
-    "instance\n"
-    "before the next, and the first scenario (_s1_ in its name) of every kind comes before any "
-    "second:\n"
-    "what is done at any moment is balanced.\n"
-    "\n"
-    "DIR/results.jsonl gets a row when a run has ended and its plan was re-checked; "
-    "DIR/results.csv is\n"
-    "made from it. The same command goes on where an earlier one stopped, however it stopped: "
-    "Ctrl-C,\n"
-    "killed, or with more runs or instances to do. What ended in an error is tried again; rows of "
-    "the same\n"
-    "names with other options, limits, seed or instances are refused. A run counts as solved when "
-    "it ended\n"
-    "by itself with a plan, before any limit.\n"
-    "\n"
-    "A run that went on until its limit is not solved, even with a plan: so methods that improve "
-    "their\n"
-    "plan as long as they may (cts-cbs-c --anytime) fare worse here than they are. Exits with 130 "
-    "when\n"
-    "stopped with runs left.\n"
-    "\n"
-    "Examples:\n"
-    "  grove bench paper/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir "
-    "results\n"
-    "  grove bench instances/ --run 'exact: --omega 0' --run 'near: --omega 0.1' --time-limit 60 "
-    "\\\n"
-    "        --jobs 4 --output-dir results";
+    R"(INSTANCES is a list (a path on each line, relative to the list, or FILE.scen --map M --agents
+K; # begins a comment), as 'grove generate paper' writes it, or a folder, with all *.cts.json below
+it.
+
+A run is 'NAME: OPTIONS OF grove solve'; NAME alone is short for 'NAME: --method NAME'. Each is a
+process of its own, on one thread and with omega 0.01 unless its options say otherwise. All methods
+run on one instance before the next, and the first scenario (_s1_ in its name) of every kind comes
+before any second: what is done at any moment is balanced.
+
+DIR/results.jsonl gets a row when a run has ended and its plan was re-checked; DIR/results.csv is
+made from it. The same command goes on where an earlier one stopped, however it stopped: Ctrl-C,
+killed, or with more runs or instances to do. What ended in an error is tried again; rows of the
+same names with other options, limits, seed or instances are refused. A run counts as solved when it
+ended by itself with a plan, before any limit.
+
+A run that went on until its limit is not solved, even with a plan: so methods that improve their
+plan as long as they may (cts-cbs-c --anytime) fare worse here than they are. Exits with 130 when
+stopped with runs left.
+
+Examples:
+  grove bench paper/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir results
+  grove bench instances/ --run 'exact: --omega 0' --run 'near: --omega 0.1' --time-limit 60 \
+        --jobs 4 --output-dir results)";
 
 struct BenchArguments {
   std::string instances;

@@ -20,23 +20,20 @@ namespace {
 constexpr std::size_t kMostViolations = 20;
 
 constexpr const char* kCheckFooter =
-    "Works every path, visit, collision and cost out again, sharing no code with the search, and\n"
-    "compares status, cost, lower bound and omega. What it cannot check is the proof behind the\n"
-    "lower bound.\n"
-    "\n"
-    "PLAN may also be what other solvers write: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2\n"
-    "(--outputPaths) or the text of lacam and pibt. What they do not claim is named, and not "
-    "checked.\n"
-    "\n"
-    "Prints one line that begins with 'valid:' and exits with 0; or says on stderr what is wrong, "
-    "one\n"
-    "line each, and exits with 2. A file without a plan (status unknown or infeasible) is not "
-    "valid.\n"
-    "\n"
-    "Examples:\n"
-    "  grove check benchmarks/data/first.cts.json plan.json\n"
-    "  grove check room-32-32-4-random-1.scen --agents 20 plan.json\n"
-    "  grove solve my.cts.json --quiet --output - | grove check my.cts.json -";
+    R"(Works every path, visit, collision and cost out again, sharing no code with the search, and
+compares status, cost, lower bound and omega. What it cannot check is the proof behind the
+lower bound.
+
+PLAN may also be what other solvers write: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2
+(--outputPaths) or the text of lacam and pibt. What they do not claim is named, and not checked.
+
+Prints one line that begins with 'valid:' and exits with 0; or says on stderr what is wrong, one
+line each, and exits with 2. A file without a plan (status unknown or infeasible) is not valid.
+
+Examples:
+  grove check benchmarks/data/first.cts.json plan.json
+  grove check room-32-32-4-random-1.scen --agents 20 plan.json
+  grove solve my.cts.json --quiet --output - | grove check my.cts.json -)";
 
 struct CheckArguments {
   InstanceArguments instance;

@@ -14,49 +14,40 @@ namespace grove {
 namespace {
 
 constexpr const char* kConvertFooter =
-    "Instances (--from, --to; the suffix tells where one is given):\n"
-    "  grove    *.cts.json             Grove's own\n"
-    "  libmrp   *.yaml, *.yml          libMultiRobotPlanning: agents with a goal, no tasks\n"
-    "  mgcbs                           MGCBS: agents with goals to visit, and no last one "
-    "(MG-MAPF).\n"
-    "                                  Read as libmrp, too: the keys tell\n"
-    "  mapfw    *.mapfw.json           MAPFW: starts, goals and waypoints, which are tasks; no "
-    "ids\n"
-    "  scen     *.scen                 Moving AI: starts and goals only, no ids\n"
-    "Plans (--to, with --plan):\n"
-    "  libmrp           *.yaml, *.yml  libMultiRobotPlanning's schedule: [x, y] and t of every "
-    "step\n"
-    "  mapf-visualizer                 Kei18's text: (x,y) of all agents, one line per time\n"
-    "  eecbs                           path lists of EECBS, CBSH2-RTC and MAPF-LNS2: (row,column)\n"
-    "  tracker                         a row of MAPF Tracker as JSON; no tasks\n"
-    "  tracker-csv      *.csv          the same as CSV\n"
-    "\n"
-    "What OUT cannot hold is an error, unless --drop gives it up:\n"
-    "  tasks   in libmrp and scen: the agents only go from start to goal\n"
-    "  ids     in mapfw and scen of agents, in mapfw and mgcbs of tasks: read back they are a0, "
-    "a1,\n"
-    "          ... and t0, t1, ... as they appear agent by agent\n"
-    "Agents without a goal are only for grove and mgcbs, agents with one not for mgcbs.\n"
-    "\n"
-    "Cells are x, y = column, row from the top left in all formats but eecbs. "
-    "libMultiRobotPlanning's\n"
-    "own viewer draws y upwards: what it shows is upside down but right.\n"
-    "grove and scen need a map file. OUT names the map file of INSTANCE, or of --map; if neither "
-    "is\n"
-    "there, the map is written beside OUT, as '.' and '@'. The length column of a .scen is the "
-    "shortest\n"
-    "4-connected distance, where Moving AI's own files give the octile one.\n"
-    "A plan is checked before it is converted. Plan formats hold the paths, not the order of "
-    "visits.\n"
-    "Agents that are done are padded with waits in mapf-visualizer, and in no other format.\n"
-    "\n"
-    "Examples:\n"
-    "  grove convert warehouse.cts.json warehouse.mapfw.json --drop ids\n"
-    "  grove convert mapf_simple1.yaml simple.cts.json\n"
-    "  grove convert random-32-32-20-even-1.scen --map random-32-32-20.map --agents 50 fifty.yaml\n"
-    "  grove convert problem.json --from mapfw problem.cts.json\n"
-    "  grove convert --plan warehouse.plan.json warehouse.cts.json warehouse.txt --to "
-    "mapf-visualizer";
+    R"(Instances (--from, --to; the suffix tells where one is given):
+  grove    *.cts.json             Grove's own
+  libmrp   *.yaml, *.yml          libMultiRobotPlanning: agents with a goal, no tasks
+  mgcbs                           MGCBS: agents with goals to visit, and no last one (MG-MAPF).
+                                  Read as libmrp, too: the keys tell
+  mapfw    *.mapfw.json           MAPFW: starts, goals and waypoints, which are tasks; no ids
+  scen     *.scen                 Moving AI: starts and goals only, no ids
+Plans (--to, with --plan):
+  libmrp           *.yaml, *.yml  libMultiRobotPlanning's schedule: [x, y] and t of every step
+  mapf-visualizer                 Kei18's text: (x,y) of all agents, one line per time
+  eecbs                           path lists of EECBS, CBSH2-RTC and MAPF-LNS2: (row,column)
+  tracker                         a row of MAPF Tracker as JSON; no tasks
+  tracker-csv      *.csv          the same as CSV
+
+What OUT cannot hold is an error, unless --drop gives it up:
+  tasks   in libmrp and scen: the agents only go from start to goal
+  ids     in mapfw and scen of agents, in mapfw and mgcbs of tasks: read back they are a0, a1,
+          ... and t0, t1, ... as they appear agent by agent
+Agents without a goal are only for grove and mgcbs, agents with one not for mgcbs.
+
+Cells are x, y = column, row from the top left in all formats but eecbs. libMultiRobotPlanning's
+own viewer draws y upwards: what it shows is upside down but right.
+grove and scen need a map file. OUT names the map file of INSTANCE, or of --map; if neither is
+there, the map is written beside OUT, as '.' and '@'. The length column of a .scen is the shortest
+4-connected distance, where Moving AI's own files give the octile one.
+A plan is checked before it is converted. Plan formats hold the paths, not the order of visits.
+Agents that are done are padded with waits in mapf-visualizer, and in no other format.
+
+Examples:
+  grove convert warehouse.cts.json warehouse.mapfw.json --drop ids
+  grove convert mapf_simple1.yaml simple.cts.json
+  grove convert random-32-32-20-even-1.scen --map random-32-32-20.map --agents 50 fifty.yaml
+  grove convert problem.json --from mapfw problem.cts.json
+  grove convert --plan warehouse.plan.json warehouse.cts.json warehouse.txt --to mapf-visualizer)";
 
 // Options that do nothing are mistakes.
 void require_use(bool given, bool used, const std::string& option, const std::string& when) {

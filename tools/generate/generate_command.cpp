@@ -12,18 +12,17 @@ namespace grove {
 namespace {
 
 constexpr const char* kFooter =
-    "Everything drawn at random depends on --seed alone: the same command writes the same bytes "
-    "on\n"
-    "every machine.\n"
-    "\n"
-    "Examples:\n"
-    "  grove generate map random --width 32 --height 32 --obstacles 0.2 --seed 1 -o my.map\n"
-    "  grove generate scenario --map my.map --rows 200 --seed 1 -o my.scen\n"
-    "  grove generate instance --map my.map --scen my.scen --agents 10 --tasks 30 -o my.cts.json\n"
-    "  grove generate instance --map my.map --agents 5 --tasks 10 --mg -o my_mg.cts.json\n"
-    "  grove generate dataset --map my.map --scen my.scen --agents 5,10,20 --tasks 10,30,50 \\\n"
-    "        --output-dir my_set\n"
-    "  grove generate paper --scenarios 1-5 --output-dir paper";
+    R"(Everything drawn at random depends on --seed alone: the same command writes the same bytes on
+every machine.
+
+Examples:
+  grove generate map random --width 32 --height 32 --obstacles 0.2 --seed 1 -o my.map
+  grove generate scenario --map my.map --rows 200 --seed 1 -o my.scen
+  grove generate instance --map my.map --scen my.scen --agents 10 --tasks 30 -o my.cts.json
+  grove generate instance --map my.map --agents 5 --tasks 10 --mg -o my_mg.cts.json
+  grove generate dataset --map my.map --scen my.scen --agents 5,10,20 --tasks 10,30,50 \
+        --output-dir my_set
+  grove generate paper --scenarios 1-5 --output-dir paper)";
 
 }  // namespace
 

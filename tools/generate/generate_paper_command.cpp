@@ -22,33 +22,23 @@ namespace fs = std::filesystem;
 constexpr int kScenarios = 50;
 
 constexpr const char* kPaperFooter =
-    "Without further options: 3 maps, 50 scenarios, 5, 10 and 20 agents, 10 to 50 tasks, with "
-    "destinations\n"
-    "and without: 4,500 instances, and DIR/manifest.txt with them all, for 'grove bench'. Files "
-    "are "
-    "named\n"
-    "MAP_sS_nN_mM.cts.json; _mg is added to those without destinations. manifest-cts.txt and "
-    "manifest-mg.txt\n"
-    "list those with and those without, for methods that are for one of them.\n"
-    "\n"
-    "With --movingai the maps and scenarios are those of the Moving AI benchmark, in one folder: "
-    "MAP.map,\n"
-    "scenarios 1 to 25 from MAP-random-1.scen to MAP-random-25.scen, 26 to 50 from MAP-even-1.scen "
-    "to\n"
-    "MAP-even-25.scen. Without it Grove draws maps of the same kinds - empty, random and rooms, 32 "
-    "x "
-    "32\n"
-    "cells -, writes them to DIR, and draws the scenarios.\n"
-    "\n"
-    "An instance of scenario K is what 'grove generate instance' makes of it with --seed K, to "
-    "which\n"
-    "--seed is added.\n"
-    "\n"
-    "Examples:\n"
-    "  grove generate paper --movingai mapf/ --scenarios 1-25 --output-dir paper\n"
-    "  grove generate paper --scenarios 1-3 --agents 5 --problem cts --output-dir small\n"
-    "  grove bench small/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir "
-    "results";
+    R"(Without further options: 3 maps, 50 scenarios, 5, 10 and 20 agents, 10 to 50 tasks, with
+destinations and without: 4,500 instances, and DIR/manifest.txt with them all, for 'grove bench'.
+Files are named MAP_sS_nN_mM.cts.json; _mg is added to those without destinations. manifest-cts.txt
+and manifest-mg.txt list those with and those without, for methods that are for one of them.
+
+With --movingai the maps and scenarios are those of the Moving AI benchmark, in one folder: MAP.map,
+scenarios 1 to 25 from MAP-random-1.scen to MAP-random-25.scen, 26 to 50 from MAP-even-1.scen to
+MAP-even-25.scen. Without it Grove draws maps of the same kinds - empty, random and rooms, 32 x 32
+cells -, writes them to DIR, and draws the scenarios.
+
+An instance of scenario K is what 'grove generate instance' makes of it with --seed K, to which
+--seed is added.
+
+Examples:
+  grove generate paper --movingai mapf/ --scenarios 1-25 --output-dir paper
+  grove generate paper --scenarios 1-3 --agents 5 --problem cts --output-dir small
+  grove bench small/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir results)";
 
 // What "--problem" makes: without destinations, or with.
 const std::map<std::string, std::vector<bool>> kProblems{

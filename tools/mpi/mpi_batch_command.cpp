@@ -47,17 +47,14 @@ using Poll = std::function<void()>;
 constexpr double kNoLimit_s = 1e9;
 
 constexpr const char* kBatchFooter =
-    "INSTANCES is a folder, with all *.cts.json below it, or a list: a path on each line, relative "
-    "to\n"
-    "the list, or FILE.scen --map M --agents K; # begins a comment. The limits are for each "
-    "instance.\n"
-    "DIR/results.csv and DIR/results.jsonl have a row for each, DIR/plans the plans. The same "
-    "command\n"
-    "goes on where an earlier one stopped; what ended in an error is tried again.\n"
-    "\n"
-    "Examples:\n"
-    "  mpirun -np 8 grove-mpi batch instances/ --output results --time-limit 60\n"
-    "  mpirun -np 8 grove-mpi batch hard.txt --output results --ranks-per-instance 4";
+    R"(INSTANCES is a folder, with all *.cts.json below it, or a list: a path on each line, relative
+to the list, or FILE.scen --map M --agents K; # begins a comment. The limits are for each instance.
+DIR/results.csv and DIR/results.jsonl have a row for each, DIR/plans the plans. The same command
+goes on where an earlier one stopped; what ended in an error is tried again.
+
+Examples:
+  mpirun -np 8 grove-mpi batch instances/ --output results --time-limit 60
+  mpirun -np 8 grove-mpi batch hard.txt --output results --ranks-per-instance 4)";
 
 struct BatchArguments {
   SolveArguments solve;  // of each instance

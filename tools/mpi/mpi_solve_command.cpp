@@ -30,14 +30,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSolveFooter =
-    "All ranks work on the one instance, each with --threads threads beside the one that talks to\n"
-    "the others. Every rank must be able to read the instance; rank 0 alone writes files and the "
-    "log.\n"
-    "The limits are those of every rank: --memory-limit is for each process.\n"
-    "\n"
-    "Examples:\n"
-    "  mpirun -np 2 grove-mpi solve benchmarks/data/first.cts.json\n"
-    "  mpirun -np 4 --map-by node --bind-to none grove-mpi solve INSTANCE.cts.json --threads 16";
+    R"(All ranks work on the one instance, each with --threads threads beside the one that talks to
+the others. Every rank must be able to read the instance; rank 0 alone writes files and the log.
+The limits are those of every rank: --memory-limit is for each process.
+
+Examples:
+  mpirun -np 2 grove-mpi solve benchmarks/data/first.cts.json
+  mpirun -np 4 --map-by node --bind-to none grove-mpi solve INSTANCE.cts.json --threads 16)";
 
 // What a rank has and does in a run.
 class Run {

@@ -21,17 +21,15 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSolveFooter =
-    "The plan file says how the run ended: optimal, bounded (within omega), feasible (a plan "
-    "outside\n"
-    "omega), unknown (no plan when a limit struck) or infeasible (proven). Its lower_bound is "
-    "proven\n"
-    "whatever the status. Ctrl-C and SIGTERM end the run like a time limit: with the best plan so "
-    "far.\n"
-    "\n"
-    "Examples:\n"
-    "  grove solve benchmarks/data/first.cts.json\n"
-    "  grove solve INSTANCE.cts.json --omega 0 --time-limit 60 --output plan.json\n"
-    "  grove solve room-32-32-4-random-1.scen --agents 20";
+    R"(The plan file says how the run ended: optimal, bounded (within omega), feasible (a plan
+outside omega), unknown (no plan when a limit struck) or infeasible (proven). Its lower_bound is
+proven whatever the status. Ctrl-C and SIGTERM end the run like a time limit: with the best plan so
+far.
+
+Examples:
+  grove solve benchmarks/data/first.cts.json
+  grove solve INSTANCE.cts.json --omega 0 --time-limit 60 --output plan.json
+  grove solve room-32-32-4-random-1.scen --agents 20)";
 
 void expect_fit(Method method, const Instance& instance, const SolveOptions& options,
                 const std::string& path) {
