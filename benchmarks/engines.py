@@ -10,22 +10,15 @@ within the limit are told.
 """
 import argparse
 import csv
-import json
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+from harness.programs import MPIRUN, answer, run
+
 DATA = Path(__file__).resolve().parent / "data"
-ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 THREADS = [1, 2, 4]
 RANKS = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)]  # and threads of each
-
-
-def run(*command):
-    return subprocess.run([str(word) for word in command], check=True, env=ENVIRONMENT,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
 
 
 def make_tiny(grove, folder, count):
@@ -33,8 +26,8 @@ def make_tiny(grove, folder, count):
     instances = []
     for seed in range(count):
         path = folder / f"tiny-{seed}.cts.json"
-        run(grove, "generate", "instance", "--map", DATA / "first.map", "--agents", 3 + seed % 4,
-            "--tasks", 3 + seed % 5, "--seed", seed, "-o", path)
+        run([grove, "generate", "instance", "--map", DATA / "first.map", "--agents", 3 + seed % 4,
+             "--tasks", 3 + seed % 5, "--seed", seed, "-o", path])
         instances.append(path)
     return instances
 
@@ -42,13 +35,10 @@ def make_tiny(grove, folder, count):
 def by_threads(grove, instances, threads, limit, folder):
     """The proven optimum of each instance; none where there is no proof."""
     found = {}
-    plan = folder / "plan.json"
     for path in instances:
-        plan.unlink(missing_ok=True)  # a better one would stay
-        run(grove, "solve", path, "--omega", 0, "--threads", threads, "--time-limit", limit,
-            "--quiet", "--output", plan)
-        answer = json.loads(plan.read_text(encoding="utf-8"))
-        found[path.name] = answer["cost"] if answer["status"] == "optimal" else None
+        said = answer([grove, "solve", path, "--omega", 0, "--threads", threads, "--time-limit", limit],
+                      folder / "plan.json")
+        found[path.name] = said["cost"] if said["status"] == "optimal" else None
     return found
 
 
@@ -56,15 +46,15 @@ def by_ranks(grove_mpi, instances, ranks, threads, limit, folder):
     listing = folder / "list.txt"
     listing.write_text("".join(f"{path}\n" for path in instances), encoding="utf-8")
     output = folder / f"batch-{ranks}-{threads}"
-    run("mpirun", "--oversubscribe", "--bind-to", "none", "-np", ranks, grove_mpi, "batch", listing,
-        "--ranks-per-instance", ranks, "--threads", threads, "--omega", 0, "--time-limit", limit,
-        "--output", output, "--quiet")
+    run([*MPIRUN, "--oversubscribe", "--bind-to", "none", "-np", ranks, grove_mpi, "batch", listing,
+         "--ranks-per-instance", ranks, "--threads", threads, "--omega", 0, "--time-limit", limit,
+         "--output", output, "--quiet"])
     found = {}
     with open(output / "results.csv", encoding="utf-8", newline="") as table:
         for row in csv.DictReader(table):
             assert not row["error"], row
             cost = int(row["cost"]) if row["status"] == "optimal" else None
-            found[Path(row["instance"]).name] = cost
+            found[f"{Path(row['instance']).name}.cts.json"] = cost
     return found
 
 

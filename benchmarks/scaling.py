@@ -15,19 +15,16 @@ of ranks. results/scaling/README.md tells what came out.
 import argparse
 import concurrent.futures
 import csv
-import json
 import os
 import statistics
-import sys
 import tempfile
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+from harness import tables
+from harness.instances import Case, Maps, instance_arguments
+from harness.programs import MPIRUN, add_folders, median_optimum, optimum, run
 
-from harness import tables  # noqa: E402
-from harness.instances import Case, Maps, instance_arguments  # noqa: E402
-from harness.runs import run  # noqa: E402
+HERE = Path(__file__).resolve().parent
 
 # Proven optimal after about 10^5 nodes. A simulation takes as long as one rank needs, and more where
 # ranks expand more; larger ones would take hours.
@@ -40,21 +37,14 @@ RANKS = [1, 2, 16, 128, 1024, 4096]
 COST_PER_WORK = 1.3e-7  # seconds; see results/scaling/README.md
 FREE_MESSAGES = ["--latency", 0, "--message-cost", 0, "--bandwidth", 1e15, "--poll", 0]
 OPTIMAL = ["--omega", 0]
-TREE_ONLY = ["--threads", 1, "--without", "primal,configurations", "--quiet"]
-MPIRUN = ["env", "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "mpirun", "-np", 2]
+TREE_ONLY = ["--threads", 1, "--without", "primal,configurations"]
 
 
 def prepared(case, a, folder):
     """How a program is told of the case, with an optimal plan to begin with."""
-    make, instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
-    if make:
-        run(make)
+    instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
     plan = folder / "start.json"
-    run([a.bin / "grove", "solve", *instance, *OPTIMAL, "--time-limit", a.time_limit, "--quiet",
-         "--output", plan])
-    status = json.loads(plan.read_text(encoding="utf-8"))["status"]
-    if status != "optimal":
-        raise SystemExit(f"scaling.py: {case}: {status} after {a.time_limit} s; expected optimal")
+    optimum([a.bin / "grove", "solve", *instance, *OPTIMAL, "--time-limit", a.time_limit], plan)
     return [*instance, *OPTIMAL, "--start", plan]
 
 
@@ -69,15 +59,8 @@ def simulated(case, problem, ranks, a, folder, machine=()):
 
 def measured(before, problem, a, folder):
     """Seconds and nodes of the median run."""
-    runs = []
-    for _ in range(a.repeat):
-        (folder / "plan.json").unlink(missing_ok=True)  # a better one would stay
-        run([*before, "solve", *problem, *TREE_ONLY, "--output", folder / "plan.json"])
-        plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
-        if plan["status"] != "optimal":
-            raise SystemExit(f"scaling.py: {problem[0]}: {plan['status']}; expected optimal")
-        runs.append((plan["stats"]["wall_s"], plan["stats"]["nodes_expanded"]))
-    return sorted(runs)[len(runs) // 2]
+    stats = median_optimum([*before, "solve", *problem, *TREE_ONLY], folder / "plan.json", a.repeat)["stats"]
+    return stats["wall_s"], stats["nodes_expanded"]
 
 
 def write(path, rows):
@@ -129,7 +112,7 @@ def bound(a):
 def comparison(case, a, folder):
     problem = prepared(case, a, folder)
     alone_s, alone_nodes = measured([a.bin / "grove"], problem, a, folder)
-    both_s, both_nodes = measured([*MPIRUN, a.bin / "grove-mpi"], problem, a, folder)
+    both_s, both_nodes = measured([*MPIRUN, "-np", 2, a.bin / "grove-mpi"], problem, a, folder)
     one, two = simulated(case, problem, [1, 2], a, folder)
     return {"instance": str(case), "nodes_1": alone_nodes, "measured_1_s": f"{alone_s:.3f}",
             "simulated_1_s": f"{float(one['wall_s']):.3f}",
@@ -279,10 +262,8 @@ def main():
     parser.add_argument("--memory-limit", type=float, default=8, help="gigabytes for a simulation")
     parser.add_argument("--time-limit", type=float, default=600,
                         help="seconds in which the plan to begin with must be found")
-    parser.add_argument("--maps", type=Path,
-                        default=os.environ.get("GROVE_MOVINGAI", "../shared/movingai"))
     parser.add_argument("--output", type=Path, default=HERE / "results/scaling")
-    parser.add_argument("--bin", type=Path, default=HERE.parent / "build/release/bin")
+    add_folders(parser)
     a = parser.parse_args()
     {"simulate": simulate, "bound": bound, "compare": compare, "draw": draw,
      "tables": print_tables}[a.what](a)

@@ -4,6 +4,8 @@
 import dataclasses
 import pathlib
 
+from harness.programs import run
+
 RESERVED_ROWS = 20  # of a scenario: its tasks begin after them, or after the agents
 
 
@@ -72,12 +74,12 @@ def scenario_with_enough_rows(maps, case, folder):
 
 
 def instance_arguments(grove, maps, case, folder):
-    """(command that makes the instance or None, how `grove solve` is told of it)."""
+    """How `grove solve` is told of the case, whose instance is made in the folder if need be."""
     if case.tasks is None:
-        return None, [maps.scenario(case), "--map", maps.map(case), "--agents", case.agents]
+        return [maps.scenario(case), "--map", maps.map(case), "--agents", case.agents]
     instance = pathlib.Path(folder) / "instance.cts.json"
-    command = [grove, "generate", "instance", "--map", maps.map(case),
-               "--scen", scenario_with_enough_rows(maps, case, folder),
-               "--agents", case.agents, "--tasks", case.tasks, "--seed", case.scenario,
-               "-o", instance]
-    return command + (["--mg"] if case.mg else []), [instance]
+    run([grove, "generate", "instance", "--map", maps.map(case),
+         "--scen", scenario_with_enough_rows(maps, case, folder),
+         "--agents", case.agents, "--tasks", case.tasks, "--seed", case.scenario,
+         "-o", instance, *(["--mg"] if case.mg else [])])
+    return [instance]

@@ -16,6 +16,7 @@ import tempfile
 import time
 
 from harness.instances import instance_arguments
+from harness.programs import Failure, run
 
 # Of those that `grove bench` writes, so that `grove report` reads them.
 COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks", "problem", "omega",
@@ -27,20 +28,6 @@ FROM_STATS = {"roots": "roots_generated", "nodes": "nodes_expanded"} | {
 PATHS = re.compile(r"^(Agent \d+:|solution=)", re.M)  # in what other solvers write
 FIRST_PLAN = re.compile(r"^[*HCLS] .* (\d+\.\d+)s$", re.M)
 GRACE_S = 10  # after its time limit a program is killed
-
-
-class Failure(Exception):
-    """A program did not do what it should."""
-
-
-def run(command, timeout=None):
-    """The output of a command that must succeed."""
-    command = [str(word) for word in command]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=timeout)
-    if done.returncode != 0:
-        raise Failure(f"{shlex.join(command)} ended with {done.returncode}: "
-                      f"{(done.stderr or done.stdout).strip()}")
-    return done.stdout
 
 
 def gap(cost, bound):
@@ -67,9 +54,7 @@ class Grove:
     name: str = "Grove"
 
     def solve(self, maps, case, time_limit, folder):
-        generate, instance = instance_arguments(self.program, maps, case, folder)
-        if generate:
-            run(generate)
+        instance = instance_arguments(self.program, maps, case, folder)
         threads = () if "--threads" in self.options else ("--threads", 1)
         plan, log = pathlib.Path(folder) / "plan.json", pathlib.Path(folder) / "log.txt"
         run([self.program, "solve", *instance, "--quiet", "--output", plan, "--log", log,
