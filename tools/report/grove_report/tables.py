@@ -69,14 +69,12 @@ def _cell(tag, entry):
     return f"<{tag}{kind}{hint}>{f'<b>{text}</b>' if entry.strong else text}</{tag}>"
 
 
-def html_table(header, rows, caption=""):
+def html_table(header, rows):
     """`header`: texts, or Entries; `rows`: lists of Entries. The header stays in sight."""
     numbers = rows[0] if rows else [Entry("")] * len(header)
     heads = [entry if isinstance(entry, Entry) else Entry(entry, number=first.number)
              for entry, first in zip(header, numbers)]
     lines = ['<div class="scroll"><table>']
-    if caption:
-        lines.append(f"<caption>{html.escape(caption)}</caption>")
     lines.append("<thead><tr>" + "".join(_cell("th", head) for head in heads) + "</tr></thead>")
     lines.append("<tbody>")
     lines += ["<tr>" + "".join(_cell("td", entry) for entry in row) + "</tr>" for row in rows]
