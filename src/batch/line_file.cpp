@@ -4,8 +4,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <system_error>
 #include <utility>
 
 #include "grove/io/input_error.h"
@@ -18,32 +16,16 @@ std::vector<std::string_view> whole_lines(std::string_view text) {
 }
 
 LineFile::LineFile(std::filesystem::path path)
-    : path_(std::move(path)),
-      fd_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666)) {
-  if (fd_ < 0) fail();
+    : path_(std::move(path)), file_(path_, O_WRONLY | O_APPEND | O_CREAT) {
+  if (!file_.is_open()) fail_to_write(path_);
 }
 
-LineFile::~LineFile() {
-  ::close(fd_);
-}
-
-// One write() as a rule; a file system may do less at a time.
 void LineFile::append(std::string_view lines) {
-  while (!lines.empty()) {
-    const ssize_t written = ::write(fd_, lines.data(), lines.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail();
-    lines.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (!write_all(file_.get(), lines)) fail_to_write(path_);
 }
 
 void LineFile::flush() {
-  if (::fsync(fd_) != 0) fail();
-}
-
-void LineFile::fail() const {
-  throw InputError(path_.string(), "",
-                   "cannot be written: " + std::generic_category().message(errno));
+  if (::fsync(file_.get()) != 0) fail_to_write(path_);
 }
 
 }  // namespace grove::batch

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <span>
 #include <stdexcept>
@@ -181,9 +180,9 @@ class CheckpointReader::Blocks {
   explicit Blocks(fs::path path) : path_(std::move(path)), file_(nullptr, &std::fclose) {
     std::error_code error;
     size_ = fs::file_size(path_, error);
-    if (error) fail_to_read(error.value());
+    if (error) fail_to_read(path_, error.value());
     file_.reset(std::fopen(path_.c_str(), "rb"));
-    if (!file_) fail_to_read(errno);
+    if (!file_) fail_to_read(path_);
     read_opening();
   }
 
@@ -228,11 +227,6 @@ class CheckpointReader::Blocks {
   }
 
  private:
-  [[noreturn]] void fail_to_read(int error) const {
-    throw InputError(path_.string(), "",
-                     "cannot be read: " + std::generic_category().message(error));
-  }
-
   void read_opening() {
     const std::string magic = read(std::min<std::uint64_t>(kMagic.size(), left()));
     if (magic != kMagic)
@@ -248,7 +242,7 @@ class CheckpointReader::Blocks {
       refuse(fmt::format("ends after {} bytes; expected {} more", size_, size - left()));
     std::string bytes(size, '\0');
     const std::size_t read = std::fread(bytes.data(), 1, bytes.size(), file_.get());
-    if (std::ferror(file_.get()) != 0) fail_to_read(errno);
+    if (std::ferror(file_.get()) != 0) fail_to_read(path_);
     if (read != size) refuse("became shorter while it was read");
     offset_ += size;
     return bytes;

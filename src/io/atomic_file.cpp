@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -16,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "descriptor.h"
+#include "grove/io/descriptor.h"
 #include "grove/io/input_error.h"
 
 namespace grove {
@@ -26,11 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporary = ".grove-";
 constexpr auto kLongestPause = std::chrono::hours(1);  // between two writes to a temporary file
-
-[[noreturn]] void fail_to_write(const fs::path& path, int error) {
-  throw InputError(path.string(), "",
-                   "cannot be written: " + std::generic_category().message(error));
-}
 
 // Files to write to as they stand. /dev/stdout may well be a regular file, which others have open.
 bool is_special(const fs::path& path, const fs::file_status& status) {
@@ -48,7 +42,7 @@ fs::path resolved(const fs::path& path, fs::file_status& status) {
   if (path.filename().empty() || fs::is_directory(status))
     throw InputError(path.string(), "", "cannot be written: is a directory; expected a file name");
   if (fs::exists(status) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
-    fail_to_write(path, errno);
+    fail_to_write(path);
   if (is_special(path, status)) return path;
   const fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);
   return error ? path : target;
@@ -98,77 +92,15 @@ void clear_abandoned_once(const fs::path& folder) {
   if (cleared.insert(folder).second) clear_abandoned(folder);
 }
 
-// A new, empty file, locked as long as it is open.
-std::unique_ptr<Descriptor> make_locked(const fs::path& path) {
-  auto file = std::make_unique<Descriptor>(path, O_WRONLY | O_CREAT | O_EXCL);
-  if (!file->is_open()) return file;
+// A new, empty file, locked as long as it is open. None: somebody has taken it for abandoned.
+std::optional<Descriptor> make_locked(const fs::path& path) {
+  Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
+  if (!file.is_open()) return file;
   struct stat status {};
-  const bool is_locked = lock(file->get()) != LockResult::kHeld;
-  const bool is_there = ::fstat(file->get(), &status) == 0 && status.st_nlink > 0;
-  return is_locked && is_there ? std::move(file) : nullptr;
+  const bool is_locked = lock(file.get()) != LockResult::kHeld;
+  const bool is_there = ::fstat(file.get(), &status) == 0 && status.st_nlink > 0;
+  return is_locked && is_there ? std::optional(std::move(file)) : std::nullopt;
 }
-
-// A new, empty file beside `target`; removes itself unless it was renamed.
-class TemporaryFile {
- public:
-  // `name` is the path as the user gave it, for messages.
-  TemporaryFile(const fs::path& target, const fs::path& name) : name_(name) {
-    clear_abandoned_once(target.parent_path());
-    do path_ = unused_name(target.parent_path());
-    while (!(file_ = make_locked(path_)));
-    if (!file_->is_open()) fail_to_write(name, errno);
-  }
-  ~TemporaryFile() {
-    if (!renamed_) ::unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void copy_permissions(const fs::file_status& status) {
-    (void)::fchmod(file_->get(), static_cast<mode_t>(status.permissions()));
-  }
-
-  void write(std::string_view content) {
-    if (!write_all(file_->get(), content)) fail_to_write(name_, errno);
-  }
-
-  void flush() {
-    if (::fsync(file_->get()) != 0) fail_to_write(name_, errno);
-  }
-  void rename_to(const fs::path& target) {
-    if (!file_->reports_no_error()) fail_to_write(name_, errno);
-    if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write(name_, errno);
-    renamed_ = true;
-  }
-
- private:
-  fs::path path_;
-  fs::path name_;
-  std::unique_ptr<Descriptor> file_;
-  bool renamed_ = false;
-};
-
-// A special file, written to as it stands.
-class SpecialFile {
- public:
-  explicit SpecialFile(const fs::path& path)
-      : path_(path),
-        // Appending: a shell's redirection may already hold the output of others.
-        file_(path, O_WRONLY | O_APPEND | O_NOCTTY) {
-    if (!file_.is_open()) fail_to_write(path_, errno);
-  }
-
-  void write(std::string_view content) {
-    if (!write_all(file_.get(), content)) fail_to_write(path_, errno);
-  }
-  void close() {
-    if (!file_.reports_no_error()) fail_to_write(path_, errno);
-  }
-
- private:
-  fs::path path_;
-  Descriptor file_;
-};
 
 // After a crash of the machine either name must lead to a whole file.
 void flush_directory(const fs::path& directory) {
@@ -178,37 +110,38 @@ void flush_directory(const fs::path& directory) {
 
 }  // namespace
 
-struct AtomicFile::Files {
-  fs::path target;
-  std::optional<TemporaryFile> temporary;
-  std::optional<SpecialFile> special;
-};
-
-AtomicFile::AtomicFile(const fs::path& path) : files_(std::make_unique<Files>()) {
+AtomicFile::AtomicFile(const fs::path& path) : name_(path) {
   fs::file_status status;
-  files_->target = resolved(path, status);
+  target_ = resolved(path, status);
   if (is_special(path, status)) {
-    files_->special.emplace(path);
-    return;
+    // Appending: a shell's redirection may already hold the output of others.
+    file_.emplace(path, O_WRONLY | O_APPEND | O_NOCTTY);
+  } else {
+    clear_abandoned_once(target_.parent_path());
+    do temporary_ = unused_name(target_.parent_path());
+    while (!(file_ = make_locked(temporary_)));
   }
-  files_->temporary.emplace(files_->target, path);
-  if (fs::exists(status)) files_->temporary->copy_permissions(status);
+  if (!file_->is_open()) fail_to_write(name_);
+  if (!temporary_.empty() && fs::exists(status))
+    (void)::fchmod(file_->get(), static_cast<mode_t>(status.permissions()));
 }
 
-AtomicFile::~AtomicFile() = default;
+AtomicFile::~AtomicFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
 
 void AtomicFile::write(std::string_view bytes) {
-  if (files_->special)
-    files_->special->write(bytes);
-  else
-    files_->temporary->write(bytes);
+  if (!write_all(file_->get(), bytes)) fail_to_write(name_);
 }
 
 void AtomicFile::commit(Outlives outlives) {
-  if (files_->special) return files_->special->close();
-  if (outlives == Outlives::kMachine) files_->temporary->flush();
-  files_->temporary->rename_to(files_->target);
-  if (outlives == Outlives::kMachine) flush_directory(files_->target.parent_path());
+  const bool is_flushed = outlives == Outlives::kMachine && !temporary_.empty();
+  if (is_flushed && ::fsync(file_->get()) != 0) fail_to_write(name_);
+  if (!file_->reports_no_error()) fail_to_write(name_);
+  if (temporary_.empty()) return;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_to_write(name_);
+  temporary_.clear();
+  if (is_flushed) flush_directory(target_.parent_path());
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content, Outlives outlives) {
@@ -219,14 +152,14 @@ void write_file_atomically(const fs::path& path, std::string_view content, Outli
 
 void flush_file(const fs::path& path) {
   const Descriptor file(path, O_RDONLY);
-  if (!file.is_open() || ::fsync(file.get()) != 0) fail_to_write(path, errno);
+  if (!file.is_open() || ::fsync(file.get()) != 0) fail_to_write(path);
   flush_directory(path.parent_path());
 }
 
 void require_writable(const fs::path& path) {
   fs::file_status status;
-  const fs::path target = resolved(path, status);
-  if (!is_special(path, status)) const TemporaryFile probe(target, path);
+  resolved(path, status);
+  if (!is_special(path, status)) const AtomicFile probe(path);
 }
 
 void require_distinct_files(const fs::path& file, const fs::path& other,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "descriptor.h"
+#include "grove/io/descriptor.h"
 
 #include <cerrno>
 

@@ -5,12 +5,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <ctime>
 #include <string>
-#include <system_error>
 
-#include "descriptor.h"
 #include "grove/io/input_error.h"
 #include "grove/io/text_file.h"
 
@@ -33,21 +30,12 @@ std::string who_i_am() {
 
 }  // namespace
 
-FileLock::FileLock(const fs::path& path)
-    : file_(std::make_unique<Descriptor>(path, O_RDWR | O_CREAT)) {
-  const auto cannot = [&] {
-    throw InputError(path.string(), "",
-                     "cannot be written: " + std::generic_category().message(errno));
-  };
-  if (!file_->is_open()) cannot();
-  const LockResult result = lock(file_->get());
+FileLock::FileLock(const fs::path& path) : file_(path, O_RDWR | O_CREAT) {
+  if (!file_.is_open()) fail_to_write(path);
+  const LockResult result = lock(file_.get());
   if (result == LockResult::kHeld) refuse(path);
   held_ = result == LockResult::kLocked;
-  if (::ftruncate(file_->get(), 0) != 0 || !write_all(file_->get(), who_i_am())) cannot();
+  if (::ftruncate(file_.get(), 0) != 0 || !write_all(file_.get(), who_i_am())) fail_to_write(path);
 }
-
-FileLock::FileLock(FileLock&&) noexcept = default;
-FileLock& FileLock::operator=(FileLock&&) noexcept = default;
-FileLock::~FileLock() = default;
 
 }  // namespace grove

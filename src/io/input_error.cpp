@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 namespace grove {
 namespace {
 
@@ -39,6 +41,15 @@ std::string joined(std::string_view file, std::string_view place, std::string_vi
 
 InputError::InputError(std::string_view file, std::string_view place, std::string_view message)
     : std::runtime_error(joined(file, place, message)) {}
+
+void fail_to_read(const std::filesystem::path& path, int error) {
+  throw InputError(path.string(), "", "cannot be read: " + std::generic_category().message(error));
+}
+
+void fail_to_write(const std::filesystem::path& path, int error) {
+  throw InputError(path.string(), "",
+                   "cannot be written: " + std::generic_category().message(error));
+}
 
 std::string one_line(std::string_view text) {
   std::string line;

@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <memory>
-#include <system_error>
 
 #include "grove/io/input_error.h"
 
@@ -16,11 +14,6 @@ namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{1} << 30;  // also ends the reading of /dev/zero
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-[[noreturn]] void fail_to_read(const std::filesystem::path& path) {
-  const std::string reason = std::generic_category().message(errno);
-  throw InputError(path.string(), "", "cannot be read: " + reason);
-}
 
 }  // namespace
 

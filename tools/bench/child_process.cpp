@@ -14,6 +14,8 @@
 #include <csignal>
 #include <system_error>
 
+#include "grove/io/descriptor.h"
+
 namespace grove::bench {
 namespace {
 
@@ -25,20 +27,6 @@ constexpr int kCannotBeStarted = 127;
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
-
-class Descriptor {
- public:
-  Descriptor(int fd, const char* what) : fd_(fd) {
-    if (fd_ < 0) fail(what);
-  }
-  ~Descriptor() { ::close(fd_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return fd_; }
-
- private:
-  const int fd_;
-};
 
 // Between fork() and exec(), where only what is safe in a signal handler may be called.
 [[noreturn]] void become(char* const* arguments, pid_t parent, int input, int output) {
@@ -70,9 +58,10 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  const Descriptor input(::open("/dev/null", O_RDONLY | O_CLOEXEC), "/dev/null");
-  const Descriptor output(::open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666),
-                          said.c_str());
+  const Descriptor input("/dev/null", O_RDONLY);
+  if (!input.is_open()) fail("/dev/null");
+  const Descriptor output(said, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!output.is_open()) fail(said.c_str());
 
   const pid_t parent = ::getpid();
   const Clock::time_point start = Clock::now();
@@ -81,15 +70,14 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   if (pid == 0) become(arguments.data(), parent, input.get(), output.get());
 
   // glibc 2.36 declares pidfd_open() for C alone.
-  const auto handle = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));
-  if (handle < 0) {
+  const Descriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
+  if (!process.is_open()) {
     const int error = errno;
     ::kill(pid, SIGKILL);
     ended(pid);
     errno = error;
     fail("pidfd_open");
   }
-  const Descriptor process(handle, "pidfd_open");
   auto killed = ChildEnd::Kind::kExited;  // that is: not
   for (;;) {
     pollfd wait{process.get(), POLLIN, 0};

@@ -2,7 +2,6 @@
 #include "tools/mpi/crew.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <map>
@@ -10,16 +9,11 @@
 #include <thread>
 #include <utility>
 
+#include "grove/io/descriptor.h"
 #include "tools/common/machine.h"
 
 namespace grove {
 namespace {
-
-std::string host() {
-  char name[256] = {};
-  ::gethostname(name, sizeof name - 1);
-  return name;
-}
 
 std::vector<int> gather_numbers(const MpiSession& session, int mine) {
   std::vector<int> all;
@@ -36,14 +30,14 @@ int how_many_say(const MpiSession& session, const std::string& mine) {
 }  // namespace
 
 void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session) {
-  const int on_cores = how_many_say(session, host() + usable_cores_text());
-  const int on_host = how_many_say(session, host());
+  const int on_cores = how_many_say(session, host_name() + usable_cores_text());
+  const int on_host = how_many_say(session, host_name());
   if (app.count("--threads") == 0) arguments.threads = std::max(1, usable_cores() / on_cores);
   if (app.count("--memory-limit") == 0) arguments.memory_limit_gb /= on_host;
 }
 
 Crew gather_crew(const MpiSession& session, std::int64_t threads) {
-  return {session.gather(host()), gather_numbers(session, static_cast<int>(threads)),
+  return {session.gather(host_name()), gather_numbers(session, static_cast<int>(threads)),
           gather_numbers(session, usable_cores()),
           gather_numbers(session, static_cast<int>(std::thread::hardware_concurrency()))};
 }

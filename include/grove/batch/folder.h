@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "grove/io/descriptor.h"
+
 namespace grove::batch {
 
 // Makes `folder` and those above it where they are missing. Throws InputError when it cannot.
@@ -15,12 +17,9 @@ class FolderLock {
  public:
   // `folder` must exist. Throws InputError when it cannot be written to or another has locked it.
   explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  int fd_;
+  const Descriptor file_;
 };
 
 }  // namespace grove::batch

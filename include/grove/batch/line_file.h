@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "grove/io/descriptor.h"
+
 namespace grove::batch {
 
 // The lines that `text`, the content of such a file, holds whole; what follows the last line end is
@@ -17,9 +19,6 @@ class LineFile {
  public:
   // Makes the file if it is missing. Throws InputError when it cannot be written.
   explicit LineFile(std::filesystem::path path);
-  ~LineFile();
-  LineFile(const LineFile&) = delete;
-  LineFile& operator=(const LineFile&) = delete;
 
   // Writes `lines`, each with its end, at once. Throws InputError when that fails.
   void append(std::string_view lines);
@@ -27,10 +26,8 @@ class LineFile {
   void flush();
 
  private:
-  [[noreturn]] void fail() const;
-
   const std::filesystem::path path_;
-  int fd_;
+  const Descriptor file_;
 };
 
 }  // namespace grove::batch

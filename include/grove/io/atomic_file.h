@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string_view>
+
+#include "grove/io/descriptor.h"
 
 namespace grove {
 
@@ -23,14 +25,18 @@ class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
 
   void write(std::string_view bytes);
   // To be called once, last.
   void commit(Outlives outlives = Outlives::kMachine);
 
  private:
-  struct Files;
-  std::unique_ptr<Files> files_;
+  const std::filesystem::path name_;  // as it was given, for messages
+  std::filesystem::path target_;      // behind a symbolic link
+  std::filesystem::path temporary_;   // empty: there is none, for the file is special, or no more
+  std::optional<Descriptor> file_;
 };
 
 // Replaces the file at `path` by `content`: written beside it under a temporary name, flushed to

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+
+#include "grove/io/descriptor.h"
 
 namespace grove {
-
-class Descriptor;
 
 // Holds the lock that the file at `path` stands for, until it or the process ends, however that
 // comes: the file is left behind, a lock never is. The file says who holds it. A lock counts on all
@@ -16,15 +15,12 @@ class FileLock {
  public:
   // Throws InputError when another holds it, and says who; and when the file cannot be written.
   explicit FileLock(const std::filesystem::path& path);
-  FileLock(FileLock&&) noexcept;
-  FileLock& operator=(FileLock&&) noexcept;
-  ~FileLock();
 
   // False where the file system knows no locks: then nobody is kept away.
   bool is_held() const { return held_; }
 
  private:
-  std::unique_ptr<Descriptor> file_;
+  Descriptor file_;
   bool held_ = true;
 };
 

@@ -2,6 +2,8 @@
 // The one exception for bad input.
 #pragma once
 
+#include <cerrno>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,6 +18,10 @@ class InputError : public std::runtime_error {
  public:
   InputError(std::string_view file, std::string_view place, std::string_view message);
 };
+
+// The system refuses to read or write the file, as `error` of errno.h says.
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, int error = errno);
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, int error = errno);
 
 // `text` as one printable line, whatever was in it: control characters and broken UTF-8 are written
 // as \n, \t, \x1b, ..., and what goes beyond some hundred bytes is cut off. For messages that quote

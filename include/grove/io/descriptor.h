@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Files as the system knows them, where streams do not do.
 #pragma once
 
 #include <fcntl.h>
@@ -8,19 +9,27 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace grove {
 
 // An open file; closes itself.
 class Descriptor {
  public:
+  // Takes over one that is open, or -1.
+  explicit Descriptor(int fd) : fd_(fd) {}
+  // `flags` as those of open(2); a file that is made can be read and written by all, but for the
+  // umask. errno says why if it is not open then.
   Descriptor(const std::filesystem::path& path, int flags)
-      : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+      : Descriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
   ~Descriptor() {
     if (fd_ >= 0) ::close(fd_);
   }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
 
   bool is_open() const { return fd_ >= 0; }
   int get() const { return fd_; }
