@@ -2,10 +2,10 @@
 #include "grove/batch/instance_facts.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <string_view>
-#include <system_error>
+
+#include "grove/model/parse_number.h"
 
 namespace grove::batch {
 namespace {
@@ -14,11 +14,8 @@ namespace fs = std::filesystem;
 
 // 12 of "s12" for the letter s; none of anything else.
 std::optional<std::int64_t> numbered(std::string_view word, char letter) {
-  if (!word.starts_with(letter) || word.size() < 2) return std::nullopt;
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data() + 1, word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || value < 0) return std::nullopt;
-  return value;
+  if (!word.starts_with(letter)) return std::nullopt;
+  return parse_number<std::int64_t>(word.substr(1), 0);
 }
 
 // What a name such as room-32-32-4_s3_n5_m20_mg says.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 
 #include "grove/io/input_error.h"
 #include "grove/io/text_file.h"
+#include "grove/model/parse_number.h"
 #include "instance_digest.h"
 
 namespace grove::batch {
@@ -179,13 +179,11 @@ class ManifestReader {
   }
 
   int agent_count(std::string_view text) const {
-    int count = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    if (error != std::errc() || end != text.data() + text.size() || count < 1 ||
-        count > kMostAgents)
+    const auto count = parse_number(text, 1, kMostAgents);
+    if (!count)
       fail(fmt::format("found '{}'; expected a number of agents from 1 to {}", one_line(text),
                        kMostAgents));
-    return count;
+    return *count;
   }
 
   std::string existing(std::string_view name) const {

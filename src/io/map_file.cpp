@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string_view>
 
 #include "grove/io/atomic_file.h"
 #include "grove/io/input_error.h"
 #include "grove/io/text_file.h"
+#include "grove/model/parse_number.h"
 
 namespace grove {
 namespace {
@@ -68,10 +68,8 @@ class MapReader {
     if (!text.starts_with(key) || text.size() <= key.size() || text[key.size()] != ' ')
       return std::nullopt;
     const std::string_view digits = text.substr(key.size() + 1);
-    int number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error != std::errc() || end != digits.data() + digits.size() || number < 1 ||
-        number > kMaxMapCells)
+    const auto number = parse_number(digits, 1, kMaxMapCells);
+    if (!number)
       fail(line, key.size() + 1,
            fmt::format("found '{}'; expected a {} from 1 to {}", one_line(digits), key,
                        kMaxMapCells));

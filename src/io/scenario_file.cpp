@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <limits>
 #include <string_view>
 
 #include "grove/io/atomic_file.h"
 #include "grove/io/input_error.h"
 #include "grove/io/text_file.h"
+#include "grove/model/parse_number.h"
 
 namespace grove {
 namespace {
@@ -70,20 +69,16 @@ class RowReader {
 
   int integer(std::size_t field, int least) const {
     const auto [text, column] = fields_[field];
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < least)
+    const auto value = parse_number(text, least);
+    if (!value)
       fail(column, fmt::format("found '{}'; expected an integer from {} to {}", one_line(text),
                                least, std::numeric_limits<int>::max()));
-    return value;
+    return *value;
   }
 
   void length(std::size_t field) const {
     const auto [text, column] = fields_[field];
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) ||
-        value < 0)
+    if (!parse_number(text, 0.0))
       fail(column, fmt::format("found '{}'; expected a length of at least 0", one_line(text)));
   }
 

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
 #include "grove/io/atomic_file.h"
 #include "grove/io/expressible.h"
+#include "grove/model/parse_number.h"
 #include "plan_steps.h"
 
 namespace grove {
@@ -79,12 +79,8 @@ std::optional<TrackerScenario> parse_tracker_scenario(const std::string& map,
   for (const std::string_view type : {"even", "random"}) {
     const std::string head = fmt::format("{}-", type);
     if (!type_and_number.starts_with(head)) continue;
-    const std::string_view digits = std::string_view(type_and_number).substr(head.size());
-    int number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error != std::errc() || end != digits.data() + digits.size() || number < 0)
-      return std::nullopt;
-    return TrackerScenario{map, std::string(type), number};
+    const auto number = parse_number(std::string_view(type_and_number).substr(head.size()), 0);
+    if (number) return TrackerScenario{map, std::string(type), *number};
   }
   return std::nullopt;
 }

@@ -5,13 +5,13 @@
 #include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "grove/io/input_error.h"
 #include "grove/io/text_file.h"
+#include "grove/model/parse_number.h"
 
 namespace grove {
 namespace {
@@ -43,13 +43,9 @@ bool is_utf8(const std::string& text) {
 
 // The number that a decimal integer without leading zeros is.
 std::optional<int> decimal(const std::string& text) {
-  int value = 0;
-  const char* end = text.data() + text.size();
-  const auto [parsed_to, error] = std::from_chars(text.data(), end, value);
   const std::string_view digits = std::string_view(text).substr(text.starts_with('-') ? 1 : 0);
   const bool is_padded = digits.size() > 1 && digits.front() == '0';
-  if (error != std::errc() || parsed_to != end || is_padded) return std::nullopt;
-  return value;
+  return is_padded ? std::nullopt : parse_number<int>(text);
 }
 
 // Hears all that a document holds, and keeps nothing.

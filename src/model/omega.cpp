@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "grove/model/parse_number.h"
 
 namespace grove {
 namespace {
@@ -23,13 +24,11 @@ Omega Omega::from_double(double value) {
 
 Omega Omega::parse(std::string_view text) {
   if (text == "inf") return infinite();
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw std::invalid_argument(kExpected);
-  const Omega omega = from_double(value);
+  const auto value = parse_number<double>(text);
+  if (!value) throw std::invalid_argument(kExpected);
+  const Omega omega = from_double(*value);
   // The double that the text stands for must be the one that the multiple of 1e-9 stands for.
-  if (omega.value() != value) throw std::invalid_argument(kExpected);
+  if (omega.value() != *value) throw std::invalid_argument(kExpected);
   return omega;
 }
 

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 #include <type_traits>
+
+#include "grove/model/parse_number.h"
 
 namespace grove {
 namespace {
@@ -42,16 +43,15 @@ void set(Tuning& tuning, std::string_view text) {
   const std::string_view value = text.substr(name.size() + 1);
   std::visit(
       [&](auto at) {
-        auto number = tuning.*at;
-        const auto [end, error] = std::from_chars(value.begin(), value.end(), number);
-        const bool is_number = error == std::errc() && end == value.end();
-        const auto real = static_cast<double>(number);
-        if (!is_number || !(real >= tunable->least && real <= tunable->most))
+        using Number = std::remove_reference_t<decltype(tuning.*at)>;
+        const auto number = parse_number(value, static_cast<Number>(tunable->least),
+                                         static_cast<Number>(tunable->most));
+        if (!number)
           throw std::invalid_argument(
               fmt::format("{}: found '{}'; expected {} from {} to {}", name, value,
-                          std::is_integral_v<decltype(number)> ? "an integer" : "a number",
-                          tunable->least, tunable->most));
-        tuning.*at = number;
+                          std::is_integral_v<Number> ? "an integer" : "a number", tunable->least,
+                          tunable->most));
+        tuning.*at = *number;
       },
       tunable->place);
 }

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <numeric>
 #include <sstream>
 #include <utility>
+
+#include "grove/model/parse_number.h"
 
 namespace grove {
 namespace {
@@ -15,14 +16,6 @@ namespace {
 [[noreturn]] void refuse(const std::string& option, const std::string& text,
                          const std::string& expected) {
   throw CLI::ValidationError(option, fmt::format("found '{}'; expected {}", text, expected));
-}
-
-// True if all of `text` is a number, which is then in `value`.
-template <typename Number>
-bool parse_all(const std::string& text, Number& value) {
-  const char* end = text.data() + text.size();
-  const auto [parsed_to, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && parsed_to == end;
 }
 
 std::string range_text(IntegerRange range) {
@@ -56,10 +49,9 @@ std::vector<std::int64_t> parse_range(const std::string& option, const std::stri
 }  // namespace
 
 std::int64_t parse_integer(const std::string& option, const std::string& text, IntegerRange range) {
-  std::int64_t value = 0;
-  if (!parse_all(text, value) || value < range.least || value > range.most)
-    refuse(option, text, range_text(range));
-  return value;
+  const auto value = parse_number(text, range.least, range.most);
+  if (!value) refuse(option, text, range_text(range));
+  return *value;
 }
 
 CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t& value,
@@ -122,8 +114,9 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, d
                         double most, const std::string& description) {
   const auto read = [&value, name, least, most](const CLI::results_t& results) {
     const std::string& text = results.front();
-    if (!parse_all(text, value) || !(value >= least && value <= most))
-      refuse(name, text, fmt::format("a number from {} to {}", least, most));
+    const auto number = parse_number(text, least, most);
+    if (!number) refuse(name, text, fmt::format("a number from {} to {}", least, most));
+    value = *number;
     return true;
   };
   return app.add_option(name, read, description)
