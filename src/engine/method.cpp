@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -13,21 +13,26 @@
 namespace grove {
 namespace {
 
-constexpr std::array kMethods{Method::kAuto,    Method::kCtsCbsA,    Method::kCtsCbsB,
-                              Method::kCtsCbsC, Method::kOptimalCbs, Method::kHcbs,
-                              Method::kMgcbs,   Method::kSCbs};
+struct Row {
+  Method method;
+  std::string_view name;
+  LowLevel low_level = LowLevel::kOwn;
+};
 
-LowLevel low_level_of(Method method) {
-  switch (method) {
-    case Method::kOptimalCbs:
-      return LowLevel::kVisitedSets;
-    case Method::kHcbs:
-      return LowLevel::kSingleLegs;
-    case Method::kMgcbs:
-      return LowLevel::kTimeIntervalForest;
-    default:
-      return LowLevel::kOwn;
-  }
+// In the order of the enumeration.
+constexpr Row kMethods[] = {
+    {Method::kAuto, "auto"},
+    {Method::kCtsCbsA, "cts-cbs-a"},
+    {Method::kCtsCbsB, "cts-cbs-b"},
+    {Method::kCtsCbsC, "cts-cbs-c"},
+    {Method::kOptimalCbs, "optimal-cbs", LowLevel::kVisitedSets},
+    {Method::kHcbs, "hcbs", LowLevel::kSingleLegs},
+    {Method::kMgcbs, "mgcbs", LowLevel::kTimeIntervalForest},
+    {Method::kSCbs, "s-cbs"},
+};
+
+const Row& row_of(Method method) {
+  return kMethods[static_cast<std::size_t>(method)];
 }
 
 [[noreturn]] void refuse(Method method, std::string_view why) {
@@ -40,35 +45,19 @@ bool is_composed(Method method) {
 
 }  // namespace
 
-std::span<const Method> all_methods() {
-  return kMethods;
+std::vector<Method> all_methods() {
+  std::vector<Method> methods;
+  for (const Row& row : kMethods) methods.push_back(row.method);
+  return methods;
 }
 
 std::string_view name_of(Method method) {
-  switch (method) {
-    case Method::kAuto:
-      return "auto";
-    case Method::kCtsCbsA:
-      return "cts-cbs-a";
-    case Method::kCtsCbsB:
-      return "cts-cbs-b";
-    case Method::kCtsCbsC:
-      return "cts-cbs-c";
-    case Method::kOptimalCbs:
-      return "optimal-cbs";
-    case Method::kHcbs:
-      return "hcbs";
-    case Method::kMgcbs:
-      return "mgcbs";
-    case Method::kSCbs:
-      return "s-cbs";
-  }
-  return "";
+  return row_of(method).name;
 }
 
 std::optional<Method> parse_method(std::string_view name) {
-  const auto method = std::ranges::find(kMethods, name, [](Method m) { return name_of(m); });
-  return method == kMethods.end() ? std::nullopt : std::optional(*method);
+  const auto row = std::ranges::find(kMethods, name, &Row::name);
+  return row == std::end(kMethods) ? std::nullopt : std::optional(row->method);
 }
 
 bool is_adaptation(Method method) {
@@ -76,7 +65,7 @@ bool is_adaptation(Method method) {
 }
 
 SolveOptions options_of(Method method, SolveOptions options) {
-  options.low_level = low_level_of(method);
+  options.low_level = row_of(method).low_level;
   const bool is_other = options.low_level != LowLevel::kOwn;
   if (is_other && options.policy == Policy::kFixed)
     refuse(method, "has one tree for all sequences; expected policy free, or none");

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "grove/engine/solve.h"
 
@@ -25,7 +25,7 @@ enum class Method : std::uint8_t {
   kSCbs,  // CTS-CBS in the tree of the best joint sequence alone (w = inf; paper, section IV)
 };
 
-std::span<const Method> all_methods();
+std::vector<Method> all_methods();
 // As on the command line: "cts-cbs-a".
 std::string_view name_of(Method method);
 std::optional<Method> parse_method(std::string_view name);
