@@ -60,15 +60,9 @@ void serialize(Archive& archive, Entrust& entrust) {
 }
 
 template <class Archive>
-void serialize(Archive&, Gather&) {}
-
-template <class Archive>
 void serialize(Archive& archive, Gathered& gathered) {
   archive(gathered.evicted_bound);
 }
-
-template <class Archive>
-void serialize(Archive&, More&) {}
 
 template <class Archive>
 void serialize(Archive& archive, Part& part) {
@@ -94,9 +88,6 @@ template <class Archive>
 void serialize(Archive& archive, BeginAnew& anew) {
   archive(anew.proven);
 }
-
-template <class Archive>
-void serialize(Archive&, End&) {}
 
 template <class Archive>
 void serialize(Archive& archive, Goodbye& goodbye) {

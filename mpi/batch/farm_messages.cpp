@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/batch/farm_messages.h"
 
-#include <cereal/archives/portable_binary.hpp>
-#include <cereal/types/common.hpp>
-#include <cereal/types/string.hpp>
 #include <cereal/types/variant.hpp>
-#include <sstream>
-#include <utility>
+
+#include "grove/engine/serialise.h"
 
 namespace grove::batch {
 
@@ -17,11 +14,13 @@ void serialize(Archive& archive, Entry& entry) {
 
 // As it will stand in the table.
 template <typename Archive>
-std::string save_minimal(const Archive&, const Report& report) {
-  return json_line(report.row);
+void save(Archive& archive, const Report& report) {
+  archive(json_line(report.row));
 }
 template <typename Archive>
-void load_minimal(const Archive&, Report& report, const std::string& line) {
+void load(Archive& archive, Report& report) {
+  std::string line;
+  archive(line);
   report.row = parse_json_line(line);
 }
 
@@ -36,18 +35,11 @@ void serialize(Archive& archive, Ended& ended) {
 }
 
 std::string encode(const FarmMessage& message) {
-  std::ostringstream stream;
-  cereal::PortableBinaryOutputArchive archive(stream);
-  archive(message);
-  return std::move(stream).str();
+  return to_bytes(message);
 }
 
-FarmMessage decode(const std::string& bytes) {
-  std::istringstream stream(bytes);
-  FarmMessage message;
-  cereal::PortableBinaryInputArchive archive(stream);
-  archive(message);
-  return message;
+FarmMessage decode(std::string_view bytes) {
+  return from_bytes<FarmMessage>(bytes);
 }
 
 }  // namespace grove::batch

@@ -57,7 +57,7 @@ struct Ended {
 using FarmMessage = std::variant<AskForWork, Report, GaveUp, Assignment, Stop, Dismissal, Ended>;
 
 std::string encode(const FarmMessage& message);
-// Throws std::runtime_error when `bytes` are no message.
-FarmMessage decode(const std::string& bytes);
+// Throws std::invalid_argument when `bytes` are no message.
+FarmMessage decode(std::string_view bytes);
 
 }  // namespace grove::batch

@@ -30,7 +30,7 @@ TEST(FarmMessages, CutShortAreNone) {
   for (const FarmMessage& message : kMessages) {
     const std::string bytes = encode(message);
     for (std::size_t size = 0; size < bytes.size(); ++size)
-      EXPECT_THROW(decode(bytes.substr(0, size)), std::runtime_error) << message.index();
+      EXPECT_THROW(decode(bytes.substr(0, size)), std::invalid_argument) << message.index();
   }
 }
 
