@@ -3,12 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 
 #include "grove/planning/constraint.h"
 #include "grove/planning/safe_intervals.h"
 
 namespace grove {
+
+// How often the searches look at the limits: every tenth of a millisecond or so.
+inline constexpr std::int64_t kExpansionsPerPoll = 512;
 
 // From this time on nothing changes any more: a cell or a move is barred then and at every later
 // time, or never again.

@@ -8,7 +8,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "poll.h"
 #include "space_time.h"
 
 namespace grove {

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 
-#include "poll.h"
 #include "space_time.h"
 
 namespace grove {
