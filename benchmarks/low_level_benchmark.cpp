@@ -12,12 +12,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <random>
 #include <string>
 
+#include "grove/io/map_file.h"
 #include "grove/planning/free_low_level_search.h"
 #include "grove/planning/low_level_search.h"
 
@@ -63,15 +64,8 @@ Grid room_map(Random& random) {
 std::optional<Grid> moving_ai_map(const std::string& name) {
   const char* folder = std::getenv("GROVE_MOVINGAI");
   if (!folder) return std::nullopt;
-  std::ifstream file(std::string(folder) + "/" + name + ".map");
-  std::string word;
-  while (file >> word && word != "map") continue;
-  std::vector<bool> passable;
-  int height = 0;
-  for (; file >> word; ++height)
-    for (char c : word) passable.push_back(c == '.' || c == 'G' || c == 'S' || c == 'E');
-  if (height == 0) return std::nullopt;
-  return Grid(static_cast<int>(passable.size()) / height, height, passable);
+  const std::filesystem::path file = std::filesystem::path(folder) / (name + ".map");
+  return std::filesystem::exists(file) ? std::optional(read_map(file)) : std::nullopt;
 }
 
 // Cells of the largest connected part, in random order.
