@@ -4,15 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace grove::batch {
-namespace {
-
-ProgressText text_of(const BatchState& state) {
-  return {state.done(), state.total, progress_line(state)};
-}
-
-}  // namespace
 
 void BatchState::count(const Row& row) {
   solving_s += row.wall_s;
@@ -36,7 +30,7 @@ std::optional<double> seconds_left(const BatchState& state) {
   return std::min(*left, state.closes_in_s + *seconds_each(work));
 }
 
-std::string progress_line(const BatchState& state) {
+ProgressText progress_text(const BatchState& state) {
   std::string text = fmt::format("{}/{} done: {} solved", state.done(), state.total, state.solved);
   if (state.limited > 0) text += fmt::format(", {} at a limit", state.limited);
   if (state.failed > 0) text += fmt::format(", {} failed", state.failed);
@@ -47,15 +41,7 @@ std::string progress_line(const BatchState& state) {
     text += fmt::format(", {} left for another run", state.total - state.done());
   if (const auto left = seconds_left(state); left && *left > 0)
     text += fmt::format(", about {} left", duration_text(*left));
-  return text;
-}
-
-void BatchProgress::show(const BatchState& state) {
-  if (display_.is_due(state.elapsed_s)) display_.show(state.elapsed_s, text_of(state));
-}
-
-void BatchProgress::finish(const BatchState& state) {
-  display_.finish(text_of(state));
+  return {state.done(), state.total, std::move(text)};
 }
 
 }  // namespace grove::batch

@@ -4,8 +4,6 @@
 
 #include <limits>
 #include <optional>
-#include <string>
-#include <utility>
 
 #include "grove/batch/progress.h"
 #include "grove/batch/row.h"
@@ -35,20 +33,6 @@ struct BatchState {
 std::optional<double> seconds_left(const BatchState& state);
 
 // "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, about 4:10 left"
-std::string progress_line(const BatchState& state);
-
-// Shows the progress at a decent pace. Of one thread.
-class BatchProgress {
- public:
-  explicit BatchProgress(ProgressStyle style) : display_(std::move(style)) {}
-
-  // Call it as often as you like.
-  void show(const BatchState& state);
-  // The last word.
-  void finish(const BatchState& state);
-
- private:
-  ProgressDisplay display_;
-};
+ProgressText progress_text(const BatchState& state);
 
 }  // namespace grove::batch

@@ -25,7 +25,7 @@ struct MasterOptions {
   Settings settings;  // of all runs
   // Since the master was made. Then nothing more is handed out; what is under way goes on.
   double total_time_limit_s = std::numeric_limits<double>::infinity();
-  // Told at every poll(); may be empty. BatchProgress::show, say.
+  // Told at every poll(); may be empty.
   std::function<void(const BatchState&)> watch = {};
 };
 

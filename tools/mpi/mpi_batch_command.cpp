@@ -140,7 +140,7 @@ class BatchRun {
       session_.abort(kExitBadInput);
     }
     if (!master_) return;
-    if (!a_.quiet) progress_.finish(master_->state());
+    if (!a_.quiet) progress_.finish(progress_text(master_->state()));
     fmt::print("table: {}\n", batch::csv_file(a_.output).string());
   }
 
@@ -155,7 +155,8 @@ class BatchRun {
                     batch::MasterOptions{.settings = settings_of(app_, a_),
                                          .total_time_limit_s = a_.total_time_limit_s,
                                          .watch = [this](const batch::BatchState& state) {
-                                           if (!a_.quiet) progress_.show(state);
+                                           if (!a_.quiet && progress_.is_due(state.elapsed_s))
+                                             progress_.show(state.elapsed_s, progress_text(state));
                                          }});
   }
 
@@ -235,7 +236,7 @@ class BatchRun {
   MpiSession& session_;
   SolveOptions options_;
   std::unique_ptr<Transport> world_, farm_, agreement_, search_;
-  batch::BatchProgress progress_{stderr_style()};
+  batch::ProgressDisplay progress_{stderr_style()};
   std::optional<batch::ResultTable> table_;
   std::optional<batch::FarmMaster> master_;
 };

@@ -66,33 +66,33 @@ TEST(SecondsLeft, AreNotKnownBeforeTheFirstIsDone) {
 
 TEST(ProgressTexts, SayWhatThereIs) {
   BatchState state = some_state();
-  EXPECT_EQ(progress_line(state),
+  EXPECT_EQ(progress_text(state).line,
             "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, about 4:42 left");
   state.ending = true;
-  EXPECT_EQ(progress_line(state),
+  EXPECT_EQ(progress_text(state).line,
             "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, ending: 2 under way, about "
             "0:06 left");
   state.under_way = 0;
-  EXPECT_EQ(progress_line(state),
+  EXPECT_EQ(progress_text(state).line,
             "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, 94 left for another run");
   BatchState first;
   first.total = 2;
   first.under_way = 1;
-  EXPECT_EQ(progress_line(first), "0/2 done: 0 solved; 0:00 gone");
+  EXPECT_EQ(progress_text(first).line, "0/2 done: 0 solved; 0:00 gone");
 }
 
 std::string shown(bool terminal, const std::vector<double>& times) {
   std::string text;
-  BatchProgress progress(
+  ProgressDisplay progress(
       {.terminal = terminal, .columns = 30, .write = [&](std::string_view t) { text += t; }});
   BatchState state;
   state.total = 1;
   for (const double time : times) {
     state.elapsed_s = time;
-    progress.show(state);
+    if (progress.is_due(time)) progress.show(time, progress_text(state));
   }
   state.solved = 1;
-  progress.finish(state);
+  progress.finish(progress_text(state));
   return text;
 }
 
