@@ -2,6 +2,7 @@
 """From the rows of `grove bench` to figures, tables and one page.
 
 rows        reading results, and what is wrong with them
+groups      what has something in common
 lines       what gets a line of its own in a figure: method, omega, time limit
 metrics     success, runtime, SQR, PAR-2, ... of a set of rows
 speedup     times of the baselines over those of the other methods

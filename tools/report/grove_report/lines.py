@@ -5,6 +5,8 @@ import shlex
 from collections import defaultdict
 from typing import NamedTuple
 
+from .groups import values_by
+
 
 class Line(NamedTuple):
     method: str
@@ -48,13 +50,9 @@ class Lines:
         self.all = sorted(found, key=lambda line: (
             line not in shown_first, self.is_baseline(line), line.method, omega_value(line.omega),
             line.time_limit_s))
-        omegas = defaultdict(set)
-        for row in rows:
-            omegas[row.problem].add(row.omega)
+        omegas = values_by(rows, lambda row: row.problem, lambda row: row.omega)
         self._omegas_differ = any(len(values) > 1 for values in omegas.values())
-        self._limits = defaultdict(set)
-        for line in found:
-            self._limits[line.method, line.omega].add(line.time_limit_s)
+        self._limits = values_by(found, lambda line: (line.method, line.omega), lambda line: line.time_limit_s)
         self._index = {line: index for index, line in enumerate(self.all)}
         self._methods = {line.method for line in found}
 

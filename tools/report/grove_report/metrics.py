@@ -6,6 +6,7 @@ from collections import defaultdict
 from fractions import Fraction
 from typing import NamedTuple, Optional
 
+from .groups import grouped
 from .lines import line_of
 
 
@@ -108,9 +109,7 @@ class Cell(NamedTuple):
 
 def by_cell(rows, best):
     """{cell: {line: Measures}}; a line without rows in a cell is not there. `best`: as in measures()."""
-    groups = defaultdict(list)
-    for row in rows:
-        groups[Cell(row.map, row.agents, row.tasks)].append(row)
+    groups = grouped(rows, lambda row: Cell(row.map, row.agents, row.tasks))
     return {cell: measures_by_line(group, best) for cell, group in sorted(groups.items())}
 
 
@@ -123,10 +122,7 @@ def measures_by_line(rows, best):
 
 def by_line(rows):
     """{line: its rows}"""
-    groups = defaultdict(list)
-    for row in rows:
-        groups[line_of(row)].append(row)
-    return dict(groups)
+    return grouped(rows, line_of)
 
 
 def median_runs(rows):

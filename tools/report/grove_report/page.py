@@ -2,11 +2,12 @@
 """The HTML page: one file, no script, nothing loaded from anywhere."""
 import base64
 import html
-from collections import Counter, defaultdict
+from collections import Counter
 from pathlib import Path
 
 from .counters import label, other_names, remembered_things
-from .lines import line_of, omega_text, seconds_text
+from .lines import omega_text, seconds_text
+from .metrics import by_line
 from .report import PROBLEM_NAMES
 from .rows import STATUSES_WITH_PLAN
 from .speedup import ALL_MAPS, BEST
@@ -136,17 +137,14 @@ def _provenance(report):
 
 
 def _methods(report):
-    options, statuses = defaultdict(set), defaultdict(Counter)
-    for row in report.results.rows:
-        options[line_of(row)].add(row.options)
-        if row.solved:
-            statuses[line_of(row)][row.status] += 1
+    rows_of = by_line(report.results.rows)
+    statuses = {line: Counter(row.status for row in rows if row.solved) for line, rows in rows_of.items()}
     rows = [[word(report.lines.name(line)), word(omega_text(line.omega)),
              Entry(seconds_text(line.time_limit_s)),
              word("yes" if report.lines.is_baseline(line) else ""),
              word(", ".join(f"{statuses[line][status]} {status}" for status in STATUSES_WITH_PLAN
                             if statuses[line][status])),
-             word("; ".join(sorted(options[line])))] for line in report.lines.all]
+             word("; ".join(sorted({row.options for row in rows_of[line]})))] for line in report.lines.all]
     return html_table(["method", "ω", "time limit", "baseline", "status of its solved runs", "options"], rows)
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Claims that cannot all be true: each is a bug in some solver, or rows of different instances under
 one name."""
-from collections import defaultdict
 from typing import NamedTuple
 
+from .groups import grouped, values_by
 from .lines import method_name
 
 
@@ -15,9 +15,7 @@ class Contradiction(NamedTuple):
 
 def _said(rows, value):
     """'1070 (a, b), 1071 (c)': the values, and who says so."""
-    groups = defaultdict(set)
-    for row in rows:
-        groups[value(row)].add(method_name(row.method) + (f" ω={row.omega}" if row.omega else ""))
+    groups = values_by(rows, value, lambda row: method_name(row.method) + (f" ω={row.omega}" if row.omega else ""))
     return ", ".join(f"{found} ({', '.join(sorted(who))})" for found, who in sorted(groups.items()))
 
 
@@ -50,18 +48,13 @@ def _of_instance(rows):
 
 def contradictions(rows):
     """Of all rows but those with status error: what these say is known to be worth nothing."""
-    groups = defaultdict(list)
-    for row in rows:
-        if row.status != "error":
-            groups[row.problem, row.instance].append(row)
+    groups = grouped((row for row in rows if row.status != "error"), lambda row: (row.problem, row.instance))
     return [Contradiction(*key, what) for key, group in sorted(groups.items())
             for what in _of_instance(group)]
 
 
 def optimal_agreements(rows):
     """How many instances have an optimal cost from at least two methods."""
-    methods = defaultdict(set)
-    for row in rows:
-        if row.status == "optimal" and row.cost is not None:
-            methods[row.problem, row.instance].add(row.method)
+    optimal = (row for row in rows if row.status == "optimal" and row.cost is not None)
+    methods = values_by(optimal, lambda row: (row.problem, row.instance), lambda row: row.method)
     return sum(len(found) > 1 for found in methods.values())

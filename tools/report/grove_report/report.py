@@ -2,12 +2,13 @@
 """What a report holds: for each problem its tables and figures, and the study of omega."""
 import itertools
 import re
-from collections import Counter, defaultdict
+from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
 from . import figures, metrics, proofs
 from .counters import counters_by_line
+from .groups import grouped, values_by
 from .lines import GROVE, Lines, families, line_of, method_name, omega_text, omega_value, seconds_text
 from .rows import PROBLEMS, BadInput
 from .speedup import ALL_MAPS, hard_instances, speedups
@@ -266,10 +267,7 @@ def _study(output, problem, family, rows, best, looks, options, stem):
 
 
 def _errors(rows, lines):
-    found = defaultdict(list)
-    for row in rows:
-        if row.status == "error":
-            found[line_of(row)].append(row)
+    found = metrics.by_line(row for row in rows if row.status == "error")
     return [(line, len(found[line]), Counter(row.error for row in found[line]).most_common(1)[0][0])
             for line in lines.all if line in found]
 
@@ -281,11 +279,9 @@ def _listed(values, most=6, between=", "):
 
 def _omegas(problem, lines):
     """'ω = 0: a, b; ω = 0.01: c', if they differ."""
-    methods = defaultdict(list)
-    for line in problem.lines:
-        methods[line.omega].append(lines.name(line))
+    methods = grouped(problem.lines, lambda line: line.omega)
     if len(methods) > 1:
-        yield "; ".join(f"{omega_text(omega)}: {_listed(methods[omega])}"
+        yield "; ".join(f"{omega_text(omega)}: {_listed(map(lines.name, methods[omega]))}"
                         for omega in sorted(methods, key=omega_value))
 
 
@@ -330,10 +326,8 @@ def _notes(results, rows, lines, problems):
         if len(values) > 1:
             yield (f"The rows come from runs with several {what} ({_listed(sorted(values))}): "
                    "times compare only so far.")
-    digests = defaultdict(set)
-    for row in rows:
-        if row.instance_digest:
-            digests[row.problem, row.instance].add(row.instance_digest)
+    digests = values_by((row for row in rows if row.instance_digest), lambda row: (row.problem, row.instance),
+                        lambda row: row.instance_digest)
     ambiguous = sorted(instance for (_, instance), found in digests.items() if len(found) > 1)
     if ambiguous:
         yield (f"Under one name stand several instances, or an instance has changed between runs: "
@@ -347,17 +341,13 @@ def _notes(results, rows, lines, problems):
     if results.repeated:
         yield (f"{results.repeated} rows were left out: a later row repeats the run (the same instance, "
                "method, ω, time limit and seed).")
-    options = defaultdict(set)
-    for row in rows:
-        options[line_of(row)].add(row.options)
+    options = values_by(rows, line_of, lambda row: row.options)
     for line in lines.all:
         if len(options[line]) > 1:
             yield (f"{lines.label(line)} was run with different options: "
                    f"{_listed(sorted(options[line]), 3)}.")
     for problem in problems:
-        tried = defaultdict(set)
-        for row in problem.rows:
-            tried[line_of(row)].add(row.instance)
+        tried = values_by(problem.rows, line_of, lambda row: row.instance)
         partial = [f"{lines.label(line)}: {len(tried[line])}" for line in problem.lines
                    if len(tried[line]) < problem.instances]
         if partial:
@@ -379,9 +369,7 @@ def make_report(results, options, folder):
     rows = [row for row in results.rows if not options.problems or row.problem in options.problems]
     lines = Lines(rows, options.baselines)
     looks, output = Looks(lines), Output(folder)
-    rows_of = defaultdict(list)
-    for row in rows:
-        rows_of[row.problem].append(row)
+    rows_of = grouped(rows, lambda row: row.problem)
     best = metrics.best_costs(rows)
     studies = _studies(output, rows_of, best, looks, options)  # first: it refuses options that fit no rows
     problems = [_problem(output, name, rows_of[name], best, lines, looks)

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""What has something in common, together."""
+from collections import defaultdict
+
+
+def grouped(items, key):
+    """{key of an item: all items that have it}, in the order in which they come."""
+    groups = defaultdict(list)
+    for item in items:
+        groups[key(item)].append(item)
+    return dict(groups)
+
+
+def values_by(items, key, value):
+    """{key of an item: the distinct values of all items that have it}"""
+    return {key: set(map(value, group)) for key, group in grouped(items, key).items()}
