@@ -16,6 +16,7 @@ SKIPPED = 77  # what ctest is told to take for "cannot be tried here"
 HOST, ADDRESS = "node1", "10.77.0.1"
 INTERFACE, OTHER_END = "grove0", "grove1"
 FILES = Path("/run/grove")  # in memory, seen only in the sandbox
+ON_HOST = FILES / "on_host"  # here as well, since mpirun takes no path with spaces
 
 # Each dies with its parent, even by SIGKILL: this process, unshare, the sandbox's first process.
 ENTER = ["setpriv", "--pdeathsig", "KILL",
@@ -120,6 +121,7 @@ def _furnish():
     subprocess.run(["mount", "-t", "tmpfs", "-o", "mode=755", "grove", "/run"], check=True)
     subprocess.run(["mount", "-t", "tmpfs", "shm", "/dev/shm"], check=True)
     FILES.mkdir()
+    ON_HOST.symlink_to(Path(__file__).with_name("on_host"))
     set_hosts({HOST: ADDRESS})
     subprocess.run(["mount", "--bind", FILES / "hosts", "/etc/hosts"], check=True)
     # One end of a virtual cable is the host's interface: mpirun does not start on a host that has

@@ -66,7 +66,7 @@ def start(hosts):
     for host in hosts:
         for purpose in ("spool", "tmp"):
             (FOLDER / f"{purpose}.{host}").mkdir()
-        subprocess.Popen([second_host.ON_HOST, host, "slurmd", "-D", "-N", host], env=environment,
+        subprocess.Popen([sandbox.ON_HOST, host, "slurmd", "-D", "-N", host], env=environment,
                          **SILENT)
     _wait_until_ready(hosts, environment)
     return environment
