@@ -10,7 +10,7 @@ import os
 import subprocess
 import time
 
-from . import sandbox, second_host
+from . import sandbox
 
 FOLDER = sandbox.FILES / "slurm"
 CONFIGURATION = FOLDER / "slurm.conf"
