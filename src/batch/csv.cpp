@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/csv.h"
+#include "csv.h"
 
 namespace grove::batch {
 

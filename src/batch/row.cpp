@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "grove/batch/csv.h"
+#include "csv.h"
 
 namespace grove::batch {
 namespace {

@@ -29,7 +29,7 @@
 #include <utility>
 
 #include "audit.h"
-#include "grove/search/splits.h"
+#include "splits.h"
 
 namespace grove {
 namespace {

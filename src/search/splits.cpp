@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/splits.h"
+#include "splits.h"
 
 #include <array>
 #include <optional>

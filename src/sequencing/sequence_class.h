@@ -3,6 +3,7 @@
 // from the exact costs of completing (the "completion" of a stop, given what is left after it).
 #pragma once
 
+#include "grove/model/assert.h"
 #include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/rtsp.h"
 #include "stop_set.h"
@@ -20,6 +21,7 @@ struct ClassRoot {
 inline ClassRoot class_root(const CostMatrix& matrix, const SequenceClass& work) {
   ClassRoot root{0, matrix.stops(), matrix.all(), 0};
   for (Stop stop : work.prefix) {
+    GROVE_ASSERT((root.left & bit(stop)) != 0, "a prefix repeats no stop");
     root.cost = add_costs(root.cost, matrix.between(root.last, stop));
     root.last = stop;
     root.left &= ~bit(stop);

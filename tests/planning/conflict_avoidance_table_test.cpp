@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "tests/planning/random_matter.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 
@@ -13,18 +14,6 @@ namespace conflict_avoidance_table_test {
 
 using testing::grid_of;
 using testing::NaiveConflicts;
-
-Path random_walk(const Grid& grid, std::mt19937& random) {
-  Path path;
-  do path = {static_cast<Cell>(random() % grid.cell_count())};
-  while (!grid.passable(path.back()));
-  for (auto steps = random() % 15; steps > 0; --steps) {
-    const auto neighbors = grid.neighbors(path.back());
-    const auto choice = random() % (neighbors.size() + 1);
-    path.push_back(choice == neighbors.size() ? path.back() : neighbors[choice]);
-  }
-  return path;
-}
 
 void expect_same_counts(const Grid& grid, const ConflictAvoidanceTable& table,
                         const NaiveConflicts& naive) {
@@ -57,7 +46,7 @@ TEST(ConflictAvoidanceTable, AgreesWithNaiveCounts) {
         table.remove(*victim);
         naive.paths.erase(victim);
       } else {
-        naive.paths.push_back(random_walk(grid, random));
+        naive.paths.push_back(testing::random_walk(grid, random, 14));
         table.add(naive.paths.back());
       }
       expect_same_counts(grid, table, naive);

@@ -10,9 +10,10 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <vector>
 
 #include "grove/planning/chains.h"
-#include "tests/planning/random_constraint.h"
+#include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/obeys.h"
 
@@ -22,26 +23,6 @@ namespace constraint_test {
 constexpr std::array kOnPaths{ConstraintKind::kBar, ConstraintKind::kNoRestBy,
                               ConstraintKind::kRestBy, ConstraintKind::kNoTraversal};
 
-Path random_walk(const Grid& grid, std::mt19937& random) {
-  Path path;
-  do path = {static_cast<Cell>(random() % grid.cell_count())};
-  while (!grid.passable(path[0]));
-  for (auto steps = random() % 16; steps > 0; --steps) {
-    const auto neighbors = grid.neighbors(path.back());
-    const bool waits = neighbors.empty() || random() % 5 == 0;
-    path.push_back(waits ? path.back() : neighbors[random() % neighbors.size()]);
-  }
-  return path;
-}
-
-Constraint random_bar(const Path& path, std::mt19937& random) {
-  const std::size_t at = random() % path.size();
-  const auto begin = static_cast<Time>(at + random() % 5) - 2;
-  const Time end = random() % 6 == 0 ? kNever : begin + static_cast<Time>(random() % 4);
-  const Cell from = random() % 2 == 0 ? kNoCell : path[at > 0 ? at - 1 : 0];
-  return {path[at], from, begin, end};
-}
-
 TEST(Constraint, IsObeyedAsTheTestsSay) {
   std::mt19937 random(5);
   std::map<std::pair<ConstraintKind, bool>, int> seen;
@@ -49,10 +30,11 @@ TEST(Constraint, IsObeyedAsTheTestsSay) {
     const Grid grid = testing::random_corridor_map(random);
     const Chains chains(grid);
     for (int i = 0; i < 40; ++i) {
-      const Path path = random_walk(grid, random);
-      const Constraint c = random() % 3 == 0 ? random_bar(path, random)
-                                             : testing::random_conditional_constraint(
-                                                   grid, path, {path[0], path.back()}, random);
+      const Path path = testing::random_walk(grid, random, 15);
+      const std::vector<Cell> goals{path[0], path.back()};
+      const Constraint c = random() % 3 == 0
+                               ? testing::random_bar(grid, path, goals, random)
+                               : testing::random_conditional_constraint(grid, path, goals, random);
       const bool obeyed = obeys(path, c, chains);
       ++seen[{c.kind, obeyed}];
       ASSERT_EQ(obeyed, testing::obeys(grid, path, c))

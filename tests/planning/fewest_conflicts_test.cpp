@@ -7,20 +7,11 @@
 #include <limits>
 #include <random>
 
+#include "tests/planning/random_matter.h"
 #include "tests/support/instances.h"
 
 namespace grove {
 namespace fewest_conflicts_test {
-
-Path random_walk(const Grid& grid, std::mt19937& random, Cell start) {
-  Path path{start};
-  for (auto steps = 1 + random() % 9; steps > 0; --steps) {
-    const auto neighbors = grid.neighbors(path.back());
-    const auto pick = random() % (neighbors.size() + 1);
-    path.push_back(pick < neighbors.size() ? neighbors[pick] : path.back());
-  }
-  return path;
-}
 
 // The fewest conflicts of any way, by trying all.
 int fewest(const OptimalPaths& paths, const ConflictAvoidanceTable& others,
@@ -50,12 +41,7 @@ void expect_fewest(const Instance& instance, std::initializer_list<Time> costs) 
     if (outcome != OptimalPathsBuilder::Outcome::kBuilt) continue;
     for (int round = 0; round < 100; ++round) {
       ConflictAvoidanceTable others(grid);
-      for (int i = 0; i < 2 + round / 10; ++i) {
-        Cell start = 0;
-        do start = static_cast<Cell>(random() % static_cast<unsigned>(grid.cell_count()));
-        while (!grid.passable(start));
-        others.add(random_walk(grid, random, start));
-      }
+      for (int i = 0; i < 2 + round / 10; ++i) others.add(testing::random_walk(grid, random, 9));
       Path path;
       search.find(paths, others, path);
       ASSERT_EQ(static_cast<Time>(path.size()) - 1, cost);

@@ -23,24 +23,18 @@ namespace free_low_level_test {
 
 using Outcome = PathOutcome;
 using testing::free_reference_cost;
+using testing::FreeAgent;
 using testing::FreeProblem;
 using testing::grid_of;
-using testing::instance_of;
 using testing::members_of;
 using testing::path_error;
 using testing::Problem;
 using testing::SingleAgent;
 
 // One agent, its class and both searches.
-struct Agent {
+struct Agent : FreeAgent {
   explicit Agent(const FreeProblem& given)
-      : problem(given),
-        instance(instance_of(given)),
-        distances(instance),
-        stops(instance, distances, 0),
-        goals(stops, given.work),
-        free(*given.grid),
-        fixed(*given.grid) {}
+      : FreeAgent(given), free(*given.grid), fixed(*given.grid) {}
 
   Outcome find(Time cutoff, Path& found, const ConflictAvoidanceTable* others = nullptr) {
     return free.find(goals, {problem.constraints, others, cutoff}, Limits(), found);
@@ -77,11 +71,6 @@ struct Agent {
     return best;
   }
 
-  FreeProblem problem;
-  Instance instance;
-  DistanceFields distances;
-  AgentStops stops;
-  FreeGoals goals;
   FreeLowLevelSearch free;
   LowLevelSearch fixed;
   Path path;

@@ -6,6 +6,7 @@
 
 #include "grove/model/plan.h"
 #include "tests/planning/free_reference.h"
+#include "tests/planning/random_matter.h"
 
 namespace grove::testing {
 
@@ -19,12 +20,11 @@ class FreeProblems {
   Grid grid();
   // Without constraints.
   FreeProblem problem(const Grid& grid);
-  Path walk(const Grid& grid);
+  Path walk(const Grid& grid) { return random_walk(grid, random_); }
   // Adds a constraint that most likely matters to an agent that went `path`.
   void make_harder(FreeProblem& problem, const Path& path);
 
  private:
-  Cell cell(const Grid& grid);
   SequenceClass sequence_class(int stops);
   Constraint constraint(const FreeProblem& problem, const Path& path);
 

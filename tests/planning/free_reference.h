@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "grove/model/distance_field.h"
 #include "grove/model/instance.h"
 #include "grove/model/plan.h"
 #include "grove/planning/constraint.h"
+#include "grove/planning/free_goals.h"
 #include "grove/sequencing/rtsp.h"
 
 namespace grove::testing {
@@ -24,6 +26,23 @@ struct FreeProblem {
 
 // With this one agent.
 Instance instance_of(const FreeProblem& problem);
+
+// What the library makes of it; not to be moved.
+struct FreeAgent {
+  explicit FreeAgent(const FreeProblem& given)
+      : problem(given),
+        instance(instance_of(given)),
+        distances(instance),
+        stops(instance, distances, 0),
+        goals(stops, given.work) {}
+  FreeAgent(const FreeAgent&) = delete;
+
+  FreeProblem problem;
+  Instance instance;
+  DistanceFields distances;
+  AgentStops stops;
+  FreeGoals goals;
+};
 
 // The cost of a cheapest path that realizes a sequence of the class, none if there is no path. An
 // agent on a stop may or may not count it; it rests on its destination, or without one on the stop

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "grove/planning/low_level_search.h"
-#include "tests/planning/random_constraint.h"
+#include "tests/planning/random_matter.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/fuzz_factor.h"
@@ -15,10 +15,11 @@
 namespace grove {
 namespace low_level_fuzz_test {
 
-using testing::grid_of;
 using testing::NaiveConflicts;
 using testing::path_error;
 using testing::Problem;
+using testing::random_cell;
+using testing::random_walk;
 using testing::reference_conflicts;
 using testing::reference_cost;
 using testing::SingleAgent;
@@ -42,41 +43,19 @@ class Fuzzer {
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
 
   Grid random_grid() {
-    if (conditional_ && below(3) > 0) return testing::random_corridor_map(random_);
-    switch (below(6)) {
-      case 0:
-        return grid_of({"......"});  // a corridor
-      case 1:
-        return grid_of({"@.@", "...", "@.@", "@.@"});  // dead ends
-      case 2:
-        return grid_of({"..@..", ".....", "..@.."});  // a door
-      case 3:
-        return grid_of({"....", ".@@.", "...."});  // a ring
-      default:
-        break;
-    }
-    const int width = 1 + below(4);
-    const int height = 1 + below(4);
-    std::vector<bool> passable(width * height);
-    for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = below(5) > 0;
-    passable[0] = true;
-    return Grid(width, height, passable);
-  }
-
-  Cell random_cell(const Grid& grid) {
-    for (;;)
-      if (const Cell cell = below(grid.cell_count()); grid.passable(cell)) return cell;
+    return conditional_ && below(3) > 0 ? testing::random_corridor_map(random_)
+                                        : testing::random_small_map(random_);
   }
 
   void run_agent(const Grid& grid, LowLevelSearch& search) {
     std::vector<Cell> tasks;
     for (int n = below(5); n > 0; --n)
-      if (const Cell cell = random_cell(grid); std::ranges::count(tasks, cell) == 0)
+      if (const Cell cell = random_cell(grid, random_); std::ranges::count(tasks, cell) == 0)
         tasks.push_back(cell);
     std::optional<Cell> destination;
     if (tasks.empty() || below(3) > 0)
-      destination = !tasks.empty() && below(4) == 0 ? tasks.back() : random_cell(grid);
-    const SingleAgent agent(grid, random_cell(grid), tasks, destination);
+      destination = !tasks.empty() && below(4) == 0 ? tasks.back() : random_cell(grid, random_);
+    const SingleAgent agent(grid, random_cell(grid, random_), tasks, destination);
     Problem problem{&grid, agent.goals.start(), tasks, {}};
     if (destination) problem.goals.push_back(*destination);
     make_harder(problem, agent, search);
@@ -86,7 +65,7 @@ class Fuzzer {
     NaiveConflicts others;
     ConflictAvoidanceTable table(*problem.grid);
     for (int n = below(4); n > 0; --n) {
-      others.paths.push_back(random_walk(*problem.grid));
+      others.paths.push_back(random_walk(*problem.grid, random_));
       table.add(others.paths.back());
     }
     Path path;
@@ -102,39 +81,10 @@ class Fuzzer {
     }
   }
 
-  Path random_walk(const Grid& grid) {
-    Path path{random_cell(grid)};
-    for (int n = below(12); n > 0; --n) {
-      const auto neighbors = grid.neighbors(path.back());
-      const int choice = below(static_cast<int>(neighbors.size()) + 1);
-      path.push_back(choice == 0 ? path.back() : neighbors[choice - 1]);
-    }
-    return path;
-  }
-
-  // Often on the path, often on a goal.
   Constraint random_constraint(const Problem& problem, const Path& path) {
-    if (conditional_ && below(2) == 0)
-      return testing::random_conditional_constraint(*problem.grid, path, problem.goals, random_);
-    Constraint c;
-    const int at = below(static_cast<int>(path.size()));
-    c.cell = path[at];
-    c.begin = at;
-    if (below(2) == 0) {
-      c.cell = below(4) == 0 ? random_cell(*problem.grid)
-                             : problem.goals[below(static_cast<int>(problem.goals.size()))];
-      c.begin = below(static_cast<int>(path.size()) + 6);
-    }
-    c.end = c.begin + (below(2) == 0 ? 0 : below(10));
-    if (c.begin > 0 && below(12) == 0) c.end = kNever;
-    if (below(3) == 0) {
-      const auto neighbors = problem.grid->neighbors(c.cell);
-      if (at > 0 && path[at - 1] != c.cell && c.cell == path[at])
-        c.from = path[at - 1];
-      else if (!neighbors.empty())
-        c.from = neighbors[below(static_cast<int>(neighbors.size()))];
-    }
-    return c;
+    return conditional_ && below(2) == 0
+               ? testing::random_conditional_constraint(*problem.grid, path, problem.goals, random_)
+               : testing::random_bar(*problem.grid, path, problem.goals, random_);
   }
 
   bool check(const Problem& problem, const SingleAgent& agent, LowLevelSearch& search,

@@ -12,11 +12,14 @@
 #include <vector>
 
 #include "grove/planning/free_low_level_search.h"
+#include "tests/planning/random_matter.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
 namespace grove {
 namespace reservations_test {
+
+using testing::random_cell;
 
 using Outcome = PathOutcome;
 
@@ -120,19 +123,15 @@ class Crowd {
     passable[0] = passable[1] = true;
     return Grid(width, height, passable);
   }
-  Cell random_cell() {
-    for (;;)
-      if (const Cell cell = below(grid_.cell_count()); grid_.passable(cell)) return cell;
-  }
   Instance make_instance() {
     InstanceBuilder builder(grid_);
     const bool rests_anywhere = below(3) == 0;
     std::optional<Position> goal;
-    if (!rests_anywhere) goal = grid_.position(random_cell());
-    builder.add_agent("a", grid_.position(random_cell()), goal);
+    if (!rests_anywhere) goal = grid_.position(random_cell(grid_, random_));
+    builder.add_agent("a", grid_.position(random_cell(grid_, random_)), goal);
     std::vector<Cell> cells;
     for (int n = below(5) + (rests_anywhere ? 1 : 0); n > 0; --n)
-      if (const Cell cell = random_cell(); std::ranges::count(cells, cell) == 0)
+      if (const Cell cell = random_cell(grid_, random_); std::ranges::count(cells, cell) == 0)
         cells.push_back(cell);
     for (Cell cell : cells)
       builder.add_task("t" + std::to_string(cell), grid_.position(cell),
@@ -140,12 +139,7 @@ class Crowd {
     return std::move(builder).build();
   }
   Path random_walk() {
-    Path path{random_cell()};
-    for (int n = below(25); n > 0; --n) {
-      const auto neighbors = grid_.neighbors(path.back());
-      const int choice = below(static_cast<int>(neighbors.size()) + 1);
-      path.push_back(choice == 0 ? path.back() : neighbors[choice - 1]);
-    }
+    Path path = testing::random_walk(grid_, random_, 24);
     while (path.size() > 1 && path.back() == path[path.size() - 2]) path.pop_back();
     return path;
   }

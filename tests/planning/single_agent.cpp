@@ -15,8 +15,7 @@ Instance instance_of(const Grid& grid, Cell start, const std::vector<Cell>& task
   if (destination) goal = grid.position(*destination);
   builder.add_agent("a", grid.position(start), goal);
   for (std::size_t k = 0; k < tasks.size(); ++k)
-    builder.add_task(fmt::format("t{}", k), grid.position(tasks[k]),
-                     std::vector<std::string>{"a"});
+    builder.add_task(fmt::format("t{}", k), grid.position(tasks[k]), std::vector<std::string>{"a"});
   return std::move(builder).build();
 }
 

@@ -129,7 +129,7 @@ void TextLog::progress(const LogRow& row) {
   if (!sink_.shows_progress()) return;
   const Progress& p = row.progress;
   sink_.progress(
-      fmt::format("  {:.1f} of {:g} s: {} nodes, {} trees, lower bound {}, incumbent {}, gap {}",
+      fmt::format("  {:.1f} of {:g} s: nodes {}, trees {}, lower bound {}, incumbent {}, gap {}",
                   row.seconds, time_limit_s_, p.nodes_expanded, p.trees, p.lower_bound,
                   cost_text(p.incumbent), gap_text(p.incumbent, p.lower_bound)));
 }

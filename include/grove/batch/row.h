@@ -81,7 +81,7 @@ std::string json_line(const Row& row);
 // Reads such a line. Throws std::invalid_argument saying what is wrong with it.
 Row parse_json_line(std::string_view line);
 
-// The same as CSV, see csv.h; what is absent is empty.
+// The same as CSV (RFC 4180); what is absent is empty.
 std::string csv_header();
 std::string csv_line(const Row& row);
 

@@ -28,7 +28,6 @@ class Omega {
   static Omega from_double(double value);
 
   constexpr bool is_infinite() const { return billionths_ == kInfinite; }
-  constexpr bool is_zero() const { return billionths_ == 0; }
   double value() const;           // for output only; infinity when infinite
   std::string to_string() const;  // shortest decimal, or "inf"
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "grove/model/assert.h"
 #include "grove/model/distance_field.h"
 #include "grove/model/instance.h"
 #include "grove/model/plan.h"
@@ -107,6 +108,7 @@ class FreeGoals {
   // The state after counting `stop`, which must be one of the next. kOutside if the completions do
   // not know it.
   StateId after(StateId id, int stop) {
+    GROVE_ASSERT(states_[id].next >> stop & 1, "a stop that is counted may be next");
     const StateId known = after_[static_cast<std::size_t>(id) * stride_ + stop];
     return known == kUnknown ? make_after(id, stop) : known;
   }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "grove/model/assert.h"
 #include "grove/model/distance_field.h"
 #include "grove/model/instance.h"
 
@@ -21,22 +22,27 @@ class GoalSequence {
 
   Cell start() const { return start_; }
   int size() const { return static_cast<int>(goals_.size()); }
-  Cell goal(int k) const { return goals_[k]; }
+  Cell goal(int k) const { return goals_[checked(k)]; }
   Cell last() const { return goals_.back(); }
 
   // Steps from `cell` through goals k, k+1, ... to the last one, ignoring everything else: exact,
   // so admissible and consistent. kNever or more when there is no way.
   Time distance(Cell cell, int k) const {
-    const Time to_goal = (*to_goal_[k])[cell];
+    const Time to_goal = (*to_goal_[checked(k)])[cell];
     return to_goal == kNever ? kNever : to_goal + after_goal_[k];
   }
 
   // The two parts of that: the distance field of goal k, and the steps from there on (at most
   // kNever).
-  const DistanceField& to_goal(int k) const { return *to_goal_[k]; }
-  Time after_goal(int k) const { return after_goal_[k]; }
+  const DistanceField& to_goal(int k) const { return *to_goal_[checked(k)]; }
+  Time after_goal(int k) const { return after_goal_[checked(k)]; }
 
  private:
+  int checked(int k) const {
+    GROVE_ASSERT(k >= 0 && k < size(), "a goal of the sequence is asked for");
+    return k;
+  }
+
   Cell start_;
   std::vector<Cell> goals_;
   std::vector<const DistanceField*> to_goal_;

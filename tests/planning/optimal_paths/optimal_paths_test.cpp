@@ -12,7 +12,7 @@
 
 #include "grove/planning/pair_dependency.h"
 #include "tests/planning/free_reference.h"
-#include "tests/planning/random_constraint.h"
+#include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"
 #include "tests/planning/step_rules.h"
 #include "tests/support/fuzz_factor.h"
@@ -25,7 +25,6 @@ using Paths = std::set<Path>;
 using testing::free_reference_cost;
 using testing::FreeProblem;
 using testing::grid_of;
-using testing::instance_of;
 using testing::members_of;
 using testing::obeys;
 using testing::StepRules;
@@ -123,24 +122,13 @@ bool compatible(const Paths& all, const Paths& others) {
   });
 }
 
-struct Agent {
-  explicit Agent(const FreeProblem& given)
-      : problem(given),
-        instance(instance_of(given)),
-        distances(instance),
-        stops(instance, distances, 0),
-        goals(stops, given.work),
-        builder(*given.grid) {}
+struct Agent : testing::FreeAgent {
+  explicit Agent(const FreeProblem& given) : FreeAgent(given), builder(*given.grid) {}
 
   Outcome build(Time cost, std::size_t most_nodes = kPlenty) {
     return builder.build(goals, problem.constraints, cost, most_nodes, Limits(), graph);
   }
 
-  FreeProblem problem;
-  Instance instance;
-  DistanceFields distances;
-  AgentStops stops;
-  FreeGoals goals;
   OptimalPathsBuilder builder;
   OptimalPaths graph;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/planning/random_constraint.h"
+#include "tests/planning/random_matter.h"
 
 #include <algorithm>
 #include <string>
@@ -58,6 +58,66 @@ Grid random_corridor_map(std::mt19937& random) {
       {"....", "@@@.", "...."},              // a snake
   };
   return grid_of(any_of(maps, random));
+}
+
+Grid random_small_map(std::mt19937& random) {
+  switch (below(random, 6)) {
+    case 0:
+      return grid_of({"......"});  // a corridor
+    case 1:
+      return grid_of({"@.@", "...", "@.@", "@.@"});  // dead ends
+    case 2:
+      return grid_of({"..@..", ".....", "..@.."});  // a door
+    case 3:
+      return grid_of({"....", ".@@.", "...."});  // a ring
+    default:
+      break;
+  }
+  const int width = 1 + below(random, 4);
+  const int height = 1 + below(random, 4);
+  std::vector<bool> passable(static_cast<std::size_t>(width * height));
+  for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = below(random, 5) > 0;
+  passable[0] = true;
+  return Grid(width, height, passable);
+}
+
+Cell random_cell(const Grid& grid, std::mt19937& random) {
+  for (;;)
+    if (const Cell cell = below(random, grid.cell_count()); grid.passable(cell)) return cell;
+}
+
+Path random_walk(const Grid& grid, std::mt19937& random, int most) {
+  return random_walk_from(random_cell(grid, random), grid, random, most);
+}
+
+Path random_walk_from(Cell start, const Grid& grid, std::mt19937& random, int most) {
+  Path path{start};
+  for (int n = below(random, most + 1); n > 0; --n) {
+    const auto neighbors = grid.neighbors(path.back());
+    const int choice = below(random, static_cast<int>(neighbors.size()) + 1);
+    path.push_back(choice == 0 ? path.back() : neighbors[choice - 1]);
+  }
+  return path;
+}
+
+Constraint random_bar(const Grid& grid, const Path& path, const std::vector<Cell>& goals,
+                      std::mt19937& random) {
+  Constraint c;
+  const int at = below(random, static_cast<int>(path.size()));
+  c.cell = path[at];
+  c.begin = at;
+  if (below(random, 2) == 0) {
+    c.cell = below(random, 4) == 0 ? random_cell(grid, random) : any_of(goals, random);
+    c.begin = below(random, static_cast<int>(path.size()) + 6);
+  }
+  c.end = c.begin + (below(random, 2) == 0 ? 0 : below(random, 10));
+  if (c.begin > 0 && below(random, 10) == 0) c.end = kNever;
+  if (below(random, 3) > 0) return c;
+  if (at > 0 && path[at - 1] != c.cell && c.cell == path[at])
+    c.from = path[at - 1];
+  else if (const auto neighbors = grid.neighbors(c.cell); !neighbors.empty())
+    c.from = neighbors[below(random, static_cast<int>(neighbors.size()))];
+  return c;
 }
 
 Constraint random_conditional_constraint(const Grid& grid, const Path& path,
