@@ -41,7 +41,6 @@ class KBestSequences::Partition {
   bool known(std::size_t rank) const { return rank < found_.size(); }
 
   Time cost_bound(std::size_t rank) const {
-    GROVE_ASSERT(rank <= found_.size(), "a bound is asked for of what is known or next");
     if (known(rank)) return found_[rank].cost;
     return queue_.empty() ? kNever : queue_.top_key().first;
   }

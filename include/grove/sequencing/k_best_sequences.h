@@ -22,8 +22,8 @@ class KBestSequences {
   KBestSequences& operator=(KBestSequences&&) noexcept;
 
   // A proven lower bound on the cost of the sequence of this rank, from what is known already;
-  // kNever when there are proven to be no more than `rank` sequences. Non-decreasing in rank.
-  // `rank` may be at most one beyond the known ones.
+  // kNever when there are proven to be no more than are known. Non-decreasing in rank; of all ranks
+  // not known it is that of the first of them.
   Time cost_bound(std::size_t rank) const;
   // Is the sequence of this rank computed? Then cost_bound is its cost.
   bool known(std::size_t rank) const;
