@@ -122,9 +122,9 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
   std::filesystem::path map_path = folder / map.text();
   if (!std::filesystem::is_regular_file(map_path))
     map.fail(fmt::format(
-        "{} '{}'; expected a map, relative to this file",
+        "{} '{}'; expected a map, relative to {}",
         std::filesystem::is_directory(map_path) ? "found the folder" : "there is no file",
-        map_path.string()));
+        map_path.string(), folder.empty() ? "the current folder" : "this file"));
   InstanceBuilder builder(read_map(map_path, &warnings));
   add_all(builder, root, unknown);
   std::optional<Instance> instance;

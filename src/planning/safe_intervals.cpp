@@ -92,20 +92,29 @@ bool SafeIntervals::leaves_at_back(const Constraint& c) const {
 }
 
 void SafeIntervals::keep(const Constraint& c) {
-  if (c.kind == ConstraintKind::kRestBy) {
-    keep_rest_by(c);
-  } else if (c.end < 0) {
-    return;
-  } else if (c.kind == ConstraintKind::kNoRestBy) {
-    bars_.push_back({c.cell, kNoCell, 0, c.end, Bar::Kind::kRest, kFree});
-  } else if (c.begin > c.end) {
-    return;
-  } else if (c.kind == ConstraintKind::kNoTraversal) {
-    keep_traversal(c);
-  } else {
-    const Bar::Kind kind = c.is_move() ? Bar::Kind::kMove : Bar::Kind::kCell;
-    bars_.push_back({c.cell, c.from, c.begin, c.end, kind, kFree});
+  const bool is_ever = c.end >= std::max(c.begin, 0);
+  switch (c.kind) {
+    case ConstraintKind::kBar:
+      if (is_ever) keep_bar(c);
+      break;
+    case ConstraintKind::kNoRestBy:
+      if (c.end >= 0) bars_.push_back({c.cell, kNoCell, 0, c.end, Bar::Kind::kRest, kFree});
+      break;
+    case ConstraintKind::kRestBy:
+      keep_rest_by(c);
+      break;
+    case ConstraintKind::kNoTraversal:
+      if (is_ever) keep_traversal(c);
+      break;
+    case ConstraintKind::kStopIs:
+    case ConstraintKind::kStopIsNot:
+      break;  // none on the path: check() has refused it
   }
+}
+
+void SafeIntervals::keep_bar(const Constraint& c) {
+  const Bar::Kind kind = c.is_move() ? Bar::Kind::kMove : Bar::Kind::kCell;
+  bars_.push_back({c.cell, c.from, c.begin, c.end, kind, kFree});
 }
 
 void SafeIntervals::keep_rest_by(const Constraint& c) {

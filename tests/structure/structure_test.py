@@ -62,6 +62,12 @@ def has_license(text):
     return any("SPDX-License-Identifier: MIT" in line for line in text.splitlines()[:2])
 
 
+def named_files(document):
+    """The sources that a document names, but for those of no real name: `mine.cpp`, `x_test.cpp`."""
+    named = re.findall(r"`(?:\./)?([\w./-]+\.(?:cpp|h|py|def|cmake))`", document)
+    return [name for name in named if not re.match(r"(?:.*/)?(?:mine|my_\w*|x_\w+)\.", name)]
+
+
 def named_types(text, is_header):
     """The types that `text` defines in a namespace with a name, or in none: "grove::Grid". Of
     aliases those in headers."""
@@ -168,6 +174,15 @@ class TheTree(unittest.TestCase):
         for path, text in self.sources("include", "src"):
             self.assertFalse(forbidden(text), path)
 
+    def test_documents_name_files_that_are_there(self):
+        documents = [path for path in [*ROOT.glob("*.md"), *ROOT.glob("*/**/*.md")]
+                     if not {"build", "results"} & set(path.relative_to(ROOT).parts)]
+        there = ["/" + str(path.relative_to(ROOT)) for folder in (*CODE_FOLDERS, "cmake", "docs", "cluster")
+                 for path in (ROOT / folder).rglob("*.*")]
+        for document in documents:
+            for name in named_files(document.read_text(encoding="utf-8")):
+                self.assertTrue(any(path.endswith("/" + name) for path in there), (document, name))
+
     def test_every_source_has_the_license_line(self):
         scripts = (path for folder in CODE_FOLDERS for path in (ROOT / folder).rglob("*")
                    if path.is_file() and path.suffix == "" and path.read_bytes()[:2] == b"#!")
@@ -218,6 +233,10 @@ class TheChecks(unittest.TestCase):
         self.assertEqual(declared_depends(cmake), {"b": ["a", "model"]})
         self.assertEqual(declared_depends("grove_layer(a SOURCES x)"), {"a": []})
         self.assertEqual(closure("c", {"c": ["b"], "b": ["a"]}), {"a", "b", "c"})
+
+    def test_named_files(self):
+        text = "`search/gate.cpp`, `./a.py`; `conflicts/mine.cpp`, `x_test.cpp`, `FILE.map`, a.cpp"
+        self.assertEqual(named_files(text), ["search/gate.cpp", "a.py"])
 
     def test_license(self):
         self.assertTrue(has_license("#!/bin/sh\n# SPDX-License-Identifier: MIT\n"))

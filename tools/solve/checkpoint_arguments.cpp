@@ -97,11 +97,12 @@ CheckpointFolder prepare_checkpoints(const CheckpointArguments& a, const Instanc
     std::filesystem::remove(a.incumbent_file());
     return folder;
   }
+  if (found) {  // first, since it knows whose it is
+    const Policy policy = options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
+    folder.resumed = std::make_unique<CheckpointReader>(a.directory, fingerprint(instance), policy);
+    options.resume = folder.resumed.get();
+  }
   start_from_incumbent(a.incumbent_file(), instance, options);
-  if (!found) return folder;
-  const Policy policy = options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
-  folder.resumed = std::make_unique<CheckpointReader>(a.directory, fingerprint(instance), policy);
-  options.resume = folder.resumed.get();
   return folder;
 }
 

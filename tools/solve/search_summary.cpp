@@ -67,7 +67,7 @@ std::vector<std::string> search_summary(const Stats& stats) {
   const Counts counts(stats);
   if (!stats.counts.contains("nodes_expanded")) return {};
   return {
-      fmt::format("Nodes         {} expanded, {} generated, in {} trees", counts["nodes_expanded"],
+      fmt::format("Nodes         expanded {}, generated {}, trees {}", counts["nodes_expanded"],
                   counts["nodes_generated"], counts["roots_generated"]),
       fmt::format("Splits        {}; {} bypasses", counts.splits(), counts["bypasses"]),
       fmt::format("Low level     {} calls, {} labels", counts["low_level_calls"],
@@ -77,7 +77,7 @@ std::vector<std::string> search_summary(const Stats& stats) {
       fmt::format("Pair bounds   {} pairs compared, {} small searches", counts["joint_pairs"],
                   counts["pair_expansions"]),
       fmt::format(
-          "Plan search   {} attempts, {} joint steps, {} neighbourhoods; {} calls, {} labels",
+          "Plan search   attempts {}, joint steps {}, neighbourhoods {}; calls {}, labels {}",
           counts["primal_attempts"], counts["primal_joint_steps"], counts["primal_neighborhoods"],
           counts["primal_low_level_calls"], counts["primal_low_level_expanded"]),
       fmt::format("Better plans  {}", counts.plans()),

@@ -222,6 +222,7 @@ class SafeIntervals {
   void forget();
   void check(const Constraint& constraint);
   void keep(const Constraint& constraint);
+  void keep_bar(const Constraint& constraint);
   void keep_rest_by(const Constraint& constraint);
   void keep_traversal(const Constraint& constraint);
   bool leaves_at_front(const Constraint& constraint) const;

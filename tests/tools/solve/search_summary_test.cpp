@@ -22,7 +22,7 @@ TEST(SearchSummary, TellsWhatWasCounted) {
                   {"prices_asked", 8},       {"prices_known", 6},     {"plans_start", 1},
                   {"plans_neighborhood", 4}, {"gain_neighborhood", 9}};
   const auto lines = search_summary(stats);
-  EXPECT_THAT(lines, Contains("Nodes         7 expanded, 15 generated, in 1 trees"));
+  EXPECT_THAT(lines, Contains("Nodes         expanded 7, generated 15, trees 1"));
   EXPECT_THAT(lines, Contains("Splits        bar 5, no-rest-by 2; 3 bypasses"));
   EXPECT_THAT(lines, Contains(EndsWith("8, 75 % of them known")));
   EXPECT_THAT(lines, Contains(EndsWith("0, 0 % of them known")));  // path sets: none asked

@@ -81,10 +81,19 @@ def _new_figure(height):
     return Figure(figsize=(WIDTH, height), facecolor="white")
 
 
+def _longest_tick(ax):
+    """Characters of the longest number at the vertical axis."""
+    low, high = sorted(ax.get_ylim())
+    name = ax.yaxis.get_major_formatter()
+    return max((len(name(tick)) for tick in ax.get_yticks() if low <= tick <= high), default=0)
+
+
 def _pin_labels(axes, left):
-    """Names of axes to where they are, in inches: left of the panel and below. To look for room for each,
-    as matplotlib does, takes as long as all the rest. `axes`: all panels of a figure, of one size."""
+    """Names of axes to where they are, in inches: left of the panel, by more where its numbers are long,
+    and below. To look for room for each, as matplotlib does, takes as long as all the rest. `axes`: all
+    panels of a figure, of one size."""
     figure, box = axes[0][0].figure, axes[0][0].get_position()
+    left = max(left, 0.16 + 0.062 * max(_longest_tick(row[0]) for row in axes))
     for ax in axes.flat:
         ax.yaxis.set_label_coords(-left / box.width / WIDTH, 0.5)
         ax.xaxis.set_label_coords(0.5, -0.23 / box.height / figure.get_figheight())
