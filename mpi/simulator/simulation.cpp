@@ -37,9 +37,9 @@ SolveOptions without_primal(SolveOptions options) {
 }
 
 // What all ranks have in common.
-struct World {
-  World(const Problem& the_problem, const SolveOptions& the_options, const Limits& the_limits,
-        int ranks, const Machine& the_machine)
+struct Setting {
+  Setting(const Problem& the_problem, const SolveOptions& the_options, const Limits& the_limits,
+          int ranks, const Machine& the_machine)
       : problem(the_problem),
         options(without_primal(the_options)),
         limits(the_limits),
@@ -60,13 +60,15 @@ struct World {
 };
 
 struct SimulatedRank {
-  SimulatedRank(World& world, int rank)
-      : transport(world.network, rank, world.machine, world.talk),
-        member(world.problem, world.options, limits, world.observer, transport, world.stops),
-        worker(world.problem, world.options, world.limits, member.rank().search(), world.stops,
-               rank),
-        player(worker, world.machine),
-        first_look(world.machine.poll * (rank * kGoldenRatio - std::floor(rank * kGoldenRatio))) {}
+  SimulatedRank(Setting& setting, int rank)
+      : transport(setting.network, rank, setting.machine, setting.talk),
+        member(setting.problem, setting.options, limits, setting.observer, transport,
+               setting.stops),
+        worker(setting.problem, setting.options, setting.limits, member.rank().search(),
+               setting.stops, rank),
+        player(worker, setting.machine),
+        first_look(setting.machine.poll * (rank * kGoldenRatio - std::floor(rank * kGoldenRatio))) {
+  }
 
   bool has_open_nodes() { return member.rank().nodes().frontier.open() > 0; }
 
@@ -87,9 +89,10 @@ struct SimulatedRank {
 
 class Simulation {
  public:
-  explicit Simulation(World& world, int ranks)
-      : world_(world), expander_(world.problem, world.stops, search_options_of(world.options)) {
-    for (int rank = 0; rank < ranks; ++rank) ranks_.emplace_back(world, rank);
+  explicit Simulation(Setting& setting, int ranks)
+      : setting_(setting),
+        expander_(setting.problem, setting.stops, search_options_of(setting.options)) {
+    for (int rank = 0; rank < ranks; ++rank) ranks_.emplace_back(setting, rank);
     talked(0, 0);
   }
 
@@ -99,13 +102,13 @@ class Simulation {
       if (agenda_.empty()) throw std::logic_error("a simulated search came to a standstill");
       const Event event = agenda_.top();
       agenda_.pop();
-      world_.network.advance_to(event.time);
+      setting_.network.advance_to(event.time);
       now_ = event.time;
       if (event.who == Who::kTalker)
         talk(event.rank);
       else
         work(event.rank);
-      stopped = world_.limits.stop_requested();
+      stopped = setting_.limits.stop_requested();
     }
     return result(!stopped);
   }
@@ -130,7 +133,7 @@ class Simulation {
   // There is cause for this rank's talker to look at the network at `time` or soon after.
   void talk_from(double time, int rank) {
     SimulatedRank& r = at(rank);
-    const double pause = world_.machine.poll;
+    const double pause = setting_.machine.poll;
     const double looks = std::ceil(std::max(0.0, time - r.first_look) / pause);
     if (time > r.talks_until && pause > 0) time = std::max(time, r.first_look + pause * looks);
     time = std::max(time, r.talks_until);
@@ -143,7 +146,7 @@ class Simulation {
     SimulatedRank& r = at(rank);
     if (r.talk_due != now_) return;  // it was due before
     r.talk_due = kNotDue;
-    world_.talk = {};
+    setting_.talk = {};
     const double before_s = processor_time();
     r.member.converse(now_);
     if (r.member.rank().ended() && !r.said_farewell) {
@@ -158,10 +161,10 @@ class Simulation {
   // What follows from the talk that this rank began at `time`.
   void talked(int rank, double time) {
     SimulatedRank& r = at(rank);
-    r.talks_until = time + world_.talk.takes_s;
-    r.talking_s += world_.talk.takes_s;
-    for (const int to : world_.talk.receivers) talk_from(world_.network.next_arrival(to), to);
-    if (const double next = world_.network.next_arrival(rank); next < kNotDue)
+    r.talks_until = time + setting_.talk.takes_s;
+    r.talking_s += setting_.talk.takes_s;
+    for (const int to : setting_.talk.receivers) talk_from(setting_.network.next_arrival(to), to);
+    if (const double next = setting_.network.next_arrival(rank); next < kNotDue)
       talk_from(next, rank);
     if (r.silent_until > time) talk_from(r.silent_until, rank);
     if (!r.said_farewell && !r.player.busy() && r.has_open_nodes())
@@ -204,7 +207,7 @@ class Simulation {
     return run;
   }
 
-  World& world_;
+  Setting& setting_;
   std::deque<SimulatedRank> ranks_;
   Expander expander_;
   std::priority_queue<Event, std::vector<Event>, Later> agenda_;
@@ -219,8 +222,8 @@ class Simulation {
 
 SimulatedRun simulate(const Problem& problem, const SolveOptions& options, const Limits& limits,
                       int ranks, const Machine& machine) {
-  World world(problem, options, limits, ranks, machine);
-  return Simulation(world, ranks).run();
+  Setting setting(problem, options, limits, ranks, machine);
+  return Simulation(setting, ranks).run();
 }
 
 }  // namespace grove

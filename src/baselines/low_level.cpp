@@ -11,17 +11,17 @@
 
 namespace grove {
 
-std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const Grid& grid) {
+std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const World& world) {
   switch (low_level) {
     case LowLevel::kOwn:
-      return std::make_unique<FreeLowLevelSearch>(grid);
+      return std::make_unique<FreeLowLevelSearch>(world);
     case LowLevel::kVisitedSets:
-      return std::make_unique<VisitedSetSearch>(grid);
+      return std::make_unique<VisitedSetSearch>(world);
     case LowLevel::kSingleLegs:
-      return std::make_unique<VisitingOrderSearch>(grid, std::make_unique<SpaceTimeLegs>(grid));
+      return std::make_unique<VisitingOrderSearch>(world, std::make_unique<SpaceTimeLegs>(world));
     case LowLevel::kTimeIntervalForest:
-      return std::make_unique<VisitingOrderSearch>(grid,
-                                                   std::make_unique<TimeIntervalForest>(grid));
+      return std::make_unique<VisitingOrderSearch>(world,
+                                                   std::make_unique<TimeIntervalForest>(world));
   }
   throw std::invalid_argument("no low level");
 }

@@ -34,11 +34,11 @@ inline int slot_at(const SafeIntervals& intervals, Cell cell, Time time) {
 // Calls reach(cell) for every cell where an agent that is on `from` at `time` may be one step
 // later.
 template <class Reach>
-void for_each_step(const Grid& grid, const SafeIntervals& intervals, Cell from, Time time,
+void for_each_step(const World& world, const SafeIntervals& intervals, Cell from, Time time,
                    Reach reach) {
   const int slot = slot_at(intervals, from, time);
   if (intervals.end_of(slot) > time) reach(from);
-  for (Cell next : grid.neighbors(from)) {
+  for (Cell next : world.neighbors(from)) {
     if (intervals.unconstrained(next)) {
       reach(next);
       continue;

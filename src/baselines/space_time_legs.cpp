@@ -46,12 +46,12 @@ std::int32_t SpaceTimeLegs::find(Cell from, Time time, Target target, const Limi
   forget();
   first_ = std::min(time, settled_);
   const auto rows = static_cast<std::size_t>(settled_ - first_) + 1;
-  const std::size_t needed = rows * static_cast<std::size_t>(grid_.cell_count());
+  const std::size_t needed = rows * static_cast<std::size_t>(world_.place_count());
   if (needed > kMostLabels) throw std::bad_alloc();
   if (labels_.size() < needed) labels_.resize(needed);
   queue_.reset(time);
   reach(from, time, kNone, target);
-  const Cell goal = intervals_->cell_of(target.slot);
+  const Cell goal = intervals_->state_of(target.slot);
   const Time begin = intervals_->begin_of(target.slot);
   const Time end = intervals_->end_of(target.slot);
   BucketQueue::Entry entry;
@@ -62,7 +62,7 @@ std::int32_t SpaceTimeLegs::find(Cell from, Time time, Target target, const Limi
     if (queue_.layer() > end) return kNone;
     if (cell == goal && entry.time >= begin) return id;
     if (++expanded_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return kNone;
-    for_each_step(grid_, *intervals_, cell, entry.time,
+    for_each_step(world_, *intervals_, cell, entry.time,
                   [&](Cell next) { reach(next, entry.time + 1, id, target); });
   }
   return kNone;

@@ -12,8 +12,8 @@ namespace grove {
 
 class SpaceTimeLegs : public Legs {
  public:
-  // `grid` must outlive this.
-  explicit SpaceTimeLegs(const Grid& grid) : grid_(grid) {}
+  // `world` must outlive this.
+  explicit SpaceTimeLegs(const World& world) : world_(world) {}
 
   void begin(const AgentStops& stops, const SafeIntervals& intervals,
              std::span<const Constraint> constraints) override;
@@ -33,11 +33,11 @@ class SpaceTimeLegs : public Legs {
   void forget();
   Time distance(Cell cell, int goal) const;
   std::int32_t id_of(Cell cell, Time time) const {
-    return (std::min(time, settled_) - first_) * grid_.cell_count() + cell;
+    return (std::min(time, settled_) - first_) * world_.place_count() + cell;
   }
-  Cell cell_of(std::int32_t id) const { return id % grid_.cell_count(); }
+  Cell cell_of(std::int32_t id) const { return id % world_.place_count(); }
 
-  const Grid& grid_;
+  const World& world_;
   BucketQueue queue_;
   std::int64_t expanded_ = 0;
 

@@ -44,7 +44,7 @@ Time SpanningTreeBound::tree(StopSet left, int at) {
 // Distances are symmetric.
 Time SpanningTreeBound::distance(int from, int to) const {
   if (from == destination_) std::swap(from, to);
-  const Cell cell = stops_.cell(from);
+  const Cell cell = stops_.place(from);
   return to == destination_ ? stops_.to_destination(cell) : stops_.distances_from(cell)[to];
 }
 

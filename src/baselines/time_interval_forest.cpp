@@ -70,15 +70,15 @@ const TimeIntervalForest::Tree* TimeIntervalForest::tree_to(Target target, const
 bool TimeIntervalForest::grow(Tree& tree, int slot, const Limits& limits) {
   tree.pieces.clear();
   gaps_.clear();
-  first_gap_.assign(static_cast<std::size_t>(grid_.cell_count()), kUnseen);
-  cover(tree, intervals_->cell_of(slot), intervals_->begin_of(slot), intervals_->end_of(slot),
+  first_gap_.assign(static_cast<std::size_t>(world_.place_count()), kUnseen);
+  cover(tree, intervals_->state_of(slot), intervals_->begin_of(slot), intervals_->end_of(slot),
         kNone);
   for (std::size_t i = 0; i < tree.pieces.size(); ++i) {
     if (i % kPiecesPerPoll == 0 && limits.stop_requested()) return false;
     const Piece piece = tree.pieces[i];
     const auto number = static_cast<std::int32_t>(i);
     cover(tree, piece.cell, std::max(0, piece.begin - 1), before(piece.end), number);
-    for (Cell from : grid_.neighbors(piece.cell)) reach_by_move(tree, from, number);
+    for (Cell from : world_.neighbors(piece.cell)) reach_by_move(tree, from, number);
   }
   expanded_ += static_cast<std::int64_t>(tree.pieces.size());
   sort_pieces(tree);
@@ -147,14 +147,14 @@ void TimeIntervalForest::open_gaps(Cell cell) {
 
 void TimeIntervalForest::sort_pieces(Tree& tree) const {
   const auto count = static_cast<std::int32_t>(tree.pieces.size());
-  tree.first_of.assign(static_cast<std::size_t>(grid_.cell_count()) + 1, 0);
+  tree.first_of.assign(static_cast<std::size_t>(world_.place_count()) + 1, 0);
   for (const Piece& piece : tree.pieces) ++tree.first_of[piece.cell + 1];
-  for (Cell cell = 0; cell < grid_.cell_count(); ++cell)
+  for (Cell cell = 0; cell < world_.place_count(); ++cell)
     tree.first_of[cell + 1] += tree.first_of[cell];
   tree.by_cell.resize(tree.pieces.size());
   std::vector<std::int32_t> free = tree.first_of;
   for (std::int32_t i = 0; i < count; ++i) tree.by_cell[free[tree.pieces[i].cell]++] = i;
-  for (Cell cell = 0; cell < grid_.cell_count(); ++cell)
+  for (Cell cell = 0; cell < world_.place_count(); ++cell)
     std::sort(tree.by_cell.begin() + tree.first_of[cell],
               tree.by_cell.begin() + tree.first_of[cell + 1], [&](std::int32_t a, std::int32_t b) {
                 return tree.pieces[a].begin < tree.pieces[b].begin;

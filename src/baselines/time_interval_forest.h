@@ -13,8 +13,8 @@ namespace grove {
 // The essay is at the head of time_interval_forest.cpp.
 class TimeIntervalForest : public Legs {
  public:
-  // `grid` must outlive this.
-  explicit TimeIntervalForest(const Grid& grid) : grid_(grid) {}
+  // `world` must outlive this.
+  explicit TimeIntervalForest(const World& world) : world_(world) {}
 
   void begin(const AgentStops& stops, const SafeIntervals& intervals,
              std::span<const Constraint> constraints) override;
@@ -62,7 +62,7 @@ class TimeIntervalForest : public Legs {
   static constexpr std::int32_t kNone = -1;
   static constexpr std::int32_t kUnseen = -2;
 
-  const Grid& grid_;
+  const World& world_;
   std::int64_t expanded_ = 0;
 
   // Of begin().

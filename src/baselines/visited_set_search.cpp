@@ -60,7 +60,7 @@ PathOutcome VisitedSetSearch::run(Time cutoff, const Limits& limits, Path& path)
     }
     if (++expanded_ % kExpansionsPerPoll == 0 && limits.stop_requested())
       return PathOutcome::kStopped;
-    for_each_step(grid_, intervals_, label.cell, label.time,
+    for_each_step(world_, intervals_, label.cell, label.time,
                   [&](Cell next) { reach(next, label.time + 1, label.left, entry.slot); });
   }
   return PathOutcome::kInfeasible;
@@ -72,7 +72,7 @@ void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t pa
   const std::uint64_t set = sets_.insert(left, static_cast<std::uint32_t>(labels_.size()));
   const auto row = static_cast<std::uint64_t>(std::min(time, settled_));
   const auto rows = static_cast<std::uint64_t>(settled_) + 1;
-  const std::uint64_t key = (set * rows + row) * static_cast<std::uint64_t>(grid_.cell_count()) +
+  const std::uint64_t key = (set * rows + row) * static_cast<std::uint64_t>(world_.place_count()) +
                             static_cast<std::uint64_t>(cell);
   const auto next = static_cast<std::uint32_t>(labels_.size());
   const std::uint32_t id = index_.insert(key, next);

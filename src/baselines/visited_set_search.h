@@ -16,8 +16,8 @@ namespace grove {
 // The essay is at the head of visited_set_search.cpp.
 class VisitedSetSearch : public BaselineSearch {
  public:
-  // `grid` must outlive this.
-  explicit VisitedSetSearch(const Grid& grid) : grid_(grid), intervals_(grid) {}
+  // `world` must outlive this.
+  explicit VisitedSetSearch(const World& world) : world_(world), intervals_(world) {}
 
   std::int64_t expanded() const override { return expanded_; }
 
@@ -39,7 +39,7 @@ class VisitedSetSearch : public BaselineSearch {
   bool is_finish(const Label& label) const;
   void write_path(std::int32_t finish, Path& path) const;
 
-  const Grid& grid_;
+  const World& world_;
   SafeIntervals intervals_;
   std::vector<std::unique_ptr<SpanningTreeBound>> bounds_;  // by AgentIndex
   BucketQueue queue_;

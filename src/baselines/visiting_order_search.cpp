@@ -29,8 +29,8 @@
 
 namespace grove {
 
-VisitingOrderSearch::VisitingOrderSearch(const Grid& grid, std::unique_ptr<Legs> legs)
-    : intervals_(grid), legs_(std::move(legs)) {}
+VisitingOrderSearch::VisitingOrderSearch(const World& world, std::unique_ptr<Legs> legs)
+    : intervals_(world), legs_(std::move(legs)) {}
 
 PathOutcome VisitingOrderSearch::search(const AgentStops& stops, const PathQuery& query,
                                         const Limits& limits, Path& path) {
@@ -51,7 +51,7 @@ bool VisitingOrderSearch::prepare(const AgentStops& stops,
   if (start_slot < 0) return false;
   targets_.assign(1, {-1, start_slot});
   first_target_.clear();
-  for (int stop = 0; stop < stops.count(); ++stop) add_targets(stop, stops.cell(stop));
+  for (int stop = 0; stop < stops.count(); ++stop) add_targets(stop, stops.place(stop));
   if (stops.destination()) add_targets(stops.count(), *stops.destination());
   first_target_.push_back(columns());
   legs_->begin(stops, intervals_, constraints);

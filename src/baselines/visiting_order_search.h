@@ -17,8 +17,8 @@ namespace grove {
 // The essay is at the head of visiting_order_search.cpp.
 class VisitingOrderSearch : public BaselineSearch {
  public:
-  // `grid` must outlive this.
-  VisitingOrderSearch(const Grid& grid, std::unique_ptr<Legs> legs);
+  // `world` must outlive this.
+  VisitingOrderSearch(const World& world, std::unique_ptr<Legs> legs);
 
   std::int64_t expanded() const override { return expanded_ + legs_->expanded(); }
 
@@ -49,7 +49,7 @@ class VisitingOrderSearch : public BaselineSearch {
   int column_of(std::int32_t id) const { return id % columns(); }
   int columns() const { return static_cast<int>(targets_.size()); }
   Cell cell_of(int column) const {
-    return column == 0 ? stops_->start() : intervals_.cell_of(targets_[column].slot);
+    return column == 0 ? stops_->start() : intervals_.state_of(targets_[column].slot);
   }
   SpanningTreeBound& bound() { return *bounds_[stops_->agent()]; }
 

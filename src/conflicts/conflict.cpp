@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two arrays hold who is where now and one step ago, as a list per cell; entries carry a stamp that
-// grows for ever, so nothing is ever cleared.
+// Two arrays hold who is where now and one step ago, as a list per place; entries carry a stamp
+// that grows for ever, so nothing is ever cleared.
 #include "grove/conflicts/conflict.h"
 
 #include <algorithm>
@@ -12,15 +12,15 @@ namespace grove {
 Split split(const Conflict& c) {
   GROVE_ASSERT(c.first >= 0 && c.first < c.second, "two agents conflict");
   if (!c.is_swap()) {
-    const Constraint here{c.cell, kNoCell, c.time, c.time};
+    const Constraint here{c.cell, kNoPlace, c.time, c.time};
     return {{{c.first, here}, {c.second, here}}};
   }
   return {
       {{c.first, {c.cell, c.from, c.time, c.time}}, {c.second, {c.from, c.cell, c.time, c.time}}}};
 }
 
-ConflictFinder::ConflictFinder(const Grid& grid) {
-  for (auto& visits : visits_) visits.resize(grid.cell_count());
+ConflictFinder::ConflictFinder(const World& world) : world_(world) {
+  for (auto& visits : visits_) visits.resize(world.place_count());
 }
 
 void ConflictFinder::all(std::span<const Path> paths, std::span<const AgentIndex> agents,
@@ -40,28 +40,28 @@ void ConflictFinder::all(std::span<const Path> paths, std::span<const AgentIndex
 // Puts the agent where it is, and reports whom it meets there.
 void ConflictFinder::meet_all(std::span<const Path> paths, AgentIndex agent, Time time,
                               std::vector<Conflict>& conflicts) {
-  const Cell cell = position_at(paths[agent], time);
-  Visit& visit = visits_[time % 2][cell];
+  const Place place = place_at(world_, paths[agent], time);
+  Visit& visit = visits_[time % 2][place];
   auto& also_there = also_there_[time % 2];
   also_there[agent] = visit.stamp == base_ + time ? visit.agent : -1;
   visit = {base_ + time, agent};
   for (AgentIndex other = also_there[agent]; other >= 0; other = also_there[other]) {
-    const bool together = time > 0 && position_at(paths[agent], time - 1) == cell &&
-                          position_at(paths[other], time - 1) == cell;
+    const bool together = time > 0 && place_at(world_, paths[agent], time - 1) == place &&
+                          place_at(world_, paths[other], time - 1) == place;
     if (!together)
-      conflicts.push_back({std::min(agent, other), std::max(agent, other), cell, kNoCell, time});
+      conflicts.push_back({std::min(agent, other), std::max(agent, other), place, kNoPlace, time});
   }
 }
 
 void ConflictFinder::swap_all(std::span<const Path> paths, AgentIndex agent, Time time,
                               std::vector<Conflict>& conflicts) const {
-  const Cell to = position_at(paths[agent], time);
-  const Cell from = position_at(paths[agent], time - 1);
+  const Place to = place_at(world_, paths[agent], time);
+  const Place from = place_at(world_, paths[agent], time - 1);
   const Visit& visit = visits_[(time - 1) % 2][to];
   if (from == to || visit.stamp != base_ + time - 1) return;
   const auto& also_there = also_there_[(time - 1) % 2];
   for (AgentIndex other = visit.agent; other >= 0; other = also_there[other])
-    if (agent < other && position_at(paths[other], time) == from)
+    if (agent < other && place_at(world_, paths[other], time) == from)
       conflicts.push_back({agent, other, to, from, time});
 }
 

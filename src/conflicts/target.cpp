@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Target reasoning (Li, Harabor, Stuckey, Ma, Gange and Koenig, AIJ 2021), without its labels.
 //
-// Agent a rests on cell v from time f on, and b passes v at t >= f. The standard split bars a from
-// v at t, which makes it come later or step aside and back, or b; and the same again for t + 1, for
-// t + 2, ... Splitting on the fact that matters settles all of them at once:
+// Agent a is on place v from time f on for ever, and b passes v at t >= f. The standard split bars
+// a from v at t, which makes it come later or step aside and back, or b; and the same again for t +
+// 1, for t + 2, ... Splitting on the fact that matters settles all of them at once:
 //
-//   kNoRestBy: a does not come to rest on v at t or earlier;
-//   kRestBy:   a comes to rest on v at t or earlier. Then a is on v at every time from t on, so no
+//   kNoRestBy: a does not come to v for good at t or earlier;
+//   kRestBy:   a comes to v for good at t or earlier. Then a is on v at every time from t on, so no
 //              other agent is: they all are barred from v from t on.
 //
 // *No plan is lost*: the two are each other's negation, whatever the agents' orders of visits and
@@ -17,17 +17,17 @@
 namespace grove {
 
 std::optional<Split> target_split(const Conflict& conflict, std::span<const Path> paths,
-                                  const Chains& /*chains*/) {
+                                  const World& world, const Chains& /*chains*/) {
   if (conflict.is_swap()) return std::nullopt;
   const auto rests = [&](AgentIndex agent) {
-    return static_cast<Time>(paths[agent].size()) - 1 <= conflict.time;
+    return last_arrival(world, paths[agent]) <= conflict.time;
   };
   const AgentIndex agent = rests(conflict.first)    ? conflict.first
                            : rests(conflict.second) ? conflict.second
                                                     : -1;
   if (agent < 0) return std::nullopt;
   const auto demand = [&](ConstraintKind kind) {
-    return AgentConstraint{agent, {conflict.cell, kNoCell, 0, conflict.time, kind}};
+    return AgentConstraint{agent, {conflict.cell, kNoPlace, 0, conflict.time, kind}};
   };
   return Split{demand(ConstraintKind::kNoRestBy), demand(ConstraintKind::kRestBy)};
 }

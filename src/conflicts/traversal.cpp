@@ -5,7 +5,7 @@
 // reasoning with bans on the corridor's ends would forbid an agent with several goals to come back
 // later on another errand. What must be forbidden is one *traversal*.
 //
-// A chain has k moves from end to end, and its inner cells have two neighbors each. An agent
+// A chain has k moves from end to end, and its inner places have two neighbors each. An agent
 // *traverses* it when it moves from one end into it and leaves it for the other end without having
 // left it in between; p is the time at which it arrives at that other end.
 //
@@ -14,7 +14,7 @@
 // or its ends in I = [max(s, r), min(p, q)], which is not empty: s <= p - k <= q and r <= q - k <=
 // p. Number the places 0 .. k along a's way. When I begins, a is at 0 or b at k; when it ends, a is
 // at k or b at 0. So a's place is first at most, and at last at least, b's. Per step the difference
-// grows by 2 at most: it is 0 at some time (one cell), or jumps from -1 to 1 (a swap).
+// grows by 2 at most: it is 0 at some time (one place), or jumps from -1 to 1 (a swap).
 //
 // So of all pairs of times p' in [p, q + k], q' in [q, p + k] none is free of collision: p' - q' <=
 // k and q' - p' <= k. Every conflict-free plan therefore obeys one of
@@ -36,18 +36,19 @@ namespace {
 struct Traversal {
   bool forward;  // from the front to the back
   Time arrival;  // at the end
-  Cell end;      // where it leaves
-  Cell last;     // the inner cell before
+  Place end;     // where it leaves
+  Place last;    // the inner place before
 };
 
-bool is_inner(const Chains& chains, int chain, Cell cell) {
-  return chains.chain_of(cell) == chain;
+bool is_inner(const Chains& chains, int chain, Place place) {
+  return chains.chain_of(place) == chain;
 }
 
 // The traversal of `chain` during which the path is inside at `time`.
-std::optional<Traversal> traversal_at(const Chains& chains, int chain, const Path& path,
-                                      Time time) {
-  const auto inside = [&](Time t) { return is_inner(chains, chain, path[t]); };
+std::optional<Traversal> traversal_at(const World& world, const Chains& chains, int chain,
+                                      const Path& path, Time time) {
+  const auto place = [&](Time t) { return world.place(path[t]); };
+  const auto inside = [&](Time t) { return is_inner(chains, chain, place(t)); };
   const auto length = static_cast<Time>(path.size());
   if (time < 0 || time >= length || !inside(time)) return std::nullopt;
   Time entry = time;  // the first time inside
@@ -56,31 +57,31 @@ std::optional<Traversal> traversal_at(const Chains& chains, int chain, const Pat
   while (arrival < length && inside(arrival)) ++arrival;
   if (entry == 0 || arrival == length) return std::nullopt;
 
-  const auto cells = chains.cells(chain);
-  const auto at_front = [&](Cell end, Cell inner) {
-    return end == cells.front() && inner == cells[1];
+  const auto places = chains.places(chain);
+  const auto at_front = [&](Place end, Place inner) {
+    return end == places.front() && inner == places[1];
   };
-  const bool from_front = at_front(path[entry - 1], path[entry]);
-  const bool to_front = at_front(path[arrival], path[arrival - 1]);
+  const bool from_front = at_front(place(entry - 1), place(entry));
+  const bool to_front = at_front(place(arrival), place(arrival - 1));
   if (from_front == to_front) return std::nullopt;
-  return Traversal{from_front, arrival, path[arrival], path[arrival - 1]};
+  return Traversal{from_front, arrival, place(arrival), place(arrival - 1)};
 }
 
 // The traversal that the path is in at `time`, or ends or begins then.
-std::optional<Traversal> traversal_near(const Chains& chains, int chain, const Path& path,
-                                        Time time) {
+std::optional<Traversal> traversal_near(const World& world, const Chains& chains, int chain,
+                                        const Path& path, Time time) {
   for (const Time t : {time, time - 1, time + 1})
-    if (const auto traversal = traversal_at(chains, chain, path, t)) return traversal;
+    if (const auto traversal = traversal_at(world, chains, chain, path, t)) return traversal;
   return std::nullopt;
 }
 
 std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> paths,
-                              const Chains& chains, int chain) {
-  const auto a = traversal_near(chains, chain, paths[conflict.first], conflict.time);
+                              const World& world, const Chains& chains, int chain) {
+  const auto a = traversal_near(world, chains, chain, paths[conflict.first], conflict.time);
   if (!a) return std::nullopt;
-  const auto b = traversal_near(chains, chain, paths[conflict.second], conflict.time);
+  const auto b = traversal_near(world, chains, chain, paths[conflict.second], conflict.time);
   if (!b || a->forward == b->forward) return std::nullopt;
-  const auto moves = static_cast<Time>(chains.cells(chain).size()) - 1;
+  const auto moves = static_cast<Time>(chains.places(chain).size()) - 1;
   const Time a_last = b->arrival + moves;
   const Time b_last = a->arrival + moves;
   if (a->arrival > a_last || b->arrival > b_last) return std::nullopt;
@@ -93,16 +94,16 @@ std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> pa
 }  // namespace
 
 std::optional<Split> traversal_split(const Conflict& conflict, std::span<const Path> paths,
-                                     const Chains& chains) {
+                                     const World& world, const Chains& chains) {
   // Where both are, or - when they meet on an end - where one of them comes from.
-  const std::array<Cell, 4> places{
+  const std::array<Place, 4> places{
       conflict.cell, conflict.is_swap() ? conflict.from : conflict.cell,
-      position_at(paths[conflict.first], std::max(0, conflict.time - 1)),
-      position_at(paths[conflict.second], std::max(0, conflict.time - 1))};
-  for (Cell place : places) {
+      place_at(world, paths[conflict.first], std::max(0, conflict.time - 1)),
+      place_at(world, paths[conflict.second], std::max(0, conflict.time - 1))};
+  for (Place place : places) {
     const int chain = chains.chain_of(place);
     if (chain == Chains::kNoChain) continue;
-    if (const auto split = split_on(conflict, paths, chains, chain)) return split;
+    if (const auto split = split_on(conflict, paths, world, chains, chain)) return split;
   }
   return std::nullopt;
 }

@@ -22,7 +22,8 @@ std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsStore& sto
   if (options.policy == Policy::kFixed)
     return std::make_unique<SequenceForest>(problem, pool, options.rtsp, limits);
   return std::make_unique<SingleTree>(
-      problem, stops, pool, limits, make_agent_planner(options.low_level, problem.instance.grid()));
+      problem, stops, pool, limits,
+      make_agent_planner(options.low_level, problem.instance.world()));
 }
 
 }  // namespace

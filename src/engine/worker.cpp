@@ -73,7 +73,7 @@ Expander& Worker::expander() {
   if (!expander_)
     expander_ = std::make_unique<Expander>(
         problem_, expander_stops_, search_options_of(options_), shared_.memory(),
-        make_agent_planner(options_.low_level, problem_.instance.grid()));
+        make_agent_planner(options_.low_level, problem_.instance.world()));
   return *expander_;
 }
 

@@ -72,7 +72,7 @@ void write_visualizer_text(const std::filesystem::path& path, const Instance& in
   text += "\nsolution=\n";
   for (Time t = 0; t <= makespan(*solution.plan); ++t) {
     text += fmt::format("{}:", t);
-    for (const AgentPlan& agent : agents) add_position(text, grid, position_at(agent.path, t));
+    for (const AgentPlan& agent : agents) add_position(text, grid, state_at(agent.path, t));
     text += '\n';
   }
   write_file_atomically(path, text);

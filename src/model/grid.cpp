@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grove/model/grid.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -14,24 +15,32 @@ void require_valid_size(int width, int height, std::size_t cells) {
     throw std::invalid_argument("a grid needs width * height cells");
 }
 
+// The passable cells one move away from each.
+Rows moves_on(int width, int height, const std::vector<bool>& passable) {
+  require_valid_size(width, height, passable.size());
+  Rows moves;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Cell here = y * width + x;
+      const auto add = [&](bool is_there, Cell cell) {
+        if (passable[here] && is_there && passable[cell]) moves.add(cell);
+      };
+      add(x + 1 < width, here + 1);
+      add(y + 1 < height, here + width);
+      add(x > 0, here - 1);
+      add(y > 0, here - width);
+      moves.end_row();
+    }
+  return moves;
+}
+
 }  // namespace
 
 Grid::Grid(int width, int height, const std::vector<bool>& passable)
-    : width_(width), height_(height), passable_(passable.begin(), passable.end()) {
-  require_valid_size(width, height, passable.size());
-  first_neighbor_.reserve(passable_.size() + 1);
-  constexpr Position kMoves[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-  for (Cell c = 0; c < cell_count(); ++c) {
-    first_neighbor_.push_back(static_cast<std::int32_t>(neighbors_.size()));
-    if (!passable_[c]) continue;
-    ++passable_count_;
-    for (Position move : kMoves) {
-      const Position from = position(c);
-      const Position to{from.x + move.x, from.y + move.y};
-      if (contains(to) && passable_[cell(to)]) neighbors_.push_back(cell(to));
-    }
-  }
-  first_neighbor_.push_back(static_cast<std::int32_t>(neighbors_.size()));
-}
+    : World(moves_on(width, height, passable), width),
+      width_(width),
+      height_(height),
+      passable_count_(static_cast<int>(std::ranges::count(passable, true))),
+      passable_(passable.begin(), passable.end()) {}
 
 }  // namespace grove

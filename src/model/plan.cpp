@@ -17,6 +17,12 @@ constexpr std::array<std::pair<Status, std::string_view>, 5> kNames{{
 
 }  // namespace
 
+Time last_arrival(const World& world, const Path& path) {
+  Time time = static_cast<Time>(path.size()) - 1;
+  while (time > 0 && world.place(path[time - 1]) == world.place(path.back())) --time;
+  return time;
+}
+
 std::string_view to_string(Status status) {
   for (const auto& [value, name] : kNames)
     if (value == status) return name;

@@ -15,12 +15,18 @@ constexpr std::size_t kSparsity = 4;  // slots per key
 
 }  // namespace
 
-ConflictAvoidanceTable::ConflictAvoidanceTable(const Grid& grid)
-    : counts_(std::size_t{1} << kFirstBits),
-      visited_(grid.cell_count()),
+ConflictAvoidanceTable::ConflictAvoidanceTable(const World& world)
+    : world_(world),
+      counts_(std::size_t{1} << kFirstBits),
+      visited_(world.place_count()),
       mask_(counts_.size() - 1),
-      stride_(static_cast<std::uint64_t>(grid.cell_count()) | 1),
-      first_rest_(grid.cell_count(), kNever) {}
+      stride_(static_cast<std::uint64_t>(world.place_count()) | 1),
+      first_rest_(world.place_count(), kNever) {}
+
+int ConflictAvoidanceTable::direction_on_roads(const World& world, Place from, Place to) {
+  const auto neighbors = world.neighbors(to);
+  return std::min(static_cast<int>(std::ranges::find(neighbors, from) - neighbors.begin()), 3);
+}
 
 // For so many keys more. Left-overs go first.
 void ConflictAvoidanceTable::make_room(std::size_t steps) {
@@ -35,13 +41,13 @@ void ConflictAvoidanceTable::make_room(std::size_t steps) {
   for (const Counts& counts : old) {
     if (!in_use(counts)) continue;
     counts_[slot(counts.key)] = counts;
-    mark(static_cast<Cell>(counts.key & ((std::uint64_t{1} << kCellBits) - 1)),
-         static_cast<Time>(counts.key >> kCellBits & kLastTime));
+    mark(static_cast<Place>(counts.key & ((std::uint64_t{1} << kPlaceBits) - 1)),
+         static_cast<Time>(counts.key >> kPlaceBits & kLastTime));
   }
 }
 
-void ConflictAvoidanceTable::mark(Cell cell, Time time) {
-  Visited& visited = visited_[cell];
+void ConflictAvoidanceTable::mark(Place place, Time time) {
+  Visited& visited = visited_[place];
   if (visited.generation != generation_) visited = {static_cast<std::uint32_t>(generation_), 0};
   visited.times |= time_bit(time);
 }
@@ -59,35 +65,42 @@ void ConflictAvoidanceTable::add(const Path& path) {
   if (path.empty()) return;
   make_room(path.size());
   const auto rest = static_cast<Time>(path.size() - 1);
+  Place before = kNoPlace;
   for (Time t = 0; t <= std::min(rest, kLastTime); ++t) {
-    mark(path[t], t);
-    Counts& counts = insert(key(path[t], t));
+    const Place place = world_.place(path[t]);
+    mark(place, t);
+    Counts& counts = insert(key(place, t));
     ++counts.visits;
-    if (t > 0 && path[t - 1] != path[t]) ++counts.moves[direction(path[t - 1], path[t])];
+    if (t > 0 && before != place) ++counts.moves[direction(world_, before, place)];
+    before = place;
   }
+  const Place end = world_.place(path.back());
   horizon_ = std::max(horizon_, std::min(rest, kLastTime));
-  rests_.push_back({path.back(), rest});
-  first_rest_[path.back()] = std::min(first_rest_[path.back()], rest);
+  rests_.push_back({end, rest});
+  first_rest_[end] = std::min(first_rest_[end], rest);
 }
 
 void ConflictAvoidanceTable::remove(const Path& path) {
   if (path.empty()) return;
   const auto since = static_cast<Time>(path.size() - 1);
+  Place before = kNoPlace;
   for (Time t = 0; t <= std::min(since, kLastTime); ++t) {
-    Counts& counts = counts_[slot(key(path[t], t))];
-    GROVE_ASSERT(counts.key == key(path[t], t) && counts.visits > 0, "a path that goes was there");
+    const Place place = world_.place(path[t]);
+    Counts& counts = counts_[slot(key(place, t))];
+    GROVE_ASSERT(counts.key == key(place, t) && counts.visits > 0, "a path that goes was there");
     --counts.visits;
-    if (t > 0 && path[t - 1] != path[t]) --counts.moves[direction(path[t - 1], path[t])];
+    if (t > 0 && before != place) --counts.moves[direction(world_, before, place)];
+    before = place;
   }
-  const Cell end = path.back();
+  const Place end = world_.place(path.back());
   const auto gone = std::ranges::find_if(
-      rests_, [&](const Rest& rest) { return rest.cell == end && rest.since == since; });
+      rests_, [&](const Rest& rest) { return rest.place == end && rest.since == since; });
   GROVE_ASSERT(gone != rests_.end(), "a path that goes was there");
   *gone = rests_.back();
   rests_.pop_back();
   first_rest_[end] = kNever;
   for (const Rest& rest : rests_)
-    if (rest.cell == end) first_rest_[end] = std::min(first_rest_[end], rest.since);
+    if (rest.place == end) first_rest_[end] = std::min(first_rest_[end], rest.since);
 }
 
 void ConflictAvoidanceTable::clear() {
@@ -96,30 +109,30 @@ void ConflictAvoidanceTable::clear() {
     std::ranges::fill(visited_, Visited{});
     generation_ = 1;
   }
-  for (const Rest& rest : rests_) first_rest_[rest.cell] = kNever;
+  for (const Rest& rest : rests_) first_rest_[rest.place] = kNever;
   rests_.clear();
   keys_ = 0;
   horizon_ = 0;
 }
 
-int ConflictAvoidanceTable::rests_before(Cell cell, Time time) const {
+int ConflictAvoidanceTable::rests_before(Place place, Time time) const {
   return static_cast<int>(std::ranges::count_if(
-      rests_, [&](const Rest& rest) { return rest.cell == cell && rest.since < time; }));
+      rests_, [&](const Rest& rest) { return rest.place == place && rest.since < time; }));
 }
 
-int ConflictAvoidanceTable::conflicts_of_waiting(Cell cell, Time first, Time last) const {
+int ConflictAvoidanceTable::conflicts_of_waiting(Place place, Time first, Time last) const {
   std::int64_t count = 0;
-  for (Time t = first; t <= std::min(last, horizon_); ++t) count += visits(cell, t);
-  if (last > first_rest_[cell])
+  for (Time t = first; t <= std::min(last, horizon_); ++t) count += visits(place, t);
+  if (last > first_rest_[place])
     for (const Rest& rest : rests_)
-      if (rest.cell == cell) count += std::max(0, last - std::max(first - 1, rest.since));
+      if (rest.place == place) count += std::max(0, last - std::max(first - 1, rest.since));
   return static_cast<int>(std::min(count, kMostWaitConflicts));
 }
 
-int ConflictAvoidanceTable::conflicts_of_resting(Cell cell, Time time) const {
+int ConflictAvoidanceTable::conflicts_of_resting(Place place, Time time) const {
   // A path that comes to rest after `time` is counted when it arrives.
-  int count = first_rest_[cell] <= time ? rests_before(cell, time + 1) : 0;
-  for (Time t = time + 1; t <= horizon_; ++t) count += visits(cell, t);
+  int count = first_rest_[place] <= time ? rests_before(place, time + 1) : 0;
+  for (Time t = time + 1; t <= horizon_; ++t) count += visits(place, t);
   return count;
 }
 
@@ -127,8 +140,9 @@ int ConflictAvoidanceTable::conflicts_of(const Path& path) const {
   GROVE_ASSERT(!path.empty(), "an agent is somewhere");
   int count = 0;
   for (std::size_t t = 1; t < path.size(); ++t)
-    count += conflicts(path[t - 1], path[t], static_cast<Time>(t));
-  return count + conflicts_of_resting(path.back(), static_cast<Time>(path.size()) - 1);
+    count += conflicts(world_.place(path[t - 1]), world_.place(path[t]), static_cast<Time>(t));
+  return count +
+         conflicts_of_resting(world_.place(path.back()), static_cast<Time>(path.size()) - 1);
 }
 
 }  // namespace grove

@@ -26,39 +26,35 @@ constexpr std::array<Named, kConstraintKinds> kNames = {{
 }};
 
 // One step of rest stands for all: after it the path changes no more.
-bool keeps_off(const Path& path, const Constraint& bar) {
+bool keeps_off(const World& world, const Path& path, const Constraint& bar) {
   const Time last = std::min(bar.end, std::max(static_cast<Time>(path.size()), bar.begin));
   for (Time t = std::max(bar.begin, 0); t <= last; ++t) {
-    if (position_at(path, t) != bar.cell) continue;
-    if (!bar.is_move() || (t > 0 && position_at(path, t - 1) == bar.from)) return false;
+    if (place_at(world, path, t) != bar.cell) continue;
+    if (!bar.is_move() || (t > 0 && place_at(world, path, t - 1) == bar.from)) return false;
   }
   return true;
 }
 
-// When the agent moved for the last time, onto the cell where it rests.
-Time last_arrival(const Path& path) {
-  const auto moved =
-      std::ranges::adjacent_find(path.rbegin(), path.rend(), std::ranges::not_equal_to());
-  return moved == path.rend() ? 0 : static_cast<Time>(path.rend() - moved) - 1;
-}
-
-bool rests_by(const Path& path, const Constraint& c) {
-  return path.back() == c.cell && last_arrival(path) <= c.end;
+bool rests_by(const World& world, const Path& path, const Constraint& c) {
+  return world.place(path.back()) == c.cell && last_arrival(world, path) <= c.end;
 }
 
 // Is the move to path[arrival], out of a chain, the end of a traversal?
-bool ends_traversal(const Path& path, Time arrival, const Chains& chains) {
-  const int chain = chains.chain_of(path[arrival - 1]);
+bool ends_traversal(const World& world, const Path& path, Time arrival, const Chains& chains) {
+  const auto place = [&](Time t) { return world.place(path[t]); };
+  const int chain = chains.chain_of(place(arrival - 1));
   Time before = arrival - 1;  // the last time before it was inside
-  while (before >= 0 && chains.chain_of(path[before]) == chain) --before;
+  while (before >= 0 && chains.chain_of(place(before)) == chain) --before;
   if (before < 0) return false;
-  return path[before] != path[arrival] || path[before + 1] != path[arrival - 1];
+  return place(before) != place(arrival) || place(before + 1) != place(arrival - 1);
 }
 
-bool traverses(const Path& path, const Constraint& c, const Chains& chains) {
+bool traverses(const World& world, const Path& path, const Constraint& c, const Chains& chains) {
   const Time last = std::min(c.end, static_cast<Time>(path.size()) - 1);
   for (Time t = std::max(c.begin, 1); t <= last; ++t)
-    if (path[t] == c.cell && path[t - 1] == c.from && ends_traversal(path, t, chains)) return true;
+    if (world.place(path[t]) == c.cell && world.place(path[t - 1]) == c.from &&
+        ends_traversal(world, path, t, chains))
+      return true;
   return false;
 }
 
@@ -74,17 +70,17 @@ std::optional<ConstraintKind> constraint_kind(std::uint8_t number) {
   return known ? std::optional(kind) : std::nullopt;
 }
 
-bool obeys(const Path& path, const Constraint& c, const Chains& chains) {
+bool obeys(const World& world, const Path& path, const Constraint& c, const Chains& chains) {
   GROVE_ASSERT(!path.empty(), "an agent is somewhere");
   switch (c.kind) {
     case ConstraintKind::kBar:
-      return keeps_off(path, c);
+      return keeps_off(world, path, c);
     case ConstraintKind::kNoRestBy:
-      return !rests_by(path, c);
+      return !rests_by(world, path, c);
     case ConstraintKind::kRestBy:
-      return rests_by(path, c);
+      return rests_by(world, path, c);
     case ConstraintKind::kNoTraversal:
-      return !traverses(path, c, chains);
+      return !traverses(world, path, c, chains);
     case ConstraintKind::kStopIs:
     case ConstraintKind::kStopIsNot:
       break;

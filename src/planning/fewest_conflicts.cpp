@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The low level prefers few conflicts among the ways it meets, but it keeps one label per safe
 // interval and state, the earliest: where a delay could be spent elsewhere, it does not see that.
-// The layered graph has every way, and a step's conflicts depend on its two cells and its time
+// The layered graph has every way, and a step's conflicts depend on its two places and its time
 // alone: so the fewest from each node to the end come from the layer after it, last layer first.
 // What is asked of the table once for a node - who else is there, who comes there next - serves all
 // its steps.
@@ -22,13 +22,13 @@ void FewestConflicts::find(const OptimalPaths& paths, const ConflictAvoidanceTab
   for (Time time = cost; time >= 0; --time) {
     const auto layer = paths.layer(time);
     for (NodeId node = layer.first; node < layer.end; ++node) {
-      const Cell cell = paths.cell(node);
+      const Place place = paths.place(node);
       Best& best = best_[node];
       if (time == cost)
-        best = {others.conflicts_of_resting(cell, time), kNoNode};
+        best = {others.conflicts_of_resting(place, time), kNoNode};
       else
-        best = best_step(paths, node, others.comers(cell, time + 1));
-      if (time > 0) best.conflicts += others.vertex_conflicts(cell, time);
+        best = best_step(paths, node, others.comers(place, time + 1));
+      if (time > 0) best.conflicts += others.vertex_conflicts(place, time);
     }
   }
   path.clear();
@@ -36,15 +36,15 @@ void FewestConflicts::find(const OptimalPaths& paths, const ConflictAvoidanceTab
   NodeId node = first.first;
   for (NodeId other = first.first; other < first.end; ++other)
     if (best_[other].conflicts < best_[node].conflicts) node = other;
-  for (; node != kNoNode; node = best_[node].next) path.push_back(paths.cell(node));
+  for (; node != kNoNode; node = best_[node].next) path.push_back(paths.state(node));
 }
 
 FewestConflicts::Best FewestConflicts::best_step(const OptimalPaths& paths, NodeId node,
                                                  ConflictAvoidanceTable::Comers comers) const {
   Best best{std::numeric_limits<std::int32_t>::max(), kNoNode};
   for (const NodeId next : paths.successors(node)) {
-    const Cell to = paths.cell(next);
-    const int swaps = to == paths.cell(node) ? 0 : comers.from(to);
+    const Place to = paths.place(next);
+    const int swaps = to == paths.place(node) ? 0 : comers.from(to);
     if (const std::int32_t conflicts = best_[next].conflicts + swaps; conflicts < best.conflicts)
       best = {conflicts, next};
   }

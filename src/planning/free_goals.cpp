@@ -65,21 +65,21 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
       start_(instance.agent(agent).start),
       destination_(instance.agent(agent).goal),
       completions_(cost_matrix(instance, agent, distances)) {
-  std::vector<std::int8_t> stop_at(instance.grid().cell_count(), kNoStop);
+  std::vector<std::int8_t> stop_at(instance.world().state_count(), kNoStop);
   for (TaskIndex task : instance.agent(agent).tasks) {
-    stop_at[instance.task(task).cell] = static_cast<std::int8_t>(cells_.size());
-    cells_.push_back(instance.task(task).cell);
+    stop_at[instance.task(task).cell] = static_cast<std::int8_t>(places_.size());
+    places_.push_back(instance.task(task).cell);
   }
   if (destination_)
     to_destination_ = &distances.to(*destination_);
-  else if (cells_.empty())
+  else if (places_.empty())
     throw std::invalid_argument("an agent without a destination needs a task");
 
-  std::vector<Time> to_stops(stop_at.size() * cells_.size());
-  for (std::size_t stop = 0; stop < cells_.size(); ++stop) {
-    const DistanceField& field = distances.to(cells_[stop]);
-    for (std::size_t cell = 0; cell < field.size(); ++cell)
-      to_stops[cell * cells_.size() + stop] = field[cell];
+  std::vector<Time> to_stops(stop_at.size() * places_.size());
+  for (std::size_t stop = 0; stop < places_.size(); ++stop) {
+    const DistanceField& field = distances.to(places_[stop]);
+    for (std::size_t state = 0; state < field.size(); ++state)
+      to_stops[state * places_.size() + stop] = field[state];
   }
   stop_at_ = std::make_shared<const std::vector<std::int8_t>>(std::move(stop_at));
   distances_ = std::make_shared<const std::vector<Time>>(std::move(to_stops));
@@ -104,22 +104,22 @@ bool FreeGoals::plausible() const {
   return reachable && (!stops_.destination() || stops_.to_destination(stops_.start()) < kNever);
 }
 
-FreeGoals::StateId FreeGoals::first_state() {
-  if (built_beyond_ == completions_->beyond()) return first_state_;
+FreeGoals::StageId FreeGoals::first_stage() {
+  if (built_beyond_ == completions_->beyond()) return first_stage_;
   built_beyond_ = completions_->beyond();
-  states_.clear();
+  stages_.clear();
   after_.clear();
   onward_.clear();
   index_.assign(rest_is_not_first_ ? stride_ + 1 : 1, {});
   const StopSet rests = free_ != 0 ? free_ : class_.prefix.empty() ? 0 : bit(class_.prefix.back());
-  return first_state_ = make_state(stops_.all(), rests);
+  return first_stage_ = make_stage(stops_.all(), rests);
 }
 
-Time FreeGoals::to_rest(const State& state, Cell cell) const {
-  if (stops_.destination()) return stops_.to_destination(cell);
-  const Time* to_stop = stops_.distances_from(cell);
+Time FreeGoals::to_rest(const Stage& stage, State state) const {
+  if (stops_.destination()) return stops_.to_destination(state);
+  const Time* to_stop = stops_.distances_from(state);
   Time best = kNever;
-  for (StopSet rests = state.rests; rests != 0; rests &= rests - 1)
+  for (StopSet rests = stage.rests; rests != 0; rests &= rests - 1)
     best = std::min(best, to_stop[std::countr_zero(rests)]);
   return best;
 }
@@ -131,9 +131,9 @@ StopSet FreeGoals::next_of(StopSet left) const {
   return left == free_ ? first_free_ : left;
 }
 
-StopSet FreeGoals::rests_after(const State& state, int stop) const {
-  const bool first = rest_is_not_first_ && state.left == free_;
-  return first ? state.rests & ~bit(stop) : state.rests;
+StopSet FreeGoals::rests_after(const Stage& stage, int stop) const {
+  const bool first = rest_is_not_first_ && stage.left == free_;
+  return first ? stage.rests & ~bit(stop) : stage.rests;
 }
 
 // From `stop`, the next one, through the other stops of `left` to the end.
@@ -151,48 +151,48 @@ Time FreeGoals::onward_cost(StopSet left, int stop) const {
   return std::min(best, kNever);
 }
 
-FreeGoals::StateId FreeGoals::make_after(StateId id, int stop) {
-  const State from = states_[id];
-  const StateId to = make_state(from.left & ~bit(stop), rests_after(from, stop));
+FreeGoals::StageId FreeGoals::make_after(StageId id, int stop) {
+  const Stage from = stages_[id];
+  const StageId to = make_stage(from.left & ~bit(stop), rests_after(from, stop));
   after_[static_cast<std::size_t>(id) * stride_ + static_cast<std::size_t>(stop)] = to;
   return to;
 }
 
-FreeGoals::StateId FreeGoals::make_state(StopSet left, StopSet rests) {
+FreeGoals::StageId FreeGoals::make_stage(StopSet left, StopSet rests) {
   const StopSet barred = rest_is_not_first_ ? free_ & ~rests : 0;
   StopSetIndex& index = index_[barred == 0 ? 0 : 1 + std::countr_zero(barred)];
   if (const std::uint32_t known = index.find(left); known != StopSetIndex::kAbsent)
-    return static_cast<StateId>(known);
+    return static_cast<StageId>(known);
 
-  State state{.left = left, .next = next_of(left), .rests = rests};
-  state.may_skip = rest_is_not_first_ && left == free_ && std::popcount(first_free_) > 1;
-  add_onward(state);
-  if (left != 0 && state.count == 0) return kOutside;
-  const auto id = static_cast<StateId>(states_.size());
+  Stage stage{.left = left, .next = next_of(left), .rests = rests};
+  stage.may_skip = rest_is_not_first_ && left == free_ && std::popcount(first_free_) > 1;
+  add_onward(stage);
+  if (left != 0 && stage.count == 0) return kOutside;
+  const auto id = static_cast<StageId>(stages_.size());
   index.insert(left, static_cast<std::uint32_t>(id));
-  states_.push_back(state);
+  stages_.push_back(stage);
   after_.resize(after_.size() + stride_, kUnknown);
   return id;
 }
 
-void FreeGoals::add_onward(State& state) {
-  state.first = static_cast<std::int32_t>(onward_.size());
-  for (StopSet next = state.next; next != 0; next &= next - 1) {
+void FreeGoals::add_onward(Stage& stage) {
+  stage.first = static_cast<std::int32_t>(onward_.size());
+  for (StopSet next = stage.next; next != 0; next &= next - 1) {
     const int stop = std::countr_zero(next);
-    const Time cost = onward_cost(state.left, stop);
+    const Time cost = onward_cost(stage.left, stop);
     if (cost < kNever) onward_.push_back({stop, cost});
   }
-  state.count = static_cast<std::int32_t>(onward_.size()) - state.first;
-  const auto ways = onward_.begin() + state.first;
+  stage.count = static_cast<std::int32_t>(onward_.size()) - stage.first;
+  const auto ways = onward_.begin() + stage.first;
   const auto needed = [&](const Onward& u) {
-    const Time* from_u = stops_.distances_from(stops_.cell(u.stop));
+    const Time* from_u = stops_.distances_from(stops_.place(u.stop));
     return std::none_of(ways, onward_.end(), [&](const Onward& w) {
       return w.stop != u.stop && u.cost >= from_u[w.stop] + w.cost;
     });
   };
   std::vector<Onward> sorted;
   std::copy_if(ways, onward_.end(), std::back_inserter(sorted), needed);
-  state.nearest = static_cast<std::int32_t>(sorted.size());
+  stage.nearest = static_cast<std::int32_t>(sorted.size());
   std::remove_copy_if(ways, onward_.end(), std::back_inserter(sorted), needed);
   std::ranges::copy(sorted, ways);
 }
@@ -209,8 +209,8 @@ Sequence realized_sequence(const FreeGoals& goals, const Path& path) {
   const int last =
       stops.destination() || path.empty() ? AgentStops::kNoStop : stops.stop_at(path.back());
   Sequence sequence;
-  for (Cell cell : path) {
-    const int stop = stops.stop_at(cell);
+  for (const State state : path) {
+    const int stop = stops.stop_at(state);
     if (stop == AgentStops::kNoStop || !next_in_class(sequence, stop)) continue;
     if (stop != last || sequence.size() + 1 == complete)
       sequence.push_back(static_cast<Stop>(stop));

@@ -68,10 +68,10 @@ constexpr std::int64_t kNotAgain = PathQuery::kUnlimited;
 
 class FreeLowLevelSearch::Workspace {
  public:
-  explicit Workspace(const Grid& grid)
-      : search_(grid),
-        visit_check_(grid, search_.intervals()),
-        late_goals_(grid, search_.intervals()) {}
+  explicit Workspace(const World& world)
+      : search_(world),
+        visit_check_(world, search_.intervals()),
+        late_goals_(world, search_.intervals()) {}
 
   PathOutcome find(FreeGoals& goals, const PathQuery& query, const Limits& limits, Path& path);
   std::int64_t expanded() const { return search_.expanded(); }
@@ -103,8 +103,8 @@ class FreeLowLevelSearch::Workspace {
   std::int64_t price_at_ = 0;
 };
 
-FreeLowLevelSearch::FreeLowLevelSearch(const Grid& grid)
-    : workspace_(std::make_unique<Workspace>(grid)) {}
+FreeLowLevelSearch::FreeLowLevelSearch(const World& world)
+    : workspace_(std::make_unique<Workspace>(world)) {}
 FreeLowLevelSearch::~FreeLowLevelSearch() = default;
 
 PathOutcome FreeLowLevelSearch::find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
@@ -164,7 +164,7 @@ PathOutcome FreeLowLevelSearch::Workspace::find_any() {
     if (!outcome) continue;
     if (*outcome != PathOutcome::kAbove) return *outcome;
     if (latest_ < beyond || beyond == kNever) return above_;
-    if (goals().first_state() != FreeGoals::kOutside) {
+    if (goals().first_stage() != FreeGoals::kOutside) {
       if (const auto answer = doubt()) return *answer;
       if (price_anew()) continue;
     }
@@ -176,7 +176,7 @@ PathOutcome FreeLowLevelSearch::Workspace::find_any() {
 // None: the goals changed meanwhile, begin again.
 std::optional<PathOutcome> FreeLowLevelSearch::Workspace::find_within(Time cap) {
   const bool all_known = goals().completions().beyond() == kNever;
-  const FreeGoals::StateId first = goals().first_state();
+  const FreeGoals::StageId first = goals().first_stage();
   if (first == FreeGoals::kOutside)
     return all_known ? PathOutcome::kInfeasible : PathOutcome::kAbove;
   search_.goals().begin(cap);

@@ -24,32 +24,32 @@
 namespace grove {
 
 void Gates::begin_search() {
-  for (const StateId state : states_) by_state_[state] = kNone;
-  states_.clear();
+  for (const StageId stage : stages_) by_stage_[stage] = kNone;
+  stages_.clear();
   gates_.clear();
 }
 
 // One gate is kept per way: the one that puts off furthest.
-void Gates::close(const FreeGoals& goals, StateId from, int stop, Time time, Time until) {
-  const auto ways = goals.onward(goals.state(from));
+void Gates::close(const FreeGoals& goals, StageId from, int stop, Time time, Time until) {
+  const auto ways = goals.onward(goals.stage(from));
   const auto way = std::ranges::find(ways, stop, &FreeGoals::Onward::stop);
   if (way == ways.end()) return;
-  if (static_cast<std::size_t>(from) >= by_state_.size())
-    by_state_.resize(2 * static_cast<std::size_t>(from) + 1, kNone);
-  if (by_state_[from] == kNone) {
-    states_.push_back(from);
+  if (static_cast<std::size_t>(from) >= by_stage_.size())
+    by_stage_.resize(2 * static_cast<std::size_t>(from) + 1, kNone);
+  if (by_stage_[from] == kNone) {
+    stages_.push_back(from);
     gates_.resize(gates_.size() + ways.size());
-    by_state_[from] = static_cast<std::int32_t>(gates_.size() - ways.size());
+    by_stage_[from] = static_cast<std::int32_t>(gates_.size() - ways.size());
   }
-  Gate& gate = gates_[static_cast<std::size_t>(by_state_[from] + (way - ways.begin()))];
+  Gate& gate = gates_[static_cast<std::size_t>(by_stage_[from] + (way - ways.begin()))];
   if (until > gate.until || (until == gate.until && time < gate.from)) gate = {time, until};
 }
 
-Time Gates::least_cost(const FreeGoals& goals, StateId state, Cell cell, Time time) const {
-  const Gate* gate = &gates_[static_cast<std::size_t>(by_state_[state])];
-  const Time* to_stop = goals.stops().distances_from(cell);
+Time Gates::least_cost(const FreeGoals& goals, StageId stage, State state, Time time) const {
+  const Gate* gate = &gates_[static_cast<std::size_t>(by_stage_[stage])];
+  const Time* to_stop = goals.stops().distances_from(state);
   Time least = kNever;
-  for (const FreeGoals::Onward& way : goals.onward(goals.state(state))) {
+  for (const FreeGoals::Onward& way : goals.onward(goals.stage(stage))) {
     const Time there = time + to_stop[way.stop];
     const Time visit = there >= gate->from ? std::max(there, gate->until) : there;
     if (visit < kNever) least = std::min(least, visit + way.cost);

@@ -15,22 +15,22 @@ namespace grove {
 // loses no path: gates.cpp.
 class Gates {
  public:
-  using StateId = FreeGoals::StateId;
+  using StageId = FreeGoals::StageId;
 
   // Opens all.
   void begin_search();
 
   // A label in the state after `from` was expanded on `stop`, just counted at `time`. Whoever comes
   // to that stop earlier than `until` could be where it is; kNever: whoever comes at all.
-  void close(const FreeGoals& goals, StateId from, int stop, Time time, Time until);
+  void close(const FreeGoals& goals, StageId from, int stop, Time time, Time until);
 
   // Is any way on from this state closed?
-  bool any(StateId state) const {
-    return static_cast<std::size_t>(state) < by_state_.size() && by_state_[state] != kNone;
+  bool any(StageId stage) const {
+    return static_cast<std::size_t>(stage) < by_stage_.size() && by_stage_[stage] != kNone;
   }
   // What a path from here on costs that is of use: the least f of the ways on, each with the visit
   // of its stop put off as its gate says; kNever or more: none is. There must be any().
-  Time least_cost(const FreeGoals& goals, StateId state, Cell cell, Time time) const;
+  Time least_cost(const FreeGoals& goals, StageId stage, State state, Time time) const;
 
  private:
   // A label that reaches the stop at `from` or later need not be looked at for the sake of this
@@ -41,8 +41,8 @@ class Gates {
   };
   static constexpr std::int32_t kNone = -1;
 
-  std::vector<std::int32_t> by_state_;  // the first of its gates
-  std::vector<StateId> states_;         // those that have gates
+  std::vector<std::int32_t> by_stage_;  // the first of its gates
+  std::vector<StageId> stages_;         // those that have gates
   std::vector<Gate> gates_;
 };
 

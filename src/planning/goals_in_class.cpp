@@ -9,7 +9,7 @@ bool GoalsInClass::assign(FreeGoals& goals, SafeIntervals& intervals, int greed_
   const AgentStops& stops = goals.stops();
   intervals.see(stops.start());
   if (stops.destination()) intervals.see(*stops.destination());
-  for (int stop = 0; stop < stops.count(); ++stop) intervals.see(stops.cell(stop));
+  for (int stop = 0; stop < stops.count(); ++stop) intervals.see(stops.place(stop));
   find_deadlines(intervals);
   find_rests(intervals);
   return first_rest_ < kNever && first_rest_ <= intervals.latest_rest() && goals.plausible();
@@ -19,7 +19,7 @@ void GoalsInClass::find_deadlines(const SafeIntervals& intervals) {
   const AgentStops& stops = goals_->stops();
   deadlines_.clear();
   for (int stop = 0; stop < stops.count(); ++stop) {
-    const Time last = intervals.last_time(stops.cell(stop));
+    const Time last = intervals.last_time(stops.place(stop));
     if (last < kNever) deadlines_.push_back({stop, last});
   }
 }
@@ -32,8 +32,8 @@ void GoalsInClass::find_rests(const SafeIntervals& intervals) {
   first_rest_ = stops.destination() ? intervals.rest_begin(*stops.destination()) : kNever;
   if (stops.destination()) return;
   for (int stop = 0; stop < stops.count(); ++stop) {
-    first_rest_ = std::min(first_rest_, intervals.rest_begin(stops.cell(stop)));
-    if (stops.cell(stop) == intervals.only_rest()) only_rest_ = stop;
+    first_rest_ = std::min(first_rest_, intervals.rest_begin(stops.place(stop)));
+    if (stops.place(stop) == intervals.only_rest()) only_rest_ = stop;
   }
 }
 
@@ -43,25 +43,25 @@ void GoalsInClass::begin(Time cap) {
   gates_.begin_search();
 }
 
-bool GoalsInClass::misses_deadline(Progress state, Cell cell, Time time) const {
-  const Time* to_stop = goals_->stops().distances_from(cell);
-  const StopSet left = goals_->state(state).left;
+bool GoalsInClass::misses_deadline(Progress stage, State state, Time time) const {
+  const Time* to_stop = goals_->stops().distances_from(state);
+  const StopSet left = goals_->stage(stage).left;
   return std::ranges::any_of(deadlines_, [&](const Deadline& d) {
     return (left >> d.stop & 1) != 0 && time + to_stop[d.stop] > d.time;
   });
 }
 
-Time GoalsInClass::put_off_by_gates(Progress id, Cell cell, Time time, Time layer) {
-  const Time until = gates_.least_cost(*goals_, id, cell, time);
+Time GoalsInClass::put_off_by_gates(Progress id, State state, Time time, Time layer) {
+  const Time until = gates_.least_cost(*goals_, id, state, time);
   Time put_off = kDropped;
   if (until > cap_) {
     over_ |= until < kNever;
   } else {
-    put_off = layer_of(until, greed_percent_ == 0 ? 0 : goals_->distance(id, cell));
+    put_off = layer_of(until, greed_percent_ == 0 ? 0 : goals_->distance(id, state));
     if (put_off <= layer) return layer;
   }
-  const FreeGoals::State& state = goals_->state(id);
-  if (std::popcount(state.next) != state.count) outside_ = true;
+  const FreeGoals::Stage& stage = goals_->stage(id);
+  if (std::popcount(stage.next) != stage.count) outside_ = true;
   return put_off;
 }
 

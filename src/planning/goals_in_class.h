@@ -39,7 +39,7 @@ namespace grove {
 
 class GoalsInClass {
  public:
-  using Progress = FreeGoals::StateId;
+  using Progress = FreeGoals::StageId;
 
   // `goals` must outlive the search. False when there is plainly no path.
   bool assign(FreeGoals& goals, SafeIntervals& intervals, int greed_percent);
@@ -56,12 +56,12 @@ class GoalsInClass {
 
   Time first_rest() const { return first_rest_; }
   template <class Reach>
-  void on_arrival(Progress state, Cell cell, Reach reach) {
-    if (!goals_->on_arrival(state, cell, reach)) outside_ = true;
+  void on_arrival(Progress stage, State state, Reach reach) {
+    if (!goals_->on_arrival(stage, state, reach)) outside_ = true;
   }
-  Time layer(Progress state, Cell cell, Time time) {
-    if (!deadlines_.empty() && misses_deadline(state, cell, time)) return kDropped;
-    const Time to_go = distance(state, cell);
+  Time layer(Progress stage, State state, Time time) {
+    if (!deadlines_.empty() && misses_deadline(stage, state, time)) return kDropped;
+    const Time to_go = distance(stage, state);
     if (to_go >= kNever) outside_ = true;
     if (to_go > cap_ - time) {
       over_ |= to_go < kNever;
@@ -69,16 +69,16 @@ class GoalsInClass {
     }
     return layer_of(time + to_go, to_go);
   }
-  bool may_end(Progress progress, Cell cell) const {
-    const FreeGoals::State& state = goals_->state(progress);
-    return state.left == 0 && goals_->is_rest(state, cell);
+  bool may_end(Progress progress, State state) const {
+    const FreeGoals::Stage& stage = goals_->stage(progress);
+    return stage.left == 0 && goals_->is_rest(stage, state);
   }
-  Time put_off(Progress state, Cell cell, Time time, Time layer) {
-    return gates_.any(state) ? put_off_by_gates(state, cell, time, layer) : layer;
+  Time put_off(Progress stage, State state, Time time, Time layer) {
+    return gates_.any(stage) ? put_off_by_gates(stage, state, time, layer) : layer;
   }
-  bool makes_gate(Cell, Progress before, Progress progress) const { return before != progress; }
-  void close_gate(Cell cell, Progress before, Progress, Time time, Time until) {
-    gates_.close(*goals_, before, goals_->stops().stop_at(cell), time, until);
+  bool makes_gate(State, Progress before, Progress progress) const { return before != progress; }
+  void close_gate(State state, Progress before, Progress, Time time, Time until) {
+    gates_.close(*goals_, before, goals_->stops().stop_at(state), time, until);
   }
 
  private:
@@ -90,13 +90,13 @@ class GoalsInClass {
 
   void find_deadlines(const SafeIntervals& intervals);
   void find_rests(const SafeIntervals& intervals);
-  bool misses_deadline(Progress state, Cell cell, Time time) const;
-  Time put_off_by_gates(Progress state, Cell cell, Time time, Time layer);
+  bool misses_deadline(Progress stage, State state, Time time) const;
+  Time put_off_by_gates(Progress stage, State state, Time time, Time layer);
   // At most what a path from here on costs.
-  Time distance(Progress state, Cell cell) const {
-    const Time distance = goals_->distance(state, cell);
+  Time distance(Progress stage, State state) const {
+    const Time distance = goals_->distance(stage, state);
     if (only_rest_ == AgentStops::kNoStop) return distance;
-    return std::max(distance, goals_->stops().distances_from(cell)[only_rest_]);
+    return std::max(distance, goals_->stops().distances_from(state)[only_rest_]);
   }
   Time layer_of(Time least_cost, Time to_go) const {
     return least_cost + static_cast<Time>(std::int64_t{to_go} * greed_percent_ / 100);

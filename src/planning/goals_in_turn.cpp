@@ -29,7 +29,7 @@ bool GoalsInTurn::assign(const GoalSequence& goals, const SafeIntervals& interva
 }
 
 // One gate is kept per progress: the one that postpones furthest.
-void GoalsInTurn::close_gate(Cell, Progress, Progress progress, Time time, Time until) {
+void GoalsInTurn::close_gate(State, Progress, Progress progress, Time time, Time until) {
   const Time after_goal = stages_[progress - 1].after_goal;
   const Time from = time + after_goal;
   if (until != kNever) until += after_goal;

@@ -46,32 +46,32 @@ class GoalsInTurn {
   bool assign(const GoalSequence& goals, const SafeIntervals& intervals);
 
   Time first_rest() const { return first_rest_; }
-  // What a path costs at least that is on the cell at that time.
-  Time least_cost(Progress progress, Cell cell, Time time) const {
-    return time + stages_[progress].to_goal[cell] + stages_[progress].after_goal;
+  // What a path costs at least that is in the state at that time.
+  Time least_cost(Progress progress, State state, Time time) const {
+    return time + stages_[progress].to_goal[state] + stages_[progress].after_goal;
   }
   template <class Reach>
-  void on_arrival(Progress progress, Cell cell, Reach reach) const {
-    while (stages_[progress].next_goal == cell) ++progress;
+  void on_arrival(Progress progress, State state, Reach reach) const {
+    while (stages_[progress].next_goal == state) ++progress;
     reach(progress);
   }
-  Time layer(Progress progress, Cell cell, Time time) const {
-    const Time cost = least_cost(progress, cell, time);
+  Time layer(Progress progress, State state, Time time) const {
+    const Time cost = least_cost(progress, state, time);
     return cost > stages_[progress].latest ? kDropped : cost;
   }
-  bool may_end(Progress progress, Cell cell) const {
-    return progress == last_progress_ && cell == last_goal_;
+  bool may_end(Progress progress, State state) const {
+    return progress == last_progress_ && state == last_goal_;
   }
-  Time put_off(Progress progress, Cell cell, Time time, Time layer) const {
+  Time put_off(Progress progress, State state, Time time, Time layer) const {
     const Stage& stage = stages_[progress];
-    if (stage.gate_until <= layer || least_cost(progress, cell, time) < stage.gate_from)
+    if (stage.gate_until <= layer || least_cost(progress, state, time) < stage.gate_from)
       return layer;
     return stage.gate_until < kNever ? stage.gate_until : kDropped;
   }
-  bool makes_gate(Cell cell, Progress, Progress progress) const {
-    return progress > 0 && stages_[progress - 1].next_goal == cell;
+  bool makes_gate(State state, Progress, Progress progress) const {
+    return progress > 0 && stages_[progress - 1].next_goal == state;
   }
-  void close_gate(Cell cell, Progress before, Progress progress, Time time, Time until);
+  void close_gate(State state, Progress before, Progress progress, Time time, Time until);
 
  private:
   // What there is to know of one progress.

@@ -13,7 +13,7 @@ namespace grove {
 // Legs that every path under these intervals takes at least, if it is on the stops in the order of
 // a sequence that costs `least_cost` or more by the plain matrix. None: that is the plain matrix.
 // O(stops * cells).
-std::optional<CostMatrix> late_cost_matrix(const Grid& grid, SafeIntervals& intervals,
+std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& intervals,
                                            const AgentStops& stops, Time least_cost);
 
 }  // namespace grove

@@ -12,16 +12,16 @@ namespace {
 // At most what any sequence of the class costs, by the completions.
 Time least_cost(FreeGoals& goals) {
   const Time beyond = goals.completions().beyond();
-  const FreeGoals::StateId state = goals.first_state();
-  if (state == FreeGoals::kOutside) return beyond;
-  return std::min(beyond, goals.distance(state, goals.stops().start()));
+  const FreeGoals::StageId stage = goals.first_stage();
+  if (stage == FreeGoals::kOutside) return beyond;
+  return std::min(beyond, goals.distance(stage, goals.stops().start()));
 }
 
 }  // namespace
 
 FreeGoals* LateGoals::over(FreeGoals& plain, const Limits& limits) {
   const Time plain_cost = least_cost(plain);
-  auto matrix = late_cost_matrix(grid_, intervals_, plain.stops(), plain_cost);
+  auto matrix = late_cost_matrix(world_, intervals_, plain.stops(), plain_cost);
   if (!matrix) return nullptr;
   goals_.reset();
   if (!completions_ || completions_->matrix().cost != matrix->cost)

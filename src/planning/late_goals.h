@@ -12,14 +12,14 @@ namespace grove {
 class LateGoals {
  public:
   // Both must outlive this.
-  LateGoals(const Grid& grid, SafeIntervals& intervals) : grid_(grid), intervals_(intervals) {}
+  LateGoals(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
   // The same class over completions by late costs (late_costs.h), if its best sequence costs more
   // by these; null: it does not, or a limit struck. Until the next call.
   FreeGoals* over(FreeGoals& plain, const Limits& limits);
 
  private:
-  const Grid& grid_;
+  const World& world_;
   SafeIntervals& intervals_;
   std::optional<Completions> completions_;
   std::optional<FreeGoals> goals_;  // over these

@@ -12,7 +12,8 @@ class LowLevelSearch::Workspace : public SafeIntervalSearch<GoalsInTurn> {
   using SafeIntervalSearch::SafeIntervalSearch;
 };
 
-LowLevelSearch::LowLevelSearch(const Grid& grid) : workspace_(std::make_unique<Workspace>(grid)) {}
+LowLevelSearch::LowLevelSearch(const World& world)
+    : workspace_(std::make_unique<Workspace>(world)) {}
 LowLevelSearch::~LowLevelSearch() = default;
 
 PathOutcome LowLevelSearch::find(const GoalSequence& goals, const PathQuery& query,

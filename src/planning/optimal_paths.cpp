@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A *label* is a slot of safe_intervals.h, which says the cell and all that constraints ask of the
-// past, and a state of free_goals.h. Who is in a slot may wait there until it ends, and what can be
+// A *label* is a slot of safe_intervals.h, which says the state and all that constraints ask of the
+// past, and a stage of free_goals.h. Who is in a slot may wait there until it ends, and what can be
 // done from a label at a time depends on nothing else. So a path of cost C can be in a label at all
 // times from the *earliest* at which an agent can be there up to the *latest* from which it can
 // still end at C, and at no other: who came at the earliest waits for any later time, and who can
@@ -13,10 +13,10 @@
 // *Claim: the ways are exactly the paths of cost C.* A move from label to label is open at its
 // first time, which is the earliest since the moves are asked for at the earliest time in the label
 // that they leave; its last is when that slot ends, or after which arrivals are in another slot; in
-// between single times may be barred. Whoever has counted as early as possible passes such states
+// between single times may be barred. Whoever has counted as early as possible passes such stages
 // (free_goals.cpp: each touch has one successor, or two, both followed), and the completions that
-// the states are made of are widened until they know all sequences of cost C, C < beyond(); so all
-// states along a path of cost C are known, and it is in them at times t with t + h <= C: no move of
+// the stages are made of are widened until they know all sequences of cost C, C < beyond(); so all
+// stages along a path of cost C are known, and it is in them at times t with t + h <= C: no move of
 // such a path is dropped. A path comes to rest at C by a move at C, in a slot to rest in (or stands
 // there at C = 0): the last step is no wait. And any way to such an end obeys the constraints,
 // since they are a matter of slots and moves alone, but for the time by which it must have come to
@@ -42,14 +42,14 @@ constexpr std::int64_t kExpansionsPerPoll = 512;  // of limits: some tenth of a 
 
 class OptimalPathsBuilder::Workspace {
  public:
-  explicit Workspace(const Grid& grid) : grid_(grid), intervals_(grid) {}
+  explicit Workspace(const World& world) : world_(world), intervals_(world) {}
 
   Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t most_nodes, const Limits& limits, OptimalPaths& paths);
   std::int64_t nodes() const { return met_; }
 
  private:
-  using StateId = FreeGoals::StateId;
+  using StageId = FreeGoals::StageId;
   using NodeId = OptimalPaths::NodeId;
   using LabelId = std::int32_t;
   static constexpr LabelId kNoLabel = -1;
@@ -58,7 +58,7 @@ class OptimalPathsBuilder::Workspace {
 
   struct Label {
     std::int32_t slot;
-    StateId state;
+    StageId stage;
     Time earliest;
     Time latest = kTooLate;
     std::int32_t first_move = 0;  // those out of it
@@ -82,8 +82,8 @@ class OptimalPathsBuilder::Workspace {
   Outcome go_forward(std::size_t most_labels);
   void start();
   void expand(LabelId label);
-  void reach(LabelId from, std::int32_t slot, StateId state, Time first);
-  Mark* mark(std::int32_t slot, StateId state);
+  void reach(LabelId from, std::int32_t slot, StageId stage, Time first);
+  Mark* mark(std::int32_t slot, StageId stage);
   void go_backward();
   void sort_moves();
   void find_ends();
@@ -94,9 +94,10 @@ class OptimalPathsBuilder::Workspace {
   void write_nodes(Time time, OptimalPaths& paths);
   void write_successors(const Label& label, Time time, OptimalPaths& paths) const;
   bool is_end(const Label& label) const;
-  Cell cell(LabelId label) const { return intervals_.cell_of(labels_[label].slot); }
+  State state(LabelId label) const { return intervals_.state_of(labels_[label].slot); }
+  Place place(LabelId label) const { return world_.place(state(label)); }
 
-  const Grid& grid_;
+  const World& world_;
   SafeIntervals intervals_;
   LabelPlanes<Mark> planes_;
   BucketQueue queue_;  // of labels, in place of slots
@@ -116,8 +117,8 @@ class OptimalPathsBuilder::Workspace {
   Time cost_ = 0;
 };
 
-OptimalPathsBuilder::OptimalPathsBuilder(const Grid& grid)
-    : workspace_(std::make_unique<Workspace>(grid)) {}
+OptimalPathsBuilder::OptimalPathsBuilder(const World& world)
+    : workspace_(std::make_unique<Workspace>(world)) {}
 OptimalPathsBuilder::~OptimalPathsBuilder() = default;
 
 std::int64_t OptimalPathsBuilder::nodes() const {
@@ -179,33 +180,33 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::go_forward(std::siz
 }
 
 void OptimalPathsBuilder::Workspace::start() {
-  const Cell cell = goals_->stops().start();
-  const StateId state = goals_->first_state();
-  const int slot = intervals_.start_slot(cell);
-  if (slot < 0 || state == FreeGoals::kOutside) return;
-  goals_->on_arrival(state, cell, [&](StateId then) { reach(kNoLabel, slot, then, 0); });
+  const State state = goals_->stops().start();
+  const StageId stage = goals_->first_stage();
+  const int slot = intervals_.start_slot(state);
+  if (slot < 0 || stage == FreeGoals::kOutside) return;
+  goals_->on_arrival(stage, state, [&](StageId then) { reach(kNoLabel, slot, then, 0); });
 }
 
 void OptimalPathsBuilder::Workspace::expand(LabelId from) {
   const Label label = labels_[from];  // labels_ will grow
   labels_[from].first_move = static_cast<std::int32_t>(moves_.size());
-  intervals_.for_each_move(grid_, label.slot, label.earliest, [&](int slot, Cell cell, Time first) {
-    goals_->on_arrival(label.state, cell, [&](StateId then) { reach(from, slot, then, first); });
+  intervals_.for_each_move(label.slot, label.earliest, [&](int slot, State state, Time first) {
+    goals_->on_arrival(label.stage, state, [&](StageId then) { reach(from, slot, then, first); });
   });
   labels_[from].end_move = static_cast<std::int32_t>(moves_.size());
 }
 
 // By a move that arrives at `first` or later.
-void OptimalPathsBuilder::Workspace::reach(LabelId from, std::int32_t slot, StateId state,
+void OptimalPathsBuilder::Workspace::reach(LabelId from, std::int32_t slot, StageId stage,
                                            Time first) {
-  Mark* const there = mark(slot, state);
+  Mark* const there = mark(slot, stage);
   if (there == nullptr) return;
-  Time last = std::min(intervals_.last_arrival(slot), cost_ - there->distance);
-  if (from != kNoLabel) last = std::min(last, intervals_.end_of(labels_[from].slot) + 1);
+  Time last = cost_ - there->distance;
+  if (from != kNoLabel) last = std::min(last, intervals_.last_entry(labels_[from].slot, slot));
   if (first > last) return;
   if (there->label == kNoLabel) {
     there->label = static_cast<LabelId>(labels_.size());
-    labels_.push_back({.slot = slot, .state = state, .earliest = kNever});
+    labels_.push_back({.slot = slot, .stage = stage, .earliest = kNever});
   }
   if (Label& to = labels_[there->label]; first < to.earliest) {
     to.earliest = first;
@@ -216,12 +217,12 @@ void OptimalPathsBuilder::Workspace::reach(LabelId from, std::int32_t slot, Stat
 
 // Null: no memory for it.
 OptimalPathsBuilder::Workspace::Mark* OptimalPathsBuilder::Workspace::mark(std::int32_t slot,
-                                                                           StateId state) {
-  if (!planes_.open(state, *limits_)) return nullptr;
-  Mark& mark = planes_.label(slot, state);
+                                                                           StageId stage) {
+  if (!planes_.open(stage, *limits_)) return nullptr;
+  Mark& mark = planes_.label(slot, stage);
   if (!planes_.is_current(mark))
     mark = {.label = kNoLabel,
-            .distance = goals_->distance(state, intervals_.cell_of(slot)),
+            .distance = goals_->distance(stage, intervals_.state_of(slot)),
             .stamp = planes_.stamp()};
   return &mark;
 }
@@ -276,11 +277,11 @@ void OptimalPathsBuilder::Workspace::leave_by(const Move& move, Time arrival) {
 
 // Before move.first: none.
 Time OptimalPathsBuilder::Workspace::last_arrival(const Move& move, Time latest) const {
-  return intervals_.last_move(labels_[move.from].slot, cell(move.to), std::min(latest, move.last));
+  return intervals_.last_move(labels_[move.from].slot, place(move.to), std::min(latest, move.last));
 }
 
 bool OptimalPathsBuilder::Workspace::is_end(const Label& label) const {
-  return goals_->is_rest(goals_->state(label.state), intervals_.cell_of(label.slot)) &&
+  return goals_->is_rest(goals_->stage(label.stage), intervals_.state_of(label.slot)) &&
          intervals_.may_rest(label.slot);
 }
 
@@ -312,7 +313,8 @@ void OptimalPathsBuilder::Workspace::write_nodes(Time time, OptimalPaths& paths)
   paths.first_of_layer_.push_back(node);
   for (const LabelId label : here_) {
     paths.first_successor_.push_back(static_cast<std::int32_t>(paths.successors_.size()));
-    paths.cells_.push_back(cell(label));
+    paths.places_.push_back(place(label));
+    if (!world_.states_are_places()) paths.states_.push_back(state(label));
     if (time < cost_) write_successors(labels_[label], time, paths);
   }
   for (const LabelId label : here_) nodes_[label] = node++;

@@ -3,8 +3,8 @@
 // may do next depends on its own node alone: two ways to one pair have the same future, so each
 // pair is looked at once. After its last layer an agent stays on the node it ended on.
 //
-// A layer t is a *contact* if the agents could collide there: if both sets have paths on one cell
-// at t, or the sets allow a swap from t - 1 to t. (So said of the cells of whole layers it is said
+// A layer t is a *contact* if the agents could collide there: if both sets have paths on one place
+// at t, or the sets allow a swap from t - 1 to t. (So said of the places of whole layers it is said
 // too often, which does no harm.) Before the first contact f nothing can collide: any node of layer
 // f - 1 of the one goes with any of the other, and all these pairs, no more, are where the search
 // begins. From the last contact on nothing can collide any more: a pair that has come that far
@@ -82,8 +82,8 @@ class PairSet {
 
 class PairDependency::Workspace {
  public:
-  explicit Workspace(const Grid& grid) {
-    for (auto& seen : seen_) seen.assign(grid.cell_count(), 0);
+  explicit Workspace(const World& world) {
+    for (auto& seen : seen_) seen.assign(world.place_count(), 0);
   }
 
   Dependence find(const OptimalPaths& a, const OptimalPaths& b, std::size_t most_pairs,
@@ -99,7 +99,7 @@ class PairDependency::Workspace {
 
   void find_contacts();
   bool is_contact(Time time) const;
-  bool seen_at(Cell cell, Time time) const { return seen_[time % 2][cell] == stamp_ + time; }
+  bool seen_at(Place place, Time time) const { return seen_[time % 2][place] == stamp_ + time; }
   Dependence search(Pair first, const Limits& limits);
   void expand(const Pair& pair);
 
@@ -111,12 +111,13 @@ class PairDependency::Workspace {
   PairSet known_;
   std::vector<Pair> open_;
   std::int64_t expanded_ = 0;
-  // By parity of the time, then cell: stamp_ + the time at which a_ was last seen there.
+  // By parity of the time, then place: stamp_ + the time at which a_ was last seen there.
   std::array<std::vector<std::int64_t>, 2> seen_;
   std::int64_t stamp_ = 1;
 };
 
-PairDependency::PairDependency(const Grid& grid) : workspace_(std::make_unique<Workspace>(grid)) {}
+PairDependency::PairDependency(const World& world)
+    : workspace_(std::make_unique<Workspace>(world)) {}
 PairDependency::~PairDependency() = default;
 
 std::int64_t PairDependency::pairs() const {
@@ -155,7 +156,7 @@ void PairDependency::Workspace::find_contacts() {
   for (Time time = 0; time <= end; ++time) {
     const Range nodes = nodes_at(*a_, time);
     for (NodeId node = nodes.first; node < nodes.end; ++node)
-      seen_[time % 2][a_->cell(node)] = stamp_ + time;
+      seen_[time % 2][a_->place(node)] = stamp_ + time;
     if (!is_contact(time)) continue;
     first_contact_ = std::min(first_contact_, time);
     last_contact_ = time;
@@ -167,13 +168,13 @@ bool PairDependency::Workspace::is_contact(Time time) const {
   bool entered = false;
   const Range now = nodes_at(*b_, time);
   for (NodeId node = now.first; node < now.end; ++node) {
-    if (seen_at(b_->cell(node), time)) return true;
-    entered = entered || (time > 0 && seen_at(b_->cell(node), time - 1));
+    if (seen_at(b_->place(node), time)) return true;
+    entered = entered || (time > 0 && seen_at(b_->place(node), time - 1));
   }
   if (!entered) return false;
   const Range before = nodes_at(*b_, time - 1);
   for (NodeId node = before.first; node < before.end; ++node)
-    if (seen_at(b_->cell(node), time)) return true;
+    if (seen_at(b_->place(node), time)) return true;
   return false;
 }
 
@@ -197,12 +198,12 @@ void PairDependency::Workspace::expand(const Pair& pair) {
   const auto next = [&](const OptimalPaths& paths, const NodeId& node) {
     return pair.time < paths.cost() ? paths.successors(node) : std::span(&node, 1);
   };
-  const Cell from_a = a_->cell(pair.a);
-  const Cell from_b = b_->cell(pair.b);
+  const Place from_a = a_->place(pair.a);
+  const Place from_b = b_->place(pair.b);
   for (const NodeId i : next(*a_, pair.a))
     for (const NodeId j : next(*b_, pair.b)) {
-      const Cell to_a = a_->cell(i);
-      const Cell to_b = b_->cell(j);
+      const Place to_a = a_->place(i);
+      const Place to_b = b_->place(j);
       if (to_a == to_b || (to_a == from_b && to_b == from_a)) continue;
       if (known_.insert(i, j)) open_.push_back({i, j, pair.time + 1});
     }

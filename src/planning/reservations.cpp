@@ -8,17 +8,18 @@
 namespace grove {
 namespace {
 
-// Calls see(cell, stay) for each stay of a path.
+// Calls see(place, stay) for each stay of a path.
 template <class See>
-void for_each_stay(AgentIndex agent, const Path& path, See see) {
+void for_each_stay(const World& world, AgentIndex agent, const Path& path, See see) {
   const auto end = static_cast<Time>(path.size());
   for (Time first = 0; first < end;) {
+    const Place place = world.place(path[first]);
     Time after = first + 1;
-    while (after < end && path[after] == path[first]) ++after;
+    while (after < end && world.place(path[after]) == place) ++after;
     if (after < end)
-      see(path[first], Reservations::Stay{first, after - 1, path[after], agent});
+      see(place, Reservations::Stay{first, after - 1, world.place(path[after]), agent});
     else
-      see(path[first], Reservations::Stay{first, kNever, kNoCell, agent});
+      see(place, Reservations::Stay{first, kNever, kNoPlace, agent});
     first = after;
   }
 }
@@ -26,8 +27,8 @@ void for_each_stay(AgentIndex agent, const Path& path, See see) {
 }  // namespace
 
 void Reservations::add(AgentIndex agent, const Path& path) {
-  for_each_stay(agent, path, [this](Cell cell, const Stay& stay) {
-    std::vector<Stay>& stays = stays_[cell];
+  for_each_stay(world_, agent, path, [this](Place place, const Stay& stay) {
+    std::vector<Stay>& stays = stays_[place];
     const auto after = std::ranges::upper_bound(stays, stay.first, {}, &Stay::first);
     GROVE_ASSERT(after == stays.end() || stay.last < after->first, "reserved paths do not collide");
     GROVE_ASSERT(after == stays.begin() || std::prev(after)->last < stay.first,
@@ -38,8 +39,8 @@ void Reservations::add(AgentIndex agent, const Path& path) {
 }
 
 void Reservations::remove(AgentIndex agent, const Path& path) {
-  for_each_stay(agent, path, [this, agent](Cell cell, const Stay& stay) {
-    std::vector<Stay>& stays = stays_[cell];
+  for_each_stay(world_, agent, path, [this, agent](Place place, const Stay& stay) {
+    std::vector<Stay>& stays = stays_[place];
     const auto at = std::ranges::lower_bound(stays, stay.first, {}, &Stay::first);
     GROVE_ASSERT(at != stays.end() && at->first == stay.first && at->agent == agent,
                  "a path that goes was reserved");
@@ -53,8 +54,8 @@ void Reservations::clear() {
   count_ = 0;
 }
 
-AgentIndex Reservations::agent_at(Cell cell, Time time) const {
-  const std::vector<Stay>& stays = stays_[cell];
+AgentIndex Reservations::agent_at(Place place, Time time) const {
+  const std::vector<Stay>& stays = stays_[place];
   const auto after = std::ranges::upper_bound(stays, time, {}, &Stay::first);
   if (after == stays.begin() || std::prev(after)->last < time) return kNobody;
   return std::prev(after)->agent;

@@ -7,20 +7,21 @@
 
 namespace grove {
 
-SafeIntervals::SafeIntervals(const Grid& grid)
-    : grid_(grid),
-      cells_(grid.cell_count()),
-      slot_limit_(cells_),
-      group_of_(grid.cell_count(), kNoGroup) {}
+SafeIntervals::SafeIntervals(const World& world)
+    : world_(world),
+      states_(world.state_count()),
+      states_are_places_(world.states_are_places()),
+      slot_limit_(states_),
+      group_of_(world.place_count(), kNoGroup) {}
 
 void SafeIntervals::assign(std::span<const Constraint> constraints) {
   forget();
   for (const Constraint& c : constraints) check(c);
   for (const Constraint& c : constraints) keep(c);
   std::ranges::sort(bars_, [](const Bar& a, const Bar& b) {
-    return std::tuple(a.cell, a.kind, a.begin) < std::tuple(b.cell, b.kind, b.begin);
+    return std::tuple(a.place, a.kind, a.begin) < std::tuple(b.place, b.kind, b.begin);
   });
-  group_inner_cells();
+  group_inner_places();
   group_bars();
   for (Group& group : groups_) add_slots(group);
   slot_limit_ = slot_count();
@@ -30,50 +31,53 @@ void SafeIntervals::assign(const Reservations& reservations) {
   forget();
   reservations_ = &reservations;
   // k stays leave at most k + 1 intervals.
-  slot_limit_ = cells_ + static_cast<int>(2 * reservations.count());
+  slot_limit_ =
+      states_ + static_cast<int>(2 * reservations.count()) * world_.most_states_on_a_place();
 }
 
-void SafeIntervals::look_up(Cell cell) {
-  const std::span<const Reservations::Stay> stays = reservations_->stays(cell);
+void SafeIntervals::look_up(Place place) {
+  const std::span<const Reservations::Stay> stays = reservations_->stays(place);
   if (stays.empty()) return;
-  Group g{.cell = cell};
+  Group g{.place = place};
   g.first_slot = slot_count();
-  Time safe_from = 0;
-  Cell left_for = kNoCell;
-  for (const Reservations::Stay& stay : stays) {
-    if (safe_from < stay.first)
-      intervals_.push_back(
-          {cell, safe_from, stay.first - 1, stay.first - 1, kFree, false, left_for});
-    safe_from = stay.last + 1;
-    left_for = stay.next;
-  }
-  if (safe_from < kNever)
-    intervals_.push_back({cell, safe_from, kNever, kNever, kFree, true, left_for});
-  g.end_slot = slot_count();
-  group_of_[cell] = static_cast<std::int32_t>(groups_.size());
+  world_.for_each_state(place, [&](State state) {
+    Time safe_from = 0;
+    Place left_for = kNoPlace;
+    for (const Reservations::Stay& stay : stays) {
+      if (safe_from < stay.first)
+        intervals_.push_back(
+            {state, safe_from, stay.first - 1, stay.first - 1, kFree, false, left_for});
+      safe_from = stay.last + 1;
+      left_for = stay.next;
+    }
+    if (safe_from < kNever)
+      intervals_.push_back({state, safe_from, kNever, kNever, kFree, true, left_for});
+  });
+  g.slots = (slot_count() - g.first_slot) / world_.states_on(place);
+  group_of_[place] = static_cast<std::int32_t>(groups_.size());
   groups_.push_back(g);
 }
 
 void SafeIntervals::forget() {
-  for (const Group& group : groups_) group_of_[group.cell] = kNoGroup;
+  for (const Group& group : groups_) group_of_[group.place] = kNoGroup;
   reservations_ = nullptr;
   groups_.clear();
   intervals_.clear();
   bars_.clear();
   chains_used_.clear();
-  only_rest_ = kNoCell;
+  only_rest_ = kNoPlace;
   latest_rest_ = kNever;
 }
 
 void SafeIntervals::check(const Constraint& c) {
-  const auto on_grid = [this](Cell cell) { return cell >= 0 && cell < cells_; };
+  const auto is_place = [this](Place p) { return p >= 0 && p < world_.place_count(); };
   const bool has_from = c.is_move() || c.kind == ConstraintKind::kNoTraversal;
-  if (!on_grid(c.cell) || (has_from && (!on_grid(c.from) || c.from == c.cell)))
-    throw std::invalid_argument("a constraint must bar a cell of the grid or a move on it");
+  if (!is_place(c.cell) || (has_from && (!is_place(c.from) || c.from == c.cell)))
+    throw std::invalid_argument("a constraint must bar a place or a move between two");
   if (is_about_sequence(c))
     throw std::invalid_argument("a constraint on the sequence is none on the path");
   if (c.kind != ConstraintKind::kNoTraversal) return;
-  if (!chains_) chains_.emplace(grid_);
+  if (!chains_) chains_.emplace(world_);
   if (!leaves_at_front(c) && !leaves_at_back(c))
     throw std::invalid_argument("a traversal must leave a chain for one of its ends");
 }
@@ -81,14 +85,14 @@ void SafeIntervals::check(const Constraint& c) {
 bool SafeIntervals::leaves_at_front(const Constraint& c) const {
   const int chain = chains_->chain_of(c.from);
   return chain != Chains::kNoChain && chains_->position(c.from) == 1 &&
-         chains_->cells(chain).front() == c.cell;
+         chains_->places(chain).front() == c.cell;
 }
 
 bool SafeIntervals::leaves_at_back(const Constraint& c) const {
   const int chain = chains_->chain_of(c.from);
   if (chain == Chains::kNoChain) return false;
-  const auto cells = chains_->cells(chain);
-  return cells[cells.size() - 2] == c.from && cells.back() == c.cell;
+  const auto places = chains_->places(chain);
+  return places[places.size() - 2] == c.from && places.back() == c.cell;
 }
 
 void SafeIntervals::keep(const Constraint& c) {
@@ -98,7 +102,7 @@ void SafeIntervals::keep(const Constraint& c) {
       if (is_ever) keep_bar(c);
       break;
     case ConstraintKind::kNoRestBy:
-      if (c.end >= 0) bars_.push_back({c.cell, kNoCell, 0, c.end, Bar::Kind::kRest, kFree});
+      if (c.end >= 0) bars_.push_back({c.cell, kNoPlace, 0, c.end, Bar::Kind::kRest, kFree});
       break;
     case ConstraintKind::kRestBy:
       keep_rest_by(c);
@@ -113,12 +117,12 @@ void SafeIntervals::keep(const Constraint& c) {
 }
 
 void SafeIntervals::keep_bar(const Constraint& c) {
-  const Bar::Kind kind = c.is_move() ? Bar::Kind::kMove : Bar::Kind::kCell;
+  const Bar::Kind kind = c.is_move() ? Bar::Kind::kMove : Bar::Kind::kPlace;
   bars_.push_back({c.cell, c.from, c.begin, c.end, kind, kFree});
 }
 
 void SafeIntervals::keep_rest_by(const Constraint& c) {
-  only_rest_ = only_rest_ == kNoCell || only_rest_ == c.cell ? c.cell : kNowhere;
+  only_rest_ = only_rest_ == kNoPlace || only_rest_ == c.cell ? c.cell : kNowhere;
   latest_rest_ = std::min(latest_rest_, c.end);
 }
 
@@ -135,105 +139,110 @@ SafeIntervals::ChainUsed& SafeIntervals::chain_used(int chain) {
   return known != chains_used_.end() ? *known : chains_used_.emplace_back(chain);
 }
 
-SafeIntervals::Group& SafeIntervals::group(Cell cell) {
-  if (unconstrained(cell)) {
-    group_of_[cell] = static_cast<std::int32_t>(groups_.size());
-    groups_.push_back({.cell = cell});
+SafeIntervals::Group& SafeIntervals::group(Place place) {
+  if (unconstrained(place)) {
+    group_of_[place] = static_cast<std::int32_t>(groups_.size());
+    groups_.push_back({.place = place});
   }
-  return groups_[group_of_[cell]];
+  return groups_[group_of_[place]];
 }
 
-void SafeIntervals::group_inner_cells() {
+void SafeIntervals::group_inner_places() {
   for (std::size_t used = 0; used < chains_used_.size(); ++used) {
-    const auto cells = chains_->cells(chains_used_[used].chain);
-    for (const Cell inner : cells.subspan(1, cells.size() - 2))
+    const auto places = chains_->places(chains_used_[used].chain);
+    for (const Place inner : places.subspan(1, places.size() - 2))
       group(inner).chain = static_cast<std::int32_t>(used);
-    group(cells[1]).front = cells.front();
+    group(places[1]).front = places.front();
   }
 }
 
 void SafeIntervals::group_bars() {
-  const auto end_of_kind = [this](std::size_t i, Cell cell, Bar::Kind last) {
-    while (i < bars_.size() && bars_[i].cell == cell && bars_[i].kind <= last) ++i;
+  const auto end_of_kind = [this](std::size_t i, Place place, Bar::Kind last) {
+    while (i < bars_.size() && bars_[i].place == place && bars_[i].kind <= last) ++i;
     return i;
   };
   for (std::size_t i = 0; i < bars_.size();) {
-    const Cell cell = bars_[i].cell;
-    Group& g = group(cell);
+    const Place place = bars_[i].place;
+    Group& g = group(place);
     g.first_bar = static_cast<std::int32_t>(i);
-    i = end_of_kind(i, cell, Bar::Kind::kRest);
+    i = end_of_kind(i, place, Bar::Kind::kRest);
     g.first_move = static_cast<std::int32_t>(i);
-    i = end_of_kind(i, cell, Bar::Kind::kMove);
+    i = end_of_kind(i, place, Bar::Kind::kMove);
     g.end_move = static_cast<std::int32_t>(i);
   }
 }
 
 void SafeIntervals::add_slots(Group& group) {
   group.first_slot = slot_count();
-  if (group.chain != kNoCopies) {
-    const ChainUsed& used = chains_used_[group.chain];
-    if (used.from_front != kFree) add_intervals(group, used.from_front);
-    if (used.from_back != kFree) add_intervals(group, used.from_back);
-  }
-  add_intervals(group, kFree);
-  group.end_slot = slot_count();
+  world_.for_each_state(group.place, [&](State state) {
+    if (group.chain != kNoCopies) {
+      const ChainUsed& used = chains_used_[group.chain];
+      if (used.from_front != kFree) add_intervals(group, state, used.from_front);
+      if (used.from_back != kFree) add_intervals(group, state, used.from_back);
+    }
+    add_intervals(group, state, kFree);
+  });
+  group.slots = (slot_count() - group.first_slot) / world_.states_on(group.place);
 }
 
-void SafeIntervals::add_intervals(const Group& group, std::uint8_t copy) {
+void SafeIntervals::add_intervals(const Group& group, State state, std::uint8_t copy) {
   Time safe_from = 0;
   for (int i = group.first_bar; i < group.first_move; ++i) {
     const Bar& bar = bars_[i];
-    if (bar.kind != Bar::Kind::kCell) break;
+    if (bar.kind != Bar::Kind::kPlace) break;
     if (safe_from < bar.begin)
-      intervals_.push_back(
-          {group.cell, safe_from, bar.begin - 1, bar.begin - 1, copy, false, kNoCell});
+      intervals_.push_back({state, safe_from, bar.begin - 1, bar.begin - 1, copy, false, kNoPlace});
     safe_from = std::max(safe_from, std::min(bar.end, kNever) + 1);
   }
-  if (safe_from < kNever) add_unending_interval(group, safe_from, copy);
+  if (safe_from < kNever) add_unending_interval(group, state, safe_from, copy);
 }
 
-void SafeIntervals::add_unending_interval(const Group& group, Time begin, std::uint8_t copy) {
+void SafeIntervals::add_unending_interval(const Group& group, State state, Time begin,
+                                          std::uint8_t copy) {
   Time no_rest_by = -1;
   for (int i = group.first_bar; i < group.first_move; ++i)
     if (bars_[i].kind == Bar::Kind::kRest) no_rest_by = std::max(no_rest_by, bars_[i].end);
   no_rest_by = std::min(no_rest_by, kNever);
   if (begin <= no_rest_by)
-    intervals_.push_back({group.cell, begin, kNever, no_rest_by, copy, false, kNoCell});
+    intervals_.push_back({state, begin, kNever, no_rest_by, copy, false, kNoPlace});
   if (const Time rest_from = std::max(begin, no_rest_by + 1); rest_from < kNever)
-    intervals_.push_back({group.cell, rest_from, kNever, kNever, copy, true, kNoCell});
+    intervals_.push_back({state, rest_from, kNever, kNever, copy, true, kNoPlace});
 }
 
-SafeIntervals::Range SafeIntervals::slots_of_copy(const Group& group, std::uint8_t copy) const {
+SafeIntervals::Range SafeIntervals::slots_of_copy(const Group& group, State state,
+                                                  std::uint8_t copy) const {
   const ChainUsed& used = chains_used_[group.chain];
   const int before =
       static_cast<int>(copy > used.from_front) + static_cast<int>(copy > used.from_back);
   const int copies =
       1 + static_cast<int>(used.from_front != kFree) + static_cast<int>(used.from_back != kFree);
-  const int each = (group.end_slot - group.first_slot) / copies;
-  return {group.first_slot + before * each, group.first_slot + (before + 1) * each};
+  const int each = group.slots / copies;
+  const int first = slots(group, state).first + before * each;
+  return {first, first + each};
 }
 
-int SafeIntervals::start_slot(Cell cell) const {
-  if (unconstrained(cell)) return cell;
-  const Group& g = groups_[group_of_[cell]];
-  const Range slots = has_copies(cell) ? slots_of_copy(g, kFree) : Range{g.first_slot, g.end_slot};
-  return slots.first < slots.end && begin_of(slots.first) == 0 ? slots.first : -1;
+int SafeIntervals::start_slot(State state) const {
+  const Place place = world_.place(state);
+  if (unconstrained(place)) return state;
+  const Group& g = groups_[group_of_[place]];
+  const Range there = has_copies(place) ? slots_of_copy(g, state, kFree) : slots(g, state);
+  return there.first < there.end && begin_of(there.first) == 0 ? there.first : -1;
 }
 
-Time SafeIntervals::rest_begin(Cell cell) const {
-  for (int slot = first_slot(cell); slot < end_slot(cell); ++slot)
+Time SafeIntervals::rest_begin(Place place) const {
+  for (int slot = first_slot(place); slot < end_slot(place); ++slot)
     if (may_rest(slot)) return begin_of(slot);
   return kNever;
 }
 
 Time SafeIntervals::next_begin(int slot) const {
-  if (slot < cells_ || slot + 1 >= slot_count()) return kNever;
+  if (slot < states_ || slot + 1 >= slot_count()) return kNever;
   const SafeInterval& here = interval(slot);
   const SafeInterval& next = interval(slot + 1);
-  return next.cell == here.cell && next.copy == here.copy ? next.begin : kNever;
+  return next.state == here.state && next.copy == here.copy ? next.begin : kNever;
 }
 
-Time SafeIntervals::first_move(int from_slot, Cell to, Time earliest) const {
+Time SafeIntervals::first_move(int from_slot, Place to, Time earliest) const {
   if (unconstrained(to)) return earliest;
   const Group& group = groups_[group_of_[to]];
   // One pass will do: the bars are in order of their begin.
@@ -242,7 +251,7 @@ Time SafeIntervals::first_move(int from_slot, Cell to, Time earliest) const {
   return earliest;
 }
 
-Time SafeIntervals::last_move(int from_slot, Cell to, Time latest) const {
+Time SafeIntervals::last_move(int from_slot, Place to, Time latest) const {
   if (unconstrained(to)) return latest;
   const Group& group = groups_[group_of_[to]];
   // One pass will do here, too: the bars passed begin later than those to come.

@@ -18,7 +18,7 @@ namespace grove {
 class VisitCheck {
  public:
   // Both must outlive this.
-  VisitCheck(const Grid& grid, SafeIntervals& intervals) : grid_(grid), intervals_(intervals) {}
+  VisitCheck(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
   // What a path through all stops costs at least under the intervals; kNever: there is none. Looks
   // at fewer of them if a limit strikes.
@@ -27,15 +27,15 @@ class VisitCheck {
  private:
   using Queue = BasicBucketQueue<std::uint8_t>;  // progress: has been on `via`
 
-  Time first_rest(Cell start, Cell via);
-  void reach(int slot, Cell cell, Time time, bool visited);
+  Time first_rest(State start, Place via);
+  void reach(int slot, State state, Time time, bool visited);
 
-  const Grid& grid_;
+  const World& world_;
   SafeIntervals& intervals_;
   Queue queue_;
   std::vector<Time> earliest_;  // by slot, then progress
-  Cell via_ = kNoCell;
-  std::vector<Cell> rests_;
+  Place via_ = kNoPlace;
+  std::vector<Place> rests_;
 };
 
 }  // namespace grove

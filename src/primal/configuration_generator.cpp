@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Priority inheritance with backtracking (PIBT: Okumura, Machida, Defago and Tamura, AIJ 2022).
 //
-// Agents choose a next cell one after the other by priority: the one from which the rest of their
-// way is shortest, then one that is empty now, then by dice. Who stands on the cell chosen must
-// choose next, whatever its own priority, and must find a cell; if it cannot, it stays and the
-// first one tries its next choice. Each agent decides once, so a step takes about agents x
+// Agents choose a next state one after the other by priority: the one from which the rest of their
+// way is shortest, then one whose place is empty now, then by dice. Who stands on the place chosen
+// must choose next, whatever its own priority, and must find another; if it cannot, it stays and
+// the first one tries its next choice. Each agent decides once, so a step takes about agents x
 // candidates time.
 //
 // Two agents that can pass each other only at a junction behind them (swaps.cpp): the one that
@@ -17,92 +17,106 @@
 
 namespace grove {
 
-ConfigurationGenerator::ConfigurationGenerator(const Grid& grid, std::vector<VisitStates>& agents)
-    : grid_(grid),
+ConfigurationGenerator::ConfigurationGenerator(const World& world, std::vector<VisitStages>& agents)
+    : world_(world),
       agents_(agents),
-      now_(grid.cell_count(), kNobody),
-      later_(grid.cell_count(), kNobody),
-      to_(agents.size(), kNoCell),
-      swaps_(grid, agents, now_, to_) {}
+      now_(world.place_count(), kNobody),
+      later_(world.place_count(), kNobody),
+      to_(agents.size(), kNoState),
+      swaps_(world, agents, now_, to_) {}
 
-std::span<const Cell> ConfigurationGenerator::step(std::span<const Place> from,
-                                                   std::span<const AgentIndex> priority,
-                                                   std::span<const Order> orders, Dice& dice) {
+std::span<const State> ConfigurationGenerator::step(std::span<const Standing> from,
+                                                    std::span<const AgentIndex> priority,
+                                                    std::span<const Order> orders, Dice& dice) {
   from_ = from;
   dice_ = &dice;
-  std::ranges::fill(to_, kNoCell);
+  std::ranges::fill(to_, kNoState);
   for (std::size_t agent = 0; agent < from.size(); ++agent)
-    now_[from[agent].cell] = static_cast<AgentIndex>(agent);
+    now_[world_.place(from[agent].state)] = static_cast<AgentIndex>(agent);
   const bool done = obey(orders) && std::ranges::all_of(priority, [&](AgentIndex agent) {
-                      return to_[agent] != kNoCell || push(agent);
+                      return to_[agent] != kNoState || push(agent);
                     });
   clear();
-  return done ? std::span<const Cell>(to_) : std::span<const Cell>();
+  return done ? std::span<const State>(to_) : std::span<const State>();
 }
 
 bool ConfigurationGenerator::obey(std::span<const Order> orders) {
   return std::ranges::all_of(orders, [&](const Order& order) {
-    if (collides(order.agent, order.cell)) return false;
-    move(order.agent, order.cell);
+    if (collides(order.agent, order.state)) return false;
+    move(order.agent, order.state);
     return true;
   });
 }
 
-// Finds a cell for an agent that has none yet.
+// Finds a state for an agent that has none yet.
 bool ConfigurationGenerator::push(AgentIndex agent) {
-  Candidates candidates;
-  const std::size_t count = rank_candidates(agent, candidates);
-  const AgentIndex partner = swaps_.partner(agent, candidates[0].cell, from_);
-  if (partner != kNobody) std::reverse(candidates.begin(), candidates.begin() + count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Cell cell = candidates[i].cell;
-    if (collides(agent, cell)) continue;
-    move(agent, cell);
-    const AgentIndex there = now_[cell];
-    if (there != kNobody && to_[there] == kNoCell && !push(there)) continue;
-    if (partner != kNobody && i == 0) pull(partner, from_[agent].cell);
+  const std::size_t first = candidates_.size();
+  rank_candidates(agent);
+  const bool moved = try_candidates(agent, first);
+  candidates_.resize(first);
+  if (!moved) move(agent, from_[agent].state);
+  return moved;
+}
+
+// Those from `first` on.
+bool ConfigurationGenerator::try_candidates(AgentIndex agent, std::size_t first) {
+  const std::size_t end = candidates_.size();
+  const AgentIndex partner = swaps_.partner(agent, candidates_[first].state, from_);
+  if (partner != kNobody)
+    std::reverse(candidates_.begin() + static_cast<std::ptrdiff_t>(first), candidates_.end());
+  for (std::size_t i = first; i < end; ++i) {
+    const State state = candidates_[i].state;
+    if (collides(agent, state)) continue;
+    move(agent, state);
+    const AgentIndex there = now_[world_.place(state)];
+    if (there != kNobody && to_[there] == kNoState && !push(there)) continue;
+    if (partner != kNobody && i == first) pull(partner, from_[agent].state);
     return true;
   }
-  move(agent, from_[agent].cell);
   return false;
 }
 
-// Brings an agent along to a cell that its neighbour has left, if both are free to.
-void ConfigurationGenerator::pull(AgentIndex agent, Cell cell) {
-  if (to_[agent] == kNoCell && later_[cell] == kNobody) move(agent, cell);
+// Brings an agent along to a state that its neighbour has left, if both are free to.
+void ConfigurationGenerator::pull(AgentIndex agent, State state) {
+  if (to_[agent] == kNoState && later_[world_.place(state)] == kNobody) move(agent, state);
 }
 
-std::size_t ConfigurationGenerator::rank_candidates(AgentIndex agent, Candidates& candidates) {
-  const Place from = from_[agent];
-  VisitStates& visits = agents_[agent];
-  std::size_t count = 0;
-  const auto add = [&](Cell cell, bool taken) {
-    const Time to_go = visits.distance(visits.after(from.state, cell), cell);
-    candidates[count++] = {cell, std::int64_t{to_go} << 32 | std::int64_t{taken} << 31 |
-                                     std::int64_t{dice_->next() >> 1}};
+// Appends them to candidates_, the best first.
+void ConfigurationGenerator::rank_candidates(AgentIndex agent) {
+  const Standing from = from_[agent];
+  VisitStages& visits = agents_[agent];
+  const auto first = static_cast<std::ptrdiff_t>(candidates_.size());
+  const auto add = [&](State state, bool taken) {
+    const Time to_go = visits.distance(visits.after(from.stage, state), state);
+    candidates_.push_back({state, std::int64_t{to_go} << 32 | std::int64_t{taken} << 31 |
+                                      std::int64_t{dice_->next() >> 1}});
   };
-  add(from.cell, false);
-  for (Cell cell : grid_.neighbors(from.cell)) add(cell, now_[cell] != kNobody);
-  std::sort(candidates.begin(), candidates.begin() + count,
+  add(from.state, false);
+  for (State state : world_.moves(from.state)) {
+    const AgentIndex there = now_[world_.place(state)];
+    add(state, there != kNobody && there != agent);
+  }
+  std::sort(candidates_.begin() + first, candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.key < b.key; });
-  return count;
 }
 
-bool ConfigurationGenerator::collides(AgentIndex agent, Cell cell) const {
-  if (later_[cell] != kNobody) return true;
-  const AgentIndex there = now_[cell];
-  return there != kNobody && there != agent && to_[there] == from_[agent].cell;
+bool ConfigurationGenerator::collides(AgentIndex agent, State state) const {
+  const Place place = world_.place(state);
+  if (later_[place] != kNobody) return true;
+  const AgentIndex there = now_[place];
+  return there != kNobody && there != agent && to_[there] != kNoState &&
+         world_.place(to_[there]) == world_.place(from_[agent].state);
 }
 
-void ConfigurationGenerator::move(AgentIndex agent, Cell cell) {
-  to_[agent] = cell;
-  later_[cell] = agent;
+void ConfigurationGenerator::move(AgentIndex agent, State state) {
+  to_[agent] = state;
+  later_[world_.place(state)] = agent;
 }
 
 void ConfigurationGenerator::clear() {
-  for (const Place& place : from_) now_[place.cell] = kNobody;
-  for (Cell cell : to_)
-    if (cell != kNoCell) later_[cell] = kNobody;
+  for (const Standing& from : from_) now_[world_.place(from.state)] = kNobody;
+  for (State state : to_)
+    if (state != kNoState) later_[world_.place(state)] = kNobody;
 }
 
 }  // namespace grove

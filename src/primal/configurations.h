@@ -8,22 +8,22 @@
 #include <span>
 #include <vector>
 
-#include "visit_states.h"
+#include "visit_stages.h"
 
 namespace grove {
 
 // Where one agent is and what it has still to visit.
-struct Place {
-  Cell cell;
-  VisitStates::State state;
-  friend bool operator==(const Place&, const Place&) = default;
+struct Standing {
+  State state;
+  VisitStages::Stage stage;
+  friend bool operator==(const Standing&, const Standing&) = default;
 };
 
 // Numbered rows of equal length, in blocks that never move.
 template <class T>
-class Rows {
+class RowBlocks {
  public:
-  explicit Rows(std::size_t width)
+  explicit RowBlocks(std::size_t width)
       : width_(width), per_block_(std::max<std::size_t>(1, kBlockBytes / (width * sizeof(T)))) {}
 
   std::span<T> operator[](std::int32_t row) {
@@ -49,28 +49,28 @@ class Rows {
   std::vector<std::unique_ptr<T[]>> blocks_;
 };
 
-// A set of configurations, numbered in the order in which they came: one Place per agent each.
+// A set of configurations, numbered in the order in which they came: one Standing per agent each.
 class Configurations {
  public:
   using Id = std::int32_t;
 
   explicit Configurations(int agents);
 
-  std::span<const Place> operator[](Id id) { return places_[id]; }
+  std::span<const Standing> operator[](Id id) { return places_[id]; }
   Id count() const { return places_.count(); }
 
   // The number of `places`. If it is new, it is the last one: count() - 1.
-  Id insert(std::span<const Place> places);
+  Id insert(std::span<const Standing> places);
   // Bytes that the next insert() may allocate.
   std::size_t growth() const;
 
  private:
   static constexpr Id kNone = -1;
 
-  std::size_t slot_of(std::span<const Place> places, std::uint64_t hash);
+  std::size_t slot_of(std::span<const Standing> places, std::uint64_t hash);
   void rehash();
 
-  Rows<Place> places_;
+  RowBlocks<Standing> places_;
   std::vector<std::uint64_t> hashes_;  // by Id
   std::vector<Id> slots_;              // open addressing, at most half full
 };

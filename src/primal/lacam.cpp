@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// LaCAM (Okumura, AAAI 2023) over configurations of (cell, what is left to visit) per agent, with
+// LaCAM (Okumura, AAAI 2023) over configurations of (state, what is left to visit) per agent, with
 // PIBT as generator of successors.
 //
 // The search is depth first and lazy. The configuration on top of the stack makes one successor at
 // a time, under the next one of its constraints; constraints form a tree, taken breadth first. Its
 // root says nothing, and the children of a constraint of depth d tell the agent of d-th priority
-// each cell to which it can move. So the first successors are those that PIBT likes best, and the
+// each state to which it can move. So the first successors are those that PIBT likes best, and the
 // leaves, which tell every agent where to go, enumerate all of them: a configuration leaves the
 // stack only when its tree is used up, so in the end every configuration that can be reached is
 // looked at. A successor met before goes to the top again if it has constraints left (as in LaCAM*,
@@ -51,26 +51,28 @@ namespace {
 
 constexpr std::size_t kMemoryToSpare = 1 << 20;
 
-std::vector<VisitStates> visit_states(const Problem& problem, std::span<const Sequence> orders) {
+std::vector<VisitStages> visit_stages(const Problem& problem, std::span<const Sequence> orders) {
   const int agents = problem.instance.agent_count();
   if (orders.size() != static_cast<std::size_t>(agents))
     throw std::invalid_argument("every agent needs an order");
-  std::vector<VisitStates> states;
+  std::vector<VisitStages> states;
   for (AgentIndex agent = 0; agent < agents; ++agent)
     states.emplace_back(problem, agent, orders[agent]);
   return states;
 }
 
-// What a path of cells costs and visits (it ends at rest with everything visited).
+// What a path costs and visits (it ends at rest with everything visited).
 AgentPlan agent_plan(const Instance& instance, AgentIndex agent, Path path) {
   while (path.size() > 1 && path[path.size() - 2] == path.back()) path.pop_back();
   AgentPlan plan{.cost = static_cast<Time>(path.size()) - 1, .sequence = {}, .path = {}};
   plan.sequence = instance.agent(agent).tasks;
   const bool ends_on_a_task = !instance.agent(agent).goal;
   std::ranges::stable_sort(plan.sequence, {}, [&](TaskIndex task) {
-    const Cell cell = instance.task(task).cell;
-    const bool last = ends_on_a_task && cell == path.back();
-    return (last ? path.end() : std::ranges::find(path, cell)) - path.begin();
+    const auto is_there = [&](State state) {
+      return instance.world().place(state) == instance.task(task).cell;
+    };
+    const bool last = ends_on_a_task && is_there(path.back());
+    return (last ? path.end() : std::ranges::find_if(path, is_there)) - path.begin();
   });
   plan.path = std::move(path);
   return plan;
@@ -80,9 +82,9 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent, Path path) {
 
 Lacam::Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed)
     : instance_(problem.instance),
-      agents_(visit_states(problem, orders)),
+      agents_(visit_stages(problem, orders)),
       dice_(seed),
-      generator_(instance_.grid(), agents_),
+      generator_(instance_.world(), agents_),
       configurations_(instance_.agent_count()),
       ages_(agents()),
       places_(agents()) {
@@ -92,9 +94,9 @@ Lacam::Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint
 void Lacam::start(const Problem& problem) {
   std::vector<Time> ways;
   for (std::size_t i = 0; i < agents(); ++i) {
-    const Cell cell = problem.instance.agent(static_cast<AgentIndex>(i)).start;
-    places_[i] = {cell, agents_[i].first()};
-    ways.push_back(agents_[i].distance(places_[i].state, cell));
+    const State start = problem.instance.agent(static_cast<AgentIndex>(i)).start;
+    places_[i] = {start, agents_[i].first()};
+    ways.push_back(agents_[i].distance(places_[i].stage, start));
   }
   if (std::ranges::any_of(ways, [](Time way) { return way >= kNever; })) return;
   by_way_.resize(agents());
@@ -124,9 +126,9 @@ bool Lacam::has_room(const Limits& limits) const {
   return bytes == 0 || limits.memory_allows(2 * bytes + kMemoryToSpare);
 }
 
-void Lacam::add_constraint(Id id, ConstraintId above, Cell cell, std::int32_t depth) {
+void Lacam::add_constraint(Id id, ConstraintId above, State state, std::int32_t depth) {
   const auto added = static_cast<ConstraintId>(constraints_.size());
-  constraints_.push_back({above, kNone, cell, depth});
+  constraints_.push_back({above, kNone, state, depth});
   Node& node = nodes_[id];
   (node.first == kNone ? node.first : constraints_[node.last].next) = added;
   node.last = added;
@@ -145,8 +147,8 @@ void Lacam::expand(Id id) {
   const ConstraintId constraint = take_constraint(id);
   branch(id, constraint);
   collect_orders(constraint);
-  const auto cells = generator_.step(configurations_[id], ranking_, orders_, dice_);
-  if (!cells.empty()) arrive(id, cells);
+  const auto states = generator_.step(configurations_[id], ranking_, orders_, dice_);
+  if (!states.empty()) arrive(id, states);
 }
 
 void Lacam::rank_agents(Id id) {
@@ -160,12 +162,13 @@ void Lacam::rank_agents(Id id) {
 void Lacam::branch(Id id, ConstraintId constraint) {
   const std::int32_t depth = constraints_[constraint].depth;
   if (depth == static_cast<std::int32_t>(agents())) return;
-  const Cell from = configurations_[id][ranking_[depth]].cell;
-  std::array<Cell, 5> cells{from};
-  const auto end = std::ranges::copy(instance_.grid().neighbors(from), cells.begin() + 1).out;
-  for (auto count = static_cast<std::uint32_t>(end - cells.begin()); count > 0; --count) {
-    std::swap(cells[count - 1], cells[dice_.below(count)]);
-    add_constraint(id, constraint, cells[count - 1], depth + 1);
+  const State from = configurations_[id][ranking_[depth]].state;
+  const auto moves = instance_.world().moves(from);
+  next_.assign(1, from);
+  next_.insert(next_.end(), moves.begin(), moves.end());
+  for (auto count = static_cast<std::uint32_t>(next_.size()); count > 0; --count) {
+    std::swap(next_[count - 1], next_[dice_.below(count)]);
+    add_constraint(id, constraint, next_[count - 1], depth + 1);
   }
 }
 
@@ -173,13 +176,13 @@ void Lacam::collect_orders(ConstraintId constraint) {
   orders_.clear();
   for (; constraints_[constraint].depth > 0; constraint = constraints_[constraint].above)
     orders_.push_back(
-        {ranking_[constraints_[constraint].depth - 1], constraints_[constraint].cell});
+        {ranking_[constraints_[constraint].depth - 1], constraints_[constraint].state});
 }
 
-void Lacam::arrive(Id from, std::span<const Cell> cells) {
+void Lacam::arrive(Id from, std::span<const State> states) {
   const auto before = configurations_[from];
   for (std::size_t i = 0; i < agents(); ++i)
-    places_[i] = {cells[i], agents_[i].after(before[i].state, cells[i])};
+    places_[i] = {states[i], agents_[i].after(before[i].stage, states[i])};
   const Id known = configurations_.count();
   const Id id = configurations_.insert(places_);
   if (id == known)
@@ -192,12 +195,12 @@ void Lacam::add_node(Id id, Id parent) {
   nodes_.push_back({parent, kNone, kNone});
   const std::span<Age> ages = ages_.add();
   for (std::size_t i = 0; i < agents(); ++i) ages[i] = age_of(i, parent, places_[i]);
-  add_constraint(id, kNone, kNoCell, 0);
+  add_constraint(id, kNone, kNoState, 0);
   stack_.push_back(id);
   if (is_end(id)) plan_ = make_plan(id);
 }
 
-Lacam::Age Lacam::age_of(std::size_t agent, Id parent, Place place) {
+Lacam::Age Lacam::age_of(std::size_t agent, Id parent, Standing place) {
   if (at_rest(agent, place)) return kArrived;
   return parent < 0 ? 1 : std::min<Age>(kOldest - 1, ages_[parent][agent]) + 1;
 }
@@ -213,7 +216,7 @@ Plan Lacam::make_plan(Id end) {
   Plan plan;
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
     Path path;
-    for (Id id : way) path.push_back(configurations_[id][agent].cell);
+    for (Id id : way) path.push_back(configurations_[id][agent].state);
     plan.agents.push_back(agent_plan(instance_, agent, std::move(path)));
     plan.cost += plan.agents.back().cost;
   }

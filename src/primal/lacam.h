@@ -40,7 +40,7 @@ class Lacam {
   struct Constraint {
     ConstraintId above;
     ConstraintId next;  // in its configuration's queue
-    Cell cell;
+    State state;
     std::int32_t depth;
   };
 
@@ -54,27 +54,27 @@ class Lacam {
   std::size_t agents() const { return agents_.size(); }
   bool has_room(const Limits& limits) const;
   void start(const Problem& problem);
-  void add_constraint(Id id, ConstraintId above, Cell cell, std::int32_t depth);
+  void add_constraint(Id id, ConstraintId above, State state, std::int32_t depth);
   ConstraintId take_constraint(Id id);
   void expand(Id id);
   void rank_agents(Id id);
   void collect_orders(ConstraintId constraint);
   void branch(Id id, ConstraintId constraint);
-  void arrive(Id from, std::span<const Cell> cells);
+  void arrive(Id from, std::span<const State> states);
   void add_node(Id id, Id parent);
-  Age age_of(std::size_t agent, Id parent, Place place);
-  bool at_rest(std::size_t agent, Place place) const {
-    return agents_[agent].may_rest(place.state, place.cell);
+  Age age_of(std::size_t agent, Id parent, Standing place);
+  bool at_rest(std::size_t agent, Standing place) const {
+    return agents_[agent].may_rest(place.stage, place.state);
   }
   bool is_end(Id id);
   Plan make_plan(Id end);
 
   const Instance& instance_;
-  std::vector<VisitStates> agents_;
+  std::vector<VisitStages> agents_;
   Dice dice_;
   ConfigurationGenerator generator_;
   Configurations configurations_;
-  Rows<Age> ages_;
+  RowBlocks<Age> ages_;
   std::vector<Node> nodes_;  // by Id
   std::vector<Constraint> constraints_;
   std::vector<Id> stack_;
@@ -85,7 +85,8 @@ class Lacam {
   std::vector<AgentIndex> ranking_;  // by priority
   std::vector<AgentIndex> by_way_;   // at the start, the longest way first: breaks ties
   std::vector<Order> orders_;
-  std::vector<Place> places_;
+  std::vector<Standing> places_;
+  std::vector<State> next_;
 };
 
 }  // namespace grove

@@ -3,7 +3,7 @@
 // - delayed: an agent that pays more than it would alone, chosen by how much more, and those that
 //   stand in the way of its own best path, or of that path a little later;
 // - anyone: agents drawn from all;
-// - one spot: agents that pass around one cell at about one time.
+// - one spot: agents that pass around one place at about one time.
 #include "neighborhoods.h"
 
 #include <algorithm>
@@ -77,11 +77,12 @@ AgentIndex Neighborhoods::some_delayed_agent() {
 
 // Those that the agent would run into on its own best path, `late` steps late.
 void Neighborhoods::add_those_in_the_way(AgentIndex agent, Time late) {
+  const World& world = problem_.instance.world();
   const Path& path = router_.own_path(agent);
   const Reservations& reservations = paths_.reservations();
   for (Time t = 1; t < static_cast<Time>(path.size()) && !full(); ++t) {
-    const Cell from = path[t - 1];
-    const Cell to = path[t];
+    const Place from = world.place(path[t - 1]);
+    const Place to = world.place(path[t]);
     const AgentIndex there = reservations.agent_at(to, t + late);
     if (there != agent) add(there);
     const AgentIndex before = reservations.agent_at(to, t + late - 1);
@@ -90,23 +91,23 @@ void Neighborhoods::add_those_in_the_way(AgentIndex agent, Time late) {
       add(before);
   }
   const Time end = static_cast<Time>(path.size()) - 1 + late;
-  for (const Reservations::Stay& stay : reservations.stays(path.back()))
+  for (const Reservations::Stay& stay : reservations.stays(world.place(path.back())))
     if (stay.last >= end && stay.agent != agent) add(stay.agent);
 }
 
-// Breadth first from a cell on somebody's path, about the time when it is there.
+// Breadth first from a place on somebody's path, about the time when it is there.
 void Neighborhoods::add_around_spot() {
-  const Grid& grid = problem_.instance.grid();
+  const World& world = problem_.instance.world();
   const Path& path = paths_.path(random_.below(problem_.instance.agent_count()));
   const auto time = static_cast<Time>(random_.below(path.size()));
-  seen_at_.resize(static_cast<std::size_t>(grid.cell_count()), 0);
+  seen_at_.resize(static_cast<std::size_t>(world.place_count()), 0);
   ++search_;
-  queue_.assign(1, path[time]);
-  seen_at_[path[time]] = search_;
+  queue_.assign(1, world.place(path[time]));
+  seen_at_[queue_.front()] = search_;
   for (std::size_t next = 0; next < queue_.size() && !full(); ++next) {
-    const Cell cell = queue_[next];
-    add_visitors(cell, time);
-    for (Cell neighbor : grid.neighbors(cell)) {
+    const Place place = queue_[next];
+    add_visitors(place, time);
+    for (Place neighbor : world.neighbors(place)) {
       if (seen_at_[neighbor] == search_) continue;
       seen_at_[neighbor] = search_;
       queue_.push_back(neighbor);
@@ -114,8 +115,8 @@ void Neighborhoods::add_around_spot() {
   }
 }
 
-void Neighborhoods::add_visitors(Cell cell, Time time) {
-  for (const Reservations::Stay& stay : paths_.reservations().stays(cell))
+void Neighborhoods::add_visitors(Place place, Time time) {
+  for (const Reservations::Stay& stay : paths_.reservations().stays(place))
     if (stay.first <= time + tuning_.spot_steps && stay.last >= time - tuning_.spot_steps)
       add(stay.agent);
 }

@@ -40,7 +40,7 @@ class Neighborhoods {
   AgentIndex some_delayed_agent();
   void add_those_in_the_way(AgentIndex agent, Time late);
   void add_around_spot();
-  void add_visitors(Cell cell, Time time);
+  void add_visitors(Place place, Time time);
 
   const Problem& problem_;
   const Router& router_;
@@ -51,8 +51,8 @@ class Neighborhoods {
   Kind kind_ = kAnyone;
   std::int64_t wanted_ = 0;
   std::vector<AgentIndex> chosen_;
-  std::vector<Cell> queue_;
-  std::vector<std::int32_t> seen_at_;  // by cell: the search that saw it
+  std::vector<Place> queue_;
+  std::vector<std::int32_t> seen_at_;  // by place: the search that saw it
   std::int32_t search_ = 0;
 };
 

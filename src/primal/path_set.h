@@ -14,7 +14,7 @@ namespace grove {
 // Paths that do not collide, by AgentIndex; an agent without one has an empty path.
 class PathSet {
  public:
-  PathSet(const Grid& grid, int agents) : reservations_(grid), paths_(agents) {}
+  PathSet(const World& world, int agents) : reservations_(world), paths_(agents) {}
 
   const Reservations& reservations() const { return reservations_; }
   const std::vector<Path>& paths() const { return paths_; }

@@ -61,8 +61,8 @@ class PrimalSearch::Impl {
         agents_(problem.instance.agent_count()),
         random_(seed),
         router_(problem, stops),
-        paths_(problem.instance.grid(), agents_),
-        planned_(problem.instance.grid(), agents_),
+        paths_(problem.instance.world(), agents_),
+        planned_(problem.instance.world(), agents_),
         planning_(router_, planned_, random_, tuning_),
         neighborhoods_(problem, router_, paths_, random_, tuning_) {}
 
@@ -217,11 +217,11 @@ bool PrimalSearch::Impl::planning_is_due() const {
 }
 
 void PrimalSearch::Impl::plan(const Limits& limits) {
-  using State = PrioritizedPlanning::State;
+  using Outcome = PrioritizedPlanning::Outcome;
   const std::int64_t patience = is_raced() ? patience_ : kEndless;
-  const State state = planning_.step(limits, patience);
-  if (state == State::kDone) take_over_planned();
-  if (state == State::kPutOff) patience_ *= 2;
+  const Outcome outcome = planning_.step(limits, patience);
+  if (outcome == Outcome::kDone) take_over_planned();
+  if (outcome == Outcome::kPutOff) patience_ *= 2;
 }
 
 void PrimalSearch::Impl::take_over_planned() {

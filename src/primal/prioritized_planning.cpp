@@ -35,8 +35,9 @@ std::int64_t PrioritizedPlanning::most_labels() const {
          << std::min<std::int64_t>(draws, 30);
 }
 
-PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits, std::int64_t patience) {
-  if (next_ == order_.size()) return State::kDone;
+PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
+                                                       std::int64_t patience) {
+  if (next_ == order_.size()) return Outcome::kDone;
   const AgentIndex agent = order_[next_];
   const std::int64_t before = router_.expanded();
   const PathQuery query{.most_labels = std::min(patience, most_labels()),
@@ -46,17 +47,17 @@ PrioritizedPlanning::State PrioritizedPlanning::step(const Limits& limits, std::
     labels_of_found_ = std::max(labels_of_found_, router_.expanded() - before);
     paths_.put(agent, std::move(path_));
     path_.clear();
-    return ++next_ == order_.size() ? State::kDone : State::kWorking;
+    return ++next_ == order_.size() ? Outcome::kDone : Outcome::kWorking;
   }
-  if (limits.stop_requested()) return State::kStopped;
-  if (patience < most_labels() && router_.expanded() - before >= patience) return State::kPutOff;
+  if (limits.stop_requested()) return Outcome::kStopped;
+  if (patience < most_labels() && router_.expanded() - before >= patience) return Outcome::kPutOff;
   if (++failures_ % static_cast<std::int64_t>(order_.size()) == 0)
     random_.shuffle(order_);
   else
     std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(next_),
                 order_.begin() + static_cast<std::ptrdiff_t>(next_) + 1);
   begin_again();
-  return State::kWorking;
+  return Outcome::kWorking;
 }
 
 }  // namespace grove

@@ -17,7 +17,7 @@ namespace grove {
 // one of them has no path. The argument for the other order is at the head of the .cpp.
 class PrioritizedPlanning {
  public:
-  enum class State : std::uint8_t {
+  enum class Outcome : std::uint8_t {
     kWorking,
     kDone,     // all agents have a path
     kPutOff,   // the call took too long
@@ -32,8 +32,8 @@ class PrioritizedPlanning {
   void begin(std::vector<AgentIndex> order);
   // Plans one agent. A call of the low level that takes more than `patience` labels is put off to
   // the next step, where it begins again. Not to be called after kDone.
-  State step(const Limits& limits,
-             std::int64_t patience = std::numeric_limits<std::int64_t>::max());
+  Outcome step(const Limits& limits,
+               std::int64_t patience = std::numeric_limits<std::int64_t>::max());
 
   // Orders begun so far.
   std::int64_t attempts() const { return attempts_; }

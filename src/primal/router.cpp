@@ -10,7 +10,7 @@ namespace grove {
 Router::Router(const Problem& problem, AgentStopsStore& stops)
     : problem_(problem),
       stops_(stops),
-      low_level_(problem.instance.grid()),
+      low_level_(problem.instance.world()),
       goals_(problem.instance.agent_count()),
       own_paths_(problem.instance.agent_count()) {}
 

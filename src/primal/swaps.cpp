@@ -17,50 +17,53 @@
 // An agent backs off for one ahead of it that has not chosen yet, so is weaker; for one behind that
 // has to pass; and for one behind that wants to get to the end of the way only if that one has
 // chosen, so is stronger: else two that both want to go there would let each other pass for ever.
+//
+// All of this takes it that every step can be undone and that a state is its place: only in plain
+// worlds.
 #include "swaps.h"
 
 namespace grove {
 
-AgentIndex Swaps::partner(AgentIndex agent, Cell wish, std::span<const Place> from) const {
-  const Cell here = from[agent].cell;
-  if (wish == here || !is_possible({wish, here}, from)) return kNobody;
+AgentIndex Swaps::partner(AgentIndex agent, State wish, std::span<const Standing> from) const {
+  const State here = from[agent].state;
+  if (!world_.is_plain() || wish == here || !is_possible({wish, here}, from)) return kNobody;
   const AgentIndex ahead = now_[wish];
-  if (ahead != kNobody && to_[ahead] == kNoCell &&
+  if (ahead != kNobody && to_[ahead] == kNoState &&
       need(agent, ahead, {here, wish}, from) != Need::kNone)
     return ahead;
-  for (Cell cell : grid_.neighbors(here)) {
+  for (State cell : world_.neighbors(here)) {
     const AgentIndex behind = now_[cell];
     if (behind == kNobody || cell == wish) continue;
     const Need reason = need(behind, agent, {here, wish}, from);
-    if (reason == Need::kToPass || (reason == Need::kToGetAtEnd && to_[behind] != kNoCell))
+    if (reason == Need::kToPass || (reason == Need::kToGetAtEnd && to_[behind] != kNoState))
       return behind;
   }
   return kNobody;
 }
 
-bool Swaps::nearer(AgentIndex agent, std::span<const Place> from, Cell a, Cell b) const {
-  const VisitStates& visits = agents_[agent];
-  return visits.distance(from[agent].state, a) < visits.distance(from[agent].state, b);
+bool Swaps::nearer(AgentIndex agent, std::span<const Standing> from, State a, State b) const {
+  const VisitStages& visits = agents_[agent];
+  return visits.distance(from[agent].stage, a) < visits.distance(from[agent].stage, b);
 }
 
 Swaps::Need Swaps::need(AgentIndex pusher, AgentIndex pushed, Pair pair,
-                        std::span<const Place> from) const {
+                        std::span<const Standing> from) const {
   while (nearer(pusher, from, pair.front, pair.back)) {
-    Cell way = kNoCell;
+    State way = kNoState;
     const int ways = ways_on(pair, from, way);
     if (ways > 1) return Need::kNone;
     if (ways == 0) return Need::kToGetAtEnd;
     pair = {pair.front, way};
   }
   const bool meet = nearer(pushed, from, pair.back, pair.front) &&
-                    agents_[pusher].may_rest(from[pusher].state, pair.back);
+                    agents_[pusher].may_rest(from[pusher].stage, pair.back);
   return meet ? Need::kToPass : Need::kNone;
 }
 
-bool Swaps::is_possible(Pair pair, std::span<const Place> from) const {
-  const Cell begin = pair.back;
+bool Swaps::is_possible(Pair pair, std::span<const Standing> from) const {
+  const State begin = pair.back;
   while (pair.front != begin) {
-    Cell way = kNoCell;
+    State way = kNoState;
     const int ways = ways_on(pair, from, way);
     if (ways != 1) return ways > 1;
     pair = {pair.front, way};
@@ -69,16 +72,16 @@ bool Swaps::is_possible(Pair pair, std::span<const Place> from) const {
 }
 
 // Is this a dead end of one cell where somebody rests?
-bool Swaps::is_plugged(Cell cell, std::span<const Place> from) const {
+bool Swaps::is_plugged(State cell, std::span<const Standing> from) const {
   const AgentIndex there = now_[cell];
-  return grid_.neighbors(cell).size() == 1 && there != kNobody &&
-         agents_[there].may_rest(from[there].state, cell);
+  return world_.neighbors(cell).size() == 1 && there != kNobody &&
+         agents_[there].may_rest(from[there].stage, cell);
 }
 
 // How many ways lead on from the front, and one of them.
-int Swaps::ways_on(Pair pair, std::span<const Place> from, Cell& way) const {
+int Swaps::ways_on(Pair pair, std::span<const Standing> from, State& way) const {
   int ways = 0;
-  for (Cell cell : grid_.neighbors(pair.front)) {
+  for (State cell : world_.neighbors(pair.front)) {
     if (cell == pair.back || is_plugged(cell, from)) continue;
     ++ways;
     way = cell;

@@ -14,16 +14,16 @@ class Swaps {
  public:
   static constexpr AgentIndex kNobody = -1;
 
-  // All must outlive this. `now`: by cell, who is there. `to`: by agent, the next cell; kNoCell
+  // All must outlive this. `now`: by place, who is there. `to`: by agent, the next state; kNoState
   // while it is not decided.
-  Swaps(const Grid& grid, const std::vector<VisitStates>& agents,
-        const std::vector<AgentIndex>& now, const std::vector<Cell>& to)
-      : grid_(grid), agents_(agents), now_(now), to_(to) {}
+  Swaps(const World& world, const std::vector<VisitStages>& agents,
+        const std::vector<AgentIndex>& now, const std::vector<State>& to)
+      : world_(world), agents_(agents), now_(now), to_(to) {}
 
   // Whom `agent`, which would like to move to `wish`, should pull along backwards instead, so that
   // the two can change places at a junction behind it; kNobody. A partner whose next cell is
   // decided cannot be pulled: then backing off is all there is to do.
-  AgentIndex partner(AgentIndex agent, Cell wish, std::span<const Place> from) const;
+  AgentIndex partner(AgentIndex agent, State wish, std::span<const Standing> from) const;
 
  private:
   enum class Need : std::uint8_t {
@@ -34,20 +34,20 @@ class Swaps {
 
   // An agent on `back` that faces one on `front`.
   struct Pair {
-    Cell back;
-    Cell front;
+    State back;
+    State front;
   };
 
-  bool nearer(AgentIndex agent, std::span<const Place> from, Cell a, Cell b) const;
-  Need need(AgentIndex pusher, AgentIndex pushed, Pair pair, std::span<const Place> from) const;
-  bool is_possible(Pair pair, std::span<const Place> from) const;
-  bool is_plugged(Cell cell, std::span<const Place> from) const;
-  int ways_on(Pair pair, std::span<const Place> from, Cell& way) const;
+  bool nearer(AgentIndex agent, std::span<const Standing> from, State a, State b) const;
+  Need need(AgentIndex pusher, AgentIndex pushed, Pair pair, std::span<const Standing> from) const;
+  bool is_possible(Pair pair, std::span<const Standing> from) const;
+  bool is_plugged(State cell, std::span<const Standing> from) const;
+  int ways_on(Pair pair, std::span<const Standing> from, State& way) const;
 
-  const Grid& grid_;
-  const std::vector<VisitStates>& agents_;
+  const World& world_;
+  const std::vector<VisitStages>& agents_;
   const std::vector<AgentIndex>& now_;
-  const std::vector<Cell>& to_;
+  const std::vector<State>& to_;
 };
 
 }  // namespace grove

@@ -15,23 +15,25 @@ void require(bool holds, fmt::format_string<Args...> what, Args&&... args) {
   if (!holds) throw AssertionFailed("audit: " + fmt::format(what, std::forward<Args>(args)...));
 }
 
-bool is_step(const Grid& grid, Cell from, Cell to) {
-  return from == to || std::ranges::count(grid.neighbors(from), to) > 0;
+bool is_step(const World& world, State from, State to) {
+  return from == to || std::ranges::count(world.moves(from), to) > 0;
 }
 
 void audit_walk(const Instance& instance, AgentIndex index, const Path& path) {
   const Agent& agent = instance.agent(index);
-  const Grid& grid = instance.grid();
+  const World& world = instance.world();
   require(!path.empty() && path.front() == agent.start, "agent {} begins elsewhere", index);
   for (std::size_t t = 1; t < path.size(); ++t)
-    require(is_step(grid, path[t - 1], path[t]), "agent {} makes no step at time {}", index, t);
+    require(is_step(world, path[t - 1], path[t]), "agent {} makes no step at time {}", index, t);
+  const auto place = [&](State state) { return world.place(state); };
   const auto visited = [&](TaskIndex task) {
-    return std::ranges::count(path, instance.task(task).cell) > 0;
+    return std::ranges::count(path, instance.task(task).cell, place) > 0;
   };
   require(std::ranges::all_of(agent.tasks, visited), "agent {} leaves a task out", index);
-  const auto ends_on = [&](TaskIndex task) { return instance.task(task).cell == path.back(); };
+  const Place end = world.place(path.back());
+  const auto ends_on = [&](TaskIndex task) { return instance.task(task).cell == end; };
   const bool ends_well = agent.goal
-                             ? path.back() == *agent.goal
+                             ? end == *agent.goal
                              : agent.tasks.empty() || std::ranges::any_of(agent.tasks, ends_on);
   require(ends_well, "agent {} ends where it may not", index);
 }
@@ -50,9 +52,10 @@ void audit(const Problem& problem, const Node& node, std::span<const AgentIndex>
   }
   for (const AgentIndex agent : scope)
     for (const Constraint& c : constraints[agent])
-      require(is_about_sequence(c) || obeys(paths[agent], c, problem.chains),
-              "agent {} does not obey '{}' on cell {}, times {} to {}", agent, name_of(c.kind),
-              c.cell, c.begin, c.end);
+      require(
+          is_about_sequence(c) || obeys(problem.instance.world(), paths[agent], c, problem.chains),
+          "agent {} does not obey '{}' on place {}, times {} to {}", agent, name_of(c.kind), c.cell,
+          c.begin, c.end);
   require(node.cost() == cost, "a node says that it costs {}, its paths {}", node.cost(), cost);
   require(node.bound() >= cost, "a node's bound {} is below its cost {}", node.bound(), cost);
   if (!node.is_root())
@@ -62,7 +65,7 @@ void audit(const Problem& problem, const Node& node, std::span<const AgentIndex>
 
 void audit(const Problem& problem, const ConflictAvoidanceTable& table,
            std::span<const Path> paths) {
-  ConflictAvoidanceTable anew(problem.instance.grid());
+  ConflictAvoidanceTable anew(problem.instance.world());
   for (const Path& path : paths) anew.add(path);
   for (std::size_t agent = 0; agent < paths.size(); ++agent) {
     if (paths[agent].empty()) continue;

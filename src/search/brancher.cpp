@@ -52,7 +52,7 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
       planner_(planner),
       memory_(memory),
       prices_(planner, memory, options.tuning.price_labels),
-      others_(problem.instance.grid()),
+      others_(problem.instance.world()),
       shown_(problem.instance.agent_count()) {}
 
 // Each bypass saves conflicts, but by a count in which two rests on one cell are not symmetric, so
@@ -232,7 +232,7 @@ NodePtr Brancher::child(const NodeView& view, const NodePtr& parent, const Agent
   change.cost = view.node()->cost() + side.increase;
   const int conflicts = static_cast<int>(view.conflicts().size()) + side.conflicts;
   change.conflicts = static_cast<std::uint32_t>(std::max(0, conflicts));
-  return Node::child(parent, problem_.instance.grid(), change);
+  return Node::child(parent, change);
 }
 
 }  // namespace grove

@@ -55,7 +55,7 @@ Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
       memory_(memory),
       pair_view_(problem, options, memory),
       pair_brancher_(problem, options, planner, memory),
-      pair_dependency_(problem.instance.grid()),
+      pair_dependency_(problem.instance.world()),
       situation_(static_cast<std::size_t>(agents_)) {}
 
 Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
@@ -244,7 +244,7 @@ void Dependencies::splits(NodeView& view, std::vector<Split>& splits) {
   const auto later = [&](AgentIndex agent) {
     const Time cost = view.cost_of(agent);
     return AgentConstraint{
-        agent, {*instance_.agent(agent).goal, kNoCell, 0, cost, ConstraintKind::kNoRestBy}};
+        agent, {*instance_.agent(agent).goal, kNoPlace, 0, cost, ConstraintKind::kNoRestBy}};
   };
   std::pair<AgentIndex, AgentIndex> last{-1, -1};
   for (const Conflict& c : view.conflicts()) {

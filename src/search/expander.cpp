@@ -68,7 +68,7 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
       change.bound = bound;
       change.conflicts = node->conflicts();
       change.bounded = true;
-      expansion.children.push_back(Node::child(node, problem_.instance.grid(), change));
+      expansion.children.push_back(Node::child(node, change));
       return expansion;
     }
   }

@@ -86,24 +86,25 @@ std::optional<std::string> no_room_to_rest(const Problem& problem) {
   return std::nullopt;
 }
 
-// The cells of the corridor that ends at `end`, in order; empty if the component is no simple path.
-std::vector<Cell> corridor_from(const Grid& grid, Cell end) {
-  std::vector<Cell> cells{end};
-  Cell previous = kNoCell;
+// The places of the corridor that ends at `end`, in order; empty if the component is no simple
+// path.
+std::vector<Place> corridor_from(const World& world, Place end) {
+  std::vector<Place> places{end};
+  Place previous = kNoPlace;
   while (true) {
-    const auto neighbors = grid.neighbors(cells.back());
+    const auto neighbors = world.neighbors(places.back());
     if (neighbors.size() > 2) return {};
-    const auto next = std::ranges::find_if(neighbors, [&](Cell c) { return c != previous; });
-    if (next == neighbors.end()) return cells;
-    previous = cells.back();
-    cells.push_back(*next);
+    const auto next = std::ranges::find_if(neighbors, [&](Place p) { return p != previous; });
+    if (next == neighbors.end()) return places;
+    previous = places.back();
+    places.push_back(*next);
   }
 }
 
-std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Cell>& corridor) {
+std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Place>& corridor) {
   const Instance& instance = problem.instance;
   const int length = static_cast<int>(corridor.size());
-  std::map<Cell, int> place;
+  std::map<Place, int> place;
   for (int i = 0; i < length; ++i) place[corridor[i]] = i;
 
   std::vector<const Agent*> agents;
@@ -128,10 +129,10 @@ std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Ce
 }
 
 std::optional<std::string> stuck_in_a_corridor(const Problem& problem) {
-  const Grid& grid = problem.instance.grid();
-  for (Cell cell = 0; cell < grid.cell_count(); ++cell) {
-    if (!grid.passable(cell) || grid.neighbors(cell).size() > 1) continue;
-    const std::vector<Cell> corridor = corridor_from(grid, cell);
+  const World& world = problem.instance.world();
+  for (Place place = 0; place < world.place_count(); ++place) {
+    if (world.neighbors(place).size() > 1) continue;
+    const std::vector<Place> corridor = corridor_from(world, place);
     if (corridor.empty()) continue;
     if (auto reason = stuck_in(problem, corridor)) return reason;
   }

@@ -20,35 +20,38 @@ Cost cost_of_root(const Tree& tree) {
 NodePtr Node::root(const Tree& tree) {
   Change change;
   change.cost = change.bound = cost_of_root(tree);
-  void* memory = tree.pool->allocate(bytes(change.paths));
+  void* memory = tree.pool->allocate(bytes(*tree.world, change.paths));
   return NodePtr(new (memory) Node(nullptr, tree, change));
 }
 
-NodePtr Node::child(const NodePtr& parent, const Grid& grid, const Change& change) {
+NodePtr Node::child(const NodePtr& parent, const Change& change) {
   const Tree& tree = parent->tree();
-  void* memory = tree.pool->allocate(bytes(change.paths));
+  const World& world = *tree.world;
+  void* memory = tree.pool->allocate(bytes(world, change.paths));
   Node* node = new (memory) Node(parent, tree, change);
   node->bound_ = std::max({change.bound, change.cost, parent->bound()});
   auto* word = reinterpret_cast<std::uint64_t*>(node + 1);
   for (const NewPath& path : change.paths) {
     const auto steps = static_cast<std::uint32_t>(path.path->size() - 1);
     *word++ = std::bit_cast<std::uint64_t>(PathHead{path.agent, steps});
-    pack(grid, *path.path, word);
-    word += packed_words(steps);
+    pack(world, *path.path, word);
+    word += packed_words(world, steps);
   }
   return NodePtr(node);
 }
 
-std::size_t Node::bytes(std::span<const NewPath> paths) {
+std::size_t Node::bytes(const World& world, std::span<const NewPath> paths) {
   std::size_t words = paths.size();
   for (const NewPath& path : paths)
-    words += packed_words(static_cast<std::uint32_t>(path.path->size() - 1));
+    words += packed_words(world, static_cast<std::uint32_t>(path.path->size() - 1));
   return sizeof(Node) + words * sizeof(std::uint64_t);
 }
 
 std::size_t Node::bytes() const {
   std::size_t words = path_count_;
-  for_each_path([&](AgentIndex, const PackedSteps& path) { words += packed_words(path.steps); });
+  for_each_path([&](AgentIndex, const PackedSteps& path) {
+    words += packed_words(*tree_->world, path.steps);
+  });
   return sizeof(Node) + words * sizeof(std::uint64_t);
 }
 
@@ -81,7 +84,7 @@ void Node::paths(const Problem& problem, std::span<const AgentIndex> agents,
   for (AgentIndex agent : agents) wanted[agent] = true;
   const auto unpack = [&](AgentIndex agent, const PackedSteps& packed) {
     if (wanted[agent] && paths[agent].empty())
-      packed.unpack(instance.grid(), instance.agent(agent).start, paths[agent]);
+      packed.unpack(instance.world(), instance.agent(agent).start, paths[agent]);
   };
   for (const Node* node = this; !node->is_root(); node = node->parent_.get())
     node->for_each_path(unpack);

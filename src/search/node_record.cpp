@@ -11,16 +11,17 @@ void check(const NodeRecord& record, const Node& root, const Instance& instance)
   const auto is_agent = [&](AgentIndex agent) {
     return agent >= 0 && agent < instance.agent_count();
   };
-  const auto on_grid = [&](Cell cell) { return cell >= 0 && cell < instance.grid().cell_count(); };
+  const World& world = instance.world();
+  const auto is_place = [&](Place place) { return place >= 0 && place < world.place_count(); };
   for (const AgentConstraint& c : record.constraints)
-    require(is_agent(c.agent) && on_grid(c.constraint.cell) &&
-                (c.constraint.from == kNoCell || on_grid(c.constraint.from)),
-            "a node's constraint must be on an agent and cells of the instance");
+    require(is_agent(c.agent) && is_place(c.constraint.cell) &&
+                (c.constraint.from == kNoPlace || is_place(c.constraint.from)),
+            "a node's constraint must be on an agent and places of the instance");
   for (const NodeRecord::Walk& walk : record.paths) {
-    require(is_agent(walk.agent) && walk.words.size() == packed_words(walk.steps),
+    require(is_agent(walk.agent) && walk.words.size() == packed_words(world, walk.steps),
             "a node's path must be of an agent of the instance");
     const PackedSteps steps{walk.steps, walk.words.data()};
-    require(steps.is_walk(instance.grid(), instance.agent(walk.agent).start),
+    require(steps.is_walk(instance.world(), instance.agent(walk.agent).start),
             "a node's path must be a walk on the map");
   }
   require(record.bound >= root.bound() && record.bound >= record.cost,
@@ -39,7 +40,9 @@ NodeRecord record_of(const Node& node) {
     at->for_each_path([&](AgentIndex agent, const PackedSteps& path) {
       if (std::ranges::count(record.paths, agent, &NodeRecord::Walk::agent) > 0) return;
       record.paths.push_back(
-          {agent, path.steps, {path.words, path.words + packed_words(path.steps)}});
+          {agent,
+           path.steps,
+           {path.words, path.words + packed_words(*node.tree().world, path.steps)}});
     });
   }
   std::ranges::reverse(record.constraints);
@@ -53,13 +56,13 @@ NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& i
   for (const AgentConstraint& constraint : record.constraints) {
     Change change;
     change.added = constraint;
-    node = Node::child(node, instance.grid(), change);
+    node = Node::child(node, change);
   }
   std::vector<Path> paths(record.paths.size());
   std::vector<NewPath> changed;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const NodeRecord::Walk& walk = record.paths[i];
-    PackedSteps{walk.steps, walk.words.data()}.unpack(instance.grid(),
+    PackedSteps{walk.steps, walk.words.data()}.unpack(instance.world(),
                                                       instance.agent(walk.agent).start, paths[i]);
     changed.push_back({walk.agent, &paths[i]});
   }
@@ -69,7 +72,7 @@ NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& i
   change.bound = record.bound;
   change.conflicts = record.conflicts;
   change.bounded = record.bounded;
-  return Node::child(node, instance.grid(), change);
+  return Node::child(node, change);
 }
 
 }  // namespace grove

@@ -9,7 +9,10 @@
 namespace grove {
 
 NodeView::NodeView(const Problem& problem, const SearchOptions& options, Memory& memory)
-    : problem_(problem), audit_(options.audit), memory_(memory), finder_(problem.instance.grid()) {}
+    : problem_(problem),
+      audit_(options.audit),
+      memory_(memory),
+      finder_(problem.instance.world()) {}
 
 void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
   GROVE_ASSERT(node && std::ranges::is_sorted(scope), "a scope is in ascending order");
@@ -48,7 +51,9 @@ bool NodeView::in_conflict(AgentIndex a, AgentIndex b) const {
 void NodeView::disturbed(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const {
   agents.clear();
   for_each_demand(demand, scope_, [&](AgentIndex agent, const Constraint& c) {
-    if (is_about_sequence(c) || !obeys(paths_[agent], c, problem_.chains)) agents.push_back(agent);
+    if (is_about_sequence(c) ||
+        !obeys(problem_.instance.world(), paths_[agent], c, problem_.chains))
+      agents.push_back(agent);
   });
 }
 
@@ -67,7 +72,7 @@ NodePtr NodeView::node_as_routed() const {
   Change change;
   change.paths = paths;
   change.cost = node_->cost();
-  return Node::child(node_, problem_.instance.grid(), change);
+  return Node::child(node_, change);
 }
 
 }  // namespace grove

@@ -18,9 +18,10 @@ constexpr std::size_t kMostClassesKept = 4;  // of an agent, with their states
 
 PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops,
                          std::unique_ptr<AgentPlanner> free)
-    : fixed_(problem.instance.grid()),
-      free_(free ? std::move(free) : std::make_unique<FreeLowLevelSearch>(problem.instance.grid())),
-      optimal_(problem.instance.grid()),
+    : fixed_(problem.instance.world()),
+      free_(free ? std::move(free)
+                 : std::make_unique<FreeLowLevelSearch>(problem.instance.world())),
+      optimal_(problem.instance.world()),
       stops_(stops),
       free_goals_(problem.instance.agent_count()) {}
 

@@ -38,8 +38,8 @@ SequenceForest::SequenceForest(const Problem& problem, NodePool& pool, RtspBacke
       matrices_(cost_matrices(problem)),
       sequences_(joint_sequences(matrices_, backend, limits)),
       orders_(problem.instance.agent_count()),
-      low_level_(problem.instance.grid()),
-      others_(problem.instance.grid()) {}
+      low_level_(problem.instance.world()),
+      others_(problem.instance.world()) {}
 
 Cost SequenceForest::next_bound() const {
   const Cost rest = sequences_.lower_bound();
@@ -51,6 +51,7 @@ NodePtr SequenceForest::next_root() {
   if (!pending_ || !plan_missing_orders(*pending_)) return nullptr;
 
   Tree& tree = trees_.emplace_back();
+  tree.world = &problem_.instance.world();
   tree.pool = &pool_;
   tree.number = count_;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
@@ -90,7 +91,7 @@ bool SequenceForest::plan_order(AgentIndex agent, std::uint32_t rank) {
   if (outcome == PathOutcome::kStopped) return false;
   if (outcome != PathOutcome::kFound)
     throw std::logic_error("internal error: a sequence of finite cost has no path");
-  PackedPath packed(instance.grid(), path_);
+  PackedPath packed(instance.world(), path_);
   others_.add(path_);
   slot(agent, rank) = std::make_shared<const AgentOrder>(
       AgentOrder{{sequence, 0}, std::move(goals), std::move(packed)});
@@ -98,7 +99,7 @@ bool SequenceForest::plan_order(AgentIndex agent, std::uint32_t rank) {
 }
 
 void SequenceForest::avoid(AgentIndex agent, const PackedSteps& path) {
-  path.unpack(problem_.instance.grid(), problem_.instance.agent(agent).start, path_);
+  path.unpack(problem_.instance.world(), problem_.instance.agent(agent).start, path_);
   others_.add(path_);
 }
 

@@ -19,7 +19,7 @@ SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool&
       pool_(pool),
       limits_(limits),
       planner_(planner ? std::move(planner)
-                       : std::make_unique<FreeLowLevelSearch>(problem.instance.grid())) {
+                       : std::make_unique<FreeLowLevelSearch>(problem.instance.world())) {
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     relaxed_bound_ += stops.of(agent).completions().relaxed_bound();
 }
@@ -28,7 +28,7 @@ SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool&
 // ties.
 NodePtr SingleTree::next_root() {
   if (!tree_.empty()) return nullptr;
-  ConflictAvoidanceTable others(problem_.instance.grid());
+  ConflictAvoidanceTable others(problem_.instance.world());
   std::vector<std::shared_ptr<const AgentOrder>> orders;
   Path path;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
@@ -39,10 +39,10 @@ NodePtr SingleTree::next_root() {
       throw std::logic_error("internal error: an agent that can reach all its cells has no path");
     others.add(path);
     orders.push_back(std::make_shared<const AgentOrder>(
-        AgentOrder{{}, std::nullopt, PackedPath(problem_.instance.grid(), path)}));
+        AgentOrder{{}, std::nullopt, PackedPath(problem_.instance.world(), path)}));
   }
   planner_.reset();
-  Tree& tree = tree_.emplace_back(Tree{&pool_, 0, std::move(orders)});
+  Tree& tree = tree_.emplace_back(Tree{&problem_.instance.world(), &pool_, 0, std::move(orders)});
   return Node::root(tree);
 }
 

@@ -12,10 +12,10 @@
 namespace grove {
 namespace {
 
-TreeRecord::Order record_of(const AgentOrder& order) {
+TreeRecord::Order record_of(const World& world, const AgentOrder& order) {
   const PackedSteps path = order.path.view();
   return {order.sequences, order.goals.has_value(), path.steps,
-          std::vector(path.words, path.words + packed_words(path.steps))};
+          std::vector(path.words, path.words + packed_words(world, path.steps))};
 }
 
 bool is_complete(const Sequence& sequence, const Agent& agent) {
@@ -30,21 +30,21 @@ bool is_complete(const Sequence& sequence, const Agent& agent) {
 bool visits_in_turn(const Path& path, const GoalSequence& goals) {
   auto now = path.begin();
   for (int k = 0; k < goals.size(); ++k) {
-    now = std::find(now, path.end(), goals.goal(k));
+    now = std::find_if(now, path.end(), [&](State state) { return goals.to_goal(k)[state] == 0; });
     if (now == path.end()) return false;
   }
-  return path.back() == goals.last();
+  return goals.to_goal(goals.size() - 1)[path.back()] == 0;
 }
 
 Path path_of(const TreeRecord::Order& record, const Instance& instance, AgentIndex agent) {
-  const Cell start = instance.agent(agent).start;
-  require(record.words.size() == packed_words(record.steps),
+  const State start = instance.agent(agent).start;
+  require(record.words.size() == packed_words(instance.world(), record.steps),
           "a tree's path must have the length it claims");
   const PackedSteps steps{record.steps, record.words.data()};
-  require(steps.is_walk(instance.grid(), start),
+  require(steps.is_walk(instance.world(), start),
           "a tree's path must be a walk on the map from its agent's start");
   Path path;
-  steps.unpack(instance.grid(), start, path);
+  steps.unpack(instance.world(), start, path);
   return path;
 }
 
@@ -52,7 +52,7 @@ Path path_of(const TreeRecord::Order& record, const Instance& instance, AgentInd
 
 TreeRecord record_of(const Tree& tree) {
   TreeRecord record;
-  for (const auto& order : tree.orders) record.orders.push_back(record_of(*order));
+  for (const auto& order : tree.orders) record.orders.push_back(record_of(*tree.world, *order));
   return record;
 }
 
@@ -62,7 +62,7 @@ Trees::Trees(const Problem& problem, AgentStopsStore& stops, NodePool& pool)
 NodePtr Trees::add(const TreeRecord& record, std::uint32_t number) {
   require(record.orders.size() == orders_.size(),
           "a tree must fix as many agents' orders as the instance has agents");
-  Tree tree{&pool_, number, {}};
+  Tree tree{&problem_.instance.world(), &pool_, number, {}};
   for (std::size_t agent = 0; agent < orders_.size(); ++agent)
     tree.orders.push_back(order_of(static_cast<AgentIndex>(agent), record.orders[agent]));
   return Node::root(trees_.emplace_back(std::move(tree)));
@@ -71,7 +71,8 @@ NodePtr Trees::add(const TreeRecord& record, std::uint32_t number) {
 Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) {
   auto& known = orders_[agent];
   const auto same = [&](const Order& order) {
-    return order->sequences == record.sequences && record_of(*order) == record;
+    return order->sequences == record.sequences &&
+           record_of(problem_.instance.world(), *order) == record;
   };
   const auto found = std::ranges::find_if(known, same);
   if (found != known.end()) return *found;
@@ -93,7 +94,7 @@ AgentOrder Trees::made(AgentIndex agent, const TreeRecord::Order& record) {
   require(static_cast<Time>(record.steps) == goals.distance(goals.start(), 0),
           "a tree's path must be shortest in its order of stops");
   return {record.sequences, record.fixed ? std::optional(std::move(goals)) : std::nullopt,
-          PackedPath(instance.grid(), path)};
+          PackedPath(instance.world(), path)};
 }
 
 }  // namespace grove

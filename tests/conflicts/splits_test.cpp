@@ -63,8 +63,8 @@ TEST_P(SplitsTest, LoseNoCollisionFreePairAndChangeBothSides) {
     finder.all(pair, kBoth, conflicts);
     if (conflicts.empty()) apart.push_back(pair);
     for (const Conflict& conflict : conflicts)
-      for (const auto& split :
-           {target_split(conflict, pair, chains), traversal_split(conflict, pair, chains)})
+      for (const auto& split : {target_split(conflict, pair, grid, chains),
+                                traversal_split(conflict, pair, grid, chains)})
         if (split) {
           const bool target = (*split)[0].constraint.kind == ConstraintKind::kNoRestBy;
           ++(target ? by_target : by_traversal);

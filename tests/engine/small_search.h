@@ -32,7 +32,7 @@ struct SmallSearch {
     Change change;
     change.cost = change.bound = bound;
     change.conflicts = conflicts;
-    return Node::child(root, instance.grid(), change);
+    return Node::child(root, change);
   }
 
   Limits limits;

@@ -67,7 +67,7 @@ TEST_F(PlantedInABay, IsMissedWhenAConstraintForbidsIt) {
     Change ban;
     ban.added = {0, {optimum_.agents[0].path[1], kNoCell, 1, 1}};
     ban.cost = child->cost();
-    child = Node::child(child, instance_.grid(), ban);
+    child = Node::child(child, ban);
   }
   planted_.on_expanded(root_, expansion);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
@@ -80,7 +80,7 @@ TEST_F(PlantedInABay, SeesABoundThatIsTooHigh) {
     Change raise;
     raise.cost = child->cost();
     raise.bound = optimum_.cost + 1;
-    child = Node::child(child, instance_.grid(), raise);
+    child = Node::child(child, raise);
   }
   planted_.on_expanded(root_, expansion);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("claims the bound")));

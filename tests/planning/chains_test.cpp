@@ -15,7 +15,7 @@ using testing::grid_of;
 using Cells = std::vector<Cell>;
 
 Cells cells_of(const Chains& chains, int chain) {
-  const auto cells = chains.cells(chain);
+  const auto cells = chains.places(chain);
   return {cells.begin(), cells.end()};
 }
 
@@ -47,7 +47,7 @@ TEST(Chains, ARingIsNone) {
 TEST(Chains, ALoopBeginsAndEndsAtOneCell) {
   const Chains chains(grid_of({"...@", ".@.@", "....", "@@@."}));
   ASSERT_EQ(chains.count(), 2);
-  const auto loop = chains.cells(chains.chain_of(0));
+  const auto loop = chains.places(chains.chain_of(0));
   EXPECT_EQ(loop.size(), 9u);
   EXPECT_EQ(loop.front(), 10);
   EXPECT_EQ(loop.back(), 10);
@@ -64,7 +64,7 @@ TEST(Chains, AreMaximalRowsOfCellsWithTwoNeighbors) {
     const Chains chains(grid);
     Cells inner;
     for (int chain = 0; chain < chains.count(); ++chain) {
-      const auto cells = chains.cells(chain);
+      const auto cells = chains.places(chain);
       ASSERT_GE(cells.size(), 3u);
       EXPECT_NE(grid.neighbors(cells.front()).size(), 2u);
       EXPECT_NE(grid.neighbors(cells.back()).size(), 2u);

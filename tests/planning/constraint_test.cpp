@@ -35,7 +35,7 @@ TEST(Constraint, IsObeyedAsTheTestsSay) {
       const Constraint c = random() % 3 == 0
                                ? testing::random_bar(grid, path, goals, random)
                                : testing::random_conditional_constraint(grid, path, goals, random);
-      const bool obeyed = obeys(path, c, chains);
+      const bool obeyed = obeys(grid, path, c, chains);
       ++seen[{c.kind, obeyed}];
       ASSERT_EQ(obeyed, testing::obeys(grid, path, c))
           << name_of(c.kind) << " " << c.cell << " " << c.from << " " << c.begin << " " << c.end;
@@ -53,7 +53,7 @@ TEST(Constraint, OnTheSequenceIsNotObeyedByAPathAlone) {
   const Grid grid = testing::grid_of({".."});
   const Constraint next{1, kNoCell, 0, 0, ConstraintKind::kStopIs};
   EXPECT_TRUE(is_about_sequence(next));
-  EXPECT_THROW(obeys({0, 1}, next, Chains(grid)), std::invalid_argument);
+  EXPECT_THROW(obeys(grid, {0, 1}, next, Chains(grid)), std::invalid_argument);
 }
 
 // Files and other processes know kinds by these numbers.

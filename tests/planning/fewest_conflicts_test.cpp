@@ -16,7 +16,7 @@ namespace fewest_conflicts_test {
 // The fewest conflicts of any way, by trying all.
 int fewest(const OptimalPaths& paths, const ConflictAvoidanceTable& others,
            OptimalPaths::NodeId node, Path& path) {
-  path.push_back(paths.cell(node));
+  path.push_back(paths.state(node));
   int best = std::numeric_limits<int>::max();
   if (static_cast<Time>(path.size()) - 1 == paths.cost()) best = others.conflicts_of(path);
   for (const OptimalPaths::NodeId next : paths.successors(node))

@@ -18,7 +18,7 @@ class SafeIntervalsTest : public ::testing::Test {
   Intervals of(Cell cell) const {
     Intervals result;
     for (int slot = intervals_.first_slot(cell); slot < intervals_.end_slot(cell); ++slot) {
-      EXPECT_EQ(intervals_.cell_of(slot), cell);
+      EXPECT_EQ(intervals_.state_of(slot), cell);
       result.emplace_back(intervals_.begin_of(slot), intervals_.end_of(slot));
     }
     return result;
@@ -151,7 +151,7 @@ TEST_F(SafeIntervalsTest, ATraversalIsBarredToThoseWhoCameFromTheOtherEnd) {
   EXPECT_EQ(of(1), (Intervals{{0, 2}, {4, kNever}, {0, 2}, {4, kNever}}));
   const auto enter = [&](Cell from) {
     int entered = -1;
-    intervals_.for_each_move(grid_, from, 3, [&](int slot, Cell, Time) { entered = slot; });
+    intervals_.for_each_move(from, 3, [&](int slot, State, Time) { entered = slot; });
     return entered;
   };
   EXPECT_EQ(intervals_.first_move(enter(0), 2, 5), 7);

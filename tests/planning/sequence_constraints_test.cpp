@@ -16,10 +16,10 @@ using testing::SingleAgent;
 class SequenceConstraints : public ::testing::Test {
  protected:
   Constraint is(Time number, int stop) const {
-    return {stops_.cell(stop), kNoCell, number, number, ConstraintKind::kStopIs};
+    return {stops_.place(stop), kNoCell, number, number, ConstraintKind::kStopIs};
   }
   Constraint is_not(Time number, int stop) const {
-    return {stops_.cell(stop), kNoCell, number, number, ConstraintKind::kStopIsNot};
+    return {stops_.place(stop), kNoCell, number, number, ConstraintKind::kStopIsNot};
   }
   SequenceClass narrowed(const std::vector<Constraint>& constraints,
                          SequenceClass work = {}) const {

@@ -28,19 +28,19 @@ struct Crowded {
 
   const Instance& instance;
   Problem problem;
-  std::vector<VisitStates> states;
-  std::vector<Place> places;
+  std::vector<VisitStages> states;
+  std::vector<Standing> places;
   std::vector<AgentIndex> priority;
 };
 
-void expect_step(const Grid& grid, std::span<const Place> from, std::span<const Cell> to) {
+void expect_step(const Grid& grid, std::span<const Standing> from, std::span<const State> to) {
   ASSERT_EQ(from.size(), to.size());
   for (std::size_t i = 0; i < to.size(); ++i) {
-    const auto near = grid.neighbors(from[i].cell);
-    EXPECT_TRUE(to[i] == from[i].cell || std::ranges::count(near, to[i]) == 1);
+    const auto near = grid.neighbors(from[i].state);
+    EXPECT_TRUE(to[i] == from[i].state || std::ranges::count(near, to[i]) == 1);
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_NE(to[i], to[j]);
-      EXPECT_FALSE(to[i] == from[j].cell && to[j] == from[i].cell);
+      EXPECT_FALSE(to[i] == from[j].state && to[j] == from[i].state);
     }
   }
 }
@@ -57,7 +57,7 @@ TEST(ConfigurationGenerator, StepsNeverCollideAndOrdersAreObeyed) {
       random.shuffle(crowd.priority);
       std::vector<Order> orders;
       for (int i = random.below(4); i-- > 0;) {
-        const Cell here = crowd.places[crowd.priority[i]].cell;
+        const Cell here = crowd.places[crowd.priority[i]].state;
         const auto near = instance.grid().neighbors(here);
         const int choice = random.below(static_cast<int>(near.size()) + 1);
         orders.push_back({crowd.priority[i], choice == 0 ? here : near[choice - 1]});
@@ -66,10 +66,10 @@ TEST(ConfigurationGenerator, StepsNeverCollideAndOrdersAreObeyed) {
       ASSERT_TRUE(!to.empty() || !orders.empty());
       if (to.empty()) continue;
       expect_step(instance.grid(), crowd.places, to);
-      for (const Order& order : orders) EXPECT_EQ(to[order.agent], order.cell);
+      for (const Order& order : orders) EXPECT_EQ(to[order.agent], order.state);
       obeyed += orders.size() > 1;
       for (std::size_t i = 0; i < to.size(); ++i)
-        crowd.places[i] = {to[i], crowd.states[i].after(crowd.places[i].state, to[i])};
+        crowd.places[i] = {to[i], crowd.states[i].after(crowd.places[i].stage, to[i])};
     }
   }
   EXPECT_GT(obeyed, 50);

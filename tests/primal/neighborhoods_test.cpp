@@ -38,7 +38,7 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
     order.push_back(agent);
   }
   planning.begin(order);
-  while (planning.step(Limits()) == PrioritizedPlanning::State::kWorking) {
+  while (planning.step(Limits()) == PrioritizedPlanning::Outcome::kWorking) {
   }
 
   Neighborhoods neighborhoods(problem, router, paths, random, tuning);

@@ -21,7 +21,7 @@ struct TwoAgents : testing::NodeAtHand {
     change.added = added;
     change.paths = {&taken, 1};
     change.cost = cost;
-    return Node::child(root, instance.grid(), change);
+    return Node::child(root, change);
   }
   void audit_child(const NodePtr& node) { audit(problem, *node, all); }
 };

@@ -106,7 +106,7 @@ TEST_F(FrontierTest, TakesThePromisingWithinOmegaOnly) {
     Change change;
     change.cost = bound;
     change.conflicts = conflicts;
-    return Node::child(node(bound), instance_.grid(), change);
+    return Node::child(node(bound), change);
   };
   const NodePtr crowded = with_conflicts(4, 6);
   const NodePtr promising = with_conflicts(5, 1);

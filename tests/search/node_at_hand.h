@@ -43,7 +43,7 @@ struct NodeAtHand {
     Change change;
     change.paths = taken;
     change.cost = root->cost();
-    view.enter(Node::child(root, instance.grid(), change), all);
+    view.enter(Node::child(root, change), all);
   }
 
   SearchOptions options;

@@ -37,7 +37,7 @@ class NodeTest : public ::testing::Test {
       : instance_(testing::instance_of(
             {"....", "...."}, {{{0, 0}, Position{2, 0}}, {{0, 1}, Position{1, 1}, {{2, 1}}}})),
         problem_(instance_, Limits()),
-        tree_{&pool_, 0, {}} {
+        tree_{&instance_.world(), &pool_, 0, {}} {
     add_order(0, {}, {0, 1, 2});
     add_order(1, {0}, {4, 5, 6, 5});
     root_ = Node::root(tree_);
@@ -59,7 +59,7 @@ class NodeTest : public ::testing::Test {
     change.added = added;
     change.paths = {&changed, 1};
     change.cost = cost;
-    return Node::child(parent, instance_.grid(), change);
+    return Node::child(parent, change);
   }
 
   Instance instance_;
@@ -110,12 +110,12 @@ TEST_F(NodeTest, AChangeMayBeOfManyPathsOrNone) {
   change.paths = both;
   change.cost = 8;
   change.conflicts = 3;
-  const NodePtr node = Node::child(root_, instance_.grid(), change);
+  const NodePtr node = Node::child(root_, change);
   Change raise;
   raise.cost = 8;
   raise.bound = 11;
   raise.bounded = true;
-  const NodePtr raised = Node::child(node, instance_.grid(), raise);
+  const NodePtr raised = Node::child(node, raise);
   EXPECT_EQ(node->conflicts(), 3u);
   EXPECT_FALSE(node->is_bounded());
   EXPECT_TRUE(raised->is_bounded());
@@ -138,7 +138,7 @@ TEST_F(NodeTest, WhereOneRestsTheOthersAreBarred) {
   Change change;
   change.added = {0, {2, kNoCell, 0, 4, ConstraintKind::kRestBy}};
   change.cost = 5;
-  const NodePtr node = Node::child(root_, instance_.grid(), change);
+  const NodePtr node = Node::child(root_, change);
   std::vector<std::vector<Constraint>> constraints;
   node->constraints(constraints);
   EXPECT_EQ(constraints[0], std::vector{change.added.constraint});

@@ -151,7 +151,7 @@ class SmallTreeRecords : public TreeRecords {
     Path path;
     for (const Position p : positions) path.push_back(instance_.grid().cell(p));
     order.steps = static_cast<std::uint32_t>(path.size() - 1);
-    order.words.assign(packed_words(order.steps), 0);
+    order.words.assign(packed_words(instance_.world(), order.steps), 0);
     pack(instance_.grid(), path, order.words.data());
   }
 

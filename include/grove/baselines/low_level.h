@@ -20,10 +20,10 @@ enum class LowLevel : std::uint8_t {
                         // a forest of trees; time_interval_forest.cpp
 };
 
-// `grid` must outlive what is returned. All but Grove's own know no constraints but bars, no
+// `world` must outlive what is returned. All but Grove's own know no constraints but bars, no
 // reservations and no class but that of all sequences (std::invalid_argument), heed nothing of a
 // query but constraints and cutoff, and throw std::bad_alloc for want of memory. The stops of one
 // agent must be the same at every call.
-std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const Grid& grid);
+std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const World& world);
 
 }  // namespace grove

@@ -13,16 +13,16 @@
 
 namespace grove {
 
-// Two agents that are on one cell at one time, or that swap cells in one step.
+// Two agents that are on one place at one time, or that swap places in one step.
 struct Conflict {
   AgentIndex first = -1;
   AgentIndex second = -1;
-  Cell cell = kNoCell;  // the shared cell; for a swap, the cell that `first` arrives on
-  Cell from = kNoCell;  // kNoCell: vertex conflict; else the cell that `first` leaves and `second`
-                        // arrives on
-  Time time = 0;        // for a swap, the time of arrival
+  Place cell = kNoPlace;  // the shared place; for a swap, the place that `first` arrives on
+  Place from = kNoPlace;  // kNoPlace: vertex conflict; else the place that `first` leaves and
+                          // `second` arrives on
+  Time time = 0;  // for a swap, the time of arrival
 
-  bool is_swap() const { return from != kNoCell; }
+  bool is_swap() const { return from != kNoPlace; }
 };
 
 // Two demands of which every conflict-free plan meets at least one.
@@ -34,11 +34,11 @@ Split split(const Conflict& conflict);
 // Finds conflicts among paths. Workspace of one thread: reuse it, do not share it.
 class ConflictFinder {
  public:
-  // `grid` must outlive this.
-  explicit ConflictFinder(const Grid& grid);
+  // `world` must outlive this.
+  explicit ConflictFinder(const World& world);
 
   // Every conflict among the paths of `agents` (`paths` is by AgentIndex), in order of time;
-  // `first` < `second` in each. Of two agents that stand on one cell together only the first time.
+  // `first` < `second` in each. Of two agents that stand on one place together only the first time.
   // Replaces `conflicts`. O(agents * time + conflicts).
   void all(std::span<const Path> paths, std::span<const AgentIndex> agents,
            std::vector<Conflict>& conflicts);
@@ -54,8 +54,9 @@ class ConflictFinder {
   void swap_all(std::span<const Path> paths, AgentIndex agent, Time time,
                 std::vector<Conflict>& conflicts) const;
 
+  const World& world_;
   std::int64_t base_ = 0;
-  std::array<std::vector<Visit>, 2> visits_;  // by parity of the time, then by cell
+  std::array<std::vector<Visit>, 2> visits_;  // by parity of the time, then by place
   // Who else is there: by parity of the time, then by agent; -1 ends the list.
   std::array<std::vector<AgentIndex>, 2> also_there_;
 };

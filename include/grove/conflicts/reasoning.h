@@ -14,12 +14,12 @@ namespace grove {
 // If one agent of the conflict has come to rest where the other passes: the split "it does not come
 // to rest there by then | it does, and nobody else is there from then on". target.cpp.
 std::optional<Split> target_split(const Conflict& conflict, std::span<const Path> paths,
-                                  const Chains& chains);
+                                  const World& world, const Chains& chains);
 
 // If the two agents of the conflict meet while they pass a chain in opposite directions: the split
 // "the one does not leave it at its end at these times | the other does not at its own".
 // traversal.cpp.
 std::optional<Split> traversal_split(const Conflict& conflict, std::span<const Path> paths,
-                                     const Chains& chains);
+                                     const World& world, const Chains& chains);
 
 }  // namespace grove

@@ -4,7 +4,7 @@
 //
 // A type takes part by a function serialize(Archive&, T&) in its namespace, like those below, made
 // of numbers, strings, vectors, maps and optionals. What bytes may hold beyond its shape - cells on
-// the grid, paths that are walks - is for the receiver to check.
+// the world, paths that are walks - is for the receiver to check.
 #pragma once
 
 #include <cereal/archives/portable_binary.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shortest distances on the grid, ignoring other agents.
+// Shortest distances, ignoring other agents.
 #pragma once
 
 #include <memory>
@@ -11,14 +11,14 @@
 
 namespace grove {
 
-// Distance in steps from every cell to one target; kNever where the target cannot be reached.
-// Indexed by Cell.
+// Distance in steps from every state to one place, in whatever state; kNever where it cannot be
+// reached. Indexed by State.
 using DistanceField = std::vector<Time>;
 
-// Breadth-first search from `target`, which must be passable. O(cells).
-DistanceField distance_field(const Grid& grid, Cell target);
+// Breadth-first search backwards from all states on `target`. O(states).
+DistanceField distance_field(const World& world, Place target);
 
-// The fields of all cells that any agent of an instance must reach: tasks and destinations, each
+// The fields of all places that any agent of an instance must reach: tasks and destinations, each
 // computed once. Immutable after construction; any thread may read it.
 class DistanceFields {
  public:
@@ -29,14 +29,14 @@ class DistanceFields {
   // All fields are there. If not, to() must not be called.
   bool complete() const { return complete_; }
 
-  // `target` must be the cell of a task or of a destination.
-  const DistanceField& to(Cell target) const {
+  // `target` must be the place of a task or of a destination.
+  const DistanceField& to(Place target) const {
     GROVE_ASSERT(fields_[target], "distances are asked for to a task or a destination");
     return *fields_[target];
   }
 
  private:
-  std::vector<std::unique_ptr<DistanceField>> fields_;  // by cell; null where nobody must go
+  std::vector<std::unique_ptr<DistanceField>> fields_;  // by place; null where nobody must go
   bool complete_ = false;
 };
 

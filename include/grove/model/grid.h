@@ -3,21 +3,17 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "grove/model/assert.h"
+#include "grove/model/world.h"
 
 namespace grove {
 
-// A cell of a grid as one number: y * width + x. Meaningful only together with its grid.
-using Cell = std::int32_t;
-inline constexpr Cell kNoCell = -1;
-
-// A discrete time or a duration, in steps.
-using Time = std::int32_t;
-// No time at all: later than every time a plan can mention. Safe to add small durations to.
-inline constexpr Time kNever = 1 << 30;
+// A cell of a grid as one number: y * width + x. The grid's place, and the state of agents that
+// turn freely.
+using Cell = Place;
+inline constexpr Cell kNoCell = kNoPlace;
 
 // Column x and row y; (0, 0) is the top left cell, y grows downwards.
 struct Position {
@@ -28,7 +24,7 @@ struct Position {
 
 // A rectangular 4-connected grid of passable and blocked cells (docs/design.md, section 1).
 // Immutable after construction, so any number of threads may read one.
-class Grid {
+class Grid : public World {
  public:
   // `passable` holds width * height entries, row by row from the top.
   // Throws std::invalid_argument when a size is not positive or does not fit.
@@ -37,7 +33,7 @@ class Grid {
   int width() const { return width_; }
   int height() const { return height_; }
   // All cells, passable or not: cells are numbered 0 .. cell_count() - 1.
-  Cell cell_count() const { return width_ * height_; }
+  Cell cell_count() const { return place_count(); }
   int passable_count() const { return passable_count_; }
 
   bool contains(Position p) const { return p.x >= 0 && p.x < width_ && p.y >= 0 && p.y < height_; }
@@ -48,19 +44,11 @@ class Grid {
   }
   Position position(Cell cell) const { return {cell % width_, cell / width_}; }
 
-  // The passable cells one move away from `cell` (up to 4; none for a blocked cell).
-  std::span<const Cell> neighbors(Cell cell) const {
-    return {neighbors_.data() + first_neighbor_[cell],
-            neighbors_.data() + first_neighbor_[cell + 1]};
-  }
-
  private:
   int width_;
   int height_;
   int passable_count_ = 0;
   std::vector<std::uint8_t> passable_;
-  std::vector<std::int32_t> first_neighbor_;
-  std::vector<Cell> neighbors_;
 };
 
 }  // namespace grove

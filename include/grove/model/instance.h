@@ -48,6 +48,7 @@ class InstanceError : public std::invalid_argument {
 // A valid instance. Immutable once built, so any number of threads may read one.
 class Instance {
  public:
+  const World& world() const { return grid_; }
   const Grid& grid() const { return grid_; }
   std::span<const Agent> agents() const { return agents_; }
   std::span<const Task> tasks() const { return tasks_; }

@@ -15,14 +15,21 @@
 
 namespace grove {
 
-// Where an agent is at times 0, 1, ...: path[0] is its start and it rests on path.back() for ever.
-using Path = std::vector<Cell>;
+// The state an agent is in at times 0, 1, ...: path[0] is its start and it stays in path.back() for
+// ever.
+using Path = std::vector<State>;
 
-// Where an agent with this path (not empty) is at `time`: it rests on the last cell for ever.
-inline Cell position_at(const Path& path, Time time) {
+// The state of an agent with this path (not empty) at `time`.
+inline State state_at(const Path& path, Time time) {
   GROVE_ASSERT(!path.empty() && time >= 0, "an agent is somewhere from time 0 on");
   return time < static_cast<Time>(path.size()) ? path[time] : path.back();
 }
+// The place it is on then.
+inline Place place_at(const World& world, const Path& path, Time time) {
+  return world.place(state_at(path, time));
+}
+// When it came to the place where it stays for ever; the path may go on there.
+Time last_arrival(const World& world, const Path& path);
 
 struct AgentPlan {
   Time cost = 0;                    // when it comes to rest for ever with its tasks visited

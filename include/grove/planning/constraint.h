@@ -18,8 +18,8 @@ class Chains;
 // The numbers are those of files and messages: a new kind takes the next one and a row in
 // constraint.cpp.
 enum class ConstraintKind : std::uint8_t {
-  // Not on `cell` (resting on it after the finish counts as being there), or, with `from` given,
-  // not moving from -> cell, at any time in [begin, end]; for a move the time of arrival.
+  // Not on the place `cell` (resting on it after the finish counts as being there), or, with `from`
+  // given, not moving from -> cell, at any time in [begin, end]; for a move the time of arrival.
   kBar = 0,
   // Does not come to rest for ever on `cell` at `end` or earlier: if the agent ends there, it
   // arrives there for the last time, by a move, later than `end`. (Target reasoning: Li et al.
@@ -62,8 +62,8 @@ inline bool is_about_sequence(const Constraint& c) {
 }
 
 // Does `path` (not empty), its rest for ever included, do what `c`, which is not about the
-// sequence, demands? O(1) but for kBar and kNoTraversal, O(length).
-bool obeys(const Path& path, const Constraint& c, const Chains& chains);
+// sequence, demands? O(length).
+bool obeys(const World& world, const Path& path, const Constraint& c, const Chains& chains);
 
 // One agent and what it is forbidden.
 struct AgentConstraint {

@@ -30,44 +30,45 @@ class AgentStops {
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
 
   AgentIndex agent() const { return agent_; }
-  int count() const { return static_cast<int>(cells_.size()); }
-  Cell start() const { return start_; }
-  std::optional<Cell> destination() const { return destination_; }
-  Cell cell(int stop) const { return cells_[stop]; }
-  // The stop on this cell; kNoStop: none.
-  int stop_at(Cell cell) const { return (*stop_at_)[cell]; }
+  int count() const { return static_cast<int>(places_.size()); }
+  State start() const { return start_; }
+  std::optional<Place> destination() const { return destination_; }
+  Place place(int stop) const { return places_[stop]; }
+  // The stop where an agent in this state is; kNoStop: none.
+  int stop_at(State state) const { return (*stop_at_)[state]; }
   StopSet all() const { return all_stops(count()); }
 
-  // From a cell to each stop: count() distances in a row.
-  const Time* distances_from(Cell cell) const {
-    return distances_->data() + static_cast<std::size_t>(cell) * cells_.size();
+  // From a state to each stop: count() distances in a row.
+  const Time* distances_from(State state) const {
+    return distances_->data() + static_cast<std::size_t>(state) * places_.size();
   }
-  // From a cell to the destination, which there must be.
-  Time to_destination(Cell cell) const { return (*to_destination_)[cell]; }
+  // From a state to the destination, which there must be.
+  Time to_destination(State state) const { return (*to_destination_)[state]; }
 
   const Completions& completions() const { return completions_; }
   Completions& completions() { return completions_; }
 
  private:
   AgentIndex agent_;
-  Cell start_;
-  std::optional<Cell> destination_;
-  std::vector<Cell> cells_;
-  std::shared_ptr<const std::vector<std::int8_t>> stop_at_;  // by cell
-  std::shared_ptr<const std::vector<Time>> distances_;       // by cell, then stop
+  State start_;
+  std::optional<Place> destination_;
+  std::vector<Place> places_;
+  std::shared_ptr<const std::vector<std::int8_t>> stop_at_;  // by state
+  std::shared_ptr<const std::vector<Time>> distances_;       // by state, then stop
   const DistanceField* to_destination_ = nullptr;
   Completions completions_;
 };
 
-// The states of one agent under one sequence class, numbered as the search comes upon them. A
+// The stages of one agent under one sequence class - how far it has come with its stops -, numbered
+// as the search comes upon them. A
 // path *realizes* a sequence if it is on its stops one after the other and, without a destination,
 // rests on the last one. For one thread; several FreeGoals may share their AgentStops within it.
 class FreeGoals {
  public:
-  using StateId = std::int32_t;
-  static constexpr StateId kOutside = -1;
+  using StageId = std::int32_t;
+  static constexpr StageId kOutside = -1;
 
-  struct State {
+  struct Stage {
     StopSet left = 0;          // not counted yet
     StopSet next = 0;          // those of them that may be counted next
     StopSet rests = 0;         // without a destination: where the agent may come to rest
@@ -98,75 +99,75 @@ class FreeGoals {
   // False if the class is empty or something in it cannot be reached at all.
   bool plausible() const;
 
-  // The first state: nothing counted. Forgets all states if the completions were widened since;
+  // The first stage: nothing counted. Forgets all stages if the completions were widened since;
   // to be called before each search.
   // kOutside if the completions know no member of the class.
-  StateId first_state();
-  const State& state(StateId id) const { return states_[id]; }
-  int state_count() const { return static_cast<int>(states_.size()); }
+  StageId first_stage();
+  const Stage& stage(StageId id) const { return stages_[id]; }
+  int stage_count() const { return static_cast<int>(stages_.size()); }
 
-  // The state after counting `stop`, which must be one of the next. kOutside if the completions do
+  // The stage after counting `stop`, which must be one of the next. kOutside if the completions do
   // not know it.
-  StateId after(StateId id, int stop) {
-    GROVE_ASSERT(states_[id].next >> stop & 1, "a stop that is counted may be next");
-    const StateId known = after_[static_cast<std::size_t>(id) * stride_ + stop];
+  StageId after(StageId id, int stop) {
+    GROVE_ASSERT(stages_[id].next >> stop & 1, "a stop that is counted may be next");
+    const StageId known = after_[static_cast<std::size_t>(id) * stride_ + stop];
     return known == kUnknown ? make_after(id, stop) : known;
   }
 
-  // Is there a stop on `cell` that may be counted next?
-  bool may_count(StateId id, Cell cell) const {
-    const int stop = stops_.stop_at(cell);
-    return stop != AgentStops::kNoStop && (states_[id].next >> stop & 1) != 0;
+  // Is there a stop in `state` that may be counted next?
+  bool may_count(StageId id, State state) const {
+    const int stop = stops_.stop_at(state);
+    return stop != AgentStops::kNoStop && (stages_[id].next >> stop & 1) != 0;
   }
-  // Calls reach(state) for each state that an agent in state `id` may be in once it has come to
-  // `cell`. False: there is another one, which the completions do not know.
+  // Calls reach(stage) for each stage that an agent of stage `id` may be of once it has come to
+  // `state`. False: there is another one, which the completions do not know.
   template <class Reach>
-  bool on_arrival(StateId id, Cell cell, Reach reach) {
-    if (!may_count(id, cell)) {
+  bool on_arrival(StageId id, State state, Reach reach) {
+    if (!may_count(id, state)) {
       reach(id);
       return true;
     }
-    if (states_[id].may_skip) reach(id);
-    const StateId then = after(id, stops_.stop_at(cell));
+    if (stages_[id].may_skip) reach(id);
+    const StageId then = after(id, stops_.stop_at(state));
     if (then == kOutside) return false;
     reach(then);
     return true;
   }
 
-  // The least cost from a cell through all that is left, over the ways known; kNever or more when
+  // The least cost from a state through all that is left, over the ways known; kNever or more when
   // there is none.
-  Time distance(StateId id, Cell cell) const {
-    const State& s = states_[id];
-    if (s.left == 0) return to_rest(s, cell);
-    const Time* to_stop = stops_.distances_from(cell);
+  Time distance(StageId id, State state) const {
+    const Stage& s = stages_[id];
+    if (s.left == 0) return to_rest(s, state);
+    const Time* to_stop = stops_.distances_from(state);
     Time best = kNever;
     for (const Onward& o : std::span(&onward_[s.first], static_cast<std::size_t>(s.nearest)))
       best = std::min(best, to_stop[o.stop] + o.cost);
     return best;
   }
-  // All ways known from a state; the first State::nearest of them settle distance().
-  std::span<const Onward> onward(const State& state) const {
-    return {onward_.data() + state.first, static_cast<std::size_t>(state.count)};
+  // All ways known from a stage; the first Stage::nearest of them settle distance().
+  std::span<const Onward> onward(const Stage& stage) const {
+    return {onward_.data() + stage.first, static_cast<std::size_t>(stage.count)};
   }
 
   // May the agent come to rest here?
-  bool is_rest(const State& state, Cell cell) const {
-    if (state.left != 0) return false;
-    if (stops_.destination()) return cell == *stops_.destination();
-    const int stop = stops_.stop_at(cell);
-    return stop != AgentStops::kNoStop && (state.rests >> stop & 1) != 0;
+  bool is_rest(const Stage& stage, State state) const {
+    if (stage.left != 0) return false;
+    if (stops_.destination()) return stops_.to_destination(state) == 0;
+    const int stop = stops_.stop_at(state);
+    return stop != AgentStops::kNoStop && (stage.rests >> stop & 1) != 0;
   }
 
  private:
-  static constexpr StateId kUnknown = -2;
+  static constexpr StageId kUnknown = -2;
 
-  Time to_rest(const State& state, Cell cell) const;
+  Time to_rest(const Stage& stage, State state) const;
   StopSet next_of(StopSet left) const;
-  StopSet rests_after(const State& state, int stop) const;
+  StopSet rests_after(const Stage& stage, int stop) const;
   Time onward_cost(StopSet left, int stop) const;
-  StateId make_after(StateId id, int stop);
-  StateId make_state(StopSet left, StopSet rests);
-  void add_onward(State& state);
+  StageId make_after(StageId id, int stop);
+  StageId make_stage(StopSet left, StopSet rests);
+  void add_onward(Stage& stage);
 
   AgentStops& stops_;
   Completions* completions_;
@@ -176,9 +177,9 @@ class FreeGoals {
   bool rest_is_not_first_;  // without a destination: see the .cpp
   std::size_t stride_;      // of after_
   Time built_beyond_ = -1;  // completions().beyond() when the states were made
-  StateId first_state_ = kOutside;
-  std::vector<State> states_;
-  std::vector<StateId> after_;  // by state, then stop
+  StageId first_stage_ = kOutside;
+  std::vector<Stage> stages_;
+  std::vector<StageId> after_;  // by state, then stop
   std::vector<Onward> onward_;
   std::vector<StopSetIndex> index_;  // states by what is left; [1 + s]: that may not rest on s
 };

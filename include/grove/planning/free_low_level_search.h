@@ -14,8 +14,8 @@ namespace grove {
 // of a query.
 class FreeLowLevelSearch : public AgentPlanner {
  public:
-  // `grid` must outlive this.
-  explicit FreeLowLevelSearch(const Grid& grid);
+  // `world` must outlive this.
+  explicit FreeLowLevelSearch(const World& world);
   ~FreeLowLevelSearch() override;
 
   PathOutcome find(FreeGoals& goals, const PathQuery& query, const Limits& limits,

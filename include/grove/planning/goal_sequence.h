@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cells one agent must visit in turn, with the distances that guide its search.
+// The places one agent must visit in turn, with the distances that guide its search.
 #pragma once
 
 #include <vector>
@@ -20,15 +20,15 @@ class GoalSequence {
   GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
                const std::vector<TaskIndex>& tasks);
 
-  Cell start() const { return start_; }
+  State start() const { return start_; }
   int size() const { return static_cast<int>(goals_.size()); }
-  Cell goal(int k) const { return goals_[checked(k)]; }
-  Cell last() const { return goals_.back(); }
+  Place goal(int k) const { return goals_[checked(k)]; }
+  Place last() const { return goals_.back(); }
 
-  // Steps from `cell` through goals k, k+1, ... to the last one, ignoring everything else: exact,
+  // Steps from `state` through goals k, k+1, ... to the last one, ignoring everything else: exact,
   // so admissible and consistent. kNever or more when there is no way.
-  Time distance(Cell cell, int k) const {
-    const Time to_goal = (*to_goal_[checked(k)])[cell];
+  Time distance(State state, int k) const {
+    const Time to_goal = (*to_goal_[checked(k)])[state];
     return to_goal == kNever ? kNever : to_goal + after_goal_[k];
   }
 
@@ -43,8 +43,8 @@ class GoalSequence {
     return k;
   }
 
-  Cell start_;
-  std::vector<Cell> goals_;
+  State start_;
+  std::vector<Place> goals_;
   std::vector<const DistanceField*> to_goal_;
   std::vector<Time> after_goal_;  // from goal k through the rest
 };

@@ -18,15 +18,15 @@ namespace grove {
 // Holds the workspace of one thread: reuse it, do not share it.
 class LowLevelSearch {
  public:
-  // `grid` must outlive this.
-  explicit LowLevelSearch(const Grid& grid);
+  // `world` must outlive this.
+  explicit LowLevelSearch(const World& world);
   ~LowLevelSearch();
 
   // Finds a path of least cost from goals.start() at time 0 that visits the goals in order and
   // obeys the constraints of `query`, if that cost is at most the cutoff. The path ends when the
   // agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. Throws
   // std::invalid_argument for more than 255 goals, constraints that are none on a path of this
-  // grid, and reservations.
+  // world, and reservations.
   PathOutcome find(const GoalSequence& goals, const PathQuery& query, const Limits& limits,
                    Path& path);
 

@@ -14,7 +14,7 @@
 
 namespace grove {
 
-// A layered graph: the cells along its ways from layer 0 to layer cost() are exactly the paths it
+// A layered graph: the states along its ways from layer 0 to layer cost() are exactly the paths it
 // stands for, each by one way or more. Every node is on such a way. (Multi-valued
 // decision diagrams in CBS: Boyarski et al. 2015.)
 class OptimalPaths {
@@ -27,14 +27,15 @@ class OptimalPaths {
   };
 
   // No node at all: no path. Else there are layers 0 .. cost().
-  bool empty() const { return cells_.empty(); }
+  bool empty() const { return places_.empty(); }
   Time cost() const { return static_cast<Time>(first_of_layer_.size()) - 2; }
-  int node_count() const { return static_cast<int>(cells_.size()); }
+  int node_count() const { return static_cast<int>(places_.size()); }
   Range layer(Time time) const {
     const auto from_the_end = static_cast<std::size_t>(cost() - time);
     return {first_of_layer_[from_the_end], first_of_layer_[from_the_end + 1]};
   }
-  Cell cell(NodeId node) const { return cells_[node]; }
+  Place place(NodeId node) const { return places_[node]; }
+  State state(NodeId node) const { return states_.empty() ? places_[node] : states_[node]; }
   // In the next layer; none from the last.
   std::span<const NodeId> successors(NodeId node) const {
     return {successors_.data() + first_successor_[node],
@@ -46,7 +47,8 @@ class OptimalPaths {
 
   // Layers from the last to the first.
   std::vector<NodeId> first_of_layer_;  // one more at the end, as below
-  std::vector<Cell> cells_;             // by node
+  std::vector<Place> places_;           // by node
+  std::vector<State> states_;           // by node; empty where every state is its place
   std::vector<std::int32_t> first_successor_;
   std::vector<NodeId> successors_;
 };
@@ -57,12 +59,12 @@ class OptimalPathsBuilder {
   enum class Outcome : std::uint8_t {
     kBuilt,
     kNone,      // proven: no path costs exactly that
-    kTooLarge,  // more than `most_nodes` nodes, or (slot, state) pairs looked at for them
+    kTooLarge,  // more than `most_nodes` nodes, or (slot, stage) pairs looked at for them
     kStopped,   // a limit struck
   };
 
-  // `grid` must outlive this.
-  explicit OptimalPathsBuilder(const Grid& grid);
+  // `world` must outlive this.
+  explicit OptimalPathsBuilder(const World& world);
   ~OptimalPathsBuilder();
 
   // All paths that realize a sequence of the class, obey `constraints` (also while resting) and
@@ -72,7 +74,7 @@ class OptimalPathsBuilder {
   Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t most_nodes, const Limits& limits, OptimalPaths& paths);
 
-  // How much was done so far: nodes made, and (slot, state) pairs looked at for them.
+  // How much was done so far: nodes made, and (slot, stage) pairs looked at for them.
   std::int64_t nodes() const;
 
  private:

@@ -24,11 +24,11 @@ enum class Dependence : std::uint8_t {
 // the head of pair_dependency.cpp. Holds the workspace of one thread: reuse it, do not share it.
 class PairDependency {
  public:
-  // `grid` must outlive this.
-  explicit PairDependency(const Grid& grid);
+  // `world` must outlive this.
+  explicit PairDependency(const World& world);
   ~PairDependency();
 
-  // Neither may be empty; they may differ in length: an agent rests on its last cell for ever.
+  // Neither may be empty; they may differ in length: an agent rests on its last place for ever.
   // Looks at `most_pairs` pairs of nodes at most.
   Dependence find(const OptimalPaths& a, const OptimalPaths& b, std::size_t most_pairs,
                   const Limits& limits);

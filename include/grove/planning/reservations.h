@@ -6,28 +6,28 @@
 #include <span>
 #include <vector>
 
-#include "grove/model/grid.h"
 #include "grove/model/instance.h"
 #include "grove/model/plan.h"
 
 namespace grove {
 
-// The whole paths of some agents and their resting for ever, by cell: prioritised planning takes
-// them for walls. Adding or removing a path costs what is on its cells, and the low level looks up
-// only the cells it comes to. For one thread.
+// The whole paths of some agents and their resting for ever, by place: prioritised planning takes
+// them for walls. Adding or removing a path costs what is on its places, and the low level looks up
+// only the places it comes to. For one thread.
 class Reservations {
  public:
   static constexpr AgentIndex kNobody = -1;
 
-  // An agent's being on a cell without a break.
+  // An agent's being on a place without a break.
   struct Stay {
     Time first;        // from here
     Time last;         // to here, inclusive; kNever: it rests there
-    Cell next;         // where it moves at last + 1; kNoCell when it rests
+    Place next;        // where it moves at last + 1; kNoPlace when it rests
     AgentIndex agent;  // whose it is
   };
 
-  explicit Reservations(const Grid& grid) : stays_(grid.cell_count()) {}
+  // `world` must outlive this.
+  explicit Reservations(const World& world) : world_(world), stays_(world.place_count()) {}
 
   // `path`, not empty, must collide with no path that is here; an agent has at most one.
   void add(AgentIndex agent, const Path& path);
@@ -35,15 +35,16 @@ class Reservations {
   void remove(AgentIndex agent, const Path& path);
   void clear();
 
-  // The stays on a cell in order of time; they do not overlap.
-  std::span<const Stay> stays(Cell cell) const { return stays_[cell]; }
-  // How many there are on all cells.
+  // The stays on a place in order of time; they do not overlap.
+  std::span<const Stay> stays(Place place) const { return stays_[place]; }
+  // How many there are on all places.
   std::int64_t count() const { return count_; }
-  // Who is on the cell at this time; kNobody.
-  AgentIndex agent_at(Cell cell, Time time) const;
+  // Who is on the place at this time; kNobody.
+  AgentIndex agent_at(Place place, Time time) const;
 
  private:
-  std::vector<std::vector<Stay>> stays_;  // by cell
+  const World& world_;
+  std::vector<std::vector<Stay>> stays_;  // by place
   std::int64_t count_ = 0;
 };
 

@@ -32,6 +32,7 @@ struct AgentOrder {
 
 // One tree of the forest: a class of joint task sequences. Immutable; outlives its nodes.
 struct Tree {
+  const World* world = nullptr;                           // in which its agents move
   NodePool* pool = nullptr;                               // where its nodes live
   std::uint32_t number = 0;                               // from 0, in the order of instantiation
   std::vector<std::shared_ptr<const AgentOrder>> orders;  // by AgentIndex
@@ -94,7 +95,7 @@ class Node {
   // The root of `tree`, no constraints.
   static NodePtr root(const Tree& tree);
   // Its bound is the greatest of its parent's, its cost and the one given.
-  static NodePtr child(const NodePtr& parent, const Grid& grid, const Change& change);
+  static NodePtr child(const NodePtr& parent, const Change& change);
 
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -120,7 +121,7 @@ class Node {
     for (std::uint32_t i = 0; i < path_count_; ++i) {
       const auto head = std::bit_cast<PathHead>(*word++);
       visit(head.agent, PackedSteps{head.steps, word});
-      word += packed_words(head.steps);
+      word += packed_words(*tree_->world, head.steps);
     }
   }
 
@@ -153,7 +154,7 @@ class Node {
         conflicts_(change.conflicts),
         bounded_(change.bounded) {}
 
-  static std::size_t bytes(std::span<const NewPath> paths);
+  static std::size_t bytes(const World& world, std::span<const NewPath> paths);
   std::size_t bytes() const;
   static void release(const Node* node);
 

@@ -12,7 +12,7 @@ namespace grove {
 // outlives the search. Use it only if distances.complete().
 struct Problem {
   Problem(const Instance& the_instance, const Limits& limits)
-      : instance(the_instance), distances(the_instance, limits), chains(the_instance.grid()) {}
+      : instance(the_instance), distances(the_instance, limits), chains(the_instance.world()) {}
 
   const Instance& instance;  // owned by the caller
   const DistanceFields distances;

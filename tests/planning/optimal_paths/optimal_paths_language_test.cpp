@@ -167,7 +167,7 @@ class SideBySide {
     std::map<Cell, Reading> begin;
     for (const Memory& m : useful_[0]) begin[m.cell].first.insert(m);
     for (auto node = first.first; node < first.end; ++node)
-      begin[graph_.cell(node)].second.insert(node);
+      begin[graph_.state(node)].second.insert(node);
     std::set<Reading> now;
     if (!put(begin, now)) return "layer 0";
     for (Time time = 1; time <= graph_.cost(); ++time) {
@@ -181,7 +181,7 @@ class SideBySide {
               there[step.cell].first.insert(step);
         for (const auto node : reading.second)
           for (const auto step : graph_.successors(node)) {
-            there[graph_.cell(step)].second.insert(step);
+            there[graph_.state(step)].second.insert(step);
             if (step < graph_.layer(time).first || step >= graph_.layer(time).end)
               return "no step to the next layer";
           }
@@ -394,7 +394,7 @@ class Fuzzer {
         std::vector<std::pair<Cell, Cell>> mouths;
         const Chains chains(grid);
         for (int chain = 0; chain < chains.count(); ++chain) {
-          const auto row = chains.cells(chain);
+          const auto row = chains.places(chain);
           mouths.emplace_back(row.front(), row[1]);
           mouths.emplace_back(row.back(), row[row.size() - 2]);
         }
@@ -448,7 +448,7 @@ std::vector<std::vector<Cell>> cells_of(const OptimalPaths& graph) {
   for (Time time = 0; !graph.empty() && time <= graph.cost(); ++time) {
     layers.emplace_back();
     for (auto node = graph.layer(time).first; node < graph.layer(time).end; ++node)
-      layers.back().push_back(graph.cell(node));
+      layers.back().push_back(graph.state(node));
     std::ranges::sort(layers.back());
   }
   return layers;

@@ -89,7 +89,7 @@ class Walks {
 
 // All ways through the graph.
 void add_ways(const OptimalPaths& graph, OptimalPaths::NodeId node, Path& way, Paths& all) {
-  way.push_back(graph.cell(node));
+  way.push_back(graph.state(node));
   if (static_cast<Time>(way.size()) > graph.cost()) all.insert(way);
   for (const auto next : graph.successors(node)) add_ways(graph, next, way, all);
   way.pop_back();

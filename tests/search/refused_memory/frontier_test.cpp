@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The frontier when memory runs out in the middle of a change: no node is lost, and the bound
 // holds.
+#include "grove/search/frontier.h"
+
 #include <gtest/gtest.h>
 
 #include <deque>
 #include <new>
 
-#include "grove/search/frontier.h"
 #include "failing_new.h"
 #include "tests/support/instances.h"
 
@@ -16,12 +17,11 @@ namespace frontier_memory_test {
 class ScarceFrontier : public ::testing::Test {
  protected:
   NodePtr node(Time bound) {
-    const Instance instance = testing::instance_of({"........."}, {{{0, 0}, Position{8, 0}}});
     Path path;
     for (Cell cell = 0; cell <= bound; ++cell) path.push_back(cell);
-    trees_.push_back({&pool_, 0, {}});
+    trees_.push_back({&instance_.world(), &pool_, 0, {}});
     trees_.back().orders.push_back(std::make_shared<const AgentOrder>(
-        AgentOrder{{}, std::nullopt, PackedPath(instance.grid(), path)}));
+        AgentOrder{{}, std::nullopt, PackedPath(instance_.world(), path)}));
     return Node::root(trees_.back());
   }
 
@@ -48,6 +48,7 @@ class ScarceFrontier : public ::testing::Test {
     }
   }
 
+  const Instance instance_ = testing::instance_of({"........."}, {{{0, 0}, Position{8, 0}}});
   NodePool pool_;
   std::deque<Tree> trees_;
 };

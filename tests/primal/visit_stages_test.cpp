@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "src/primal/visit_states.h"
+#include "src/primal/visit_stages.h"
 
 #include <gtest/gtest.h>
 
@@ -10,23 +10,23 @@
 #include "tests/support/instances.h"
 
 namespace grove {
-namespace visit_states_test {
+namespace visit_stages_test {
 
 using testing::instance_of;
 
-TEST(VisitStates, DistancesFollowTheOrder) {
+TEST(VisitStages, DistancesFollowTheOrder) {
   const Instance instance = instance_of({"......"}, {{{1, 0}, Position{3, 0}, {{0, 0}, {5, 0}}}});
   const Problem problem(instance, Limits());
-  VisitStates near_first(problem, 0, {0, 1});
+  VisitStages near_first(problem, 0, {0, 1});
   EXPECT_EQ(near_first.distance(near_first.first(), 1), 1 + 5 + 2);
-  VisitStates far_first(problem, 0, {1, 0});
+  VisitStages far_first(problem, 0, {1, 0});
   EXPECT_EQ(far_first.distance(far_first.first(), 1), 4 + 5 + 3);
 }
 
-TEST(VisitStates, StopsMetOnTheWayCount) {
+TEST(VisitStages, StopsMetOnTheWayCount) {
   const Instance instance = instance_of({"......"}, {{{1, 0}, Position{3, 0}, {{0, 0}, {2, 0}}}});
   const Problem problem(instance, Limits());
-  VisitStates visits(problem, 0, {0, 1});
+  VisitStages visits(problem, 0, {0, 1});
   const auto first = visits.first();
   const auto second = visits.after(first, 2);
   EXPECT_NE(first, second);
@@ -39,22 +39,22 @@ TEST(VisitStates, StopsMetOnTheWayCount) {
   EXPECT_FALSE(visits.may_rest(done, 0));
 }
 
-TEST(VisitStates, AStopOnTheStartCountsAtOnce) {
+TEST(VisitStages, AStopOnTheStartCountsAtOnce) {
   const Instance instance = instance_of({"..."}, {{{1, 0}, {}, {{1, 0}, {2, 0}}}});
   const Problem problem(instance, Limits());
-  VisitStates visits(problem, 0, {0, 1});
+  VisitStages visits(problem, 0, {0, 1});
   EXPECT_EQ(visits.distance(visits.first(), 1), 1);
   const auto done = visits.after(visits.first(), 2);
   EXPECT_TRUE(visits.may_rest(done, 1) && visits.may_rest(done, 2));
   EXPECT_FALSE(visits.may_rest(done, 0));
 }
 
-TEST(VisitStates, NoWayIsNever) {
+TEST(VisitStages, NoWayIsNever) {
   const Instance instance =
       instance_of({"..@.@."}, {{{0, 0}, Position{1, 0}, {{3, 0}, {5, 0}, {1, 0}}}});
   const Problem problem(instance, Limits());
   for (const Sequence& order : {Sequence{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}) {
-    VisitStates visits(problem, 0, order);
+    VisitStages visits(problem, 0, order);
     EXPECT_GE(visits.distance(visits.first(), 0), kNever);
   }
 }
@@ -63,9 +63,9 @@ TEST(Configurations, AreFoundAgain) {
   constexpr int kAgents = 5;
   Configurations configurations(kAgents);
   fuzz::Random random(1);
-  std::vector<std::vector<Place>> all;
+  std::vector<std::vector<Standing>> all;
   for (int i = 0; i < 20'000; ++i) {
-    std::vector<Place> places;
+    std::vector<Standing> places;
     for (int a = 0; a < kAgents; ++a) places.push_back({random.below(4), random.below(4)});
     const auto known = std::ranges::find(all, places) - all.begin();
     if (i % 10 != 0 && known == std::ssize(all)) continue;
@@ -77,5 +77,5 @@ TEST(Configurations, AreFoundAgain) {
     EXPECT_TRUE(std::ranges::equal(configurations[static_cast<int>(i)], all[i]));
 }
 
-}  // namespace visit_states_test
+}  // namespace visit_stages_test
 }  // namespace grove

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Where agents can be, and what they block there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace grove {
+
+// What one agent blocks: a cell of a grid, say. Meaningful only together with its world.
+using Place = std::int32_t;
+inline constexpr Place kNoPlace = -1;
+
+// Where an agent can be in its own motion: it stands on a place, perhaps with a heading. Meaningful
+// only together with its world.
+using State = std::int32_t;
+inline constexpr State kNoState = -1;
+
+// A discrete time or a duration, in steps.
+using Time = std::int32_t;
+// No time at all: later than every time a plan can mention. Safe to add small durations to.
+inline constexpr Time kNever = 1 << 30;
+
+// Lists of numbers, one after the other in one array.
+class Rows {
+ public:
+  // Appends to the row under way, and ends it.
+  void add(std::int32_t item) { items_.push_back(item); }
+  void end_row() { first_.push_back(static_cast<std::int32_t>(items_.size())); }
+
+  std::int32_t count() const { return static_cast<std::int32_t>(first_.size()) - 1; }
+  std::span<const std::int32_t> operator[](std::int32_t row) const {
+    return {items_.data() + first_[row], items_.data() + first_[row + 1]};
+  }
+
+ private:
+  std::vector<std::int32_t> first_{0};  // by row; one more at the end
+  std::vector<std::int32_t> items_;
+};
+
+// Places, the states that stand on them, and the moves of one step between states; waiting is
+// possible in every state and no move (docs/design.md, section 1). States 0 .. place_count() - 1
+// are those of agents that turn freely: each is its place. Agents of other kinds have states of
+// their own, so the state in which an agent starts says all about how it moves. Immutable after
+// construction, so any number of threads may read one.
+class World {
+ public:
+  // Places and states are numbered 0 .. count - 1.
+  Place place_count() const { return places_; }
+  State state_count() const { return moves_.count(); }
+  Place place(State state) const {
+    return state < places_ ? state : place_of_[static_cast<std::size_t>(state - places_)];
+  }
+
+  // The states that one step leads to from `state`, and those from which one leads to it. None for
+  // a blocked cell.
+  std::span<const State> moves(State state) const { return moves_[state]; }
+  std::span<const State> moves_to(State state) const {
+    return is_symmetric_ ? moves_[state] : moves_back_[state];
+  }
+  // The places that a step leads to from this one or leads from to it.
+  std::span<const Place> neighbors(Place place) const {
+    return has_other_neighbors_ ? neighbors_[place] : moves_[place];
+  }
+
+  // States on one place, which are numbered from 0 there; of agents of all kinds.
+  int states_on(Place) const { return 1; }
+  int most_states_on_a_place() const { return 1; }
+  int rank_on_place(State) const { return 0; }
+  // Calls visit(state) for each of them, in the order of their ranks.
+  template <class Visit>
+  void for_each_state(Place place, Visit visit) const {
+    visit(place);
+  }
+
+  // Every state is its place.
+  bool states_are_places() const { return state_count() == places_; }
+  // And every step can be undone.
+  bool is_plain() const { return is_symmetric_ && states_are_places(); }
+  // If the places are the cells of a grid, how many there are in a row of it; else 0.
+  Place row_width() const { return row_width_; }
+  // How many moves there are from a state at most.
+  int most_moves() const { return most_moves_; }
+
+ protected:
+  // One state for each place; moves by place.
+  explicit World(Rows moves);
+  // The same for the cells of a grid, so many in a row, with moves that can all be undone.
+  World(Rows moves, Place row_width);
+
+ private:
+  Place places_;
+  Place row_width_ = 0;
+  int most_moves_ = 0;
+  bool is_symmetric_ = true;
+  bool has_other_neighbors_ = false;
+  Rows moves_;                   // by state
+  Rows moves_back_;              // by state, unless they are the same
+  Rows neighbors_;               // by place, unless they are the moves of the states
+  std::vector<Place> place_of_;  // of the states that are not their place
+};
+
+}  // namespace grove

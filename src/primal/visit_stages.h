@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// One agent that heads for its stops in a given order and counts those it meets before.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "grove/search/problem.h"
+#include "grove/sequencing/sequence.h"
+#include "grove/sequencing/sequence_dag.h"
+
+namespace grove {
+
+// What an agent has still to visit, as numbered stages, made when first met. For one thread.
+class VisitStages {
+ public:
+  using Stage = std::int32_t;
+
+  // `problem` must outlive this. Throws std::invalid_argument if `order` is no complete sequence.
+  VisitStages(const Problem& problem, AgentIndex agent, Sequence order);
+
+  // Everything is left but what is on the start.
+  Stage first() { return after(all_, start_); }
+  // The stage of an agent of `stage` once it is in `state`.
+  Stage after(Stage stage, State state) {
+    const Place place = world_.place(state);
+    for (std::size_t stop = 0; stop < places_.size(); ++stop)
+      if (places_[stop] == place) return after_stop(stage, static_cast<int>(stop));
+    return stage;
+  }
+
+  // Steps from `state` through all that is left, in order, to where it is to rest; kNever or more
+  // when there is no way.
+  Time distance(Stage stage, State state) const {
+    const Entry& entry = entries_[stage];
+    return (*entry.to_next)[state] + entry.onward;
+  }
+
+  // May an agent of this stage rest in `state`?
+  bool may_rest(Stage stage, State state) const {
+    if (entries_[stage].left != 0) return false;
+    const Place place = world_.place(state);
+    if (destination_) return place == *destination_;
+    return std::ranges::find(places_, place) != places_.end();
+  }
+
+ private:
+  struct Entry {
+    StopSet left;
+    const DistanceField* to_next;  // the first stop left; the place to rest if none is
+    Time onward;                   // from there through all others; less than kNever
+  };
+
+  Stage after_stop(Stage stage, int stop) {
+    const StopSet left = entries_[stage].left & ~(StopSet{1} << stop);
+    if (left == entries_[stage].left) return stage;
+    const std::uint32_t known = index_.find(left);
+    return known != StopSetIndex::kAbsent ? static_cast<Stage>(known) : make(left);
+  }
+  Stage make(StopSet left);
+
+  const World& world_;
+  State start_;
+  std::optional<Place> destination_;
+  std::vector<Place> places_;  // by stop
+  Sequence order_;
+  std::vector<const DistanceField*> to_stop_;
+  const DistanceField* to_rest_;
+  Stage all_;
+  std::vector<Entry> entries_;
+  StopSetIndex index_;
+};
+
+}  // namespace grove
