@@ -171,21 +171,18 @@ std::optional<Destinations> choose_destinations(const Problem& problem, Cost vis
 }
 
 Instance with_destinations(const Instance& instance, const Destinations& destinations) {
-  const Grid& grid = instance.grid();
-  InstanceBuilder builder(grid);
+  InstanceBuilder builder(instance.map());
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
     const TaskIndex end = destinations.tasks[i];
     const auto goal = end == kNoTask ? agent.goal : std::optional(instance.task(end).cell);
-    builder.add_agent(agent.id, grid.position(agent.start),
-                      goal ? std::optional(grid.position(*goal)) : std::nullopt);
+    builder.add_agent(agent.id, agent.start, goal);
   }
   for (TaskIndex t = 0; t < instance.task_count(); ++t) {
     std::vector<std::string> ids;
     for (AgentIndex agent : instance.task(t).agents)
       if (destinations.tasks[agent] != t) ids.push_back(instance.agent(agent).id);
-    if (!ids.empty())
-      builder.add_task(instance.task(t).id, grid.position(instance.task(t).cell), ids);
+    if (!ids.empty()) builder.add_task(instance.task(t).id, instance.task(t).cell, ids);
   }
   return std::move(builder).build();
 }

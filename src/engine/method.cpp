@@ -87,6 +87,11 @@ void require_fit(Method method, const Instance& instance, const SolveOptions& op
     refuse(method,
            "is for agents without a goal (MG-MAPF), and here every agent has one; expected another "
            "method: CTS-CBS itself is auto with policy fixed");
+  const bool is_published = options.low_level != LowLevel::kOwn || is_adaptation(method);
+  if (is_published && !instance.world().is_plain())
+    refuse(method,
+           "goes every way in both directions, and here some roads are one way; expected another "
+           "method");
   if (options.start && is_composed(method))
     refuse(method, "finds its own first plan; expected no plan to start from");
 }

@@ -28,28 +28,22 @@ std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
   return order;
 }
 
-std::optional<Position> goal_of(const Instance& instance, const Agent& agent) {
-  if (!agent.goal) return std::nullopt;
-  return instance.grid().position(*agent.goal);
-}
-
 // Builds `instance` anew, with the agent ids of `agent_id(i)`.
 template <typename AgentId>
 InstanceBuilder with_agents(const Instance& instance, AgentId agent_id) {
-  InstanceBuilder builder(instance.grid());
+  InstanceBuilder builder(instance.map());
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
-    builder.add_agent(agent_id(i), instance.grid().position(agent.start), goal_of(instance, agent));
+    builder.add_agent(agent_id(i), agent.start, agent.goal);
   }
   return builder;
 }
 
 template <typename AgentId>
-void add_task(InstanceBuilder& builder, const Instance& instance, const Task& task, std::string id,
-              AgentId agent_id) {
+void add_task(InstanceBuilder& builder, const Task& task, std::string id, AgentId agent_id) {
   std::vector<std::string> agents;
   for (AgentIndex agent : task.agents) agents.push_back(agent_id(agent));
-  builder.add_task(std::move(id), instance.grid().position(task.cell), agents);
+  builder.add_task(std::move(id), task.cell, agents);
 }
 
 }  // namespace
@@ -60,6 +54,13 @@ std::string default_agent_id(AgentIndex agent) {
 
 std::string default_task_id(TaskIndex task) {
   return fmt::format("t{}", task);
+}
+
+void require_grid(const Instance& instance, std::string_view format) {
+  if (!instance.is_on_grid())
+    throw NotExpressible("roadmap",
+                         fmt::format("a roadmap cannot be said in {}; expected a grid", format),
+                         Loss::kNothing);
 }
 
 void require_goals(const Instance& instance, std::string_view format) {
@@ -113,14 +114,13 @@ Instance with_default_task_ids(const Instance& instance) {
   InstanceBuilder builder = with_agents(instance, agent_id);
   TaskIndex count = 0;
   for (TaskIndex task : order_of_appearance(instance))
-    add_task(builder, instance, instance.task(task), default_task_id(count++), agent_id);
+    add_task(builder, instance.task(task), default_task_id(count++), agent_id);
   return std::move(builder).build();
 }
 
 Instance with_default_agent_ids(const Instance& instance) {
   InstanceBuilder builder = with_agents(instance, default_agent_id);
-  for (const Task& task : instance.tasks())
-    add_task(builder, instance, task, task.id, default_agent_id);
+  for (const Task& task : instance.tasks()) add_task(builder, task, task.id, default_agent_id);
   return std::move(builder).build();
 }
 

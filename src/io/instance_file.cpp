@@ -7,11 +7,13 @@
 #include "grove/io/expressible.h"
 #include "grove/io/input_error.h"
 #include "grove/io/map_file.h"
+#include "grove/io/roadmap_file.h"
 #include "grove/io/scenario_file.h"
 #include "grove/io/text_file.h"
 #include "grove/model/distance_field.h"
 #include "json_value.h"
 #include "json_writer.h"
+#include "path_entry.h"
 
 namespace grove {
 namespace {
@@ -28,7 +30,17 @@ void at_place_of(const JsonValue& value, Add add) {
   }
 }
 
+void add_agent_on_roads(InstanceBuilder& builder, const JsonValue& agent) {
+  const Roadmap& roadmap = *builder.roadmap();
+  const std::string id = agent.member("id").text();
+  const State start = read_start(roadmap, agent.member("start"));
+  std::optional<Place> goal;
+  if (const auto value = agent.find("goal")) goal = read_vertex(roadmap, *value);
+  at_place_of(agent, [&] { builder.add_agent(id, start, goal); });
+}
+
 void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
+  if (builder.roadmap()) return add_agent_on_roads(builder, agent);
   const std::string id = agent.member("id").text();
   const Position start = agent.member("start").position();
   std::optional<Position> goal;
@@ -38,22 +50,56 @@ void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
 
 void add_task(InstanceBuilder& builder, const JsonValue& task) {
   const std::string id = task.member("id").text();
-  const Position cell = task.member("cell").position();
+  const JsonValue cell = task.member("cell");
   const std::vector<std::string> agents = task.member("agents").texts();
-  at_place_of(task, [&] { builder.add_task(id, cell, agents); });
+  if (builder.roadmap()) {
+    const Place place = read_vertex(*builder.roadmap(), cell);
+    at_place_of(task, [&] { builder.add_task(id, place, agents); });
+  } else {
+    const Position position = cell.position();
+    at_place_of(task, [&] { builder.add_task(id, position, agents); });
+  }
+}
+
+// Whoever wrote one of these would not want a plan without it.
+void refuse_what_is_not_planned(const JsonValue& agent) {
+  for (const char* key : {"motion", "heading", "goal_heading", "turn_steps", "working"})
+    if (const auto value = agent.find(key))
+      value->fail_expected("no such key: Grove does not plan agents that turn or are at work");
+}
+
+void refuse_work(const JsonValue& task) {
+  const auto duration = task.find("duration");
+  if (duration && duration->json() != 0)
+    duration->fail_expected("0 or no such key: Grove does not plan work that takes time");
 }
 
 void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unknown) {
   const JsonValue agents = root.member("agents");
   for (std::size_t i = 0; i < agents.size(); ++i) {
     add_agent(builder, agents.element(i));
+    refuse_what_is_not_planned(agents.element(i));
     unknown.look_at(agents.element(i), {"id", "start", "goal"});
   }
   const JsonValue tasks = root.member("tasks");
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     add_task(builder, tasks.element(i));
-    unknown.look_at(tasks.element(i), {"id", "cell", "agents"});
+    refuse_work(tasks.element(i));
+    unknown.look_at(tasks.element(i), {"id", "cell", "agents", "duration"});
   }
+}
+
+// A file that an instance names, relative to itself.
+std::filesystem::path file_named_by(const JsonValue& value, const std::filesystem::path& folder,
+                                    std::string_view what) {
+  if (value.text().empty()) value.fail_expected(fmt::format("the name of {} file", what));
+  std::filesystem::path path = folder / value.text();
+  if (!std::filesystem::is_regular_file(path))
+    value.fail(
+        fmt::format("{} '{}'; expected {}, relative to {}",
+                    std::filesystem::is_directory(path) ? "found the folder" : "there is no file",
+                    path.string(), what, folder.empty() ? "the current folder" : "this file"));
+  return path;
 }
 
 void add_row(InstanceBuilder& builder, const std::string& file, const ScenarioRow& row,
@@ -86,21 +132,22 @@ std::pair<ScenarioRow, Time> row_of(const Instance& instance, AgentIndex i,
           length};
 }
 
-OrderedJson cell_json(const Grid& grid, Cell cell) {
-  const Position p = grid.position(cell);
-  return {p.x, p.y};
+// A vertex is its id alone.
+OrderedJson stop_json(const Map& map, State state) {
+  OrderedJson json = path_entry_json(map, state);
+  return json.size() == 1 ? OrderedJson(json[0]) : json;
 }
 
 OrderedJson agent_json(const Instance& instance, const Agent& agent) {
-  OrderedJson json{{"id", agent.id}, {"start", cell_json(instance.grid(), agent.start)}};
-  if (agent.goal) json["goal"] = cell_json(instance.grid(), *agent.goal);
+  OrderedJson json{{"id", agent.id}, {"start", stop_json(instance.map(), agent.start)}};
+  if (agent.goal) json["goal"] = stop_json(instance.map(), *agent.goal);
   return json;
 }
 
 OrderedJson task_json(const Instance& instance, const Task& task) {
   OrderedJson ids = OrderedJson::array();
   for (AgentIndex agent : task.agents) ids.push_back(instance.agent(agent).id);
-  return {{"id", task.id}, {"cell", cell_json(instance.grid(), task.cell)}, {"agents", ids}};
+  return {{"id", task.id}, {"cell", stop_json(instance.map(), task.cell)}, {"agents", ids}};
 }
 
 }  // namespace
@@ -115,17 +162,15 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
   const JsonValue root = document.root();
   std::vector<std::string> warnings;
   UnknownKeys unknown(name, &warnings);
-  unknown.look_at(root, {"map", "agents", "tasks"});
+  unknown.look_at(root, {"map", "roadmap", "agents", "tasks"});
 
-  const JsonValue map = root.member("map");
-  if (map.text().empty()) map.fail_expected("the name of a map file");
-  std::filesystem::path map_path = folder / map.text();
-  if (!std::filesystem::is_regular_file(map_path))
-    map.fail(fmt::format(
-        "{} '{}'; expected a map, relative to {}",
-        std::filesystem::is_directory(map_path) ? "found the folder" : "there is no file",
-        map_path.string(), folder.empty() ? "the current folder" : "this file"));
-  InstanceBuilder builder(read_map(map_path, &warnings));
+  const auto roadmap = root.find("roadmap");
+  if (roadmap && root.find("map"))
+    root.fail("found both 'map' and 'roadmap'; expected one of them");
+  std::filesystem::path map_path = roadmap ? file_named_by(*roadmap, folder, "a roadmap")
+                                           : file_named_by(root.member("map"), folder, "a map");
+  InstanceBuilder builder(roadmap ? Map(read_roadmap(map_path, &warnings))
+                                  : Map(read_map(map_path, &warnings)));
   add_all(builder, root, unknown);
   std::optional<Instance> instance;
   at_place_of(root, [&] { instance = std::move(builder).build(); });
@@ -152,6 +197,7 @@ LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
 void write_scenario_instance(const std::filesystem::path& path, const Instance& instance,
                              const std::string& map) {
   constexpr std::string_view kFormat = "a .scen file";
+  require_grid(instance, kFormat);
   require_goals(instance, kFormat);
   require_no_tasks(instance, kFormat);
   require_default_agent_ids(instance, kFormat);
@@ -176,8 +222,11 @@ void write_instance(const std::filesystem::path& path, const Instance& instance,
   for (const Agent& agent : instance.agents()) agents.push_back(agent_json(instance, agent));
   OrderedJson tasks = OrderedJson::array();
   for (const Task& task : instance.tasks()) tasks.push_back(task_json(instance, task));
-  write_file_atomically(path, dump_by_lines({{"map", map}, {"agents", agents}, {"tasks", tasks}}),
-                        outlives);
+  write_file_atomically(
+      path,
+      dump_by_lines(
+          {{instance.is_on_grid() ? "map" : "roadmap", map}, {"agents", agents}, {"tasks", tasks}}),
+      outlives);
 }
 
 }  // namespace grove

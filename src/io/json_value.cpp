@@ -79,6 +79,16 @@ std::int64_t JsonValue::integer(std::int64_t least, std::int64_t most) const {
   return *value;
 }
 
+double JsonValue::number() const {
+  require(json_->is_number(), "a number");
+  return json_->get<double>();
+}
+
+bool JsonValue::boolean() const {
+  require(json_->is_boolean(), "true or false");
+  return json_->get<bool>();
+}
+
 std::string JsonValue::text() const {
   require(json_->is_string(), "a string");
   std::string text = json_->get<std::string>();

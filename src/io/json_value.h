@@ -35,6 +35,8 @@ class JsonValue {
   JsonValue element(std::size_t index) const;
 
   std::int64_t integer(std::int64_t least, std::int64_t most) const;
+  double number() const;
+  bool boolean() const;
   std::string text() const;
   std::vector<std::string> texts() const;
   // A cell [x, y]; both at least 0.

@@ -149,6 +149,7 @@ Instance read_libmrp_instance(const std::filesystem::path& path,
 
 void write_libmrp_instance(const std::filesystem::path& path, const Instance& instance) {
   constexpr std::string_view kFormat = "libMultiRobotPlanning's YAML";
+  require_grid(instance, kFormat);
   require_goals(instance, kFormat);
   require_no_tasks(instance, kFormat);
   std::string text = map_text(instance.grid()) + "agents:\n";
@@ -160,6 +161,7 @@ void write_libmrp_instance(const std::filesystem::path& path, const Instance& in
 
 void write_mgcbs_instance(const std::filesystem::path& path, const Instance& instance) {
   constexpr std::string_view kFormat = "MGCBS's YAML";
+  require_grid(instance, kFormat);
   require_no_goals(instance, kFormat);
   require_default_task_ids(instance, kFormat);
   std::string text = map_text(instance.grid()) + "agents:\n";

@@ -129,6 +129,7 @@ Instance read_mapfw_problem(const std::filesystem::path& path, std::vector<std::
 
 void write_mapfw_problem(const std::filesystem::path& path, const Instance& instance) {
   constexpr std::string_view kFormat = "MAPFW's JSON";
+  require_grid(instance, kFormat);
   require_goals(instance, kFormat);
   require_default_agent_ids(instance, kFormat);
   require_default_task_ids(instance, kFormat);

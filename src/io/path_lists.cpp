@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "grove/io/atomic_file.h"
+#include "grove/io/expressible.h"
 #include "grove/io/plan_export.h"
 #include "plan_steps.h"
 
@@ -11,6 +12,7 @@ namespace grove {
 
 void write_path_lists(const std::filesystem::path& path, const Instance& instance,
                       const Solution& solution) {
+  require_grid(instance, "EECBS's path lists");
   std::string text;
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     text += fmt::format("Agent {}: ", i);

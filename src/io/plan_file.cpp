@@ -12,6 +12,7 @@
 #include "grove/io/text_file.h"
 #include "json_value.h"
 #include "json_writer.h"
+#include "path_entry.h"
 
 namespace grove {
 namespace {
@@ -31,10 +32,7 @@ OrderedJson agent_json(const Instance& instance, AgentIndex index, const AgentPl
   OrderedJson sequence = OrderedJson::array();
   for (TaskIndex task : plan.sequence) sequence.push_back(instance.task(task).id);
   OrderedJson path = OrderedJson::array();
-  for (Cell cell : plan.path) {
-    const Position p = instance.grid().position(cell);
-    path.push_back({p.x, p.y});
-  }
+  for (const State state : plan.path) path.push_back(path_entry_json(instance.map(), state));
   return {{"id", instance.agent(index).id},
           {"sequence", std::move(sequence)},
           {"cost", plan.cost},
@@ -99,14 +97,6 @@ Omega read_omega(const JsonValue& value) {
   value.fail_expected("a number from 0 to 1e6 with at most 9 decimals, or \"inf\"");
 }
 
-Cell read_cell(const Grid& grid, const JsonValue& value) {
-  const Position p = value.position();
-  if (!grid.contains(p))
-    value.fail(fmt::format("cell [{}, {}] is outside the map; expected x in 0..{} and y in 0..{}",
-                           p.x, p.y, grid.width() - 1, grid.height() - 1));
-  return grid.cell(p);
-}
-
 class PlanReader {
  public:
   PlanReader(const Instance& instance, UnknownKeys& unknown)
@@ -142,7 +132,7 @@ class PlanReader {
     const JsonValue path = value.member("path");
     plan.path.reserve(path.size());
     for (std::size_t t = 0; t < path.size(); ++t)
-      plan.path.push_back(read_cell(instance_.grid(), path.element(t)));
+      plan.path.push_back(read_path_entry(instance_.map(), path.element(t)));
     return plan;
   }
 

@@ -175,6 +175,9 @@ ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Insta
                                   std::vector<std::string>* warnings) {
   const std::string content = read_text(path);
   if (is_json(content)) return {parse_solution(content, path.string(), instance, warnings), {}};
+  if (!instance.is_on_grid())
+    throw InputError(path.string(), "line 1",
+                     "expected a plan file (JSON), since the instance is on a roadmap");
   const std::vector<std::string_view> lines = split_lines(content);
   VisualizerText text;
   if (std::ranges::any_of(lines, is_path_list)) {

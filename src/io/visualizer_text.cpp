@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "grove/io/atomic_file.h"
+#include "grove/io/expressible.h"
 #include "grove/io/plan_export.h"
 #include "grove/model/distance_field.h"
 #include "plan_steps.h"
@@ -62,6 +63,7 @@ std::string head_text(const Instance& instance, const Solution& solution, const 
 
 void write_visualizer_text(const std::filesystem::path& path, const Instance& instance,
                            const Solution& solution, const std::string& map) {
+  require_grid(instance, "mapf-visualizer's text");
   const Grid& grid = instance.grid();
   const std::vector<AgentPlan>& agents = solution.plan->agents;
   std::string text = head_text(instance, solution, map);

@@ -13,7 +13,9 @@
 #include <cstdlib>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 namespace grove {
 namespace {
@@ -36,17 +38,61 @@ class Report {
   std::vector<Violation> violations_;
 };
 
-std::string name(const Grid& grid, Cell cell) {
-  const Position p = grid.position(cell);
-  return fmt::format("[{}, {}]", p.x, p.y);
-}
+// Which steps a map allows: said here from its cells or roads, not from the moves of its world.
+class Steps {
+ public:
+  explicit Steps(const Map& map) : map_(map) {
+    if (const auto* roadmap = std::get_if<Roadmap>(&map)) add_roads(*roadmap);
+  }
+
+  Place places() const {
+    return std::visit([](const auto& map) { return map.place_count(); }, map_);
+  }
+  bool is_open(Place place) const {
+    const auto* grid = std::get_if<Grid>(&map_);
+    return grid == nullptr || grid->passable(place);
+  }
+  bool allow(Place from, Place to) const {
+    const auto* grid = std::get_if<Grid>(&map_);
+    if (from == to) return true;
+    return grid ? are_neighbors(*grid, from, to) : on_roads_.contains({from, to});
+  }
+  // What is expected of one.
+  std::string_view rule() const {
+    return std::holds_alternative<Grid>(map_) ? "a wait or a move to one of 4 neighbors"
+                                              : "a wait or a step along a road in its direction";
+  }
+  std::string name(Place place) const {
+    return std::visit([&](const auto& map) { return map.name(place); }, map_);
+  }
+
+ private:
+  static bool are_neighbors(const Grid& grid, Cell from, Cell to) {
+    const Position a = grid.position(from);
+    const Position b = grid.position(to);
+    return std::abs(a.x - b.x) + std::abs(a.y - b.y) <= 1;
+  }
+  void add_roads(const Roadmap& roadmap) {
+    for (int r = 0; r < static_cast<int>(roadmap.roads().size()); ++r)
+      for (Time step = 1; step <= roadmap.roads()[r].steps; ++step) {
+        const Place before = roadmap.place_on_road(r, step - 1);
+        const Place after = roadmap.place_on_road(r, step);
+        on_roads_.emplace(before, after);
+        if (!roadmap.roads()[r].one_way) on_roads_.emplace(after, before);
+      }
+  }
+
+  const Map& map_;
+  std::set<std::pair<Place, Place>> on_roads_;
+};
 
 // One agent's path against what the agent must do.
 class AgentCheck {
  public:
-  AgentCheck(const Instance& instance, AgentIndex index, const AgentPlan& plan, Report& report)
+  AgentCheck(const Instance& instance, const Steps& steps, AgentIndex index, const AgentPlan& plan,
+             Report& report)
       : instance_(instance),
-        grid_(instance.grid()),
+        steps_(steps),
         agent_(instance.agent(index)),
         plan_(plan),
         report_(report),
@@ -79,43 +125,41 @@ class AgentCheck {
       if (!stands_well(t)) return false;
     if (plan_.path.front() != agent_.start)
       report_.add(step_place(0), "agent '{}' begins on {}; expected its start {}", agent_.id,
-                  name(grid_, plan_.path.front()), name(grid_, agent_.start));
+                  steps_.name(plan_.path.front()), steps_.name(agent_.start));
     for (std::size_t t = 1; t < plan_.path.size(); ++t) check_step(t);
     return true;
   }
 
   bool stands_well(std::size_t t) {
-    const Cell cell = plan_.path[t];
-    if (cell < 0 || cell >= grid_.cell_count()) {
+    const Place place = plan_.path[t];
+    if (place < 0 || place >= steps_.places()) {
       report_.add(step_place(t), "agent '{}' is outside the map", agent_.id);
       return false;
     }
-    if (!grid_.passable(cell))
+    if (!steps_.is_open(place))
       report_.add(step_place(t), "agent '{}' is on the blocked cell {}", agent_.id,
-                  name(grid_, cell));
+                  steps_.name(place));
     return true;
   }
 
   void check_step(std::size_t t) {
-    const Position from = grid_.position(plan_.path[t - 1]);
-    const Position to = grid_.position(plan_.path[t]);
-    if (std::abs(from.x - to.x) + std::abs(from.y - to.y) > 1)
-      report_.add(step_place(t),
-                  "agent '{}' jumps from [{}, {}] to [{}, {}]; expected a wait or a move to one of "
-                  "4 neighbors",
-                  agent_.id, from.x, from.y, to.x, to.y);
+    const Place from = plan_.path[t - 1];
+    const Place to = plan_.path[t];
+    if (!steps_.allow(from, to))
+      report_.add(step_place(t), "agent '{}' jumps from {} to {}; expected {}", agent_.id,
+                  steps_.name(from), steps_.name(to), steps_.rule());
   }
 
   void check_end() {
-    const Cell end = plan_.path.back();
+    const Place end = plan_.path.back();
     const std::string place = step_place(plan_.path.size() - 1);
     if (agent_.goal && end != *agent_.goal)
-      report_.add(place, "agent '{}' ends on {}; expected its goal {}", agent_.id, name(grid_, end),
-                  name(grid_, *agent_.goal));
+      report_.add(place, "agent '{}' ends on {}; expected its goal {}", agent_.id, steps_.name(end),
+                  steps_.name(*agent_.goal));
     const auto is_here = [&](TaskIndex task) { return instance_.task(task).cell == end; };
     if (!agent_.goal && std::ranges::none_of(agent_.tasks, is_here))
       report_.add(place, "agent '{}' ends on {}; expected one of its own tasks", agent_.id,
-                  name(grid_, end));
+                  steps_.name(end));
   }
 
   void check_visits() {
@@ -123,7 +167,7 @@ class AgentCheck {
       const Task& task = instance_.task(index);
       if (std::ranges::find(plan_.path, task.cell) == plan_.path.end())
         report_.add(place_ + "/path", "agent '{}' never visits its task '{}' on {}", agent_.id,
-                    task.id, name(grid_, task.cell));
+                    task.id, steps_.name(task.cell));
     }
   }
 
@@ -155,7 +199,7 @@ class AgentCheck {
       report_.add(fmt::format("{}/{}", place, plan_.sequence.size() - 1),
                   "agent '{}' has no goal and ends on {}; expected the last task of its sequence "
                   "there, found '{}'",
-                  agent_.id, name(grid_, plan_.path.back()), last.id);
+                  agent_.id, steps_.name(plan_.path.back()), last.id);
   }
 
   // From here on it stays for ever. All its visits lie before: later it is nowhere new.
@@ -166,7 +210,7 @@ class AgentCheck {
   }
 
   const Instance& instance_;
-  const Grid& grid_;
+  const Steps& steps_;
   const Agent& agent_;
   const AgentPlan& plan_;
   Report& report_;
@@ -176,12 +220,13 @@ class AgentCheck {
 // Moves all agents through time together. Every path must stay inside the map.
 class CollisionCheck {
  public:
-  CollisionCheck(const Instance& instance, const Plan& plan, Report& report)
+  CollisionCheck(const Instance& instance, const Steps& steps, const Plan& plan, Report& report)
       : instance_(instance),
+        steps_(steps),
         plan_(plan),
         report_(report),
-        before_(instance.grid().cell_count(), kNobody),
-        now_(instance.grid().cell_count(), kNobody) {}
+        before_(static_cast<std::size_t>(steps.places()), kNobody),
+        now_(static_cast<std::size_t>(steps.places()), kNobody) {}
 
   void run() {
     std::size_t end = 0;
@@ -201,33 +246,32 @@ class CollisionCheck {
 
   AgentIndex agent_count() const { return static_cast<AgentIndex>(plan_.agents.size()); }
 
-  Cell at(AgentIndex agent, std::size_t time) const {
+  Place at(AgentIndex agent, std::size_t time) const {
     const Path& path = plan_.agents[agent].path;
     return path[std::min(time, path.size() - 1)];
   }
 
   void enter(AgentIndex agent, std::size_t t) {
-    const Cell cell = at(agent, t);
-    const AgentIndex other = std::exchange(now_[cell], agent);
+    const Place place = at(agent, t);
+    const AgentIndex other = std::exchange(now_[place], agent);
     if (other != kNobody && is_new(vertex_pairs_, other, agent))
-      report_.add(place(agent, t), "agents '{}' and '{}' are both on {} at time {}", id(other),
-                  id(agent), name(instance_.grid(), cell), t);
+      report_.add(where(agent, t), "agents '{}' and '{}' are both on {} at time {}", id(other),
+                  id(agent), steps_.name(place), t);
   }
 
   void check_swap(AgentIndex agent, std::size_t t) {
-    const Cell from = at(agent, t - 1);
-    const Cell to = at(agent, t);
+    const Place from = at(agent, t - 1);
+    const Place to = at(agent, t);
     const AgentIndex other = before_[to];
     if (from == to || other == kNobody || other == agent || at(other, t) != from) return;
     if (is_new(edge_pairs_, other, agent))
-      report_.add(place(agent, t), "agents '{}' and '{}' swap {} and {} between times {} and {}",
-                  id(agent), id(other), name(instance_.grid(), from), name(instance_.grid(), to),
-                  t - 1, t);
+      report_.add(where(agent, t), "agents '{}' and '{}' swap {} and {} between times {} and {}",
+                  id(agent), id(other), steps_.name(from), steps_.name(to), t - 1, t);
   }
 
   const std::string& id(AgentIndex agent) const { return instance_.agent(agent).id; }
 
-  std::string place(AgentIndex agent, std::size_t t) const {
+  std::string where(AgentIndex agent, std::size_t t) const {
     return fmt::format("/agents/{}/path/{}", agent,
                        std::min(t, plan_.agents[agent].path.size() - 1));
   }
@@ -239,19 +283,21 @@ class CollisionCheck {
   }
 
   const Instance& instance_;
+  const Steps& steps_;
   const Plan& plan_;
   Report& report_;
-  std::vector<AgentIndex> before_;  // by cell: an agent that was there at time t - 1
+  std::vector<AgentIndex> before_;  // by place: an agent that was there at time t - 1
   std::vector<AgentIndex> now_;
   Pairs vertex_pairs_;
   Pairs edge_pairs_;
 };
 
 // The cost that the paths add up to; none when a path cannot be followed.
-std::optional<Cost> check_agents(const Instance& instance, const Plan& plan, Report& report) {
+std::optional<Cost> check_agents(const Instance& instance, const Steps& steps, const Plan& plan,
+                                 Report& report) {
   std::optional<Cost> total = 0;
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
-    const auto finish = AgentCheck(instance, i, plan.agents[i], report).run();
+    const auto finish = AgentCheck(instance, steps, i, plan.agents[i], report).run();
     if (!finish) total.reset();
     if (total) *total += *finish;
   }
@@ -297,8 +343,9 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
                instance.agent_count());
     return report.take();
   }
-  if (const auto cost = check_agents(instance, plan, report)) {
-    CollisionCheck(instance, plan, report).run();
+  const Steps steps(instance.map());
+  if (const auto cost = check_agents(instance, steps, plan, report)) {
+    CollisionCheck(instance, steps, plan, report).run();
     check_claims(solution, *cost, report);
   }
   return report.take();

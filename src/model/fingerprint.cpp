@@ -19,20 +19,33 @@ class Fnv1a {
   std::uint64_t hash_ = 0xCBF29CE484222325;
 };
 
-}  // namespace
-
-std::uint64_t fingerprint(const Instance& instance) {
-  const Grid& grid = instance.grid();
-  Fnv1a hash;
+void add(const Grid& grid, Fnv1a& hash) {
   hash.add(grid.width());
   hash.add(grid.height());
   for (Cell cell = 0; cell < grid.cell_count(); ++cell) hash.add(grid.passable(cell) ? 1 : 0);
+}
+
+void add(const Roadmap& roadmap, Fnv1a& hash) {
+  hash.add(static_cast<std::int64_t>(roadmap.vertices().size()));
+  for (const Road& road : roadmap.roads()) {
+    hash.add(road.from);
+    hash.add(road.to);
+    hash.add(road.steps);
+    hash.add(road.one_way ? 1 : 0);
+  }
+}
+
+}  // namespace
+
+std::uint64_t fingerprint(const Instance& instance) {
+  Fnv1a hash;
+  std::visit([&](const auto& map) { add(map, hash); }, instance.map());
   hash.add(instance.task_count());
   for (const Task& task : instance.tasks()) hash.add(task.cell);
   hash.add(instance.agent_count());
   for (const Agent& agent : instance.agents()) {
     hash.add(agent.start);
-    hash.add(agent.goal.value_or(kNoCell));
+    hash.add(agent.goal.value_or(kNoPlace));
     hash.add(static_cast<std::int64_t>(agent.tasks.size()));
     for (const TaskIndex task : agent.tasks) hash.add(task);
   }

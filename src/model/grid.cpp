@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "grove/model/grid.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -42,5 +44,10 @@ Grid::Grid(int width, int height, const std::vector<bool>& passable)
       height_(height),
       passable_count_(static_cast<int>(std::ranges::count(passable, true))),
       passable_(passable.begin(), passable.end()) {}
+
+std::string Grid::name(State state) const {
+  const Position p = position(place(state));
+  return fmt::format("[{}, {}]", p.x, p.y);
+}
 
 }  // namespace grove

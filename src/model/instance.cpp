@@ -17,7 +17,15 @@ void require_new_id(const std::string& id, bool is_new) {
 
 }  // namespace
 
-InstanceBuilder::InstanceBuilder(Grid grid) : instance_(std::move(grid)) {}
+Instance::Instance(Map map)
+    : map_(std::make_shared<const Map>(std::move(map))),
+      world_(std::visit([](const auto& m) -> const World* { return &m; }, *map_)) {}
+
+InstanceBuilder::InstanceBuilder(Map map) : instance_(std::move(map)) {}
+
+std::string InstanceBuilder::name(Place place) const {
+  return (instance_.is_on_grid() ? "cell " : "place ") + instance_.world().name(place);
+}
 
 Cell InstanceBuilder::passable_cell(const std::string& field, Position p) const {
   const Grid& grid = instance_.grid();
@@ -36,25 +44,29 @@ Cell InstanceBuilder::passable_cell(const std::string& field, Position p) const 
 AgentIndex InstanceBuilder::add_agent(std::string id, Position start,
                                       std::optional<Position> goal) {
   require_new_id(id, !agent_by_id_.contains(id));
-  Agent agent{std::move(id), passable_cell("start", start), std::nullopt, {}};
-  if (goal) agent.goal = passable_cell("goal", *goal);
+  const Cell from = passable_cell("start", start);
+  const auto to = goal ? std::optional(passable_cell("goal", *goal)) : std::nullopt;
+  return add_agent(std::move(id), from, to);
+}
 
-  if (const auto it = agent_by_start_.find(agent.start); it != agent_by_start_.end())
-    throw InstanceError("start",
-                        fmt::format("cell [{}, {}] is already the start of agent '{}'; expected "
-                                    "distinct starts",
-                                    start.x, start.y, instance_.agent(it->second).id));
-  if (agent.goal) {
-    if (const auto it = agent_by_goal_.find(*agent.goal); it != agent_by_goal_.end())
-      throw InstanceError("goal",
-                          fmt::format("cell [{}, {}] is already the goal of agent '{}'; expected "
-                                      "distinct goals",
-                                      goal->x, goal->y, instance_.agent(it->second).id));
+AgentIndex InstanceBuilder::add_agent(std::string id, State start, std::optional<Place> goal) {
+  require_new_id(id, !agent_by_id_.contains(id));
+  Agent agent{std::move(id), start, goal, {}};
+  const Place from = instance_.world().place(start);
+  if (const auto it = agent_by_start_.find(from); it != agent_by_start_.end())
+    throw InstanceError(
+        "start", fmt::format("{} is already the start of agent '{}'; expected distinct starts",
+                             name(from), instance_.agent(it->second).id));
+  if (goal) {
+    if (const auto it = agent_by_goal_.find(*goal); it != agent_by_goal_.end())
+      throw InstanceError(
+          "goal", fmt::format("{} is already the goal of agent '{}'; expected distinct goals",
+                              name(*goal), instance_.agent(it->second).id));
   }
 
   const auto index = static_cast<AgentIndex>(instance_.agents_.size());
   agent_by_id_.emplace(agent.id, index);
-  agent_by_start_.emplace(agent.start, index);
+  agent_by_start_.emplace(from, index);
   if (agent.goal) agent_by_goal_.emplace(*agent.goal, index);
   instance_.agents_.push_back(std::move(agent));
   return index;
@@ -63,12 +75,19 @@ AgentIndex InstanceBuilder::add_agent(std::string id, Position start,
 TaskIndex InstanceBuilder::add_task(std::string id, Position cell,
                                     std::span<const std::string> agent_ids) {
   require_new_id(id, !task_by_id_.contains(id));
-  Task task{std::move(id), passable_cell("cell", cell), {}};
-  if (const auto it = task_by_cell_.find(task.cell); it != task_by_cell_.end())
-    throw InstanceError(
-        "cell", fmt::format("cell [{}, {}] is already task '{}'; expected one task per cell, "
-                            "with all its agents",
-                            cell.x, cell.y, instance_.task(it->second).id));
+  const Cell place = passable_cell("cell", cell);
+  return add_task(std::move(id), place, agent_ids);
+}
+
+TaskIndex InstanceBuilder::add_task(std::string id, Place place,
+                                    std::span<const std::string> agent_ids) {
+  require_new_id(id, !task_by_id_.contains(id));
+  Task task{std::move(id), place, {}};
+  if (const auto it = task_by_place_.find(place); it != task_by_place_.end())
+    throw InstanceError("cell", fmt::format("{} is already task '{}'; expected one task per {}, "
+                                            "with all its agents",
+                                            name(place), instance_.task(it->second).id,
+                                            instance_.is_on_grid() ? "cell" : "place"));
   if (agent_ids.empty()) throw InstanceError("agents", "expected at least one agent");
 
   for (std::size_t k = 0; k < agent_ids.size(); ++k) {
@@ -91,7 +110,7 @@ TaskIndex InstanceBuilder::add_task(std::string id, Position cell,
   const auto index = static_cast<TaskIndex>(instance_.tasks_.size());
   for (AgentIndex agent : task.agents) instance_.agents_[agent].tasks.push_back(index);
   task_by_id_.emplace(task.id, index);
-  task_by_cell_.emplace(task.cell, index);
+  task_by_place_.emplace(task.cell, index);
   instance_.tasks_.push_back(std::move(task));
   return index;
 }

@@ -56,9 +56,8 @@ bool Limits::stop_requested() const {
 }
 
 double Limits::seconds_left() const {
-  const double left =
-      deadline_ ? std::chrono::duration<double>(*deadline_ - Clock::now()).count()
-                : std::numeric_limits<double>::infinity();
+  const double left = deadline_ ? std::chrono::duration<double>(*deadline_ - Clock::now()).count()
+                                : std::numeric_limits<double>::infinity();
   return whole_ ? std::min(left, whole_->seconds_left()) : left;
 }
 

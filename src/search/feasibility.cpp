@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Three arguments, each a proof that there is no plan:
+// Four arguments, each a proof that there is no plan:
 //
-// Reach. An agent cannot visit or rest on a cell of another connected component.
+// Reach. An agent cannot visit or rest on a place to which there is no way from its start.
+//
+// Order. Of two places that an agent must visit one comes first, and from there is a way to the
+// other; from all of them there is one to its destination. (Where every step can be undone that
+// follows from reach. If it holds of all pairs, there is an order in which the agent, alone, can
+// visit all: the places in an order of "is there a way to".)
 //
 // Rest. Agents rest on different cells for ever: a CTS agent on its destination, an MG agent on one
 // of its own tasks. If the bipartite graph of agents and cells to rest on has no matching that
@@ -22,11 +27,6 @@
 namespace grove {
 namespace {
 
-std::string name(const Grid& grid, Cell cell) {
-  const Position p = grid.position(cell);
-  return fmt::format("[{}, {}]", p.x, p.y);
-}
-
 // The cells that an agent must stand on at some time, its start aside.
 std::vector<Cell> required_cells(const Instance& instance, const Agent& agent) {
   std::vector<Cell> cells;
@@ -40,7 +40,33 @@ std::optional<std::string> unreachable_cell(const Problem& problem) {
     for (Cell cell : required_cells(problem.instance, agent))
       if (problem.distances.to(cell)[agent.start] == kNever)
         return fmt::format("agent '{}' cannot reach cell {}: there is no way from its start",
-                           agent.id, name(problem.instance.grid(), cell));
+                           agent.id, problem.instance.world().name(cell));
+  return std::nullopt;
+}
+
+std::optional<std::string> no_order(const Problem& problem, const Agent& agent) {
+  const World& world = problem.instance.world();
+  const auto leads = [&](Place from, Place to) { return problem.distances.to(to)[from] < kNever; };
+  for (TaskIndex a : agent.tasks) {
+    const Place here = problem.instance.task(a).cell;
+    for (TaskIndex b : agent.tasks)
+      if (const Place there = problem.instance.task(b).cell;
+          !leads(here, there) && !leads(there, here))
+        return fmt::format(
+            "agent '{}' cannot visit both {} and {}: no way leads from one to the "
+            "other",
+            agent.id, world.name(here), world.name(there));
+    if (agent.goal && !leads(here, *agent.goal))
+      return fmt::format("agent '{}' cannot go on from {} to its goal {}: there is no way",
+                         agent.id, world.name(here), world.name(*agent.goal));
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> agent_without_an_order(const Problem& problem) {
+  if (problem.instance.world().is_plain()) return std::nullopt;
+  for (const Agent& agent : problem.instance.agents())
+    if (auto reason = no_order(problem, agent)) return reason;
   return std::nullopt;
 }
 
@@ -119,7 +145,7 @@ std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Pl
     for (Cell cell : required_cells(instance, agent))
       if (place[cell] < r || place[cell] > length - (count - r))
         return fmt::format("agent '{}' cannot get to cell {}: other agents fill the corridor",
-                           agent.id, name(instance.grid(), cell));
+                           agent.id, instance.world().name(cell));
     if (!agent.goal) continue;
     if (place[*agent.goal] < last_goal)
       return fmt::format("agent '{}' would have to pass another agent in a corridor", agent.id);
@@ -143,6 +169,7 @@ std::optional<std::string> stuck_in_a_corridor(const Problem& problem) {
 
 std::optional<std::string> evident_infeasibility(const Problem& problem) {
   if (auto reason = unreachable_cell(problem)) return reason;
+  if (auto reason = agent_without_an_order(problem)) return reason;
   if (auto reason = no_room_to_rest(problem)) return reason;
   return stuck_in_a_corridor(problem);
 }

@@ -14,10 +14,14 @@ namespace {
 
 constexpr std::chrono::seconds kShrinkingTime{60};
 
-std::string kind_of(const TinyInstance& instance) {
+std::string problem_of(const TinyInstance& instance) {
   const auto mg = std::ranges::count_if(instance.agents, [](const auto& a) { return !a.goal; });
   if (mg == 0) return instance.tasks.empty() ? "MAPF" : "CTS";
   return mg == std::ssize(instance.agents) ? "MG" : "mixed";
+}
+
+std::string kind_of(const TinyInstance& instance) {
+  return problem_of(instance) + (instance.roads.empty() ? "" : " on roads");
 }
 
 std::string counts(const std::map<std::string, std::int64_t>& of) {

@@ -71,7 +71,7 @@ class RealizedSequences {
 bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
                std::span<const Constraint> constraints, const Path& path) {
   const auto obeys = [&](const Constraint& c) {
-    return is_about_sequence(c) || testing::obeys(instance.grid(), path, c);
+    return is_about_sequence(c) || testing::obeys(instance.world(), path, c);
   };
   return std::ranges::all_of(constraints, obeys) &&
          RealizedSequences(instance, agent, sequences, constraints, path).any();

@@ -14,36 +14,20 @@ namespace {
 constexpr double kMaxJointMoves = 2e7;
 constexpr int kMaxTasksEach = 4;
 
-std::vector<Position> passable_cells(const std::vector<std::string>& rows) {
-  std::vector<Position> cells;
-  for (int y = 0; y < static_cast<int>(rows.size()); ++y)
-    for (int x = 0; x < static_cast<int>(rows[y].size()); ++x)
-      if (rows[y][x] == '.') cells.push_back({x, y});
-  return cells;
-}
-
 bool adjacent(Position p, Position q) {
   return std::abs(p.x - q.x) + std::abs(p.y - q.y) == 1;
 }
 
-// `cells` that can be reached from `from`.
-std::vector<Position> component(const std::vector<Position>& cells, Position from) {
-  std::vector<Position> found{from};
-  for (std::size_t head = 0; head < found.size(); ++head) {
-    for (Position p : cells) {
-      if (adjacent(p, found[head]) && std::ranges::count(found, p) == 0) found.push_back(p);
-    }
-  }
-  return found;
-}
-
 class Maker {
  public:
-  Maker(std::uint64_t seed, int agents) : random_(seed), wanted_agents_(agents) {}
+  Maker(std::uint64_t seed, int agents, bool roads)
+      : random_(seed), wanted_agents_(agents), roads_(roads) {}
 
   TinyInstance make() {
     instance_.rows = random_map(static_cast<Shape>(random_.below(kShapeCount)), random_);
     cells_ = passable_cells(instance_.rows);
+    places_ = static_cast<int>(cells_.size());
+    if (roads_) add_roads();
     place_agents();
     // Most instances are played out first, one move at a time, so that there is a plan.
     if (random_.percent(70))
@@ -56,6 +40,39 @@ class Maker {
   }
 
  private:
+  // Roads instead of neighborhood: some long, some one way, some twice or missing, and now and then
+  // one to anywhere.
+  void add_roads() {
+    for (const Position p : cells_)
+      for (const Position q : cells_)
+        if (adjacent(p, q) && (p.x < q.x || p.y < q.y) && !random_.percent(4)) add_road(p, q);
+    for (int more = random_.below(3); more > 0; --more)
+      add_road(random_.pick(cells_), random_.pick(cells_));
+  }
+
+  void add_road(Position p, Position q) {
+    if (random_.percent(50)) std::swap(p, q);
+    const Time steps = random_.percent(65) ? 1 : random_.between(2, 4);
+    instance_.roads.push_back({p, q, steps, random_.percent(20)});
+    places_ += steps - 1;
+  }
+
+  bool joined(Position from, Position to) const {
+    if (!roads_) return adjacent(from, to);
+    return std::ranges::any_of(instance_.roads, [&](const TinyInstance::Road& r) {
+      return (r.from == from && r.to == to) || (!r.one_way && r.from == to && r.to == from);
+    });
+  }
+
+  // The cells that can be reached from `from`.
+  std::vector<Position> component(Position from) const {
+    std::vector<Position> found{from};
+    for (std::size_t head = 0; head < found.size(); ++head)
+      for (Position p : cells_)
+        if (joined(found[head], p) && std::ranges::count(found, p) == 0) found.push_back(p);
+    return found;
+  }
+
   int agent_count() {
     if (wanted_agents_ > 0) return wanted_agents_;
     const int dice = random_.below(100);
@@ -78,7 +95,7 @@ class Maker {
     for (int moves = random_.between(5, 150) * agents; moves > 0; --moves) {
       const int a = random_.below(agents);
       const Position to = random_.pick(cells_);
-      if (!adjacent(to, *instance_.agents[a].goal) || is_goal(to)) continue;
+      if (!joined(*instance_.agents[a].goal, to) || is_goal(to)) continue;
       instance_.agents[a].goal = to;
       reach_[a].push_back(to);
     }
@@ -90,7 +107,7 @@ class Maker {
     for (auto& agent : instance_.agents) agent.goal.reset();
     for (std::size_t a = 0; a < instance_.agents.size(); ++a) {
       auto& agent = instance_.agents[a];
-      reach_[a] = everywhere ? cells_ : component(cells_, agent.start);
+      reach_[a] = everywhere ? cells_ : component(agent.start);
       std::vector<Position> free = reach_[a];
       std::erase_if(free, [&](Position p) { return is_goal(p); });
       if (!free.empty()) agent.goal = random_.pick(free);
@@ -126,7 +143,7 @@ class Maker {
     double moves = 1;
     int tasks = 1;
     for (std::size_t a = 0; a < instance_.agents.size(); ++a) {
-      moves *= 4 * (static_cast<double>(cells_.size()) - static_cast<double>(a));
+      moves *= 4 * (places_ - static_cast<double>(a));
       tasks += tasks_of_[a];
     }
     return tasks_of_[agent] < kMaxTasksEach && std::ldexp(moves, tasks) <= kMaxJointMoves;
@@ -154,7 +171,9 @@ class Maker {
 
   Random random_;
   int wanted_agents_;
+  bool roads_;
   TinyInstance instance_;
+  int places_ = 0;
   std::vector<Position> cells_;
   std::vector<std::vector<Position>> reach_;  // where an agent's tasks may lie
   std::vector<int> tasks_of_;                 // how many, by agent
@@ -163,11 +182,15 @@ class Maker {
 }  // namespace
 
 TinyInstance random_instance(std::uint64_t seed) {
-  return Maker(seed, 0).make();
+  return Maker(seed, 0, false).make();
 }
 
 TinyInstance random_instance(std::uint64_t seed, int agents) {
-  return Maker(seed, agents).make();
+  return Maker(seed, agents, false).make();
+}
+
+TinyInstance random_roads(std::uint64_t seed) {
+  return Maker(seed, 0, true).make();
 }
 
 }  // namespace grove::fuzz

@@ -14,4 +14,7 @@ TinyInstance random_instance(std::uint64_t seed);
 // The same with exactly `agents` agents, if the map has room for them.
 TinyInstance random_instance(std::uint64_t seed, int agents);
 
+// On a roadmap: roads of several lengths, some one way, some twice.
+TinyInstance random_roads(std::uint64_t seed);
+
 }  // namespace grove::fuzz

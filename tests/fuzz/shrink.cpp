@@ -37,12 +37,25 @@ void move_all(TinyInstance& instance, const std::function<void(Position&)>& move
     if (agent.goal) move(*agent.goal);
   }
   for (auto& task : instance.tasks) move(task.cell);
+  for (auto& road : instance.roads) {
+    move(road.from);
+    move(road.to);
+  }
+}
+
+// What is left of the roads when these cells are gone. False: none, though there were some.
+bool drop_roads(TinyInstance& instance, const std::function<bool(Position)>& is_gone) {
+  if (instance.roads.empty()) return true;
+  std::erase_if(instance.roads,
+                [&](const auto& road) { return is_gone(road.from) || is_gone(road.to); });
+  return !instance.roads.empty();
 }
 
 // None when something lies in the row.
 std::optional<TinyInstance> without_row(TinyInstance instance, int row) {
   for (int x = 0; x < static_cast<int>(instance.rows[row].size()); ++x)
     if (in_use(instance, {x, row})) return std::nullopt;
+  if (!drop_roads(instance, [row](Position p) { return p.y == row; })) return std::nullopt;
   instance.rows.erase(instance.rows.begin() + row);
   move_all(instance, [row](Position& p) { p.y -= p.y > row; });
   return instance;
@@ -51,6 +64,7 @@ std::optional<TinyInstance> without_row(TinyInstance instance, int row) {
 std::optional<TinyInstance> without_column(TinyInstance instance, int column) {
   for (int y = 0; y < static_cast<int>(instance.rows.size()); ++y)
     if (in_use(instance, {column, y})) return std::nullopt;
+  if (!drop_roads(instance, [column](Position p) { return p.x == column; })) return std::nullopt;
   for (auto& row : instance.rows) row.erase(row.begin() + column);
   move_all(instance, [column](Position& p) { p.x -= p.x > column; });
   return instance;
@@ -64,6 +78,7 @@ class Steps {
     drop_agents();
     drop_tasks();
     drop_rows_and_columns();
+    simplify_roads();
     plainer_options();
     block_cells();
     return std::move(cases_);
@@ -106,6 +121,20 @@ class Steps {
       offer(without_column(from_.instance, x));
   }
 
+  void simplify_roads() {
+    const auto& roads = from_.instance.roads;
+    for (std::size_t r = 0; r < roads.size(); ++r) {
+      TinyInstance fewer = from_.instance;
+      fewer.roads.erase(fewer.roads.begin() + static_cast<std::ptrdiff_t>(r));
+      if (!fewer.roads.empty()) offer(std::move(fewer));
+      const TinyInstance::Road plain{roads[r].from, roads[r].to, 1, false};
+      if (roads[r] == plain) continue;
+      TinyInstance plainer = from_.instance;
+      plainer.roads[r] = plain;
+      offer(std::move(plainer));
+    }
+  }
+
   template <typename T>
   void plainer(T& (*option)(FuzzCase&), T plain) {
     FuzzCase candidate = from_;
@@ -140,7 +169,8 @@ class Steps {
         if (rows[y][x] != '.' || in_use(from_.instance, {x, y})) continue;
         TinyInstance blocked = from_.instance;
         blocked.rows[y][x] = '@';
-        offer(std::move(blocked));
+        if (drop_roads(blocked, [&](Position p) { return p == Position{x, y}; }))
+          offer(std::move(blocked));
       }
     }
   }

@@ -22,6 +22,46 @@ Grid grid_of(const std::vector<std::string>& rows) {
   return Grid(static_cast<int>(rows[0].size()), static_cast<int>(rows.size()), passable);
 }
 
+std::string vertex_id(Position p) {
+  return fmt::format("{},{}", p.x, p.y);
+}
+
+Roadmap roadmap_of(const TinyInstance& tiny) {
+  const std::vector<Position> cells = passable_cells(tiny.rows);
+  std::vector<Vertex> vertices;
+  for (const Position p : cells)
+    vertices.push_back({vertex_id(p), {static_cast<double>(p.x), static_cast<double>(p.y)}});
+  const auto vertex = [&](Position p) {
+    return static_cast<int>(std::ranges::find(cells, p) - cells.begin());
+  };
+  std::vector<Road> roads;
+  for (const TinyInstance::Road& road : tiny.roads)
+    roads.push_back({vertex(road.from), vertex(road.to), road.steps, road.one_way});
+  return Roadmap(std::move(vertices), std::move(roads));
+}
+
+Place vertex_at(const Roadmap& roadmap, Position p) {
+  const auto vertex = roadmap.vertex(vertex_id(p));
+  if (!vertex) throw std::invalid_argument("not a vertex");
+  return roadmap.place_of_vertex(*vertex);
+}
+
+Instance build_on_roads(const TinyInstance& tiny) {
+  InstanceBuilder builder(roadmap_of(tiny));
+  const Roadmap& roadmap = *builder.roadmap();
+  for (std::size_t a = 0; a < tiny.agents.size(); ++a) {
+    const TinyInstance::Agent& agent = tiny.agents[a];
+    const auto goal = agent.goal ? std::optional(vertex_at(roadmap, *agent.goal)) : std::nullopt;
+    builder.add_agent(fmt::format("a{}", a), vertex_at(roadmap, agent.start), goal);
+  }
+  for (std::size_t t = 0; t < tiny.tasks.size(); ++t) {
+    std::vector<std::string> ids;
+    for (int agent : tiny.tasks[t].agents) ids.push_back(fmt::format("a{}", agent));
+    builder.add_task(fmt::format("t{}", t), vertex_at(roadmap, tiny.tasks[t].cell), ids);
+  }
+  return std::move(builder).build();
+}
+
 // Reads `x,y`, leaving the stream behind it.
 Position read_position(std::istream& in) {
   Position p;
@@ -52,6 +92,18 @@ TinyInstance::Task read_task(std::istream& in) {
   return task;
 }
 
+TinyInstance::Road read_road(std::istream& in) {
+  TinyInstance::Road road;
+  road.from = read_position(in);
+  char sign = 0;
+  in >> sign;
+  if (sign != '=' && sign != '>') throw std::invalid_argument("expected = or >");
+  road.one_way = sign == '>';
+  road.to = read_position(in);
+  if (!(in >> road.steps)) throw std::invalid_argument("expected steps");
+  return road;
+}
+
 std::string read_row(std::istream& in) {
   std::string row;
   in >> row;
@@ -61,26 +113,37 @@ std::string read_row(std::istream& in) {
 }
 
 void read_line(const std::string& line, std::string& section, TinyInstance& instance) {
-  if (line == "map" || line == "agents" || line == "tasks") {
+  if (line == "map" || line == "roads" || line == "agents" || line == "tasks") {
     section = line;
     return;
   }
   std::istringstream in(line);
   if (section == "map")
     instance.rows.push_back(read_row(in));
+  else if (section == "roads")
+    instance.roads.push_back(read_road(in));
   else if (section == "agents")
     instance.agents.push_back(read_agent(in));
   else if (section == "tasks")
     instance.tasks.push_back(read_task(in));
   else
-    throw std::invalid_argument("expected 'map', 'agents' or 'tasks'");
+    throw std::invalid_argument("expected 'map', 'roads', 'agents' or 'tasks'");
   std::string rest;
   if (in >> rest) throw std::invalid_argument(fmt::format("did not expect '{}'", rest));
 }
 
 }  // namespace
 
+std::vector<Position> passable_cells(const std::vector<std::string>& rows) {
+  std::vector<Position> cells;
+  for (int y = 0; y < static_cast<int>(rows.size()); ++y)
+    for (int x = 0; x < static_cast<int>(rows[y].size()); ++x)
+      if (rows[y][x] == '.') cells.push_back({x, y});
+  return cells;
+}
+
 Instance TinyInstance::build() const {
+  if (!roads.empty()) return build_on_roads(*this);
   InstanceBuilder builder(grid_of(rows));
   for (std::size_t a = 0; a < agents.size(); ++a)
     builder.add_agent(fmt::format("a{}", a), agents[a].start, agents[a].goal);
@@ -93,7 +156,12 @@ Instance TinyInstance::build() const {
 }
 
 std::string TinyInstance::to_text() const {
-  std::string text = fmt::format("map\n{}\nagents\n", fmt::join(rows, "\n"));
+  std::string text = fmt::format("map\n{}\n", fmt::join(rows, "\n"));
+  if (!roads.empty()) text += "roads\n";
+  for (const Road& road : roads)
+    text += fmt::format("{},{} {} {},{} {}\n", road.from.x, road.from.y, road.one_way ? '>' : '=',
+                        road.to.x, road.to.y, road.steps);
+  text += "agents\n";
   for (const Agent& agent : agents) {
     text += fmt::format("{},{} -> ", agent.start.x, agent.start.y);
     text += agent.goal ? fmt::format("{},{}\n", agent.goal->x, agent.goal->y) : "-\n";

@@ -23,6 +23,12 @@ namespace grove::fuzz {
 //     3,0 -> -       (an MG agent)
 //     tasks
 //     2,0: 0 1       (cell: the agents that must visit it)
+//
+// With roads the passable cells are the vertices of a roadmap, and nothing else joins them:
+//
+//     roads
+//     0,0 = 1,0 3    (in 3 steps, both ways)
+//     1,0 > 2,0 1    (one way)
 struct TinyInstance {
   struct Agent {
     Position start;
@@ -35,7 +41,16 @@ struct TinyInstance {
     friend bool operator==(const Task&, const Task&) = default;
   };
 
+  struct Road {
+    Position from;
+    Position to;
+    Time steps = 1;
+    bool one_way = false;
+    friend bool operator==(const Road&, const Road&) = default;
+  };
+
   std::vector<std::string> rows;  // '.' passable, '@' blocked
+  std::vector<Road> roads;        // empty: a grid
   std::vector<Agent> agents;
   std::vector<Task> tasks;
 
@@ -47,6 +62,9 @@ struct TinyInstance {
 
   friend bool operator==(const TinyInstance&, const TinyInstance&) = default;
 };
+
+// The passable cells, row by row.
+std::vector<Position> passable_cells(const std::vector<std::string>& rows);
 
 // Is some agent's start, destination or task on `p`?
 bool in_use(const TinyInstance& instance, Position p);

@@ -28,7 +28,9 @@ class AgentStates {
   // At time 0; a task on the start is visited already.
   State start() const { return start_; }
   const std::vector<Move>& moves(State s) const { return moves_[s]; }
-  Cell cell(State s) const { return passable_[static_cast<std::size_t>(s / 2) % passable_.size()]; }
+  Place cell(State s) const {
+    return passable_[static_cast<std::size_t>(s / 2) % passable_.size()];
+  }
   // Which of Agent::tasks are visited, as bits.
   std::uint64_t visited(State s) const {
     return static_cast<std::size_t>(s / 2) / passable_.size();
@@ -42,14 +44,14 @@ class AgentStates {
 
  private:
   State state(std::size_t cell_index, std::uint64_t visited, bool resting) const;
-  std::uint64_t visit(std::uint64_t visited, Cell cell) const;
-  bool may_rest(Cell cell, std::uint64_t visited) const;
-  void connect(const Grid& grid);
+  std::uint64_t visit(std::uint64_t visited, Place cell) const;
+  bool may_rest(Place cell, std::uint64_t visited) const;
+  void connect(const Map& map);
   void settle_costs();
 
-  std::vector<Cell> passable_;
-  std::vector<Cell> task_cells_;
-  std::optional<Cell> goal_;
+  std::vector<Place> passable_;
+  std::vector<Place> task_cells_;
+  std::optional<Place> goal_;
   State start_ = 0;
   std::vector<std::vector<Move>> moves_;
   std::vector<Time> to_go_;

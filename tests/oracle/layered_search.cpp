@@ -12,16 +12,18 @@
 #include <utility>
 #include <vector>
 
+#include "tests/oracle/steps.h"
+
 namespace grove::oracle {
 namespace {
 
 struct Walker {
-  Cell cell;
-  std::set<Cell> to_visit;
+  Place cell;
+  std::set<Place> to_visit;
   auto operator<=>(const Walker&) const = default;
 };
 
-void arrive(Walker& walker, Cell cell) {
+void arrive(Walker& walker, Place cell) {
   walker.cell = cell;
   walker.to_visit.erase(cell);
 }
@@ -34,9 +36,11 @@ bool is_home(const Instance& instance, AgentIndex agent, const Walker& walker) {
   });
 }
 
-std::vector<Walker> steps(const Instance& instance, const Walker& walker) {
+using Steps = std::vector<std::vector<Place>>;
+
+std::vector<Walker> steps(const Steps& map, const Walker& walker) {
   std::vector<Walker> next{walker};
-  for (Cell cell : instance.grid().neighbors(walker.cell)) {
+  for (Place cell : map[walker.cell]) {
     next.push_back(walker);
     arrive(next.back(), cell);
   }
@@ -44,7 +48,7 @@ std::vector<Walker> steps(const Instance& instance, const Walker& walker) {
 }
 
 Walker at_start(const Instance& instance, AgentIndex agent) {
-  Walker walker{kNoCell, {}};
+  Walker walker{kNoPlace, {}};
   for (TaskIndex task : instance.agent(agent).tasks)
     walker.to_visit.insert(instance.task(task).cell);
   arrive(walker, instance.agent(agent).start);
@@ -52,15 +56,15 @@ Walker at_start(const Instance& instance, AgentIndex agent) {
 }
 
 // Steps until `walker` is home, with `wall` blocked for good; none when it cannot be.
-std::optional<Cost> way_home(const Instance& instance, AgentIndex agent, const Walker& walker,
-                             Cell wall) {
+std::optional<Cost> way_home(const Instance& instance, const Steps& map, AgentIndex agent,
+                             const Walker& walker, Place wall) {
   std::set<Walker> seen{walker};
   std::vector<Walker> layer{walker};
   for (Cost time = 0; !layer.empty(); ++time) {
     std::vector<Walker> next_layer;
     for (const Walker& now : layer) {
       if (is_home(instance, agent, now)) return time;
-      for (const Walker& next : steps(instance, now))
+      for (const Walker& next : steps(map, now))
         if (next.cell != wall && seen.insert(next).second) next_layer.push_back(next);
     }
     layer = std::move(next_layer);
@@ -76,11 +80,12 @@ bool collide(const Pair& from, const Pair& to) {
 }
 
 // The least cost from `pair` on when one of the two rests there at once.
-std::optional<Cost> cost_after_first_rest(const Instance& instance, const Pair& pair) {
+std::optional<Cost> cost_after_first_rest(const Instance& instance, const Steps& map,
+                                          const Pair& pair) {
   std::optional<Cost> best;
   const auto consider = [&](AgentIndex rests, const Walker& resting, const Walker& moving) {
     if (!is_home(instance, rests, resting)) return;
-    const auto cost = way_home(instance, 1 - rests, moving, resting.cell);
+    const auto cost = way_home(instance, map, 1 - rests, moving, resting.cell);
     if (cost && (!best || *cost < *best)) best = cost;
   };
   consider(0, pair.first, pair.second);
@@ -91,6 +96,7 @@ std::optional<Cost> cost_after_first_rest(const Instance& instance, const Pair& 
 }  // namespace
 
 std::optional<Cost> solve_two_agents(const Instance& instance) {
+  const Steps map = steps_on(instance.map());
   const Pair start{at_start(instance, 0), at_start(instance, 1)};
   std::set<Pair> seen{start};
   std::vector<Pair> layer{start};
@@ -98,10 +104,10 @@ std::optional<Cost> solve_two_agents(const Instance& instance) {
   for (Cost time = 0; !layer.empty(); ++time) {
     std::vector<Pair> next_layer;
     for (const Pair& now : layer) {
-      const auto rest = cost_after_first_rest(instance, now);
+      const auto rest = cost_after_first_rest(instance, map, now);
       if (rest && (!best || 2 * time + *rest < *best)) best = 2 * time + *rest;
-      for (const Walker& first : steps(instance, now.first))
-        for (const Walker& second : steps(instance, now.second))
+      for (const Walker& first : steps(map, now.first))
+        for (const Walker& second : steps(map, now.second))
           if (const Pair next{first, second}; !collide(now, next) && seen.insert(next).second)
             next_layer.push_back(next);
     }

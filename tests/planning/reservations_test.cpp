@@ -39,7 +39,8 @@ std::vector<StayIs> stays_of(const Reservations& reservations, Cell cell) {
 }
 
 TEST(Reservations, HoldTheStaysOfPathsInOrderOfTime) {
-  Reservations reservations(testing::grid_of({"....", "...."}));
+  const Grid grid = testing::grid_of({"....", "...."});
+  Reservations reservations(grid);
   reservations.add(7, {4, 0, 0, 1, 0});
   reservations.add(3, {0, 1, 2, 3, 7});
   EXPECT_EQ(stays_of(reservations, 0),

@@ -21,6 +21,7 @@ class FrontierTest : public ::testing::Test {
     Path path{0};
     for (Time t = 0; t < bound; ++t) path.push_back(t + 1);
     Tree& tree = trees_.emplace_back();
+    tree.world = &instance_.world();
     tree.pool = &pool_;
     tree.orders.push_back(std::make_shared<const AgentOrder>(AgentOrder{
         {}, GoalSequence(instance_, distances_, 0, {}), PackedPath(instance_.grid(), path)}));

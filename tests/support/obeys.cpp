@@ -11,7 +11,7 @@ Cell at(const Path& path, Time time) {
   return time < static_cast<Time>(path.size()) ? path[time] : path.back();
 }
 
-bool is_inner(const Grid& grid, Cell cell) {
+bool is_inner(const World& grid, Cell cell) {
   return grid.neighbors(cell).size() == 2;
 }
 
@@ -33,12 +33,12 @@ Time last_arrival(const Path& path) {
 }
 
 // Where the agent came in that is inside a chain at time t; none if inside since time 0.
-Mouth entered_by(const Grid& grid, const Path& path, Time t) {
+Mouth entered_by(const World& grid, const Path& path, Time t) {
   while (t >= 0 && is_inner(grid, path[t])) --t;
   return t < 0 ? Mouth{} : Mouth{path[t], path[t + 1]};
 }
 
-bool traverses(const Grid& grid, const Path& path, const Constraint& c) {
+bool traverses(const World& grid, const Path& path, const Constraint& c) {
   const Time last = std::min(c.end, static_cast<Time>(path.size()) - 1);
   for (Time t = std::max(c.begin, 1); t <= last; ++t) {
     if (path[t] != c.cell || path[t - 1] != c.from) continue;
@@ -50,12 +50,12 @@ bool traverses(const Grid& grid, const Path& path, const Constraint& c) {
 
 }  // namespace
 
-bool is_mouth(const Grid& grid, Cell end, Cell inner) {
+bool is_mouth(const World& grid, Cell end, Cell inner) {
   return is_inner(grid, inner) && !is_inner(grid, end) &&
          std::ranges::count(grid.neighbors(end), inner) > 0;
 }
 
-bool obeys(const Grid& grid, const Path& path, const Constraint& c) {
+bool obeys(const World& grid, const Path& path, const Constraint& c) {
   const Time rest = last_arrival(path);
   switch (c.kind) {
     case ConstraintKind::kBar:

@@ -10,7 +10,7 @@
 namespace grove::testing {
 
 // Does `path`, its rest for ever included, obey `constraint`?
-bool obeys(const Grid& grid, const Path& path, const Constraint& constraint);
+bool obeys(const World& grid, const Path& path, const Constraint& constraint);
 
 // A way into a chain: from an end to the inner cell next to it.
 struct Mouth {
@@ -20,6 +20,6 @@ struct Mouth {
 };
 
 // Is this a move from an end of a chain into it?
-bool is_mouth(const Grid& grid, Cell end, Cell inner);
+bool is_mouth(const World& grid, Cell end, Cell inner);
 
 }  // namespace grove::testing

@@ -54,6 +54,14 @@ const char* name_of(RunEvent event) {
   return "progress";
 }
 
+Json map_json(const Instance& instance) {
+  if (const Roadmap* roadmap = instance.roadmap())
+    return {{"vertices", roadmap->vertices().size()},
+            {"roads", roadmap->roads().size()},
+            {"places", roadmap->place_count()}};
+  return {{"width", instance.grid().width()}, {"height", instance.grid().height()}};
+}
+
 Json stats_json(const Stats& stats) {
   Json json = Json::object();
   for (const auto& [name, value] : stats.texts) json[name] = value;
@@ -66,18 +74,18 @@ Json stats_json(const Stats& stats) {
 
 void JsonLog::head(const LogHead& h) {
   const Instance& instance = h.loaded.instance;
-  sink_.line(line_of({{"event", "header"},
-                      {"version", version_text()},
-                      {"machine", machine_text()},
-                      {"options", h.options},
-                      {"method", h.method.empty() ? "auto" : h.method},
-                      {"threads", h.workers},
-                      {"instance", h.instance},
-                      {"agents", instance.agent_count()},
-                      {"tasks", instance.task_count()},
-                      {"map", h.loaded.map_path.string()},
-                      {"width", instance.grid().width()},
-                      {"height", instance.grid().height()}}));
+  Json header{{"event", "header"},
+              {"version", version_text()},
+              {"machine", machine_text()},
+              {"options", h.options},
+              {"method", h.method.empty() ? "auto" : h.method},
+              {"threads", h.workers},
+              {"instance", h.instance},
+              {"agents", instance.agent_count()},
+              {"tasks", instance.task_count()},
+              {"map", h.loaded.map_path.string()}};
+  header.update(map_json(instance));
+  sink_.line(line_of(header));
 }
 
 void JsonLog::warning(std::string_view text) {

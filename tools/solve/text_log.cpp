@@ -72,16 +72,25 @@ std::string evicted_text(const Solution& solution) {
                      restarts == 0 ? "" : fmt::format(", {} times begun anew", restarts));
 }
 
+std::string map_text(const Instance& instance) {
+  if (const Roadmap* roadmap = instance.roadmap())
+    return fmt::format("{} vertices, {}, {} places", roadmap->vertices().size(),
+                       count_text(static_cast<int>(roadmap->roads().size()), "road"),
+                       roadmap->place_count());
+  const Grid& grid = instance.grid();
+  return fmt::format("{} x {}, {} passable cells", grid.width(), grid.height(),
+                     grid.passable_count());
+}
+
 }  // namespace
 
 void TextLog::head(const LogHead& h) {
   const Instance& instance = h.loaded.instance;
-  const Grid& grid = instance.grid();
   sink_.line(fmt::format("{} on {}", version_text(), machine_text()));
   sink_.line(fmt::format("Instance      {}: {}, {}", h.instance, agents_text(instance),
                          count_text(instance.task_count(), "task")));
-  sink_.line(fmt::format("Map           {}: {} x {}, {} passable cells", h.loaded.map_path.string(),
-                         grid.width(), grid.height(), grid.passable_count()));
+  sink_.line(fmt::format("{:<14}{}: {}", instance.is_on_grid() ? "Map" : "Roadmap",
+                         h.loaded.map_path.string(), map_text(instance)));
   sink_.line(fmt::format("Options       {}", h.options.empty() ? "all defaults" : h.options));
   if (!h.method.empty()) sink_.line(fmt::format("Method        {}", h.method));
   sink_.line(

@@ -34,6 +34,7 @@ std::string default_agent_id(AgentIndex agent);
 std::string default_task_id(TaskIndex task);
 
 // These throw NotExpressible unless `instance` is as their names say. `format` is named in what().
+void require_grid(const Instance& instance, std::string_view format);
 void require_goals(const Instance& instance, std::string_view format);
 void require_no_tasks(const Instance& instance, std::string_view format);
 void require_default_agent_ids(const Instance& instance, std::string_view format);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "grove/model/assert.h"
@@ -43,6 +44,7 @@ class Grid : public World {
     return p.y * width_ + p.x;
   }
   Position position(Cell cell) const { return {cell % width_, cell / width_}; }
+  std::string name(State state) const override;
 
  private:
   int width_;

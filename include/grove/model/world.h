@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace grove {
@@ -47,6 +48,12 @@ class Rows {
 // construction, so any number of threads may read one.
 class World {
  public:
+  World(const World&) = default;
+  World(World&&) = default;
+  World& operator=(const World&) = default;
+  World& operator=(World&&) = default;
+  virtual ~World() = default;
+
   // Places and states are numbered 0 .. count - 1.
   Place place_count() const { return places_; }
   State state_count() const { return moves_.count(); }
@@ -83,6 +90,9 @@ class World {
   Place row_width() const { return row_width_; }
   // How many moves there are from a state at most.
   int most_moves() const { return most_moves_; }
+
+  // For people: "[3, 4]".
+  virtual std::string name(State state) const = 0;
 
  protected:
   // One state for each place; moves by place.

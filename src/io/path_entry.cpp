@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "path_entry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+
+namespace grove {
+namespace {
+
+constexpr std::string_view kOnARoadmap =
+    "a vertex [\"A\"] or a place on a road [\"A\", \"B\", k], k steps from A";
+
+int read_vertex_id(const Roadmap& roadmap, const JsonValue& id) {
+  const auto vertex = roadmap.vertex(id.text());
+  if (!vertex)
+    id.fail(fmt::format("there is no vertex '{}'; expected one of the roadmap", id.text()));
+  return *vertex;
+}
+
+// Which road [from, to, steps, road] means; `ends` in the order of the entry.
+int road_meant(const Roadmap& roadmap, const JsonValue& entry, int from, int to) {
+  const auto roads = roadmap.roads_between(from, to);
+  if (entry.size() == 4) {
+    const auto last = static_cast<std::int64_t>(roadmap.roads().size()) - 1;
+    const auto road = static_cast<int>(entry.element(3).integer(0, last));
+    if (std::ranges::find(roads, road) != roads.end()) return road;
+    entry.element(3).fail(
+        fmt::format("edge {} does not join these vertices; expected one that does", road));
+  }
+  if (roads.empty()) entry.fail("no road joins these vertices; expected two that one joins");
+  if (roads.size() > 1)
+    entry.fail(
+        fmt::format("{} roads join these vertices; expected a fourth entry, the number of "
+                    "the edge in the roadmap (from 0)",
+                    roads.size()));
+  return roads.front();
+}
+
+Place read_road_place(const Roadmap& roadmap, const JsonValue& entry) {
+  const int from = read_vertex_id(roadmap, entry.element(0));
+  const int to = read_vertex_id(roadmap, entry.element(1));
+  const int number = road_meant(roadmap, entry, from, to);
+  const Road& road = roadmap.roads()[number];
+  if (road.steps == 1) entry.fail("this road has no place between its ends; expected a vertex");
+  const auto steps = static_cast<Time>(entry.element(2).integer(1, road.steps - 1));
+  return roadmap.place_on_road(number, road.from == from ? steps : road.steps - steps);
+}
+
+Cell read_cell(const Grid& grid, const JsonValue& value) {
+  const Position p = value.position();
+  if (!grid.contains(p))
+    value.fail(fmt::format("cell [{}, {}] is outside the map; expected x in 0..{} and y in 0..{}",
+                           p.x, p.y, grid.width() - 1, grid.height() - 1));
+  return grid.cell(p);
+}
+
+Place read_place(const Roadmap& roadmap, const JsonValue& value) {
+  if (!value.json().is_array()) value.fail_expected(kOnARoadmap);
+  if (value.size() == 1) return roadmap.place_of_vertex(read_vertex_id(roadmap, value.element(0)));
+  if (value.size() != 3 && value.size() != 4) value.fail_expected(kOnARoadmap);
+  return read_road_place(roadmap, value);
+}
+
+nlohmann::ordered_json entry_json(const Roadmap& roadmap, Place place) {
+  const Roadmap::Spot spot = roadmap.spot(place);
+  if (spot.vertex >= 0) return nlohmann::ordered_json::array({roadmap.vertices()[spot.vertex].id});
+  const Road& road = roadmap.roads()[spot.road];
+  nlohmann::ordered_json json{roadmap.vertices()[road.from].id, roadmap.vertices()[road.to].id,
+                              spot.steps};
+  if (roadmap.roads_between(road.from, road.to).size() > 1) json.push_back(spot.road);
+  return json;
+}
+
+}  // namespace
+
+State read_path_entry(const Map& map, const JsonValue& value) {
+  if (const auto* grid = std::get_if<Grid>(&map)) return read_cell(*grid, value);
+  return read_place(std::get<Roadmap>(map), value);
+}
+
+nlohmann::ordered_json path_entry_json(const Map& map, State state) {
+  if (const auto* roadmap = std::get_if<Roadmap>(&map)) return entry_json(*roadmap, state);
+  const Position p = std::get<Grid>(map).position(state);
+  return {p.x, p.y};
+}
+
+Place read_vertex(const Roadmap& roadmap, const JsonValue& value) {
+  const bool in_brackets = value.json().is_array() && value.size() == 1;
+  const JsonValue id = in_brackets ? value.element(0) : value;
+  if (!id.json().is_string()) value.fail_expected("the id of a vertex");
+  return roadmap.place_of_vertex(read_vertex_id(roadmap, id));
+}
+
+State read_start(const Roadmap& roadmap, const JsonValue& value) {
+  return value.json().is_string() ? read_vertex(roadmap, value) : read_place(roadmap, value);
+}
+
+}  // namespace grove

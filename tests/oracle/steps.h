@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Where an agent can go in one step, read off a map: a second time, not from its world.
+#pragma once
+
+#include <vector>
+
+#include "grove/model/instance.h"
+
+namespace grove::oracle {
+
+// By place: the places one move away; waits are not among them.
+std::vector<std::vector<Place>> steps_on(const Map& map);
+
+}  // namespace grove::oracle
