@@ -21,6 +21,7 @@ namespace grove {
 namespace {
 
 constexpr Cost kMostSearched = 256;
+constexpr std::int64_t kCallsPerPoll = 256;
 
 // A statement over the agents 0 .. count - 1 of its component.
 struct Statement {
@@ -30,8 +31,13 @@ struct Statement {
 
 class Component {
  public:
-  Component(std::vector<Statement> statements, int agents, std::int64_t& steps)
-      : statements_(std::move(statements)), frozen_(agents, 0), used_(agents), steps_(steps) {
+  Component(std::vector<Statement> statements, int agents, std::int64_t& steps,
+            const Limits& limits)
+      : statements_(std::move(statements)),
+        frozen_(agents, 0),
+        used_(agents),
+        steps_(steps),
+        limits_(limits) {
     std::ranges::sort(statements_, std::greater(), &Statement::due);
   }
 
@@ -57,6 +63,7 @@ class Component {
   // out.
   bool fulfil(Cost left) {
     steps_ -= static_cast<std::int64_t>(statements_.size());
+    if (++calls_ % kCallsPerPoll == 0 && limits_.stop_requested()) steps_ = 0;
     if (steps_ <= 0) return true;
     if (greedy() > left) return false;
     const auto most = std::ranges::max_element(statements_, {}, &Statement::due);
@@ -85,6 +92,8 @@ class Component {
   std::vector<int> frozen_;
   std::vector<bool> used_;
   std::int64_t& steps_;
+  const Limits& limits_;
+  std::int64_t calls_ = 0;
 };
 
 // The smallest agent of each agent's component, by agent.
@@ -107,7 +116,8 @@ class Components {
   std::vector<AgentIndex> parent_;
 };
 
-Cost solve_component(std::span<const GroupExcess* const> statements, std::int64_t& steps) {
+Cost solve_component(std::span<const GroupExcess* const> statements, std::int64_t& steps,
+                     const Limits& limits) {
   std::vector<AgentIndex> agents;
   for (const GroupExcess* s : statements)
     agents.insert(agents.end(), s->agents.begin(), s->agents.end());
@@ -121,12 +131,13 @@ Cost solve_component(std::span<const GroupExcess* const> statements, std::int64_
       statement.agents.push_back(
           static_cast<int>(std::ranges::lower_bound(agents, a) - agents.begin()));
   }
-  return Component(std::move(local), static_cast<int>(agents.size()), steps).solve();
+  return Component(std::move(local), static_cast<int>(agents.size()), steps, limits).solve();
 }
 
 }  // namespace
 
-Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps) {
+Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps,
+                    const Limits& limits) {
   AgentIndex agents = 0;
   for (const GroupExcess& s : statements) agents = std::max(agents, std::ranges::max(s.agents) + 1);
   Components components(agents);
@@ -141,7 +152,7 @@ Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps)
   for (auto begin = sorted.begin(); begin != sorted.end();) {
     const auto end = std::find_if(begin, sorted.end(),
                                   [&](const GroupExcess* s) { return root(s) != root(*begin); });
-    sum = std::min(sum + solve_component({begin, end}, steps), kInfiniteCost);
+    sum = std::min(sum + solve_component({begin, end}, steps, limits), kInfiniteCost);
     begin = end;
   }
   return sum;

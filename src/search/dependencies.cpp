@@ -75,7 +75,8 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& vi
   collect(statements);
   // One that is above the cutoff by itself settles it.
   if (std::ranges::none_of(statements, [&](const GroupExcess& s) { return s.excess > slack; }))
-    bound = std::min(cutoff, node->cost() + covering_bound(statements, tuning_.covering_steps));
+    bound =
+        std::min(cutoff, node->cost() + covering_bound(statements, tuning_.covering_steps, limits));
   return Outcome::kDone;
 }
 

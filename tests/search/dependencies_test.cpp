@@ -58,6 +58,15 @@ TEST(Dependencies, GiveTheCutoffWhereNothingIsCheaper) {
   }
 }
 
+// What was closed for want of slack says no more than that, whatever is asked afterwards.
+TEST(Dependencies, ClaimNoMoreThanTheSlackHasShown) {
+  for (const Cost above : {1, 2, 3}) {
+    Bounded s(kDoor, kHeadOn);
+    s.excess(s.root->cost() + above);
+    EXPECT_EQ(s.excess(), above);
+  }
+}
+
 TEST(Dependencies, AddUpPairsThatShareNobody) {
   const std::vector<std::string> twice{"..@..", ".....", "..@..", "@@@@@",
                                        "..@..", ".....", "..@.."};

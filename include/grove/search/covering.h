@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grove/model/instance.h"
+#include "grove/model/limits.h"
 #include "grove/model/plan.h"
 
 namespace grove {
@@ -20,8 +21,9 @@ struct GroupExcess {
 // A lower bound on how much more all agents together cost: the least sum of nonnegative integers,
 // one per agent, that fulfils every statement; a weighted vertex cover where all are about pairs
 // (Li et al., IJCAI 2019). Exact unless more than `steps` statements must be looked at for that, or
-// the sum is in the hundreds; then still a valid bound. At most
-// kInfiniteCost. Depends on the statements alone.
-Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps = 100'000);
+// the sum is in the hundreds, or a limit strikes; then still a valid bound. At most kInfiniteCost.
+// Depends on the statements alone, but for limits that strike.
+Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps = 100'000,
+                    const Limits& limits = Limits());
 
 }  // namespace grove
