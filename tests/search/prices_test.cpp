@@ -52,6 +52,10 @@ TEST_F(PricesTest, AboveTheCutoffAreNeverMoreThanTheTruth) {
   EXPECT_EQ(cost(kBarred), kBarred);
 }
 
+TEST_F(PricesTest, JustAboveTheCutoffAreTheTruth) {
+  EXPECT_EQ(cost(kBarred - 1), kBarred);
+}
+
 TEST_F(PricesTest, RiseByWhatTheDemandCosts) {
   EXPECT_EQ(increase(kBarred - kFree - 1), kInfiniteCost);
   EXPECT_EQ(increase(kBarred - kFree), kBarred - kFree);
