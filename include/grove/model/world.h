@@ -43,9 +43,8 @@ class Rows {
 
 // Places, the states that stand on them, and the moves of one step between states; waiting is
 // possible in every state and no move (docs/design.md, section 1). States 0 .. place_count() - 1
-// are those of agents that turn freely: each is its place. Agents of other kinds have states of
-// their own, so the state in which an agent starts says all about how it moves. Immutable after
-// construction, so any number of threads may read one.
+// are those of agents that turn freely: each is its place, and grids and roadmaps have no others.
+// Immutable after construction, so any number of threads may read one.
 class World {
  public:
   World(const World&) = default;
@@ -72,7 +71,7 @@ class World {
     return has_other_neighbors_ ? neighbors_[place] : moves_[place];
   }
 
-  // States on one place, which are numbered from 0 there; of agents of all kinds.
+  // States on one place, which are numbered from 0 there: one, on grids and roadmaps.
   int states_on(Place) const { return 1; }
   int most_states_on_a_place() const { return 1; }
   int rank_on_place(State) const { return 0; }
