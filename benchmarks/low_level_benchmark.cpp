@@ -101,7 +101,7 @@ std::vector<TaskIndex> nearest_first(const Instance& instance, const DistanceFie
   Cell at = instance.agent(0).start;
   for (auto next = order.begin(); next != order.end(); ++next) {
     std::iter_swap(next, std::ranges::min_element(next, order.end(), {}, [&](TaskIndex t) {
-                     return distances.to(instance.task(t).cell)[at];
+                     return distances.to_task(t)[at];
                    }));
     at = instance.task(*next).cell;
   }
@@ -112,8 +112,7 @@ Case::Case(const Grid& grid, const std::vector<Cell>& cells, int goal_count) : o
   InstanceBuilder builder(grid);
   builder.add_agent("a", grid.position(cells[0]), grid.position(cells[1]));
   for (int k = 2; k < goal_count + 1; ++k)
-    builder.add_task(fmt::format("t{}", k), grid.position(cells[k]),
-                     std::vector<std::string>{"a"});
+    builder.add_task(fmt::format("t{}", k), grid.position(cells[k]), std::vector<std::string>{"a"});
   instance = std::make_unique<Instance>(std::move(builder).build());
   distances = std::make_unique<DistanceFields>(*instance);
   goals = std::make_unique<GoalSequence>(*instance, *distances, 0,

@@ -91,7 +91,7 @@ void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t pa
 
 // From there on, at least.
 Time VisitedSetSearch::least_cost(Cell cell, StopSet left) {
-  if (left == 0 && stops_->destination()) return stops_->to_destination(cell);
+  if (left == 0 && stops_->destination()) return stops_->to_rest(cell);
   const Time* to_stop = stops_->distances_from(cell);
   Time nearest = kNever;
   for (int stop = 0; stop < stops_->count(); ++stop)

@@ -23,9 +23,10 @@ Split sequence_split(AgentIndex agent, const AgentStops& stops, const SequenceCl
   const std::size_t number = work.prefix.size();
   const auto at = static_cast<Time>(number);
   GROVE_ASSERT(number < sequence.size(), "a class that is split leaves stops open");
-  const Place place = stops.place(sequence.at(number));
-  return {{{agent, {place, kNoPlace, at, at, ConstraintKind::kStopIs}},
-           {agent, {place, kNoPlace, at, at, ConstraintKind::kStopIsNot}}}};
+  const Stop stop = sequence.at(number);
+  const Place place = stops.place(stop);
+  return {{{agent, {place, stop, at, at, ConstraintKind::kStopIs}},
+           {agent, {place, stop, at, at, ConstraintKind::kStopIsNot}}}};
 }
 
 bool leaves_choice(const AgentStops& stops, const SequenceClass& work) {

@@ -81,6 +81,27 @@ SolveOptions options_of(Method method, SolveOptions options) {
   return options;
 }
 
+// What the papers' methods were made for.
+void require_published_problem(Method method, const Instance& instance) {
+  const auto& agents = instance.agents();
+  if (instance.motion_world())
+    refuse(method,
+           "is for agents that turn freely and tasks that take no time, and here some do not; "
+           "expected another method");
+  if (!instance.world().is_plain())
+    refuse(method,
+           "goes every way in both directions, and here some roads are one way; expected another "
+           "method");
+  if (std::ranges::any_of(agents, &Agent::is_idle))
+    refuse(method,
+           "is for agents with something to do, and here some have neither a goal nor a task; "
+           "expected another method");
+  if (std::ranges::any_of(agents, [](const Agent& a) { return a.stops.size() < a.tasks.size(); }))
+    refuse(method,
+           "is for tasks on different cells, and here an agent has several on one; expected "
+           "another method");
+}
+
 void require_fit(Method method, const Instance& instance, const SolveOptions& options) {
   const auto ends_at_a_goal = [](const Agent& agent) { return agent.goal.has_value(); };
   if (is_adaptation(method) && std::ranges::all_of(instance.agents(), ends_at_a_goal))
@@ -88,10 +109,7 @@ void require_fit(Method method, const Instance& instance, const SolveOptions& op
            "is for agents without a goal (MG-MAPF), and here every agent has one; expected another "
            "method: CTS-CBS itself is auto with policy fixed");
   const bool is_published = options.low_level != LowLevel::kOwn || is_adaptation(method);
-  if (is_published && !instance.world().is_plain())
-    refuse(method,
-           "goes every way in both directions, and here some roads are one way; expected another "
-           "method");
+  if (is_published) require_published_problem(method, instance);
   if (options.start && is_composed(method))
     refuse(method, "finds its own first plan; expected no plan to start from");
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,10 @@ namespace {
 
 std::string agent_field(AgentIndex agent) {
   return fmt::format("agents/{}", agent);
+}
+
+std::string task_field(TaskIndex task) {
+  return fmt::format("tasks/{}", task);
 }
 
 // The tasks as they appear first, agent by agent.
@@ -28,13 +33,23 @@ std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
   return order;
 }
 
-// Builds `instance` anew, with the agent ids of `agent_id(i)`.
-template <typename AgentId>
-InstanceBuilder with_agents(const Instance& instance, AgentId agent_id) {
+// Builds `instance` anew, with the agent ids of `agent_id(i)` and the task ids of `task_id(i)`.
+template <typename AgentId, typename TaskId>
+InstanceBuilder with_agents(const Instance& instance, AgentId agent_id, TaskId task_id) {
   InstanceBuilder builder(instance.map());
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
-    builder.add_agent(agent_id(i), agent.start, agent.goal);
+    AgentSpec spec{.id = agent_id(i),
+                   .start = instance.pose_of(agent.start),
+                   .goal = agent.goal,
+                   .motion = agent.motion,
+                   .goal_heading = agent.goal_heading};
+    if (const World& world = instance.world(); world.is_working(agent.start)) {
+      const Work& work = world.work(agent.start);
+      if (const std::string id = task_id(work.task); !id.empty())
+        spec.working = WorkBegun{id, work.done};
+    }
+    builder.add_agent(std::move(spec));
   }
   return builder;
 }
@@ -43,7 +58,7 @@ template <typename AgentId>
 void add_task(InstanceBuilder& builder, const Task& task, std::string id, AgentId agent_id) {
   std::vector<std::string> agents;
   for (AgentIndex agent : task.agents) agents.push_back(agent_id(agent));
-  builder.add_task(std::move(id), task.cell, agents);
+  builder.add_task(std::move(id), task.cell, agents, task.duration);
 }
 
 }  // namespace
@@ -56,11 +71,49 @@ std::string default_task_id(TaskIndex task) {
   return fmt::format("t{}", task);
 }
 
-void require_grid(const Instance& instance, std::string_view format) {
+void require_free_grid(const Instance& instance, std::string_view format) {
   if (!instance.is_on_grid())
     throw NotExpressible("roadmap",
                          fmt::format("a roadmap cannot be said in {}; expected a grid", format),
                          Loss::kNothing);
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    if (instance.agent(i).motion.turn_steps > 0)
+      throw NotExpressible(agent_field(i),
+                           fmt::format("agent '{}' turns, which cannot be said in {}; expected "
+                                       "agents that turn freely",
+                                       instance.agent(i).id, format),
+                           Loss::kNothing);
+  for (TaskIndex i = 0; i < instance.task_count(); ++i)
+    if (instance.task(i).duration > 0)
+      throw NotExpressible(task_field(i),
+                           fmt::format("task '{}' takes time, which cannot be said in {}; expected "
+                                       "none that does",
+                                       instance.task(i).id, format),
+                           Loss::kNothing);
+}
+
+void require_work_for_all(const Instance& instance, std::string_view format) {
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    if (instance.agent(i).is_idle())
+      throw NotExpressible(agent_field(i),
+                           fmt::format("agent '{}' has neither a goal nor a task, which cannot be "
+                                       "said in {}; expected one of them",
+                                       instance.agent(i).id, format),
+                           Loss::kNothing);
+}
+
+void require_distinct_cells(const Instance& instance, std::string_view format) {
+  std::map<Place, TaskIndex> by_cell;
+  for (TaskIndex i = 0; i < instance.task_count(); ++i) {
+    const auto [first, is_new] = by_cell.emplace(instance.task(i).cell, i);
+    if (!is_new)
+      throw NotExpressible(
+          task_field(i),
+          fmt::format("task '{}' is on the cell of task '{}', which cannot be "
+                      "said in {}; expected one task per cell",
+                      instance.task(i).id, instance.task(first->second).id, format),
+          Loss::kNothing);
+  }
 }
 
 void require_goals(const Instance& instance, std::string_view format) {
@@ -106,20 +159,33 @@ void require_default_task_ids(const Instance& instance, std::string_view format)
 }
 
 Instance without_tasks(const Instance& instance) {
-  return with_agents(instance, [&](AgentIndex i) { return instance.agent(i).id; }).build();
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    if (!instance.agent(i).goal)
+      throw InstanceError(agent_field(i),
+                          fmt::format("agent '{}' has no goal; expected one for every agent, for "
+                                      "without tasks it would have nothing to do",
+                                      instance.agent(i).id));
+  return with_agents(
+             instance, [&](AgentIndex i) { return instance.agent(i).id; },
+             [](TaskIndex) { return std::string(); })
+      .build();
 }
 
 Instance with_default_task_ids(const Instance& instance) {
   const auto agent_id = [&](AgentIndex i) { return instance.agent(i).id; };
-  InstanceBuilder builder = with_agents(instance, agent_id);
+  const std::vector<TaskIndex> order = order_of_appearance(instance);
+  InstanceBuilder builder = with_agents(instance, agent_id, [&](TaskIndex task) {
+    return default_task_id(static_cast<TaskIndex>(std::ranges::find(order, task) - order.begin()));
+  });
   TaskIndex count = 0;
-  for (TaskIndex task : order_of_appearance(instance))
+  for (TaskIndex task : order)
     add_task(builder, instance.task(task), default_task_id(count++), agent_id);
   return std::move(builder).build();
 }
 
 Instance with_default_agent_ids(const Instance& instance) {
-  InstanceBuilder builder = with_agents(instance, default_agent_id);
+  InstanceBuilder builder =
+      with_agents(instance, default_agent_id, [&](TaskIndex i) { return instance.task(i).id; });
   for (const Task& task : instance.tasks()) add_task(builder, task, task.id, default_agent_id);
   return std::move(builder).build();
 }

@@ -30,61 +30,101 @@ void at_place_of(const JsonValue& value, Add add) {
   }
 }
 
-void add_agent_on_roads(InstanceBuilder& builder, const JsonValue& agent) {
-  const Roadmap& roadmap = *builder.roadmap();
-  const std::string id = agent.member("id").text();
-  const State start = read_start(roadmap, agent.member("start"));
-  std::optional<Place> goal;
-  if (const auto value = agent.find("goal")) goal = read_vertex(roadmap, *value);
-  at_place_of(agent, [&] { builder.add_agent(id, start, goal); });
+// "motion" and what belongs to it. Whoever wrote one of these keys would not want a plan that
+// heeds it not.
+Motion read_motion(const InstanceBuilder& builder, const JsonValue& agent) {
+  const auto motion = agent.find("motion");
+  if (!motion) {
+    for (const char* key : {"heading", "goal_heading", "turn_steps"})
+      if (const auto value = agent.find(key))
+        value->fail_expected("no such key without \"motion\": \"turning\"");
+    return {};
+  }
+  if (!motion->json().is_string() || motion->text() != "turning")
+    motion->fail_expected("\"turning\", or no such key for an agent that turns freely");
+  if (builder.roadmap())
+    motion->fail("agents turn on grids only; expected no such key on a roadmap");
+  const auto steps = agent.find("turn_steps");
+  return {steps ? static_cast<Time>(steps->integer(1, InstanceBuilder::kLongest)) : 1};
 }
 
-void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
-  if (builder.roadmap()) return add_agent_on_roads(builder, agent);
-  const std::string id = agent.member("id").text();
-  const Position start = agent.member("start").position();
-  std::optional<Position> goal;
-  if (const auto value = agent.find("goal")) goal = value->position();
-  at_place_of(agent, [&] { builder.add_agent(id, start, goal); });
+// On the way: on a road, or within a turn.
+Pose read_start_pose(const InstanceBuilder& builder, Motion motion, const JsonValue& agent) {
+  const JsonValue start = agent.member("start");
+  if (builder.roadmap()) return {.place = read_start(*builder.roadmap(), start)};
+  if (motion.turn_steps == 0) return read_pose(builder.map(), motion, start);
+  const auto heading = agent.find("heading");
+  if (start.json().is_array() && start.size() == 2) {
+    Pose pose = read_pose(builder.map(), {}, start);
+    pose.heading = pose.to = read_heading(heading ? *heading : agent.member("heading"));
+    return pose;
+  }
+  const Pose pose = read_pose(builder.map(), motion, start);
+  if (heading && read_heading(*heading) != pose.heading)
+    heading->fail(fmt::format("the start says \"{}\"; expected the same, or no such key",
+                              letter(pose.heading)));
+  return pose;
+}
+
+std::optional<Place> read_goal(const InstanceBuilder& builder, const JsonValue& agent) {
+  const auto goal = agent.find("goal");
+  if (!goal) return std::nullopt;
+  if (builder.roadmap()) return read_vertex(*builder.roadmap(), *goal);
+  return read_pose(builder.map(), {}, *goal).place;
+}
+
+std::optional<WorkBegun> read_working(const JsonValue& agent, UnknownKeys& unknown) {
+  const auto working = agent.find("working");
+  if (!working) return std::nullopt;
+  if (!working->json().is_object()) working->fail_expected("{\"task\": ID, \"done\": STEPS}");
+  unknown.look_at(*working, {"task", "done"});
+  return WorkBegun{
+      working->member("task").text(),
+      static_cast<Time>(working->member("done").integer(0, InstanceBuilder::kLongest))};
+}
+
+void add_agent(InstanceBuilder& builder, const JsonValue& agent, UnknownKeys& unknown) {
+  AgentSpec spec{.id = agent.member("id").text(), .start = {}, .goal = {}};
+  spec.motion = read_motion(builder, agent);
+  spec.start = read_start_pose(builder, spec.motion, agent);
+  spec.goal = read_goal(builder, agent);
+  if (const auto heading = agent.find("goal_heading")) {
+    spec.goal_heading = read_heading(*heading);
+    if (!spec.goal) heading->fail("the agent has no goal; expected one, or no such key");
+  }
+  spec.working = read_working(agent, unknown);
+  at_place_of(agent, [&] { builder.add_agent(std::move(spec)); });
+}
+
+Time read_duration(const JsonValue& task) {
+  const auto duration = task.find("duration");
+  return duration ? static_cast<Time>(duration->integer(0, InstanceBuilder::kLongest)) : 0;
 }
 
 void add_task(InstanceBuilder& builder, const JsonValue& task) {
   const std::string id = task.member("id").text();
   const JsonValue cell = task.member("cell");
   const std::vector<std::string> agents = task.member("agents").texts();
+  const Time duration = read_duration(task);
   if (builder.roadmap()) {
     const Place place = read_vertex(*builder.roadmap(), cell);
-    at_place_of(task, [&] { builder.add_task(id, place, agents); });
+    at_place_of(task, [&] { builder.add_task(id, place, agents, duration); });
   } else {
     const Position position = cell.position();
-    at_place_of(task, [&] { builder.add_task(id, position, agents); });
+    at_place_of(task, [&] { builder.add_task(id, position, agents, duration); });
   }
-}
-
-// Whoever wrote one of these would not want a plan without it.
-void refuse_what_is_not_planned(const JsonValue& agent) {
-  for (const char* key : {"motion", "heading", "goal_heading", "turn_steps", "working"})
-    if (const auto value = agent.find(key))
-      value->fail_expected("no such key: Grove does not plan agents that turn or are at work");
-}
-
-void refuse_work(const JsonValue& task) {
-  const auto duration = task.find("duration");
-  if (duration && duration->json() != 0)
-    duration->fail_expected("0 or no such key: Grove does not plan work that takes time");
 }
 
 void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unknown) {
   const JsonValue agents = root.member("agents");
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    add_agent(builder, agents.element(i));
-    refuse_what_is_not_planned(agents.element(i));
-    unknown.look_at(agents.element(i), {"id", "start", "goal"});
+    add_agent(builder, agents.element(i), unknown);
+    unknown.look_at(agents.element(i), {"id", "start", "goal", "motion", "turn_steps", "heading",
+                                        "goal_heading", "working"});
   }
   const JsonValue tasks = root.member("tasks");
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     add_task(builder, tasks.element(i));
-    refuse_work(tasks.element(i));
     unknown.look_at(tasks.element(i), {"id", "cell", "agents", "duration"});
   }
 }
@@ -93,12 +133,12 @@ void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unkno
 std::filesystem::path file_named_by(const JsonValue& value, const std::filesystem::path& folder,
                                     std::string_view what) {
   if (value.text().empty()) value.fail_expected(fmt::format("the name of {} file", what));
-  std::filesystem::path path = folder / value.text();
+  const auto path = (folder / value.text()).lexically_normal();
   if (!std::filesystem::is_regular_file(path))
     value.fail(
         fmt::format("{} '{}'; expected {}, relative to {}",
                     std::filesystem::is_directory(path) ? "found the folder" : "there is no file",
-                    path.string(), what, folder.empty() ? "the current folder" : "this file"));
+                    path.string(), what, folder == "." ? "the current folder" : "this file"));
   return path;
 }
 
@@ -133,21 +173,37 @@ std::pair<ScenarioRow, Time> row_of(const Instance& instance, AgentIndex i,
 }
 
 // A vertex is its id alone.
-OrderedJson stop_json(const Map& map, State state) {
-  OrderedJson json = path_entry_json(map, state);
+OrderedJson place_json(const Map& map, Motion motion, const Pose& pose) {
+  OrderedJson json = pose_json(map, motion, pose);
   return json.size() == 1 ? OrderedJson(json[0]) : json;
 }
 
 OrderedJson agent_json(const Instance& instance, const Agent& agent) {
-  OrderedJson json{{"id", agent.id}, {"start", stop_json(instance.map(), agent.start)}};
-  if (agent.goal) json["goal"] = stop_json(instance.map(), *agent.goal);
+  const Map& map = instance.map();
+  const Pose start = instance.pose_of(agent.start);
+  const bool turns = agent.motion.turn_steps > 0;
+  OrderedJson json{{"id", agent.id},
+                   {"start", place_json(map, start.steps > 0 ? agent.motion : Motion(), start)}};
+  if (agent.goal) json["goal"] = place_json(map, {}, {.place = *agent.goal});
+  if (turns) json["motion"] = "turning";
+  if (agent.motion.turn_steps > 1) json["turn_steps"] = agent.motion.turn_steps;
+  if (turns) json["heading"] = std::string(1, letter(start.heading));
+  if (agent.goal_heading) json["goal_heading"] = std::string(1, letter(*agent.goal_heading));
+  if (instance.world().is_working(agent.start)) {
+    const Work& work = instance.world().work(agent.start);
+    json["working"] = {{"task", instance.task(work.task).id}, {"done", work.done}};
+  }
   return json;
 }
 
 OrderedJson task_json(const Instance& instance, const Task& task) {
   OrderedJson ids = OrderedJson::array();
   for (AgentIndex agent : task.agents) ids.push_back(instance.agent(agent).id);
-  return {{"id", task.id}, {"cell", stop_json(instance.map(), task.cell)}, {"agents", ids}};
+  OrderedJson json{{"id", task.id},
+                   {"cell", place_json(instance.map(), {}, {.place = task.cell})},
+                   {"agents", ids}};
+  if (task.duration > 0) json["duration"] = task.duration;
+  return json;
 }
 
 }  // namespace
@@ -197,7 +253,7 @@ LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
 void write_scenario_instance(const std::filesystem::path& path, const Instance& instance,
                              const std::string& map) {
   constexpr std::string_view kFormat = "a .scen file";
-  require_grid(instance, kFormat);
+  require_free_grid(instance, kFormat);
   require_goals(instance, kFormat);
   require_no_tasks(instance, kFormat);
   require_default_agent_ids(instance, kFormat);

@@ -149,7 +149,7 @@ Instance read_libmrp_instance(const std::filesystem::path& path,
 
 void write_libmrp_instance(const std::filesystem::path& path, const Instance& instance) {
   constexpr std::string_view kFormat = "libMultiRobotPlanning's YAML";
-  require_grid(instance, kFormat);
+  require_free_grid(instance, kFormat);
   require_goals(instance, kFormat);
   require_no_tasks(instance, kFormat);
   std::string text = map_text(instance.grid()) + "agents:\n";
@@ -161,8 +161,10 @@ void write_libmrp_instance(const std::filesystem::path& path, const Instance& in
 
 void write_mgcbs_instance(const std::filesystem::path& path, const Instance& instance) {
   constexpr std::string_view kFormat = "MGCBS's YAML";
-  require_grid(instance, kFormat);
+  require_free_grid(instance, kFormat);
   require_no_goals(instance, kFormat);
+  require_work_for_all(instance, kFormat);
+  require_distinct_cells(instance, kFormat);
   require_default_task_ids(instance, kFormat);
   std::string text = map_text(instance.grid()) + "agents:\n";
   for (const Agent& agent : instance.agents()) {

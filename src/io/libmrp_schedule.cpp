@@ -56,7 +56,7 @@ std::string key_text(const Instance& instance, AgentIndex agent) {
 
 void write_libmrp_schedule(const std::filesystem::path& path, const Instance& instance,
                            const Solution& solution) {
-  require_grid(instance, "libMultiRobotPlanning's schedule");
+  require_free_grid(instance, "libMultiRobotPlanning's schedule");
   std::string text = statistics_text(solution) + "schedule:\n";
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     text += fmt::format("  {}:\n", key_text(instance, i));

@@ -49,8 +49,7 @@ Place read_road_place(const Roadmap& roadmap, const JsonValue& entry) {
   return roadmap.place_on_road(number, road.from == from ? steps : road.steps - steps);
 }
 
-Cell read_cell(const Grid& grid, const JsonValue& value) {
-  const Position p = value.position();
+Cell cell_on(const Grid& grid, const JsonValue& value, Position p) {
   if (!grid.contains(p))
     value.fail(fmt::format("cell [{}, {}] is outside the map; expected x in 0..{} and y in 0..{}",
                            p.x, p.y, grid.width() - 1, grid.height() - 1));
@@ -76,15 +75,57 @@ nlohmann::ordered_json entry_json(const Roadmap& roadmap, Place place) {
 
 }  // namespace
 
-State read_path_entry(const Map& map, const JsonValue& value) {
-  if (const auto* grid = std::get_if<Grid>(&map)) return read_cell(*grid, value);
-  return read_place(std::get<Roadmap>(map), value);
+Heading read_heading(const JsonValue& value) {
+  const auto heading = value.json().is_string() ? heading_of(value.text()) : std::nullopt;
+  if (!heading) value.fail_expected("\"N\", \"E\", \"S\" or \"W\"");
+  return *heading;
 }
 
-nlohmann::ordered_json path_entry_json(const Map& map, State state) {
-  if (const auto* roadmap = std::get_if<Roadmap>(&map)) return entry_json(*roadmap, state);
-  const Position p = std::get<Grid>(map).position(state);
-  return {p.x, p.y};
+namespace {
+
+bool is_next_to(Heading heading, Heading other) {
+  return other == right_of(heading) || other == left_of(heading);
+}
+
+Pose read_turning_pose(const Grid& grid, Motion motion, const JsonValue& value) {
+  if (!value.json().is_array() || (value.size() != 3 && value.size() != 5))
+    value.fail_expected(
+        "[x, y, heading], heading \"N\", \"E\", \"S\" or \"W\", or [x, y, heading, next, k], k "
+        "steps of the turn to the next heading made, for an agent that turns");
+  const Position p{static_cast<int>(value.element(0).integer(0, kNever)),
+                   static_cast<int>(value.element(1).integer(0, kNever))};
+  const Heading heading = read_heading(value.element(2));
+  Pose pose{cell_on(grid, value, p), heading, heading, 0};
+  if (value.size() == 3) return pose;
+  pose.to = read_heading(value.element(3));
+  if (!is_next_to(heading, pose.to))
+    value.element(3).fail_expected("the heading a quarter turn to the right or to the left");
+  if (motion.turn_steps == 1)
+    value.fail("a quarter turn of this agent takes one step; expected [x, y, heading]");
+  pose.steps = static_cast<Time>(value.element(4).integer(1, motion.turn_steps - 1));
+  return pose;
+}
+
+}  // namespace
+
+Pose read_pose(const Map& map, Motion motion, const JsonValue& value) {
+  if (const auto* roadmap = std::get_if<Roadmap>(&map))
+    return {.place = read_place(*roadmap, value)};
+  const auto& grid = std::get<Grid>(map);
+  if (motion.turn_steps == 0) return {.place = cell_on(grid, value, value.position())};
+  return read_turning_pose(grid, motion, value);
+}
+
+nlohmann::ordered_json pose_json(const Map& map, Motion motion, const Pose& pose) {
+  if (const auto* roadmap = std::get_if<Roadmap>(&map)) return entry_json(*roadmap, pose.place);
+  const Position p = std::get<Grid>(map).position(pose.place);
+  nlohmann::ordered_json json{p.x, p.y};
+  if (motion.turn_steps == 0) return json;
+  json.push_back(std::string(1, letter(pose.heading)));
+  if (pose.steps == 0) return json;
+  json.push_back(std::string(1, letter(pose.to)));
+  json.push_back(pose.steps);
+  return json;
 }
 
 Place read_vertex(const Roadmap& roadmap, const JsonValue& value) {
@@ -94,7 +135,7 @@ Place read_vertex(const Roadmap& roadmap, const JsonValue& value) {
   return roadmap.place_of_vertex(read_vertex_id(roadmap, id));
 }
 
-State read_start(const Roadmap& roadmap, const JsonValue& value) {
+Place read_start(const Roadmap& roadmap, const JsonValue& value) {
   return value.json().is_string() ? read_vertex(roadmap, value) : read_place(roadmap, value);
 }
 

@@ -12,7 +12,7 @@ namespace grove {
 
 void write_path_lists(const std::filesystem::path& path, const Instance& instance,
                       const Solution& solution) {
-  require_grid(instance, "EECBS's path lists");
+  require_free_grid(instance, "EECBS's path lists");
   std::string text;
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     text += fmt::format("Agent {}: ", i);

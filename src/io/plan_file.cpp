@@ -32,11 +32,17 @@ OrderedJson agent_json(const Instance& instance, AgentIndex index, const AgentPl
   OrderedJson sequence = OrderedJson::array();
   for (TaskIndex task : plan.sequence) sequence.push_back(instance.task(task).id);
   OrderedJson path = OrderedJson::array();
-  for (const State state : plan.path) path.push_back(path_entry_json(instance.map(), state));
-  return {{"id", instance.agent(index).id},
-          {"sequence", std::move(sequence)},
-          {"cost", plan.cost},
-          {"path", std::move(path)}};
+  const Agent& agent = instance.agent(index);
+  for (const State state : plan.path)
+    path.push_back(pose_json(instance.map(), agent.motion, instance.pose_of(state)));
+  OrderedJson json{{"id", agent.id}, {"sequence", std::move(sequence)}, {"cost", plan.cost}};
+  if (!plan.work.empty()) {
+    OrderedJson& work = json["work"] = OrderedJson::array();
+    for (const WorkTime& w : plan.work)
+      work.push_back({{"task", instance.task(w.task).id}, {"begin", w.begin}, {"end", w.end}});
+  }
+  json["path"] = std::move(path);
+  return json;
 }
 
 OrderedJson stats_json(const Stats& stats) {
@@ -116,14 +122,14 @@ class PlanReader {
       const AgentIndex index = find_id(agents_, id, "agent");
       if (seen[index]) id.fail(fmt::format("agent '{}' appears twice", id.text()));
       seen[index] = true;
-      plan.agents[index] = read_agent(agents.element(i));
+      plan.agents[index] = read_agent(index, agents.element(i));
     }
     return plan;
   }
 
  private:
-  AgentPlan read_agent(const JsonValue& value) const {
-    unknown_.look_at(value, {"id", "sequence", "cost", "path"});
+  AgentPlan read_agent(AgentIndex agent, const JsonValue& value) const {
+    unknown_.look_at(value, {"id", "sequence", "cost", "path", "work"});
     AgentPlan plan;
     plan.cost = static_cast<Time>(value.member("cost").integer(0, kNever));
     const JsonValue sequence = value.member("sequence");
@@ -132,8 +138,19 @@ class PlanReader {
     const JsonValue path = value.member("path");
     plan.path.reserve(path.size());
     for (std::size_t t = 0; t < path.size(); ++t)
-      plan.path.push_back(read_path_entry(instance_.map(), path.element(t)));
+      plan.path.push_back(instance_.state_of(
+          agent, read_pose(instance_.map(), instance_.agent(agent).motion, path.element(t))));
+    if (const auto work = value.find("work"))
+      for (std::size_t k = 0; k < work->size(); ++k)
+        plan.work.push_back(read_work(work->element(k)));
     return plan;
+  }
+  WorkTime read_work(const JsonValue& value) const {
+    unknown_.look_at(value, {"task", "begin", "end"});
+    const auto time = [&](const char* key) {
+      return static_cast<Time>(value.member(key).integer(-kNever, kNever));
+    };
+    return {find_id(tasks_, value.member("task"), "task"), time("begin"), time("end")};
   }
 
   const Instance& instance_;

@@ -87,7 +87,7 @@ std::optional<TrackerScenario> parse_tracker_scenario(const std::string& map,
 
 void require_tracker_instance(const Instance& instance) {
   constexpr std::string_view kFormat = "a row of MAPF Tracker";
-  require_grid(instance, kFormat);
+  require_free_grid(instance, kFormat);
   require_goals(instance, kFormat);
   if (instance.task_count() > 0)
     throw NotExpressible("tasks/0",

@@ -63,7 +63,7 @@ std::string head_text(const Instance& instance, const Solution& solution, const 
 
 void write_visualizer_text(const std::filesystem::path& path, const Instance& instance,
                            const Solution& solution, const std::string& map) {
-  require_grid(instance, "mapf-visualizer's text");
+  require_free_grid(instance, "mapf-visualizer's text");
   const Grid& grid = instance.grid();
   const std::vector<AgentPlan>& agents = solution.plan->agents;
   std::string text = head_text(instance, solution, map);

@@ -1,9 +1,64 @@
 // SPDX-License-Identifier: MIT
 #include "grove/model/distance_field.h"
 
-namespace grove {
+#include <algorithm>
+#include <map>
 
-DistanceField distance_field(const World& world, Place target) {
+namespace grove {
+namespace {
+
+// What the agents of an instance must reach, each set of states once.
+class Targets {
+ public:
+  explicit Targets(const Instance& instance) : instance_(instance) {
+    for (TaskIndex task = 0; task < instance.task_count(); ++task)
+      of_tasks.push_back(instance.task(task).duration == 0 ? on_place(instance.task(task).cell)
+                                                           : add(instance.states_visiting(task)));
+    for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
+      of_agents.push_back(to_rest(agent));
+  }
+
+  std::vector<std::vector<State>> sets;
+  // Numbers of sets; kNone: there is none to be reached.
+  static constexpr int kNone = -1;
+  std::vector<int> of_tasks;
+  std::vector<int> of_agents;
+
+ private:
+  int add(std::vector<State> states) {
+    sets.push_back(std::move(states));
+    return static_cast<int>(sets.size()) - 1;
+  }
+  int on_place(Place place) {
+    const auto [known, is_new] = by_place_.try_emplace(place, 0);
+    if (is_new) {
+      std::vector<State> states;
+      instance_.world().for_each_state(place, [&](State state) { states.push_back(state); });
+      known->second = add(std::move(states));
+    }
+    return known->second;
+  }
+  int to_rest(AgentIndex index) {
+    const Agent& agent = instance_.agent(index);
+    if (agent.goal && !agent.goal_heading) return on_place(*agent.goal);
+    if (instance_.rests_on_last_stop(index)) return kNone;
+    if (!agent.is_idle()) return add(instance_.states_to_rest(index));
+    if (anywhere_ == kNone) {
+      std::vector<State> all(static_cast<std::size_t>(instance_.world().state_count()));
+      for (std::size_t s = 0; s < all.size(); ++s) all[s] = static_cast<State>(s);
+      anywhere_ = add(std::move(all));
+    }
+    return anywhere_;
+  }
+
+  const Instance& instance_;
+  std::map<Place, int> by_place_;
+  int anywhere_ = kNone;
+};
+
+}  // namespace
+
+DistanceField distance_field(const World& world, std::span<const State> targets) {
   DistanceField distance(static_cast<std::size_t>(world.state_count()), kNever);
   std::vector<State> queue;
   const auto reach = [&](State state, Time steps) {
@@ -11,31 +66,43 @@ DistanceField distance_field(const World& world, Place target) {
     distance[state] = steps;
     queue.push_back(state);
   };
-  world.for_each_state(target, [&](State state) { reach(state, 0); });
+  for (const State state : targets) reach(state, 0);
   for (std::size_t head = 0; head < queue.size(); ++head)
     for (State before : world.moves_to(queue[head])) reach(before, distance[queue[head]] + 1);
   return distance;
 }
 
-DistanceFields::DistanceFields(const Instance& instance, const Limits& limits) {
-  std::vector<Place> targets;
-  for (const Task& task : instance.tasks()) targets.push_back(task.cell);
-  for (const Agent& agent : instance.agents())
-    if (agent.goal) targets.push_back(*agent.goal);
+DistanceField distance_field(const World& world, Place target) {
+  std::vector<State> states;
+  world.for_each_state(target, [&](State state) { states.push_back(state); });
+  return distance_field(world, states);
+}
 
-  const World& world = instance.world();
-  const auto states = static_cast<std::size_t>(world.state_count());
-  if (!limits.memory_allows(targets.size() * states * sizeof(Time))) {
+DistanceFields::DistanceFields(const Instance& instance, const Limits& limits) {
+  const Targets targets(instance);
+  const auto states = static_cast<std::size_t>(instance.world().state_count());
+  if (!limits.memory_allows(targets.sets.size() * states * sizeof(Time))) {
     limits.memory_exhausted();
     return;
   }
-  fields_.resize(static_cast<std::size_t>(world.place_count()));
-  for (Place target : targets) {
+  for (const std::vector<State>& set : targets.sets) {
     if (limits.stop_requested()) return;
-    if (!fields_[target])
-      fields_[target] = std::make_unique<DistanceField>(distance_field(world, target));
+    fields_.push_back(std::make_unique<DistanceField>(distance_field(instance.world(), set)));
   }
+  for (const int set : targets.of_tasks) by_task_.push_back(fields_[set].get());
+  for (const int set : targets.of_agents)
+    by_agent_.push_back(set == Targets::kNone ? nullptr : fields_[set].get());
   complete_ = true;
+}
+
+Time least_from(const World& world, Place place, int kind, const DistanceField& distance) {
+  const StateRange bases = world.bases(place, kind);
+  return *std::min_element(distance.begin() + bases.first, distance.begin() + bases.end);
+}
+
+Time most_from(const World& world, Place place, int kind, const DistanceField& distance) {
+  const StateRange bases = world.bases(place, kind);
+  return *std::max_element(distance.begin() + bases.first, distance.begin() + bases.end);
 }
 
 }  // namespace grove

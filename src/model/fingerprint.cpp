@@ -41,11 +41,18 @@ std::uint64_t fingerprint(const Instance& instance) {
   Fnv1a hash;
   std::visit([&](const auto& map) { add(map, hash); }, instance.map());
   hash.add(instance.task_count());
-  for (const Task& task : instance.tasks()) hash.add(task.cell);
+  for (const Task& task : instance.tasks()) {
+    hash.add(task.cell);
+    if (task.duration > 0) hash.add(task.duration);
+  }
   hash.add(instance.agent_count());
   for (const Agent& agent : instance.agents()) {
     hash.add(agent.start);
     hash.add(agent.goal.value_or(kNoPlace));
+    if (agent.motion.turn_steps > 0) {
+      hash.add(agent.motion.turn_steps);
+      hash.add(agent.goal_heading ? static_cast<std::int64_t>(*agent.goal_heading) : -1);
+    }
     hash.add(static_cast<std::int64_t>(agent.tasks.size()));
     for (const TaskIndex task : agent.tasks) hash.add(task);
   }

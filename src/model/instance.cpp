@@ -18,8 +18,66 @@ void require_new_id(const std::string& id, bool is_new) {
 }  // namespace
 
 Instance::Instance(Map map)
-    : map_(std::make_shared<const Map>(std::move(map))),
-      world_(std::visit([](const auto& m) -> const World* { return &m; }, *map_)) {}
+    : map_(std::make_shared<const Map>(std::move(map))), world_(&ground(*map_)) {}
+
+bool Instance::rests_on_last_stop(AgentIndex agent) const {
+  const Agent& a = agents_[agent];
+  return !a.goal && !a.tasks.empty() &&
+         std::ranges::all_of(a.tasks, [&](TaskIndex t) { return tasks_[t].duration == 0; });
+}
+
+bool Instance::may_rest(AgentIndex agent, State state) const {
+  const Agent& a = agents_[agent];
+  if (a.is_idle()) return true;
+  const Place place = world_->place(state);
+  if (!a.goal)
+    return std::ranges::any_of(a.tasks, [&](TaskIndex t) { return tasks_[t].cell == place; });
+  if (place != *a.goal || !a.goal_heading) return place == *a.goal;
+  const State base = world_->base(state);
+  if (world_->kind(base) != a.kind) return false;
+  const Pose pose = motion_world_->pose(base);
+  return pose.steps == 0 && pose.heading == *a.goal_heading;
+}
+
+std::vector<State> Instance::states_visiting(TaskIndex task) const {
+  std::vector<State> states;
+  world_->for_each_state(tasks_[task].cell, [&](State state) {
+    if (is_visited(task, state)) states.push_back(state);
+  });
+  return states;
+}
+
+std::vector<State> Instance::states_to_rest(AgentIndex agent) const {
+  const Agent& a = agents_[agent];
+  std::vector<Place> places;
+  if (a.goal) places.push_back(*a.goal);
+  for (const TaskIndex task : a.tasks)
+    if (!a.goal) places.push_back(tasks_[task].cell);
+  std::ranges::sort(places);
+  places.erase(std::ranges::unique(places).begin(), places.end());
+  std::vector<State> states;
+  for (const Place place : places)
+    world_->for_each_state(place, [&](State state) {
+      if (may_rest(agent, state)) states.push_back(state);
+    });
+  return states;
+}
+
+// Those on one place that are no stops are visited by the first stop there.
+std::vector<TaskIndex> Instance::tasks_in_order(AgentIndex agent,
+                                                std::span<const std::uint8_t> stops) const {
+  const Agent& a = agents_[agent];
+  std::vector<TaskIndex> order;
+  for (const std::uint8_t stop : stops) {
+    const TaskIndex task = a.stops[stop];
+    const auto is_here = [&](TaskIndex t) { return tasks_[t].cell == tasks_[task].cell; };
+    if (a.stops.size() < a.tasks.size() && *std::ranges::find_if(a.stops, is_here) == task)
+      for (const TaskIndex other : a.tasks)
+        if (is_here(other) && std::ranges::count(a.stops, other) == 0) order.push_back(other);
+    order.push_back(task);
+  }
+  return order;
+}
 
 InstanceBuilder::InstanceBuilder(Map map) : instance_(std::move(map)) {}
 
@@ -49,45 +107,59 @@ AgentIndex InstanceBuilder::add_agent(std::string id, Position start,
   return add_agent(std::move(id), from, to);
 }
 
-AgentIndex InstanceBuilder::add_agent(std::string id, State start, std::optional<Place> goal) {
-  require_new_id(id, !agent_by_id_.contains(id));
-  Agent agent{std::move(id), start, goal, {}};
-  const Place from = instance_.world().place(start);
+AgentIndex InstanceBuilder::add_agent(std::string id, Place start, std::optional<Place> goal) {
+  return add_agent({.id = std::move(id), .start = {.place = start}, .goal = goal});
+}
+
+AgentIndex InstanceBuilder::add_agent(AgentSpec spec) {
+  require_new_id(spec.id, !agent_by_id_.contains(spec.id));
+  const Place from = spec.start.place;
+  if (instance_.is_on_grid()) {
+    const Grid& grid = instance_.grid();
+    passable_cell("start", grid.position(from));
+    if (spec.goal) passable_cell("goal", grid.position(*spec.goal));
+  }
   if (const auto it = agent_by_start_.find(from); it != agent_by_start_.end())
     throw InstanceError(
         "start", fmt::format("{} is already the start of agent '{}'; expected distinct starts",
                              name(from), instance_.agent(it->second).id));
-  if (goal) {
-    if (const auto it = agent_by_goal_.find(*goal); it != agent_by_goal_.end())
+  if (spec.goal) {
+    if (const auto it = agent_by_goal_.find(*spec.goal); it != agent_by_goal_.end())
       throw InstanceError(
           "goal", fmt::format("{} is already the goal of agent '{}'; expected distinct goals",
-                              name(*goal), instance_.agent(it->second).id));
+                              name(*spec.goal), instance_.agent(it->second).id));
   }
 
+  Agent agent{
+      .id = spec.id, .goal = spec.goal, .goal_heading = spec.goal_heading, .motion = spec.motion};
+  if (spec.motion.turn_steps > 0) {
+    const auto known = std::ranges::find(motions_, spec.motion) - motions_.begin();
+    if (known == std::ssize(motions_)) motions_.push_back(spec.motion);
+    agent.kind = static_cast<int>(known) + 1;
+  }
   const auto index = static_cast<AgentIndex>(instance_.agents_.size());
   agent_by_id_.emplace(agent.id, index);
   agent_by_start_.emplace(from, index);
   if (agent.goal) agent_by_goal_.emplace(*agent.goal, index);
   instance_.agents_.push_back(std::move(agent));
+  specs_.push_back(std::move(spec));
   return index;
 }
 
 TaskIndex InstanceBuilder::add_task(std::string id, Position cell,
-                                    std::span<const std::string> agent_ids) {
+                                    std::span<const std::string> agent_ids, Time duration) {
   require_new_id(id, !task_by_id_.contains(id));
   const Cell place = passable_cell("cell", cell);
-  return add_task(std::move(id), place, agent_ids);
+  return add_task(std::move(id), place, agent_ids, duration);
 }
 
 TaskIndex InstanceBuilder::add_task(std::string id, Place place,
-                                    std::span<const std::string> agent_ids) {
+                                    std::span<const std::string> agent_ids, Time duration) {
   require_new_id(id, !task_by_id_.contains(id));
-  Task task{std::move(id), place, {}};
-  if (const auto it = task_by_place_.find(place); it != task_by_place_.end())
-    throw InstanceError("cell", fmt::format("{} is already task '{}'; expected one task per {}, "
-                                            "with all its agents",
-                                            name(place), instance_.task(it->second).id,
-                                            instance_.is_on_grid() ? "cell" : "place"));
+  Task task{std::move(id), place, {}, duration};
+  if (duration < 0 || duration > kLongest)
+    throw InstanceError("duration",
+                        fmt::format("found {} steps; expected 0 to {}", duration, kLongest));
   if (agent_ids.empty()) throw InstanceError("agents", "expected at least one agent");
 
   for (std::size_t k = 0; k < agent_ids.size(); ++k) {
@@ -110,21 +182,107 @@ TaskIndex InstanceBuilder::add_task(std::string id, Place place,
   const auto index = static_cast<TaskIndex>(instance_.tasks_.size());
   for (AgentIndex agent : task.agents) instance_.agents_[agent].tasks.push_back(index);
   task_by_id_.emplace(task.id, index);
-  task_by_place_.emplace(task.cell, index);
   instance_.tasks_.push_back(std::move(task));
   return index;
 }
 
 Instance InstanceBuilder::build() && {
   if (instance_.agents_.empty()) throw InstanceError("agents", "expected at least one agent");
-  for (std::size_t i = 0; i < instance_.agents_.size(); ++i) {
-    const Agent& agent = instance_.agents_[i];
-    if (!agent.goal && agent.tasks.empty())
-      throw InstanceError(
-          fmt::format("agents/{}", i),
-          fmt::format("agent '{}' has neither a goal nor a task; expected one of them", agent.id));
+  for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
+    choose_stops(instance_.agents_[i]);
+    if (specs_[i].working) require_work(i, *specs_[i].working);
   }
+  make_world();
   return std::move(instance_);
+}
+
+void InstanceBuilder::choose_stops(Agent& agent) const {
+  const auto takes_time = [&](TaskIndex t) { return instance_.task(t).duration > 0; };
+  for (const TaskIndex task : agent.tasks) {
+    const auto is_here = [&](TaskIndex t) {
+      return instance_.task(t).cell == instance_.task(task).cell;
+    };
+    const auto first_here = std::ranges::find_if(agent.tasks, is_here);
+    const bool work_here =
+        std::ranges::any_of(agent.tasks, [&](TaskIndex t) { return is_here(t) && takes_time(t); });
+    if (takes_time(task) || (!work_here && *first_here == task)) agent.stops.push_back(task);
+  }
+}
+
+void InstanceBuilder::require_work(AgentIndex agent, const WorkBegun& begun) const {
+  const Agent& a = instance_.agent(agent);
+  const auto fail = [&](const std::string& key, const std::string& message) {
+    throw InstanceError(fmt::format("agents/{}/working/{}", agent, key), message);
+  };
+  const auto found = task_by_id_.find(begun.task);
+  if (found == task_by_id_.end())
+    fail("task",
+         fmt::format("there is no task '{}'; expected one of agent '{}'", begun.task, a.id));
+  const Task& task = instance_.task(found->second);
+  if (std::ranges::count(task.agents, agent) == 0)
+    fail("task",
+         fmt::format("task '{}' is none of agent '{}'; expected one of its own", begun.task, a.id));
+  if (task.cell != specs_[agent].start.place)
+    fail("task", fmt::format("agent '{}' does not start on {}; expected a task where it starts",
+                             a.id, name(task.cell)));
+  if (task.duration == 0)
+    fail("task", fmt::format("task '{}' takes no time; expected one with a duration", begun.task));
+  if (begun.done < 0 || begun.done >= task.duration)
+    fail("done",
+         fmt::format("found {} steps of task '{}'; expected 0 to {}, less than its duration",
+                     begun.done, begun.task, task.duration - 1));
+}
+
+// Whoever may do the work may do it in any heading, or within the turn that it starts in: before
+// any other turn the work can as well be done first.
+std::vector<MotionWorld::Job> InstanceBuilder::jobs() const {
+  std::vector<MotionWorld::Job> jobs;
+  const auto state_of = [&](int kind, const Pose& pose) {
+    return MotionWorld::base_state(instance_.map(), motions_, kind, pose);
+  };
+  std::size_t of_task = 0;  // where those of the task under way begin
+  const auto add = [&](TaskIndex task, State base) -> MotionWorld::Job& {
+    for (std::size_t j = of_task; j < jobs.size(); ++j)
+      if (jobs[j].base == base) return jobs[j];
+    return jobs.emplace_back(MotionWorld::Job{task, instance_.task(task).duration, base});
+  };
+  for (TaskIndex t = 0; t < instance_.task_count(); ++t) {
+    const Task& task = instance_.task(t);
+    if (task.duration == 0) continue;
+    of_task = jobs.size();
+    for (const AgentIndex agent : task.agents) {
+      const int kind = instance_.agent(agent).kind;
+      for (const Heading heading : kHeadings)
+        if (kind > 0 || heading == Heading::kNorth)
+          add(t, state_of(kind, {task.cell, heading, heading, 0}));
+      const AgentSpec& spec = specs_[agent];
+      if (spec.start.place != task.cell) continue;
+      MotionWorld::Job& job = add(t, state_of(kind, spec.start));
+      if (spec.working && spec.working->task == task.id && spec.working->done == 0)
+        job.from_nothing = true;
+    }
+  }
+  return jobs;
+}
+
+void InstanceBuilder::make_world() {
+  const std::vector<MotionWorld::Job> jobs = this->jobs();
+  if (!motions_.empty() || !jobs.empty()) {
+    try {
+      instance_.motion_world_ = std::make_shared<const MotionWorld>(instance_.map_, motions_, jobs);
+    } catch (const std::invalid_argument& error) {
+      throw InstanceError(instance_.is_on_grid() ? "map" : "roadmap", error.what());
+    }
+    instance_.world_ = instance_.motion_world_.get();
+  }
+  for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
+    Agent& agent = instance_.agents_[i];
+    const AgentSpec& spec = specs_[i];
+    agent.start = MotionWorld::base_state(instance_.map(), motions_, agent.kind, spec.start);
+    if (spec.working)
+      agent.start = instance_.motion_world_->working(task_by_id_.at(spec.working->task),
+                                                     agent.start, spec.working->done);
+  }
 }
 
 }  // namespace grove

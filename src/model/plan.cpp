@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grove/model/plan.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -21,6 +22,55 @@ Time last_arrival(const World& world, const Path& path) {
   Time time = static_cast<Time>(path.size()) - 1;
   while (time > 0 && world.place(path[time - 1]) == world.place(path.back())) --time;
   return time;
+}
+
+namespace {
+
+// The work begun by the step that ends at `time`, if any was; none has waited within.
+std::optional<WorkTime> work_begun(const Instance& instance, const Path& path, Time time) {
+  const World& world = instance.world();
+  if (!world.is_working(path[time])) return std::nullopt;
+  const Work& work = world.work(path[time]);
+  if (time > 0 && world.is_working(path[time - 1]) && world.work(path[time - 1]).task == work.task)
+    return std::nullopt;
+  const Time begin = time == 0 ? -work.done : time - 1;
+  return WorkTime{work.task, begin, begin + instance.task(work.task).duration};
+}
+
+}  // namespace
+
+AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
+                     std::span<const std::uint8_t> stops, const Path& path) {
+  const World& world = instance.world();
+  AgentPlan plan;
+  plan.sequence = instance.tasks_in_order(agent, stops);
+  plan.path.reserve(path.size());
+  for (Time t = 0; t < static_cast<Time>(path.size()); ++t) {
+    plan.path.push_back(world.base(path[t]));
+    if (t > 0 && plan.path[t] != plan.path[t - 1]) plan.cost = t;
+    if (const auto work = work_begun(instance, path, t)) {
+      plan.work.push_back(*work);
+      plan.cost = std::max(plan.cost, work->end);
+    }
+  }
+  plan.path.resize(static_cast<std::size_t>(plan.cost) + 1, plan.path.back());
+  return plan;
+}
+
+Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& plan) {
+  Path path(plan.path.begin(), plan.path.begin() + plan.cost + 1);
+  path[0] = instance.agent(agent).start;
+  for (const WorkTime& work : plan.work) {
+    const State base = plan.path[std::max(work.begin, 0)];
+    const auto at_work = [&](Time done) {
+      return instance.motion_world()->working(work.task, base, done);
+    };
+    for (Time t = std::max(work.begin + 1, 0); t <= work.end; ++t)
+      path[t] = at_work(t - work.begin);
+    for (Time t = work.end + 1; t <= plan.cost && plan.path[t] == base; ++t)
+      path[t] = path[work.end];
+  }
+  return path;
 }
 
 std::string_view to_string(Status status) {

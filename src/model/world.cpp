@@ -9,12 +9,16 @@ namespace {
 
 // Who leads to whom, the other way round; lists in ascending order.
 Rows reversed(const Rows& rows) {
-  std::vector<std::vector<std::int32_t>> back(static_cast<std::size_t>(rows.count()));
+  std::vector<std::int32_t> first(static_cast<std::size_t>(rows.count()) + 1);
+  for (const std::int32_t to : rows.items()) ++first[static_cast<std::size_t>(to) + 1];
+  for (std::size_t row = 1; row < first.size(); ++row) first[row] += first[row - 1];
+  std::vector<std::int32_t> back(rows.items().size());
+  std::vector<std::int32_t> next(first.begin(), first.end() - 1);
   for (std::int32_t from = 0; from < rows.count(); ++from)
-    for (const std::int32_t to : rows[from]) back[to].push_back(from);
+    for (const std::int32_t to : rows[from]) back[next[to]++] = from;
   Rows result;
-  for (const auto& row : back) {
-    for (const std::int32_t item : row) result.add(item);
+  for (std::size_t row = 0; row + 1 < first.size(); ++row) {
+    for (std::int32_t i = first[row]; i < first[row + 1]; ++i) result.add(back[i]);
     result.end_row();
   }
   return result;
@@ -48,7 +52,10 @@ int longest_row(const Rows& rows) {
 }  // namespace
 
 World::World(Rows moves)
-    : places_(moves.count()), most_moves_(longest_row(moves)), moves_(std::move(moves)) {
+    : places_(moves.count()),
+      most_moves_(longest_row(moves)),
+      first_working_(moves.count()),
+      moves_(std::move(moves)) {
   Rows back = reversed(moves_);
   is_symmetric_ = same_sets(moves_, back);
   if (is_symmetric_) return;
@@ -61,6 +68,55 @@ World::World(Rows moves, Place row_width)
     : places_(moves.count()),
       row_width_(row_width),
       most_moves_(longest_row(moves)),
+      first_working_(moves.count()),
       moves_(std::move(moves)) {}
+
+World::World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, Rows moves)
+    : places_(ground.place_count()),
+      row_width_(ground.row_width()),
+      most_moves_(longest_row(moves)),
+      is_symmetric_(false),
+      has_other_neighbors_(true),
+      first_working_(moves.count() - static_cast<State>(work.size())),
+      moves_(std::move(moves)),
+      moves_back_(reversed(moves_)),
+      kinds_(std::move(kinds)),
+      work_(std::move(work)),
+      work_rank_(work_.size()) {
+  bases_on_a_place_ = 0;
+  for (const Kind& kind : kinds_) bases_on_a_place_ += kind.on_a_place;
+  for (std::size_t k = 1; k < kinds_.size(); ++k)
+    for (Place place = 0; place < places_; ++place)
+      place_of_.insert(place_of_.end(), kinds_[k].on_a_place, place);
+  std::vector<std::vector<State>> working(static_cast<std::size_t>(places_));
+  for (std::size_t w = 0; w < work_.size(); ++w) {
+    const Place here = place(work_[w].base);
+    place_of_.push_back(here);
+    work_rank_[w] = bases_on_a_place_ + static_cast<std::int32_t>(working[here].size());
+    working[here].push_back(first_working_ + static_cast<State>(w));
+  }
+  for (Place here = 0; here < places_; ++here) {
+    for (const State state : working[here]) working_.add(state);
+    working_.end_row();
+    for (const Place there : ground.neighbors(here)) neighbors_.add(there);
+    neighbors_.end_row();
+  }
+  most_states_on_a_place_ = bases_on_a_place_ + longest_row(working_);
+}
+
+int World::kind_of_base(State state) const {
+  int kind = kind_count() - 1;
+  while (kinds_[kind].first > state) --kind;
+  return kind;
+}
+
+int World::rank_of(State state) const {
+  if (is_working(state)) return work_rank_[state - first_working_];
+  int before = 0;
+  int kind = 0;
+  while (kind + 1 < kind_count() && kinds_[kind + 1].first <= state)
+    before += kinds_[kind++].on_a_place;
+  return before + (state - kinds_[kind].first) % kinds_[kind].on_a_place;
+}
 
 }  // namespace grove

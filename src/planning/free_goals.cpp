@@ -10,23 +10,32 @@
 // that fewer stops left are always better: with F, a stop of F touched right after the prefix is
 // not counted, and must be visited again.) So each touch has one successor, with one exception.
 //
-// Without a destination the agent rests on the last stop of its sequence, so that every path has
-// one last stop, and the classes of a partition share no sequence. Being on a stop for the last
-// time is being on it at the end: a path that has counted everything may rest on any free stop v,
-// since moving v to the end of the order counted leaves a sequence of the class - if its first free
-// stop stays outside F. Moving v breaks that only if v itself was counted first and F is not empty.
-// Then the stop w that was counted first is no place to rest (unless it is the only free stop): the
-// state remembers it by its `rests`; and because that takes something away, touching a possible
-// first stop need not count: the search follows both ways. That is exact: a realized sequence with
-// first free stop w and last stop v != w is followed by counting w at its visit, skipping the
-// possible first stops before, and everything else as soon as touched. If only one stop can be the
-// first, skipping it leads nowhere and is left out. A prefix stop is a place to rest only if it is
-// the last one of a complete prefix.
+// Without a destination an agent whose stops take no time rests on the last stop of its sequence,
+// so that every path has one last stop, and the classes of a partition share no sequence. Being on
+// a stop for the last time is being on it at the end: a path that has counted everything may rest
+// on any free stop v, since moving v to the end of the order counted leaves a sequence of the class
+// - if its first free stop stays outside F. Moving v breaks that only if v itself was counted first
+// and F is not empty. Then the stop w that was counted first is no place to rest (unless it is the
+// only free stop): the state remembers it by its `rests`; and because that takes something away,
+// touching a possible first stop need not count: the search follows both ways. That is exact: a
+// realized sequence with first free stop w and last stop v != w is followed by counting w at its
+// visit, skipping the possible first stops before, and everything else as soon as touched. If only
+// one stop can be the first, skipping it leads nowhere and is left out. A prefix stop is a place to
+// rest only if it is the last one of a complete prefix.
 //
-// The distance from a cell is the least over the stops u next of dist(cell, u) + onward cost of u.
-// If onward(u) >= dist(u, w) + onward(w), then u is never needed beside w, whatever the cell, by
-// the triangle inequality of grid distances. What remains is a handful of stops. (Two stops have
-// different cells, so no two can rule out each other.)
+// *Work.* A stop that takes time is counted when its work is completed, and work is begun only on a
+// stop that may be counted next: it ends with that count, for nothing else can be counted meanwhile
+// (of the stops on one place only those that take time are stops: Instance). Begun work that did
+// not count would be a wait. Such work is not done again at the end, so an agent without a
+// destination that has any may rest on any of its own places, whatever it has counted last: there
+// the order says nothing of the rest, as with a destination.
+//
+// The distance from a state is the least over the stops u next of dist(state, u) + onward cost of
+// u. If onward(u) >= D(u, w) + onward(w), D(u, w) being the greatest distance to w from any state
+// on u, then u is never needed beside w, whatever the state: dist(state, w) <= dist(state, u) +
+// D(u, w). What remains is a handful of stops. (No two can rule out each other: on two places
+// D is positive, and on one place there is work to be done.) Onward costs are the least over the
+// states in which a stop may be left, so never more than what is to be paid.
 #include "grove/planning/free_goals.h"
 
 #include <algorithm>
@@ -64,25 +73,48 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
     : agent_(agent),
       start_(instance.agent(agent).start),
       destination_(instance.agent(agent).goal),
+      turn_about_(instance.world().turn_about(instance.agent(agent).kind)),
       completions_(cost_matrix(instance, agent, distances)) {
-  std::vector<std::int8_t> stop_at(instance.world().state_count(), kNoStop);
-  for (TaskIndex task : instance.agent(agent).tasks) {
-    stop_at[instance.task(task).cell] = static_cast<std::int8_t>(places_.size());
-    places_.push_back(instance.task(task).cell);
+  const World& world = instance.world();
+  const Agent& who = instance.agent(agent);
+  std::vector<std::int8_t> stop_at(world.state_count(), kNoStop);
+  for (State state = 0; state < world.state_count(); ++state)
+    if (world.is_working(state)) stop_at[state] = kForeignWork;
+  for (std::size_t stop = 0; stop < who.stops.size(); ++stop) {
+    const Task& task = instance.task(who.stops[stop]);
+    places_.push_back(task.cell);
+    durations_.push_back(task.duration);
+    if (task.duration > 0) work_stops_ |= bit(static_cast<int>(stop));
+    world.for_each_state(task.cell, [&](State state) {
+      if (instance.is_visited(who.stops[stop], state))
+        stop_at[state] = static_cast<std::int8_t>(stop);
+      else if (world.is_working(state) && world.work(state).task == who.stops[stop])
+        stop_at[state] = static_cast<std::int8_t>(kFirstWork - static_cast<int>(stop));
+    });
   }
-  if (destination_)
-    to_destination_ = &distances.to(*destination_);
-  else if (places_.empty())
-    throw std::invalid_argument("an agent without a destination needs a task");
+  if (!instance.rests_on_last_stop(agent)) to_rest_ = &distances.to_rest(agent);
 
   std::vector<Time> to_stops(stop_at.size() * places_.size());
+  longest_legs_.resize(places_.size() * places_.size());
   for (std::size_t stop = 0; stop < places_.size(); ++stop) {
-    const DistanceField& field = distances.to(places_[stop]);
+    const DistanceField& field = distances.to_task(who.stops[stop]);
     for (std::size_t state = 0; state < field.size(); ++state)
       to_stops[state * places_.size() + stop] = field[state];
+    for (std::size_t from = 0; from < places_.size(); ++from)
+      longest_legs_[from * places_.size() + stop] =
+          most_from(world, places_[from], who.kind, field);
   }
   stop_at_ = std::make_shared<const std::vector<std::int8_t>>(std::move(stop_at));
   distances_ = std::make_shared<const std::vector<Time>>(std::move(to_stops));
+}
+
+// Whoever is there for good, on what nobody bars for ever after, turns and works at once: all of
+// its work there, with a turn before and after at most.
+Time AgentStops::longest_finish(Place place) const {
+  Time longest = turn_about_;
+  for (std::size_t stop = 0; stop < places_.size(); ++stop)
+    if (places_[stop] == place) longest += durations_[stop];
+  return longest;
 }
 
 FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work)
@@ -94,14 +126,15 @@ FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work, Completions& complet
       class_(std::move(work)),
       free_(stops.all() & ~checked_set(class_.prefix, stops.all())),
       first_free_(free_ & ~class_.forbidden_next),
-      rest_is_not_first_(!stops.destination() && first_free_ != free_ && std::popcount(free_) > 1),
+      rest_is_not_first_(stops.rests_on_last_stop() && first_free_ != free_ &&
+                         std::popcount(free_) > 1),
       stride_(static_cast<std::size_t>(stops.count())) {}
 
 bool FreeGoals::plausible() const {
   if (free_ != 0 && first_free_ == 0) return false;
   const Time* to_stop = stops_.distances_from(stops_.start());
   const bool reachable = std::all_of(to_stop, to_stop + stride_, [](Time d) { return d < kNever; });
-  return reachable && (!stops_.destination() || stops_.to_destination(stops_.start()) < kNever);
+  return reachable && (stops_.rests_on_last_stop() || stops_.to_rest(stops_.start()) < kNever);
 }
 
 FreeGoals::StageId FreeGoals::first_stage() {
@@ -116,7 +149,7 @@ FreeGoals::StageId FreeGoals::first_stage() {
 }
 
 Time FreeGoals::to_rest(const Stage& stage, State state) const {
-  if (stops_.destination()) return stops_.to_destination(state);
+  if (!stops_.rests_on_last_stop()) return stops_.to_rest(state);
   const Time* to_stop = stops_.distances_from(state);
   Time best = kNever;
   for (StopSet rests = stage.rests; rests != 0; rests &= rests - 1)
@@ -185,9 +218,8 @@ void FreeGoals::add_onward(Stage& stage) {
   stage.count = static_cast<std::int32_t>(onward_.size()) - stage.first;
   const auto ways = onward_.begin() + stage.first;
   const auto needed = [&](const Onward& u) {
-    const Time* from_u = stops_.distances_from(stops_.place(u.stop));
     return std::none_of(ways, onward_.end(), [&](const Onward& w) {
-      return w.stop != u.stop && u.cost >= from_u[w.stop] + w.cost;
+      return w.stop != u.stop && u.cost >= stops_.longest_leg(u.stop, w.stop) + w.cost;
     });
   };
   std::vector<Onward> sorted;
@@ -206,17 +238,17 @@ Sequence realized_sequence(const FreeGoals& goals, const Path& path) {
     return so_far.size() > work.prefix.size() || !holds(work.forbidden_next, stop);
   };
   const auto complete = static_cast<std::size_t>(stops.count());
-  const int last =
-      stops.destination() || path.empty() ? AgentStops::kNoStop : stops.stop_at(path.back());
+  const int last = !stops.rests_on_last_stop() || path.empty() ? AgentStops::kNoStop
+                                                               : stops.stop_at(path.back());
   Sequence sequence;
   for (const State state : path) {
     const int stop = stops.stop_at(state);
-    if (stop == AgentStops::kNoStop || !next_in_class(sequence, stop)) continue;
+    if (stop < 0 || !next_in_class(sequence, stop)) continue;
     if (stop != last || sequence.size() + 1 == complete)
       sequence.push_back(static_cast<Stop>(stop));
   }
-  const bool rests = stops.destination() ? !path.empty() && path.back() == *stops.destination()
-                                         : !sequence.empty() && sequence.back() == last;
+  const bool rests = stops.rests_on_last_stop() ? !sequence.empty() && sequence.back() == last
+                                                : !path.empty() && stops.to_rest(path.back()) == 0;
   if (sequence.size() != complete || !rests)
     throw std::invalid_argument("a path that realizes no sequence of the class");
   return sequence;

@@ -29,8 +29,9 @@
 // what is left of it costs at least the completion from any of its states on.
 //
 // Cutoff. Labels of f > cutoff are dropped. "Above" then says no more than that no path costs the
-// cutoff or less. That the agent must rest by t (kRestBy) is a cutoff of t, but what is above it is
-// infeasible.
+// cutoff or less. That the agent must come to rest by t (kRestBy) is a cutoff of t and what it may
+// have to turn and work there afterwards, but what is above it is infeasible: a path that comes to
+// rest in time has one beside it that does the same up to then, and finishes without tarrying.
 //
 // Known sequences. A heuristic that wants any good path may do without the others: then the cap is
 // the cutoff itself, a path found is one of a known sequence, and none found proves nothing, unless
@@ -129,7 +130,8 @@ PathOutcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals, const PathQuer
   path_ = &path;
   if (!search_.goals().assign(goals, intervals, query.greed_percent))
     return PathOutcome::kInfeasible;
-  const Time rest_by = intervals.latest_rest();
+  Time rest_by = intervals.latest_rest();
+  if (rest_by < kNever) rest_by += goals.stops().longest_finish(intervals.only_rest());
   latest_ = std::min(query.cutoff, rest_by);
   const bool must_rest = rest_by < kNever && rest_by <= query.cutoff;
   above_ = must_rest ? PathOutcome::kInfeasible : PathOutcome::kAbove;

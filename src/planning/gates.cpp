@@ -12,6 +12,11 @@
 // fixed sequence a gate holds for all earlier states; here for one, since the others may count
 // other stops on the way to u. The states before are cut off by gates of their own.
 //
+// Where agents turn, L may count u in another state than G: then G turns, too, which takes it
+// turn_about() steps at most, on its place and in its interval. So there the gate stands for those
+// that count u at g + turn_about() or later. (At the end of work on u G has all moves of the state
+// that it worked in.)
+//
 // "Later interval" goes by the time of arrival: if u may not be rested on by t and G came by then,
 // P comes by t, and then it leaves u again, as G can, or it comes at n = t + 1 or later. And "stand
 // there as well" must leave open what P does next: if u has copies, a G in one that is barred from
@@ -42,6 +47,7 @@ void Gates::close(const FreeGoals& goals, StageId from, int stop, Time time, Tim
     by_stage_[from] = static_cast<std::int32_t>(gates_.size() - ways.size());
   }
   Gate& gate = gates_[static_cast<std::size_t>(by_stage_[from] + (way - ways.begin()))];
+  time += goals.stops().turn_about();
   if (until > gate.until || (until == gate.until && time < gate.from)) gate = {time, until};
 }
 

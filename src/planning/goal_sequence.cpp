@@ -2,22 +2,40 @@
 #include "grove/planning/goal_sequence.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace grove {
 
 GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& distances,
-                           AgentIndex agent, const std::vector<TaskIndex>& tasks)
+                           AgentIndex agent, const std::vector<TaskIndex>& stops)
     : start_(instance.agent(agent).start) {
-  for (TaskIndex task : tasks) goals_.push_back(instance.task(task).cell);
-  if (const std::optional<Cell> destination = instance.agent(agent).goal)
-    goals_.push_back(*destination);
-  if (goals_.empty()) throw std::invalid_argument("an agent without a destination needs a task");
+  const World& world = instance.world();
+  const Agent& who = instance.agent(agent);
+  turn_about_ = world.turn_about(who.kind);
+  const auto add = [&](Place place, TaskIndex work, Time duration, const DistanceField& to_goal) {
+    goals_.push_back(place);
+    work_.push_back(work);
+    durations_.push_back(duration);
+    to_goal_.push_back(&to_goal);
+  };
+  for (const TaskIndex stop : stops) {
+    const Task& task = instance.task(stop);
+    add(task.cell, task.duration > 0 ? stop : -1, task.duration, distances.to_task(stop));
+    has_work_ = has_work_ || task.duration > 0;
+  }
+  if (!instance.rests_on_last_stop(agent))
+    add(who.goal.value_or(kNoPlace), -1, 0, distances.to_rest(agent));
 
-  for (Cell goal : goals_) to_goal_.push_back(&distances.to(goal));
   after_goal_.assign(goals_.size(), 0);
   for (int k = size() - 2; k >= 0; --k)
-    after_goal_[k] = std::min(kNever, distance(goals_[k], k + 1));
+    after_goal_[k] = std::min(
+        kNever, least_from(world, goals_[k], who.kind, *to_goal_[k + 1]) + after_goal_[k + 1]);
+}
+
+Time GoalSequence::longest_finish(Place place) const {
+  Time longest = turn_about_;
+  for (int k = 0; k < size(); ++k)
+    if (goals_[k] == place) longest += durations_[k];
+  return longest;
 }
 
 }  // namespace grove

@@ -6,21 +6,24 @@
 
 namespace grove {
 
-bool GoalsInTurn::assign(const GoalSequence& goals, const SafeIntervals& intervals) {
+bool GoalsInTurn::assign(const World& world, const GoalSequence& goals,
+                         const SafeIntervals& intervals) {
+  world_ = &world;
+  turn_about_ = goals.turn_about();
   last_progress_ = goals.size() - 1;
-  last_goal_ = goals.last();
-  first_rest_ = intervals.rest_begin(last_goal_);
+  first_rest_ = goals.last() == kNoPlace ? 0 : intervals.rest_begin(goals.last());
   if (first_rest_ >= kNever || goals.distance(goals.start(), 0) >= kNever) return false;
   stages_.resize(static_cast<std::size_t>(goals.size()));
-  Time latest = intervals.latest_rest();
-  if (latest == kNever) latest = std::numeric_limits<Time>::max();
+  Time latest = std::numeric_limits<Time>::max();
+  if (intervals.latest_rest() < kNever)
+    latest = intervals.latest_rest() + goals.longest_finish(intervals.only_rest());
   for (int k = last_progress_; k >= 0; --k) {
-    const Cell goal = goals.goal(k);
-    const Time deadline = intervals.last_time(goal);
+    const Place goal = goals.goal(k);
+    const Time deadline = goal == kNoPlace ? kNever : intervals.last_time(goal);
     if (deadline < kNever) latest = std::min(latest, deadline + goals.after_goal(k));
     stages_[k] = {.to_goal = goals.to_goal(k).data(),
                   .after_goal = goals.after_goal(k),
-                  .next_goal = k == last_progress_ ? kNoCell : goal,
+                  .work = goals.work(k),
                   .latest = latest,
                   .gate_from = kNever,
                   .gate_until = 0};
@@ -31,7 +34,7 @@ bool GoalsInTurn::assign(const GoalSequence& goals, const SafeIntervals& interva
 // One gate is kept per progress: the one that postpones furthest.
 void GoalsInTurn::close_gate(State, Progress, Progress progress, Time time, Time until) {
   const Time after_goal = stages_[progress - 1].after_goal;
-  const Time from = time + after_goal;
+  const Time from = time + turn_about_ + after_goal;
   if (until != kNever) until += after_goal;
   for (int p = 0; p < progress; ++p) {
     Stage& stage = stages_[p];

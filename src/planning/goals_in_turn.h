@@ -3,19 +3,23 @@
 //
 // Progress is the number of goals visited, the last one not counted. Standing on the next goal
 // counts as visiting it whenever it happens (at time 0 too, and again if the goal after it is the
-// same cell): visits are free and having made one takes away no continuation. One path through all
+// same place): visits are free and having made one takes away no continuation. A goal that takes
+// time is visited when its work is completed, and work is begun on the next goal alone: else it
+// would be a wait. One path through all
 // goals is planned as one path. Planning leg after leg with the earliest arrival of each is neither
 // optimal nor complete.
 //
-// f = t + h, where h = GoalSequence::distance is exact without constraints, so consistent. Two
+// f = t + h, where h = GoalSequence::distance is consistent, and exact without constraints where
+// agents turn freely. Two
 // prunes, both by the order of goals that every path must keep:
 //
 // - *Deadlines.* If goal k is barred for ever after time d, a label of progress p <= k is of use
 //   only if t + (distance on through goal k) <= d, that is f <= d + after_goal(k). The smallest
 //   right side over all k >= p is latest_[p]. That the agent must rest by t (kRestBy) is such a
-//   deadline of the last goal.
+//   deadline of the last goal: a path of least cost finishes longest_finish() later at most.
 //
-// - *Gates.* Let G be a label of goal k just visited, in interval [a, b], reached at time g, and L
+// - *Gates.* (Agents that turn: g is turn_about() later here, see gates.cpp.) Let G be a label of
+//   goal k just visited, in interval [a, b], reached at time g, and L
 //   a label that has yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A
 //   path P through L that visits goal k at some time <= b does so at a time in [g, b], where G
 //   could stand as well, waiting: from there on P is open to G. Only paths that visit goal k in a
@@ -43,7 +47,7 @@ class GoalsInTurn {
   static constexpr int kMostGoals = 255;
 
   // `goals`, 255 at most, must outlive the search. False when there is plainly no path.
-  bool assign(const GoalSequence& goals, const SafeIntervals& intervals);
+  bool assign(const World& world, const GoalSequence& goals, const SafeIntervals& intervals);
 
   Time first_rest() const { return first_rest_; }
   // What a path costs at least that is in the state at that time.
@@ -52,7 +56,10 @@ class GoalsInTurn {
   }
   template <class Reach>
   void on_arrival(Progress progress, State state, Reach reach) const {
-    while (stages_[progress].next_goal == state) ++progress;
+    if (world_->is_working(state) && !world_->work(state).completed &&
+        world_->work(state).task != stages_[progress].work)
+      return;
+    while (progress < last_progress_ && stages_[progress].to_goal[state] == 0) ++progress;
     reach(progress);
   }
   Time layer(Progress progress, State state, Time time) const {
@@ -60,7 +67,7 @@ class GoalsInTurn {
     return cost > stages_[progress].latest ? kDropped : cost;
   }
   bool may_end(Progress progress, State state) const {
-    return progress == last_progress_ && state == last_goal_;
+    return progress == last_progress_ && stages_[progress].to_goal[state] == 0;
   }
   Time put_off(Progress progress, State state, Time time, Time layer) const {
     const Stage& stage = stages_[progress];
@@ -69,7 +76,7 @@ class GoalsInTurn {
     return stage.gate_until < kNever ? stage.gate_until : kDropped;
   }
   bool makes_gate(State state, Progress, Progress progress) const {
-    return progress > 0 && stages_[progress - 1].next_goal == state;
+    return progress > 0 && stages_[progress - 1].to_goal[state] == 0;
   }
   void close_gate(State state, Progress before, Progress progress, Time time, Time until);
 
@@ -78,7 +85,7 @@ class GoalsInTurn {
   struct Stage {
     const Time* to_goal;  // distance field of the next goal
     Time after_goal;
-    Cell next_goal;  // to advance at; kNoCell at the last goal, where more is asked
+    TaskIndex work;  // the work to be done next; -1: none
     Time latest;     // labels of greater f miss a deadline
     // A label of f >= gate_from need not be looked at before gate_until.
     Time gate_from;
@@ -86,8 +93,9 @@ class GoalsInTurn {
   };
 
   std::vector<Stage> stages_;  // by progress
+  const World* world_ = nullptr;
   int last_progress_ = 0;
-  Cell last_goal_ = kNoCell;
+  Time turn_about_ = 0;
   Time first_rest_ = 0;
 };
 

@@ -4,10 +4,11 @@
 // cost is below that of the way around. Here legs that surely begin late go around.
 //
 // *Claim: a leg that leaves stop i at time e or later takes at least depth(j) steps to reach j*,
-// where depth is breadth-first search from i that enters a place c only if e + depth(c) <= last(c),
-// the last time at which anybody may be on c. Let c_0 = i, c_1, .. be the places of the leg, a step
-// each, begun at t >= e. depth(c_k) <= k by induction: c_k is occupied at t + k, so
-// e + depth(c_{k-1}) + 1 <= e + k <= t + k <= last(c_k), and the search enters it by depth k.
+// where depth is breadth-first search from all states on i that enters a place c only if e +
+// depth(c) <= last(c), the last time at which anybody may be on c. Let c_0 = i, c_1, .. be the
+// places of the leg, a step each, begun at t >= e. depth(c_k) <= k by induction: c_k is occupied at
+// t + k, so e + depth(c_{k-1}) + 1 <= e + k <= t + k <= last(c_k), and the search enters it by
+// depth k.
 //
 // How late: nobody counts stop i before dist(start, i). And of a path that counts i last, with a
 // sequence s, the way up to i visits all of s, so it takes at least cost(s) - to_end(i), and
@@ -43,32 +44,41 @@ class LateCosts {
     const int n = stops_.count();
     for (int stop = 0; stop < n; ++stop) {
       const Time begin = stops_.distances_from(stops_.start())[stop];
-      raise_row(stop, stops_.place(stop), begin);
+      raise_row(stop, begin);
       if (stops_.destination())
         raise_last_leg(stop, std::max(begin, least_cost - matrix_.to_end(stop)));
     }
-    raise_row(n, stops_.start(), 0);
+    raise_row(n, 0);
     return raised_ ? std::optional(std::move(matrix_)) : std::nullopt;
   }
 
  private:
-  // The legs from `from`, a row of the matrix, to the other stops.
-  void raise_row(int row, State from, Time begin) {
+  // The legs from a stop, or from the start, to the other stops.
+  void raise_row(int row, Time begin) {
     if (row < stops_.count() && !is_late(row, begin)) return;
-    walk(from, begin);
-    for (int stop = 0; stop < stops_.count(); ++stop) raise_to(row, stop, stops_.place(stop));
+    walk_from(row, begin);
+    for (int stop = 0; stop < stops_.count(); ++stop)
+      raise_to(row, stop, stops_.place(stop),
+               [&](State state) { return stops_.stop_at(state) == stop; });
   }
 
   void raise_last_leg(int stop, Time begin) {
     if (!is_late(stop, begin)) return;
-    walk(stops_.place(stop), begin);
-    raise_to(stop, stops_.count(), *stops_.destination());
+    walk_from(stop, begin);
+    raise_to(stop, stops_.count(), *stops_.destination(),
+             [&](State state) { return stops_.to_rest(state) == 0; });
   }
 
-  void raise_to(int row, int column, State state) {
+  // To those states on a place that count.
+  template <class Counts>
+  void raise_to(int row, int column, Place place, Counts counts) {
+    Time depth = kNever;
+    world_.for_each_state(place, [&](State state) {
+      if (counts(state)) depth = std::min(depth, depth_[state]);
+    });
     Time& cost = matrix_.cost(row, column);
-    if (row == column || depth_[state] <= cost) return;
-    cost = depth_[state];
+    if (row == column || depth <= cost) return;
+    cost = depth;
     raised_ = true;
   }
 
@@ -80,11 +90,19 @@ class LateCosts {
     });
   }
 
-  // Depths from a state that the agent is in, kNever where it does not come.
-  void walk(State from, Time begin) {
+  // Depths from a row of the matrix, kNever where the agent does not come. It leaves a stop in any
+  // state on it.
+  void walk_from(int row, Time begin) {
     depth_.assign(static_cast<std::size_t>(world_.state_count()), kNever);
-    depth_[from] = 0;
-    queue_.assign(1, from);
+    queue_.clear();
+    const State start = stops_.start();
+    if (row == stops_.count()) {
+      queue_.push_back(start);
+    } else {
+      const StateRange bases = world_.bases(stops_.place(row), world_.kind(start));
+      for (State state = bases.first; state < bases.end; ++state) queue_.push_back(state);
+    }
+    for (const State state : queue_) depth_[state] = 0;
     for (std::size_t next = 0; next < queue_.size(); ++next) {
       const Time depth = depth_[queue_[next]] + 1;
       for (State state : world_.moves(queue_[next]))

@@ -25,7 +25,8 @@ PathOutcome LowLevelSearch::find(const GoalSequence& goals, const PathQuery& que
   if (limits.stop_requested()) return PathOutcome::kStopped;
   Workspace& search = *workspace_;
   search.intervals().assign(query.constraints);
-  if (!search.goals().assign(goals, search.intervals())) return PathOutcome::kInfeasible;
+  if (!search.goals().assign(search.world(), goals, search.intervals()))
+    return PathOutcome::kInfeasible;
   search.begin(goals.start(), 0, goals.distance(goals.start(), 0), query.others, limits);
   switch (search.run(search.expanded_after(query.most_labels))) {
     case Workspace::End::kFound:

@@ -137,8 +137,9 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::build(
     const Limits& limits, OptimalPaths& paths) {
   paths = OptimalPaths();
   intervals_.assign(constraints);
-  if (cost < 0 || cost >= kNever || cost > intervals_.latest_rest() || !goals.plausible())
-    return Outcome::kNone;
+  // Where states are places whoever finishes later comes to rest later.
+  const Time latest = world_.states_are_places() ? intervals_.latest_rest() : kNever;
+  if (cost < 0 || cost >= kNever || cost > latest || !goals.plausible()) return Outcome::kNone;
   if (limits.stop_requested()) return Outcome::kStopped;
   Completions& completions = goals.completions();
   if (completions.beyond() <= cost && !completions.widen(cost, limits)) return Outcome::kStopped;

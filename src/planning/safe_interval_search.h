@@ -80,6 +80,7 @@ class SafeIntervalSearch {
   // To be set before begin(), and to stay as they are while the search runs.
   SafeIntervals& intervals() { return intervals_; }
   Goals& goals() { return goals_; }
+  const World& world() const { return world_; }
 
   // The agent is in `start` at time 0 and of this progress before anything is visited there. No
   // label comes before `first_layer`. `others` may be null; it and `limits` must outlive this

@@ -124,6 +124,8 @@ void SafeIntervals::keep_bar(const Constraint& c) {
 void SafeIntervals::keep_rest_by(const Constraint& c) {
   only_rest_ = only_rest_ == kNoPlace || only_rest_ == c.cell ? c.cell : kNowhere;
   latest_rest_ = std::min(latest_rest_, c.end);
+  // No bar, but the place needs slots of its own.
+  if (!states_are_places_) bars_.push_back({c.cell, kNoPlace, 0, -1, Bar::Kind::kRest, kFree});
 }
 
 void SafeIntervals::keep_traversal(const Constraint& c) {
@@ -203,10 +205,19 @@ void SafeIntervals::add_unending_interval(const Group& group, State state, Time 
   for (int i = group.first_bar; i < group.first_move; ++i)
     if (bars_[i].kind == Bar::Kind::kRest) no_rest_by = std::max(no_rest_by, bars_[i].end);
   no_rest_by = std::min(no_rest_by, kNever);
-  if (begin <= no_rest_by)
-    intervals_.push_back({state, begin, kNever, no_rest_by, copy, false, kNoPlace});
-  if (const Time rest_from = std::max(begin, no_rest_by + 1); rest_from < kNever)
-    intervals_.push_back({state, rest_from, kNever, kNever, copy, true, kNoPlace});
+  // Arrivals from `begin` up to `last`.
+  const auto add = [&](Time last, bool may_rest) {
+    if (begin > last || begin >= kNever) return;
+    intervals_.push_back({state, begin, kNever, last, copy, may_rest, kNoPlace});
+    begin = last + 1;
+  };
+  add(no_rest_by, false);
+  if (!states_are_places_ && group.place == only_rest_) {
+    add(latest_rest_, true);
+    add(kNever, false);
+  } else {
+    add(kNever, true);
+  }
 }
 
 SafeIntervals::Range SafeIntervals::slots_of_copy(const Group& group, State state,

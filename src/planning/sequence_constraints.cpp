@@ -10,8 +10,10 @@ namespace grove {
 namespace {
 
 Stop stop_of(const Constraint& c, const AgentStops& stops, const SequenceClass& work) {
-  const int stop = stops.stop_at(c.cell);
-  if (stop == AgentStops::kNoStop || std::ranges::count(work.prefix, static_cast<Stop>(stop)) > 0)
+  const int stop = c.from;
+  const bool is_left = stop >= 0 && stop < stops.count() && stops.place(stop) == c.cell &&
+                       std::ranges::count(work.prefix, static_cast<Stop>(stop)) == 0;
+  if (!is_left)
     throw std::invalid_argument("a constraint on a sequence must name a stop that is left");
   return static_cast<Stop>(stop);
 }

@@ -9,30 +9,26 @@
 namespace grove {
 
 Time VisitCheck::least_cost(const AgentStops& stops, const Limits& limits) {
-  rests_.clear();
-  if (stops.destination()) rests_.push_back(*stops.destination());
-  for (int stop = 0; stop < stops.count() && !stops.destination(); ++stop)
-    rests_.push_back(stops.place(stop));
+  stops_ = &stops;
   Time least = 0;
   for (int stop = 0; stop < stops.count() && !limits.stop_requested(); ++stop)
-    least = std::max(least, first_rest(stops.start(), stops.place(stop)));
+    least = std::max(least, first_rest(stop));
   return least;
 }
 
-// The first time at which an agent that starts in `start` can rest for ever, having been on `via`;
-// kNever: it cannot at all.
-Time VisitCheck::first_rest(State start, Place via) {
+// The first time at which the agent can rest for ever, having been on the stop `via`; kNever: it
+// cannot at all.
+Time VisitCheck::first_rest(int via) {
   via_ = via;
   earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_limit()), kNever);
   queue_.reset(0);
+  const State start = stops_->start();
   intervals_.see(world_.place(start));
   if (const int slot = intervals_.start_slot(start); slot >= 0) reach(slot, start, 0, false);
   Queue::Entry entry;
   while (queue_.pop(entry)) {
     const bool visited = entry.progress != 0;
-    if (visited && intervals_.may_rest(entry.slot) &&
-        std::ranges::count(rests_, intervals_.place_of(entry.slot)) > 0)
-      return entry.time;
+    if (visited && may_rest(entry.slot)) return entry.time;
     intervals_.for_each_move(entry.slot, entry.time, [&](int slot, State state, Time time) {
       reach(slot, state, time, visited);
     });
@@ -40,8 +36,16 @@ Time VisitCheck::first_rest(State start, Place via) {
   return kNever;
 }
 
+bool VisitCheck::may_rest(int slot) const {
+  if (!intervals_.may_rest(slot)) return false;
+  const State state = intervals_.state_of(slot);
+  return stops_->rests_on_last_stop() ? stops_->stop_at(state) >= 0 : stops_->to_rest(state) == 0;
+}
+
 void VisitCheck::reach(int slot, State state, Time time, bool visited) {
-  visited = visited || world_.place(state) == via_;
+  const int at = stops_->stop_at(state);
+  if (at < AgentStops::kNoStop && AgentStops::stop_of_work(at) < 0) return;  // not its own work
+  visited = visited || at == via_;
   Time& earliest =
       earliest_[2 * static_cast<std::size_t>(slot) + static_cast<std::size_t>(visited)];
   if (earliest <= time) return;

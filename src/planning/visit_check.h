@@ -27,15 +27,16 @@ class VisitCheck {
  private:
   using Queue = BasicBucketQueue<std::uint8_t>;  // progress: has been on `via`
 
-  Time first_rest(State start, Place via);
+  Time first_rest(int via);
+  bool may_rest(int slot) const;
   void reach(int slot, State state, Time time, bool visited);
 
   const World& world_;
   SafeIntervals& intervals_;
   Queue queue_;
   std::vector<Time> earliest_;  // by slot, then progress
-  Place via_ = kNoPlace;
-  std::vector<Place> rests_;
+  const AgentStops* stops_ = nullptr;
+  int via_ = AgentStops::kNoStop;
 };
 
 }  // namespace grove

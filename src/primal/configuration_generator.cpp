@@ -93,6 +93,7 @@ void ConfigurationGenerator::rank_candidates(AgentIndex agent) {
   };
   add(from.state, false);
   for (State state : world_.moves(from.state)) {
+    if (!visits.may_enter(from.stage, state)) continue;
     const AgentIndex there = now_[world_.place(state)];
     add(state, there != kNobody && there != agent);
   }

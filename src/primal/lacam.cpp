@@ -61,21 +61,18 @@ std::vector<VisitStages> visit_stages(const Problem& problem, std::span<const Se
   return states;
 }
 
-// What a path costs and visits (it ends at rest with everything visited).
-AgentPlan agent_plan(const Instance& instance, AgentIndex agent, Path path) {
-  while (path.size() > 1 && path[path.size() - 2] == path.back()) path.pop_back();
-  AgentPlan plan{.cost = static_cast<Time>(path.size()) - 1, .sequence = {}, .path = {}};
-  plan.sequence = instance.agent(agent).tasks;
-  const bool ends_on_a_task = !instance.agent(agent).goal;
-  std::ranges::stable_sort(plan.sequence, {}, [&](TaskIndex task) {
-    const auto is_there = [&](State state) {
-      return instance.world().place(state) == instance.task(task).cell;
-    };
-    const bool last = ends_on_a_task && is_there(path.back());
-    return (last ? path.end() : std::ranges::find_if(path, is_there)) - path.begin();
+// Of a path that ends at rest with everything visited. Stops in the order of their first visits.
+AgentPlan plan_of(const Instance& instance, AgentIndex agent, const Path& path) {
+  const std::vector<TaskIndex>& tasks = instance.agent(agent).stops;
+  Sequence order(tasks.size());
+  std::iota(order.begin(), order.end(), Stop{0});
+  const bool ends_on_a_stop = instance.rests_on_last_stop(agent);
+  std::ranges::stable_sort(order, {}, [&](Stop stop) {
+    const auto visits = [&](State state) { return instance.is_visited(tasks[stop], state); };
+    const bool last = ends_on_a_stop && visits(path.back());
+    return (last ? path.end() : std::ranges::find_if(path, visits)) - path.begin();
   });
-  plan.path = std::move(path);
-  return plan;
+  return agent_plan(instance, agent, order, path);
 }
 
 }  // namespace
@@ -162,10 +159,11 @@ void Lacam::rank_agents(Id id) {
 void Lacam::branch(Id id, ConstraintId constraint) {
   const std::int32_t depth = constraints_[constraint].depth;
   if (depth == static_cast<std::int32_t>(agents())) return;
-  const State from = configurations_[id][ranking_[depth]].state;
-  const auto moves = instance_.world().moves(from);
-  next_.assign(1, from);
-  next_.insert(next_.end(), moves.begin(), moves.end());
+  const AgentIndex agent = ranking_[depth];
+  const Standing from = configurations_[id][agent];
+  next_.assign(1, from.state);
+  for (const State state : instance_.world().moves(from.state))
+    if (agents_[agent].may_enter(from.stage, state)) next_.push_back(state);
   for (auto count = static_cast<std::uint32_t>(next_.size()); count > 0; --count) {
     std::swap(next_[count - 1], next_[dice_.below(count)]);
     add_constraint(id, constraint, next_[count - 1], depth + 1);
@@ -217,7 +215,7 @@ Plan Lacam::make_plan(Id end) {
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
     Path path;
     for (Id id : way) path.push_back(configurations_[id][agent].state);
-    plan.agents.push_back(agent_plan(instance_, agent, std::move(path)));
+    plan.agents.push_back(plan_of(instance_, agent, path));
     plan.cost += plan.agents.back().cost;
   }
   return plan;

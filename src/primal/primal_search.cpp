@@ -300,8 +300,7 @@ void PrimalSearch::Impl::adopt(const Plan& plan) {
 void PrimalSearch::Impl::put_all(const Plan& plan, PlanSource source) {
   paths_.clear();
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    const AgentPlan& part = plan.agents[agent];
-    paths_.put(agent, Path(part.path.begin(), part.path.begin() + part.cost + 1));
+    paths_.put(agent, walked_path(problem_.instance, agent, plan.agents[agent]));
   }
   source_of_paths_ = source;
   begin_improving();

@@ -45,10 +45,9 @@ Plan Router::plan(const std::vector<Path>& paths) {
   Plan plan;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
     const Path& path = paths[agent];
-    const auto cost = static_cast<Time>(path.size()) - 1;
     const Sequence sequence = realized_sequence(goals(agent), path);
-    plan.cost += cost;
-    plan.agents.push_back({cost, tasks_in_order(problem_.instance.agent(agent), sequence), path});
+    plan.agents.push_back(agent_plan(problem_.instance, agent, sequence, path));
+    plan.cost += plan.agents.back().cost;
   }
   return plan;
 }

@@ -50,7 +50,7 @@ class LastStops {
 
  private:
   Cell cell_of(AgentIndex agent, Stop stop) const {
-    return instance_.task(instance_.agent(agent).tasks[stop]).cell;
+    return instance_.task(instance_.agent(agent).stops[stop]).cell;
   }
 
   bool augment(AgentIndex agent) {

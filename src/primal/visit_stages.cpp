@@ -18,19 +18,19 @@ bool is_complete(Sequence order, std::size_t stops) {
 }  // namespace
 
 VisitStages::VisitStages(const Problem& problem, AgentIndex agent, Sequence order)
-    : world_(problem.instance.world()),
+    : instance_(problem.instance),
+      agent_(agent),
       start_(problem.instance.agent(agent).start),
-      destination_(problem.instance.agent(agent).goal),
       order_(std::move(order)) {
-  const std::vector<TaskIndex>& tasks = problem.instance.agent(agent).tasks;
-  if (!is_complete(order_, tasks.size()))
+  if (!is_complete(order_, stops().size()))
     throw std::invalid_argument("an order must hold every stop of its agent once");
-  for (TaskIndex task : tasks) {
-    places_.push_back(problem.instance.task(task).cell);
-    to_stop_.push_back(&problem.distances.to(places_.back()));
+  for (const TaskIndex task : stops()) {
+    places_.push_back(instance_.task(task).cell);
+    to_stop_.push_back(&problem.distances.to_task(task));
   }
-  to_rest_ = destination_ ? &problem.distances.to(*destination_) : to_stop_[order_.back()];
-  all_ = make(tasks.size() == 64 ? ~StopSet{0} : (StopSet{1} << tasks.size()) - 1);
+  to_rest_ = instance_.rests_on_last_stop(agent) ? to_stop_[order_.back()]
+                                                 : &problem.distances.to_rest(agent);
+  all_ = make(all_stops(static_cast<int>(stops().size())));
 }
 
 VisitStages::Stage VisitStages::make(StopSet left) {
@@ -41,7 +41,7 @@ VisitStages::Stage VisitStages::make(StopSet left) {
     if (from == kNoPlace)
       to_next = to;
     else
-      onward += (*to)[from];
+      onward += least_from(instance_.world(), from, instance_.agent(agent_).kind, *to);
   };
   for (Stop stop : order_) {
     if ((left >> stop & 1) == 0) continue;

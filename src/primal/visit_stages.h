@@ -25,10 +25,18 @@ class VisitStages {
   Stage first() { return after(all_, start_); }
   // The stage of an agent of `stage` once it is in `state`.
   Stage after(Stage stage, State state) {
-    const Place place = world_.place(state);
+    const Place place = instance_.world().place(state);
     for (std::size_t stop = 0; stop < places_.size(); ++stop)
-      if (places_[stop] == place) return after_stop(stage, static_cast<int>(stop));
+      if (places_[stop] == place && instance_.is_visited(stops()[stop], state))
+        return after_stop(stage, static_cast<int>(stop));
     return stage;
+  }
+  // May an agent of this stage go there? Not to work on what is done or not its own.
+  bool may_enter(Stage stage, State state) const {
+    const World& world = instance_.world();
+    if (!world.is_working(state) || world.work(state).completed) return true;
+    const auto stop = std::ranges::find(stops(), world.work(state).task) - stops().begin();
+    return stop < std::ssize(stops()) && (entries_[stage].left >> stop & 1) != 0;
   }
 
   // Steps from `state` through all that is left, in order, to where it is to rest; kNever or more
@@ -40,10 +48,7 @@ class VisitStages {
 
   // May an agent of this stage rest in `state`?
   bool may_rest(Stage stage, State state) const {
-    if (entries_[stage].left != 0) return false;
-    const Place place = world_.place(state);
-    if (destination_) return place == *destination_;
-    return std::ranges::find(places_, place) != places_.end();
+    return entries_[stage].left == 0 && instance_.may_rest(agent_, state);
   }
 
  private:
@@ -61,9 +66,11 @@ class VisitStages {
   }
   Stage make(StopSet left);
 
-  const World& world_;
+  const std::vector<TaskIndex>& stops() const { return instance_.agent(agent_).stops; }
+
+  const Instance& instance_;
+  AgentIndex agent_;
   State start_;
-  std::optional<Place> destination_;
   std::vector<Place> places_;  // by stop
   Sequence order_;
   std::vector<const DistanceField*> to_stop_;

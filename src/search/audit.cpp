@@ -25,17 +25,11 @@ void audit_walk(const Instance& instance, AgentIndex index, const Path& path) {
   require(!path.empty() && path.front() == agent.start, "agent {} begins elsewhere", index);
   for (std::size_t t = 1; t < path.size(); ++t)
     require(is_step(world, path[t - 1], path[t]), "agent {} makes no step at time {}", index, t);
-  const auto place = [&](State state) { return world.place(state); };
   const auto visited = [&](TaskIndex task) {
-    return std::ranges::count(path, instance.task(task).cell, place) > 0;
+    return std::ranges::any_of(path, [&](State state) { return instance.is_visited(task, state); });
   };
   require(std::ranges::all_of(agent.tasks, visited), "agent {} leaves a task out", index);
-  const Place end = world.place(path.back());
-  const auto ends_on = [&](TaskIndex task) { return instance.task(task).cell == end; };
-  const bool ends_well = agent.goal
-                             ? end == *agent.goal
-                             : agent.tasks.empty() || std::ranges::any_of(agent.tasks, ends_on);
-  require(ends_well, "agent {} ends where it may not", index);
+  require(instance.may_rest(index, path.back()), "agent {} ends where it may not", index);
 }
 
 }  // namespace

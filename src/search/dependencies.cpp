@@ -16,7 +16,10 @@
 //
 // *Splitting on costs.* If a and b cannot both keep their costs A and B, every plan has a come to
 // rest after A or b after B. Agents with a destination come to rest nowhere else, so "does not come
-// to rest there by A" (kNoRestBy) says it, and both sides cost at least one more. That settles at
+// to rest there by A" (kNoRestBy) says it, and both sides cost at least one more. (Of an agent that
+// turns at its destination to look in a certain direction, or works there, it does not: such agents
+// finish later than they come to rest. One that does neither finishes when it comes, in some plan
+// that is no dearer.) That settles at
 // once what splits on cells settle one by one where no cell is on all best paths (the rectangles of
 // Li et al., AAAI 2019, on open ground), so it is what to do where no conflict raises the cost of
 // any side (where one side rises, splitting on the conflict is better: with 20 agents in rooms 1 to
@@ -242,6 +245,13 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) {
 
 void Dependencies::splits(NodeView& view, std::vector<Split>& splits) {
   look_at(view);
+  const auto finishes_when_it_comes = [&](AgentIndex i) {
+    const Agent& agent = instance_.agent(i);
+    const auto works_there = [&](TaskIndex t) {
+      return instance_.task(t).duration > 0 && instance_.task(t).cell == *agent.goal;
+    };
+    return agent.goal && !agent.goal_heading && std::ranges::none_of(agent.tasks, works_there);
+  };
   const auto later = [&](AgentIndex agent) {
     const Time cost = view.cost_of(agent);
     return AgentConstraint{
@@ -251,8 +261,8 @@ void Dependencies::splits(NodeView& view, std::vector<Split>& splits) {
   for (const Conflict& c : view.conflicts()) {
     if (std::pair(c.first, c.second) == last) continue;
     last = {c.first, c.second};
-    const bool apply = known(c.first, c.second).excess > 0 && instance_.agent(c.first).goal &&
-                       instance_.agent(c.second).goal;
+    const bool apply = known(c.first, c.second).excess > 0 && finishes_when_it_comes(c.first) &&
+                       finishes_when_it_comes(c.second);
     if (apply) splits.push_back({later(c.first), later(c.second)});
   }
 }

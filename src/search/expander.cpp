@@ -98,9 +98,8 @@ Plan Expander::plan(const Node& node) {
   for (AgentIndex i = 0; i < problem_.instance.agent_count(); ++i) {
     const Path& path = view_.path(i);
     const Sequence sequence = planner_.sequence(i, *node.tree().orders[i], {}, path);
-    const auto cost = static_cast<Time>(path.size() - 1);
-    plan.cost += cost;
-    plan.agents.push_back({cost, tasks_in_order(problem_.instance.agent(i), sequence), path});
+    plan.agents.push_back(agent_plan(problem_.instance, i, sequence, path));
+    plan.cost += plan.agents.back().cost;
   }
   return plan;
 }

@@ -9,8 +9,9 @@
 // visit all: the places in an order of "is there a way to".)
 //
 // Rest. Agents rest on different cells for ever: a CTS agent on its destination, an MG agent on one
-// of its own tasks. If the bipartite graph of agents and cells to rest on has no matching that
-// covers every agent, there is no plan (Hall 1935; found by augmenting paths).
+// of its own tasks. (An idle one anywhere: for it there is always a place left.) If the bipartite
+// graph of agents and cells to rest on has no matching that covers every agent, there is no plan
+// (Hall 1935; found by augmenting paths).
 //
 // Corridor. In a component that is a simple path agents cannot pass each other: two next to each
 // other would have to share a cell or swap. So the order along the corridor never changes; an agent
@@ -36,27 +37,37 @@ std::vector<Cell> required_cells(const Instance& instance, const Agent& agent) {
 }
 
 std::optional<std::string> unreachable_cell(const Problem& problem) {
-  for (const Agent& agent : problem.instance.agents())
-    for (Cell cell : required_cells(problem.instance, agent))
-      if (problem.distances.to(cell)[agent.start] == kNever)
-        return fmt::format("agent '{}' cannot reach cell {}: there is no way from its start",
-                           agent.id, problem.instance.world().name(cell));
+  const Instance& instance = problem.instance;
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    const Agent& agent = instance.agent(i);
+    const auto no_way = [&](const DistanceField& to) { return to[agent.start] == kNever; };
+    const auto told = [&](Place place) {
+      return fmt::format("agent '{}' cannot reach cell {}: there is no way from its start",
+                         agent.id, instance.world().name(place));
+    };
+    for (const TaskIndex task : agent.stops)
+      if (no_way(problem.distances.to_task(task))) return told(instance.task(task).cell);
+    if (agent.goal && no_way(problem.distances.to_rest(i))) return told(*agent.goal);
+  }
   return std::nullopt;
 }
 
-std::optional<std::string> no_order(const Problem& problem, const Agent& agent) {
+std::optional<std::string> no_order(const Problem& problem, AgentIndex index) {
   const World& world = problem.instance.world();
-  const auto leads = [&](Place from, Place to) { return problem.distances.to(to)[from] < kNever; };
-  for (TaskIndex a : agent.tasks) {
+  const Agent& agent = problem.instance.agent(index);
+  const auto leads = [&](Place from, const DistanceField& to) {
+    return least_from(world, from, agent.kind, to) < kNever;
+  };
+  for (TaskIndex a : agent.stops) {
     const Place here = problem.instance.task(a).cell;
-    for (TaskIndex b : agent.tasks)
+    for (TaskIndex b : agent.stops)
       if (const Place there = problem.instance.task(b).cell;
-          !leads(here, there) && !leads(there, here))
+          !leads(here, problem.distances.to_task(b)) && !leads(there, problem.distances.to_task(a)))
         return fmt::format(
             "agent '{}' cannot visit both {} and {}: no way leads from one to the "
             "other",
             agent.id, world.name(here), world.name(there));
-    if (agent.goal && !leads(here, *agent.goal))
+    if (agent.goal && !leads(here, problem.distances.to_rest(index)))
       return fmt::format("agent '{}' cannot go on from {} to its goal {}: there is no way",
                          agent.id, world.name(here), world.name(*agent.goal));
   }
@@ -65,7 +76,7 @@ std::optional<std::string> no_order(const Problem& problem, const Agent& agent) 
 
 std::optional<std::string> agent_without_an_order(const Problem& problem) {
   if (problem.instance.world().is_plain()) return std::nullopt;
-  for (const Agent& agent : problem.instance.agents())
+  for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     if (auto reason = no_order(problem, agent)) return reason;
   return std::nullopt;
 }
@@ -105,7 +116,7 @@ class RestingMatching {
 std::optional<std::string> no_room_to_rest(const Problem& problem) {
   RestingMatching matching(problem.instance);
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
-    if (!matching.place(agent))
+    if (!problem.instance.agent(agent).is_idle() && !matching.place(agent))
       return fmt::format(
           "the agents cannot all end on different cells: none is left for agent '{}'",
           problem.instance.agent(agent).id);
@@ -133,10 +144,11 @@ std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Pl
   std::map<Place, int> place;
   for (int i = 0; i < length; ++i) place[corridor[i]] = i;
 
+  const auto start = [&](const Agent& agent) { return instance.world().place(agent.start); };
   std::vector<const Agent*> agents;
   for (const Agent& agent : instance.agents())
-    if (place.contains(agent.start)) agents.push_back(&agent);
-  std::ranges::sort(agents, {}, [&](const Agent* agent) { return place[agent->start]; });
+    if (place.contains(start(agent))) agents.push_back(&agent);
+  std::ranges::sort(agents, {}, [&](const Agent* agent) { return place[start(*agent)]; });
 
   const int count = static_cast<int>(agents.size());
   int last_goal = -1;

@@ -106,15 +106,10 @@ void Node::constraints(std::vector<std::vector<Constraint>>& constraints) const 
     });
 }
 
-std::vector<TaskIndex> tasks_in_order(const Agent& agent, const Sequence& sequence) {
-  std::vector<TaskIndex> tasks;
-  for (Stop stop : sequence) tasks.push_back(agent.tasks[stop]);
-  return tasks;
-}
-
 GoalSequence goals_in_order(const Problem& problem, AgentIndex agent, const Sequence& sequence) {
-  return GoalSequence(problem.instance, problem.distances, agent,
-                      tasks_in_order(problem.instance.agent(agent), sequence));
+  std::vector<TaskIndex> stops;
+  for (const Stop stop : sequence) stops.push_back(problem.instance.agent(agent).stops[stop]);
+  return GoalSequence(problem.instance, problem.distances, agent, stops);
 }
 
 }  // namespace grove

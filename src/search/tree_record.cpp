@@ -19,7 +19,7 @@ TreeRecord::Order record_of(const World& world, const AgentOrder& order) {
 }
 
 bool is_complete(const Sequence& sequence, const Agent& agent) {
-  std::vector<bool> seen(agent.tasks.size());
+  std::vector<bool> seen(agent.stops.size());
   for (const Stop stop : sequence) {
     if (stop >= seen.size() || seen[stop]) return false;
     seen[stop] = true;

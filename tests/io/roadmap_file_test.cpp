@@ -177,21 +177,6 @@ TEST_F(RoadmapFile, WrongPlacesOfInstancesAreRefused) {
             "distinct starts");
 }
 
-// A plan without them would be wrong for its reader.
-TEST_F(RoadmapFile, WhatIsNotPlannedYetIsRefusedNotIgnored) {
-  EXPECT_EQ(
-      refused_instance(R"([{"id": "a", "start": "A", "goal": "C"}])",
-                       R"([{"id": "t", "cell": "B", "agents": ["a"], "duration": 3}])"),
-      "i.json: /tasks/0/duration: found 3; expected 0 or no such key: Grove does not plan work "
-      "that takes time");
-  for (const std::string key : {"motion", "heading", "goal_heading", "turn_steps", "working"})
-    EXPECT_EQ(
-        refused_instance(R"([{"id": "a", "start": "A", "goal": "C", ")" + key + "\": \"N\"}]"),
-        "i.json: /agents/0/" + key +
-            ": found \"N\"; expected no such key: Grove does not plan agents that turn or are "
-            "at work");
-}
-
 TEST_F(RoadmapFile, AMapIsEitherOfTwo) {
   write("r.roadmap.json", kRoads);
   const auto refused = [&](const std::string& text) {

@@ -28,8 +28,8 @@ TEST(DistanceFields, HoldsTasksAndDestinations) {
   builder.add_task("t", {1, 0}, std::vector<std::string>{"a"});
   const Instance instance = std::move(builder).build();
   const DistanceFields fields(instance);
-  EXPECT_EQ(fields.to(3)[0], 3);
-  EXPECT_EQ(fields.to(1)[3], 2);
+  EXPECT_EQ(fields.to_rest(0)[0], 3);
+  EXPECT_EQ(fields.to_task(0)[3], 2);
 }
 
 }  // namespace distance_field_test

@@ -66,11 +66,12 @@ TEST(InstanceBuilder, RefusesBadTasks) {
   b.add_agent("a", {0, 0}, Position{3, 0});
   b.add_task("t", {1, 0}, Ids{"a"});
   EXPECT_EQ(refused_field([&] { b.add_task("t", {2, 0}, Ids{"a"}); }), "id");
-  EXPECT_EQ(refused_field([&] { b.add_task("u", {1, 0}, Ids{"a"}); }), "cell");
   EXPECT_EQ(refused_field([&] { b.add_task("u", {0, 1}, Ids{"a"}); }), "cell");
   EXPECT_EQ(refused_field([&] { b.add_task("u", {2, 0}, Ids{}); }), "agents");
   EXPECT_EQ(refused_field([&] { b.add_task("u", {2, 0}, Ids{"a", "z"}); }), "agents/1");
   EXPECT_EQ(refused_field([&] { b.add_task("u", {2, 0}, Ids{"a", "a"}); }), "agents/1");
+  EXPECT_EQ(refused_field([&] { b.add_task("u", {2, 0}, Ids{"a"}, -1); }), "duration");
+  EXPECT_EQ(refused_field([&] { b.add_task("u", {2, 0}, Ids{"a"}, 1 << 17); }), "duration");
 }
 
 TEST(InstanceBuilder, RefusesMoreTasksThanAMaskHolds) {
@@ -80,11 +81,35 @@ TEST(InstanceBuilder, RefusesMoreTasksThanAMaskHolds) {
   EXPECT_EQ(refused_field([&] { b.add_task("last", {69, 0}, Ids{"a"}); }), "agents/0");
 }
 
-TEST(InstanceBuilder, RefusesInstancesWithNothingToDo) {
+TEST(InstanceBuilder, RefusesInstancesWithoutAgents) {
   EXPECT_EQ(refused_field([] { builder().build(); }), "agents");
+}
+
+TEST(InstanceBuilder, AnAgentWithNothingToDoRestsAnywhere) {
   auto b = builder();
   b.add_agent("a", {0, 0}, std::nullopt);
-  EXPECT_EQ(refused_field([&] { std::move(b).build(); }), "agents/0");
+  const Instance instance = std::move(b).build();
+  EXPECT_TRUE(instance.agent(0).is_idle());
+  EXPECT_TRUE(instance.may_rest(0, 3));
+}
+
+// Of the tasks on one place one stands for all that take no time.
+TEST(InstanceBuilder, StopsStandForAllTasksOnAPlace) {
+  auto b = builder();
+  b.add_agent("a", {0, 0}, Position{3, 0});
+  b.add_agent("b", {1, 0}, std::nullopt);
+  b.add_task("t0", {2, 0}, Ids{"a", "b"});
+  b.add_task("t1", {2, 0}, Ids{"a"});
+  b.add_task("t2", {1, 0}, Ids{"a"});
+  b.add_task("t3", {1, 0}, Ids{"a"}, 3);
+  b.add_task("t4", {1, 0}, Ids{"a"}, 1);
+  const Instance instance = std::move(b).build();
+  EXPECT_EQ(instance.agent(0).stops, (std::vector<TaskIndex>{0, 3, 4}));
+  EXPECT_EQ(instance.agent(1).stops, (std::vector<TaskIndex>{0}));
+  const std::vector<std::uint8_t> order{2, 0, 1};
+  EXPECT_EQ(instance.tasks_in_order(0, order), (std::vector<TaskIndex>{4, 1, 0, 2, 3}));
+  EXPECT_FALSE(instance.rests_on_last_stop(0));
+  EXPECT_TRUE(instance.rests_on_last_stop(1));
 }
 
 }  // namespace instance_test

@@ -43,10 +43,12 @@ TEST(GoalSequence, DistanceIsNeverAcrossAWall) {
   for (int k = 0; k < agent.goals.size(); ++k) EXPECT_GE(agent.goals.distance(0, k), kNever);
 }
 
-TEST(GoalSequence, NeedsAGoal) {
+TEST(GoalSequence, WithNothingToDoAnAgentRestsAnywhere) {
   const Grid grid = grid_of({".."});
-  const SingleAgent agent(grid, 0, {1}, std::nullopt);
-  EXPECT_THROW(GoalSequence(agent.instance, agent.distances, 0, {}), std::invalid_argument);
+  const SingleAgent agent(grid, 0, {}, std::nullopt);
+  EXPECT_EQ(agent.goals.size(), 1);
+  EXPECT_EQ(agent.goals.last(), kNoPlace);
+  EXPECT_EQ(agent.goals.distance(1, 0), 0);
 }
 
 }  // namespace goal_sequence_test

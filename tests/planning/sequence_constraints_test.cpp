@@ -16,10 +16,10 @@ using testing::SingleAgent;
 class SequenceConstraints : public ::testing::Test {
  protected:
   Constraint is(Time number, int stop) const {
-    return {stops_.place(stop), kNoCell, number, number, ConstraintKind::kStopIs};
+    return {stops_.place(stop), stop, number, number, ConstraintKind::kStopIs};
   }
   Constraint is_not(Time number, int stop) const {
-    return {stops_.place(stop), kNoCell, number, number, ConstraintKind::kStopIsNot};
+    return {stops_.place(stop), stop, number, number, ConstraintKind::kStopIsNot};
   }
   SequenceClass narrowed(const std::vector<Constraint>& constraints,
                          SequenceClass work = {}) const {
@@ -53,8 +53,10 @@ TEST_F(SequenceConstraints, LeaveThoseOnThePathAlone) {
 }
 
 TEST_F(SequenceConstraints, ThatMakeNoClassAreRefused) {
-  const Constraint nowhere{2, kNoCell, 0, 0, ConstraintKind::kStopIs};
+  const Constraint nowhere{2, 0, 0, 0, ConstraintKind::kStopIs};
   EXPECT_THROW(narrowed({nowhere}), std::invalid_argument);
+  const Constraint none{1, 4, 0, 0, ConstraintKind::kStopIs};
+  EXPECT_THROW(narrowed({none}), std::invalid_argument);
   EXPECT_THROW(narrowed({is(1, 0)}), std::invalid_argument);
   EXPECT_THROW(narrowed({is(0, 0), is(1, 0)}), std::invalid_argument);
   EXPECT_THROW(narrowed({is(0, 0), is_not(0, 0)}), std::invalid_argument);

@@ -46,9 +46,7 @@ class NodeTest : public ::testing::Test {
   void add_order(AgentIndex agent, const Sequence& sequence, const Path& path) {
     SequenceClass sequences{sequence, 0};
     tree_.orders.push_back(std::make_shared<const AgentOrder>(
-        AgentOrder{std::move(sequences),
-                   GoalSequence(instance_, problem_.distances, agent,
-                                tasks_in_order(instance_.agent(agent), sequence)),
+        AgentOrder{std::move(sequences), goals_in_order(problem_, agent, sequence),
                    PackedPath(instance_.grid(), path)}));
   }
 

@@ -54,7 +54,7 @@ LoadedInstance InstanceArguments::read() const {
   if (!map_.empty() || agents_ > 0)
     throw CLI::ValidationError("--map, --agents", "expected only with a .scen file");
   if (is_standard_input())
-    return parse_instance(standard_input_ ? *standard_input_ : read_standard_input(), name(), "");
+    return parse_instance(standard_input_ ? *standard_input_ : read_standard_input(), name(), ".");
   if (path_.ends_with(".map"))
     throw InputError(
         path_, "", "a map; expected an instance, FILE.cts.json, which names its map, or FILE.scen");

@@ -34,7 +34,12 @@ std::string default_agent_id(AgentIndex agent);
 std::string default_task_id(TaskIndex task);
 
 // These throw NotExpressible unless `instance` is as their names say. `format` is named in what().
-void require_grid(const Instance& instance, std::string_view format);
+// A grid, agents that turn freely, tasks that take no time.
+void require_free_grid(const Instance& instance, std::string_view format);
+// No idle agents.
+void require_work_for_all(const Instance& instance, std::string_view format);
+// No two tasks on one cell.
+void require_distinct_cells(const Instance& instance, std::string_view format);
 void require_goals(const Instance& instance, std::string_view format);
 void require_no_tasks(const Instance& instance, std::string_view format);
 void require_default_agent_ids(const Instance& instance, std::string_view format);

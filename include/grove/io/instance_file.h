@@ -24,7 +24,7 @@ struct LoadedInstance {
 // Reads a *.cts.json file and the map it names (relative to the file).
 LoadedInstance read_instance(const std::filesystem::path& path);
 // The same of the text of such a file: `name` stands for it in messages, and the map is relative to
-// `folder` (empty: the current one).
+// `folder` (".": the current one).
 LoadedInstance parse_instance(std::string_view text, const std::string& name,
                               const std::filesystem::path& folder);
 

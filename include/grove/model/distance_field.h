@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "grove/model/assert.h"
@@ -11,33 +12,44 @@
 
 namespace grove {
 
-// Distance in steps from every state to one place, in whatever state; kNever where it cannot be
-// reached. Indexed by State.
+// Distance in steps from every state to one of some states; kNever where none can be reached.
+// Indexed by State.
 using DistanceField = std::vector<Time>;
 
-// Breadth-first search backwards from all states on `target`. O(states).
+// Breadth-first search backwards from all of `targets`. O(states).
+DistanceField distance_field(const World& world, std::span<const State> targets);
+// From all states on `target`.
 DistanceField distance_field(const World& world, Place target);
 
-// The fields of all places that any agent of an instance must reach: tasks and destinations, each
-// computed once. Immutable after construction; any thread may read it.
+// The fields of all that any agent of an instance must reach: its tasks, and where to rest. Each
+// is computed once. Immutable after construction; any thread may read it.
 class DistanceFields {
  public:
   // Asks `limits` for the memory and looks at them between fields; if they strike, complete() is
   // false.
   explicit DistanceFields(const Instance& instance, const Limits& limits = Limits());
 
-  // All fields are there. If not, to() must not be called.
+  // All fields are there. If not, nothing must be asked for.
   bool complete() const { return complete_; }
 
-  // `target` must be the place of a task or of a destination.
-  const DistanceField& to(Place target) const {
-    GROVE_ASSERT(fields_[target], "distances are asked for to a task or a destination");
-    return *fields_[target];
+  // To where the task is visited: a state on its place or, if it takes time, the end of the work.
+  const DistanceField& to_task(TaskIndex task) const { return *by_task_[task]; }
+  // To where the agent may rest. Not of agents that rest on the last stop of their sequence.
+  const DistanceField& to_rest(AgentIndex agent) const {
+    GROVE_ASSERT(by_agent_[agent], "an agent that rests on its last stop has no other place");
+    return *by_agent_[agent];
   }
 
  private:
-  std::vector<std::unique_ptr<DistanceField>> fields_;  // by place; null where nobody must go
+  std::vector<std::unique_ptr<const DistanceField>> fields_;
+  std::vector<const DistanceField*> by_task_;
+  std::vector<const DistanceField*> by_agent_;
   bool complete_ = false;
 };
+
+// The least of the distances from the base states of one kind on a place.
+Time least_from(const World& world, Place place, int kind, const DistanceField& distance);
+// The greatest.
+Time most_from(const World& world, Place place, int kind, const DistanceField& distance);
 
 }  // namespace grove

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,11 +32,28 @@ inline Place place_at(const World& world, const Path& path, Time time) {
 // When it came to the place where it stays for ever; the path may go on there.
 Time last_arrival(const World& world, const Path& path);
 
+// An agent's being at work on a task that takes time, from `begin` to `end`; begun before time 0 if
+// the agent starts at work.
+struct WorkTime {
+  TaskIndex task = -1;
+  Time begin = 0;
+  Time end = 0;
+  friend bool operator==(const WorkTime&, const WorkTime&) = default;
+};
+
 struct AgentPlan {
   Time cost = 0;                    // when it comes to rest for ever with its tasks visited
   std::vector<TaskIndex> sequence;  // all its tasks, in an order in which the path visits them
-  Path path;
+  Path path;                        // base states only (world.h), up to the cost
+  std::vector<WorkTime> work = {};  // in order of time
 };
+
+// The plan of an agent that walks this path, its states at work included, and is at rest at its
+// end. `stops`: a sequence that it realizes, as positions in Agent::stops.
+AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
+                     std::span<const std::uint8_t> stops, const Path& path);
+// And back: the path that it walks until it finishes. The plan must be a valid one.
+Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& plan);
 
 struct Plan {
   Cost cost = 0;                  // sum of the agents' costs

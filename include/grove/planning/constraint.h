@@ -31,7 +31,7 @@ enum class ConstraintKind : std::uint8_t {
   // at a time in [begin, end], after having entered it from its other end and stayed inside since.
   // Turning round inside, and starting inside, are no traversals.
   kNoTraversal = 3,
-  // Of the stops in the order in which they are counted, number `begin` (from 0) is the one on
+  // Of the stops in the order in which they are counted, number `begin` (from 0) is stop `from`, on
   // `cell`, or is not. Such constraints make a sequence class (sequence_constraints.h).
   kStopIs = 4,
   kStopIsNot = 5,

@@ -25,8 +25,7 @@ class AgentStops {
  public:
   static constexpr int kNoStop = -1;
 
-  // `instance` and `distances` must outlive this. Throws std::invalid_argument for an agent without
-  // a destination and without a task.
+  // `instance` and `distances` must outlive this.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
 
   AgentIndex agent() const { return agent_; }
@@ -34,28 +33,53 @@ class AgentStops {
   State start() const { return start_; }
   std::optional<Place> destination() const { return destination_; }
   Place place(int stop) const { return places_[stop]; }
-  // The stop where an agent in this state is; kNoStop: none.
+  // The stop where an agent in this state is: on its place or, if it takes time, with the work just
+  // completed. kNoStop: none. Less: it is at work, see stop_of_work().
   int stop_at(State state) const { return (*stop_at_)[state]; }
+  // For what is less than kNoStop: the stop at which an agent is at work; kNoStop: none of its own.
+  static int stop_of_work(int at) { return at == kForeignWork ? kNoStop : kFirstWork - at; }
+  // Does the stop take time?
+  bool takes_time(int stop) const { return (work_stops_ >> stop & 1) != 0; }
   StopSet all() const { return all_stops(count()); }
+
+  // It rests on the last stop of its sequence; else where to_rest() is 0, whatever the sequence.
+  bool rests_on_last_stop() const { return to_rest_ == nullptr; }
+  // How long an agent may have still to turn and to work, at most, where it came to rest for good,
+  // if it does not tarry.
+  Time longest_finish(Place place) const;
 
   // From a state to each stop: count() distances in a row.
   const Time* distances_from(State state) const {
     return distances_->data() + static_cast<std::size_t>(state) * places_.size();
   }
-  // From a state to the destination, which there must be.
-  Time to_destination(State state) const { return (*to_destination_)[state]; }
+  // From a state to where the agent may rest, unless it rests on its last stop.
+  Time to_rest(State state) const { return (*to_rest_)[state]; }
+  // From any base state on the place of a stop to another stop, at most.
+  Time longest_leg(int from, int to) const {
+    return longest_legs_[static_cast<std::size_t>(from) * places_.size() + to];
+  }
+  // Of the agent's kind, see world.h.
+  Time turn_about() const { return turn_about_; }
 
   const Completions& completions() const { return completions_; }
   Completions& completions() { return completions_; }
 
  private:
+  // What stands for work on stop s is kFirstWork - s.
+  static constexpr int kFirstWork = -2;
+  static constexpr int kForeignWork = -128;
+
   AgentIndex agent_;
   State start_;
   std::optional<Place> destination_;
   std::vector<Place> places_;
+  std::vector<Time> durations_;  // by stop
+  StopSet work_stops_ = 0;
+  Time turn_about_;
   std::shared_ptr<const std::vector<std::int8_t>> stop_at_;  // by state
   std::shared_ptr<const std::vector<Time>> distances_;       // by state, then stop
-  const DistanceField* to_destination_ = nullptr;
+  std::vector<Time> longest_legs_;                           // by stop, then stop
+  const DistanceField* to_rest_ = nullptr;
   Completions completions_;
 };
 
@@ -71,7 +95,7 @@ class FreeGoals {
   struct Stage {
     StopSet left = 0;          // not counted yet
     StopSet next = 0;          // those of them that may be counted next
-    StopSet rests = 0;         // without a destination: where the agent may come to rest
+    StopSet rests = 0;         // if it rests on its last stop: where it may come to rest
     bool may_skip = false;     // of the next: touching need not count
     std::int32_t first = 0;    // its onward ways, in onward()
     std::int32_t nearest = 0;  // so many of them settle the distance
@@ -114,21 +138,21 @@ class FreeGoals {
     return known == kUnknown ? make_after(id, stop) : known;
   }
 
-  // Is there a stop in `state` that may be counted next?
-  bool may_count(StageId id, State state) const {
-    const int stop = stops_.stop_at(state);
-    return stop != AgentStops::kNoStop && (stages_[id].next >> stop & 1) != 0;
-  }
   // Calls reach(stage) for each stage that an agent of stage `id` may be of once it has come to
   // `state`. False: there is another one, which the completions do not know.
   template <class Reach>
   bool on_arrival(StageId id, State state, Reach reach) {
-    if (!may_count(id, state)) {
-      reach(id);
+    const int at = stops_.stop_at(state);
+    if (at < 0) {
+      if (at == AgentStops::kNoStop || may_work(stages_[id], at)) reach(id);
       return true;
     }
-    if (stages_[id].may_skip) reach(id);
-    const StageId then = after(id, stops_.stop_at(state));
+    if (!(stages_[id].next >> at & 1)) {
+      if (!stops_.takes_time(at)) reach(id);
+      return true;
+    }
+    if (stages_[id].may_skip && !stops_.takes_time(at)) reach(id);
+    const StageId then = after(id, at);
     if (then == kOutside) return false;
     reach(then);
     return true;
@@ -153,14 +177,19 @@ class FreeGoals {
   // May the agent come to rest here?
   bool is_rest(const Stage& stage, State state) const {
     if (stage.left != 0) return false;
-    if (stops_.destination()) return stops_.to_destination(state) == 0;
+    if (!stops_.rests_on_last_stop()) return stops_.to_rest(state) == 0;
     const int stop = stops_.stop_at(state);
-    return stop != AgentStops::kNoStop && (stage.rests >> stop & 1) != 0;
+    return stop >= 0 && (stage.rests >> stop & 1) != 0;
   }
 
  private:
   static constexpr StageId kUnknown = -2;
 
+  // Work is begun only on what may be counted next.
+  static bool may_work(const Stage& stage, int at) {
+    const int stop = AgentStops::stop_of_work(at);
+    return stop != AgentStops::kNoStop && (stage.next >> stop & 1) != 0;
+  }
   Time to_rest(const Stage& stage, State state) const;
   StopSet next_of(StopSet left) const;
   StopSet rests_after(const Stage& stage, int stop) const;

@@ -10,23 +10,31 @@
 
 namespace grove {
 
-// The goals of one agent under a complete task sequence: its tasks in that order, then its
-// destination. For an MG agent the last task is the last goal. Never empty. The agent finishes when
-// it rests on the last goal having visited all before it, in order.
+// The goals of one agent under a complete task sequence: its stops in that order, then where it is
+// to rest. An agent that rests on its last stop has that for its last goal. Never empty. The agent
+// finishes when it rests on the last goal having visited all before it, in order.
 class GoalSequence {
  public:
-  // `tasks`: all the agent's tasks in the order to visit. `instance` and `distances` must outlive
-  // this. Throws std::invalid_argument when nothing is left to visit (an MG agent, no tasks).
+  // `stops`: all the agent's stops in the order to visit. `instance` and `distances` must outlive
+  // this.
   GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
-               const std::vector<TaskIndex>& tasks);
+               const std::vector<TaskIndex>& stops);
 
   State start() const { return start_; }
   int size() const { return static_cast<int>(goals_.size()); }
+  // kNoPlace: several places will do, to rest on one of them.
   Place goal(int k) const { return goals_[checked(k)]; }
   Place last() const { return goals_.back(); }
+  // The task that takes time there, -1: none.
+  TaskIndex work(int k) const { return work_[checked(k)]; }
+  bool has_work() const { return has_work_; }
+  // See AgentStops.
+  Time longest_finish(Place place) const;
+  Time turn_about() const { return turn_about_; }
 
-  // Steps from `state` through goals k, k+1, ... to the last one, ignoring everything else: exact,
-  // so admissible and consistent. kNever or more when there is no way.
+  // Steps from `state` through goals k, k+1, ... to the last one, ignoring everything else, at
+  // least: exact where agents turn freely. Admissible and consistent. kNever or more when there is
+  // no way.
   Time distance(State state, int k) const {
     const Time to_goal = (*to_goal_[checked(k)])[state];
     return to_goal == kNever ? kNever : to_goal + after_goal_[k];
@@ -44,7 +52,11 @@ class GoalSequence {
   }
 
   State start_;
+  Time turn_about_;
+  bool has_work_ = false;
   std::vector<Place> goals_;
+  std::vector<TaskIndex> work_;
+  std::vector<Time> durations_;
   std::vector<const DistanceField*> to_goal_;
   std::vector<Time> after_goal_;  // from goal k through the rest
 };

@@ -43,6 +43,8 @@ struct SafeInterval {
 // who
 //   arrives at t or earlier may be there for as long as it likes, but not for ever; who arrives
 //   later may rest. (Whoever turns on the place stays in its slot: it has arrived when it came.)
+// - *Rest by t.* Where agents may turn or work after they have arrived for good, likewise: who
+//   arrives at t or earlier may rest, who arrives later may not.
 // - *No traversal.* The inner places of a chain with such a constraint have all their slots in two
 //   or three *copies*. Who enters the chain at one of its ends gets the copy of that end and keeps
 //   it until it leaves, and the constraint bars a move out of one copy only. The last copy bars
@@ -74,8 +76,8 @@ class SafeIntervals {
   Time last_arrival(int slot) const {
     return slot < states_ ? kNever : interval(slot).last_arrival;
   }
-  // May the agent, having arrived in this slot, stay for ever? The time of kRestBy is not looked
-  // at.
+  // May the agent, having arrived in this slot, stay for ever? Where states are places the time of
+  // kRestBy is not looked at: there the agent finishes when it arrives, see latest_rest().
   bool may_rest(int slot) const {
     return (only_rest_ == kNoPlace || place_of(slot) == only_rest_) &&
            (slot < states_ || interval(slot).may_rest);
@@ -111,7 +113,7 @@ class SafeIntervals {
   // When the slot of the same state and copy after `slot` begins; kNever if there is none.
   Time next_begin(int slot) const;
 
-  // By when the agent must have come to rest (kRestBy); kNever: no matter.
+  // By when the agent must have come to where it rests (kRestBy); kNever: no matter.
   Time latest_rest() const { return latest_rest_; }
   // The only place to rest on, kNoPlace: no matter. Not a place at all if there are two such.
   Place only_rest() const { return only_rest_; }

@@ -177,8 +177,6 @@ inline NodePtr::~NodePtr() {
   if (node_) Node::release(node_);
 }
 
-// The tasks that the stops of a sequence stand for.
-std::vector<TaskIndex> tasks_in_order(const Agent& agent, const Sequence& sequence);
 // The goals of an agent that visits all its stops in this order; see GoalSequence.
 GoalSequence goals_in_order(const Problem& problem, AgentIndex agent, const Sequence& sequence);
 

@@ -10,9 +10,10 @@
 
 namespace grove {
 
-// Shortest distances of one agent, in steps, kNever where there is no way. Row-major (n+1) x (n+1):
+// What each leg takes one agent at least, in steps, kNever where there is no way: the shortest
+// distance, or the least from any base state on the stop that it leaves. Row-major (n+1) x (n+1):
 // entry (i, j) from stop i to stop j; row n from the agent's start; column n to its destination
-// (all zero for an MG agent, which finishes on its last stop). Entry (n, n) matters only for n = 0.
+// (zero for an MG agent, which finishes on a stop). Entry (n, n) matters only for n = 0.
 struct CostMatrix {
   using Matrix = Eigen::Matrix<Time, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
