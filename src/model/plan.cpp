@@ -57,7 +57,25 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
   return plan;
 }
 
-Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& plan) {
+// Work within a turn is put before the turn, all on one place: only there the world has states for
+// it (but for the turn that the agent starts in).
+AgentPlan with_work_before_turns(const Instance& instance, AgentPlan plan) {
+  for (WorkTime& work : plan.work) {
+    if (work.begin <= 0) continue;
+    const auto within_turn = [&](Time t) { return instance.pose_of(plan.path[t]).steps > 0; };
+    Time turn = work.begin;
+    while (turn > 0 && within_turn(turn)) --turn;
+    const auto at = [&](Time t) { return plan.path.begin() + t; };
+    std::rotate(at(turn) + 1, at(work.begin) + 1, at(work.end) + 1);
+    std::fill_n(at(turn) + 1, work.end - work.begin, plan.path[turn]);
+    work.end -= work.begin - turn;
+    work.begin = turn;
+  }
+  return plan;
+}
+
+Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& given) {
+  const AgentPlan plan = with_work_before_turns(instance, given);
   Path path(plan.path.begin(), plan.path.begin() + plan.cost + 1);
   path[0] = instance.agent(agent).start;
   for (const WorkTime& work : plan.work) {

@@ -72,6 +72,7 @@ StopSet checked_set(const Sequence& prefix, StopSet all) {
 AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent)
     : agent_(agent),
       start_(instance.agent(agent).start),
+      start_place_(instance.world().place(start_)),
       destination_(instance.agent(agent).goal),
       turn_about_(instance.world().turn_about(instance.agent(agent).kind)),
       completions_(cost_matrix(instance, agent, distances)) {

@@ -7,7 +7,7 @@ bool GoalsInClass::assign(FreeGoals& goals, SafeIntervals& intervals, int greed_
   goals_ = &goals;
   greed_percent_ = greed_percent;
   const AgentStops& stops = goals.stops();
-  intervals.see(stops.start());
+  intervals.see(stops.start_place());
   if (stops.destination()) intervals.see(*stops.destination());
   for (int stop = 0; stop < stops.count(); ++stop) intervals.see(stops.place(stop));
   find_deadlines(intervals);

@@ -56,9 +56,7 @@ class GoalsInTurn {
   }
   template <class Reach>
   void on_arrival(Progress progress, State state, Reach reach) const {
-    if (world_->is_working(state) && !world_->work(state).completed &&
-        world_->work(state).task != stages_[progress].work)
-      return;
+    if (world_->is_working(state) && world_->work(state).task != stages_[progress].work) return;
     while (progress < last_progress_ && stages_[progress].to_goal[state] == 0) ++progress;
     reach(progress);
   }

@@ -34,7 +34,7 @@ class VisitStages {
   // May an agent of this stage go there? Not to work on what is done or not its own.
   bool may_enter(Stage stage, State state) const {
     const World& world = instance_.world();
-    if (!world.is_working(state) || world.work(state).completed) return true;
+    if (!world.is_working(state)) return true;
     const auto stop = std::ranges::find(stops(), world.work(state).task) - stops().begin();
     return stop < std::ssize(stops()) && (entries_[stage].left >> stop & 1) != 0;
   }

@@ -20,8 +20,36 @@ std::string problem_of(const TinyInstance& instance) {
   return mg == std::ssize(instance.agents) ? "MG" : "mixed";
 }
 
-std::string kind_of(const TinyInstance& instance) {
-  return problem_of(instance) + (instance.roads.empty() ? "" : " on roads");
+// What the instance has beyond a grid, agents that turn freely and tasks that take no time.
+std::string world_of(const TinyInstance& instance) {
+  std::string world = instance.roads.empty() ? "grid" : "roads";
+  const auto agent_with = [&](auto what) { return std::ranges::any_of(instance.agents, what); };
+  if (agent_with([](const auto& a) { return a.turn_steps > 0; })) world += " + turning";
+  if (std::ranges::any_of(instance.tasks, [](const auto& t) { return t.duration > 0; }))
+    world += " + work";
+  return world;
+}
+
+std::vector<std::string> traits_of(const TinyInstance& instance) {
+  std::vector<std::string> traits;
+  const auto note = [&](bool holds, const char* trait) {
+    if (holds) traits.emplace_back(trait);
+  };
+  const auto agent_with = [&](auto what) { return std::ranges::any_of(instance.agents, what); };
+  const Instance built = instance.build();
+  note(std::ranges::any_of(built.agents(), &Agent::is_idle), "idle agents");
+  note(agent_with([](const auto& a) { return a.goal_heading.has_value(); }), "goal headings");
+  note(agent_with([](const auto& a) { return a.turned > 0; }), "starts within turns");
+  note(agent_with([](const auto& a) { return a.work >= 0; }), "starts at work");
+  note(agent_with([](const auto& a) { return a.road >= 0; }), "starts on roads");
+  std::vector<Position> cells;
+  bool shared = false;
+  for (const auto& task : instance.tasks) {
+    shared = shared || std::ranges::count(cells, task.cell) > 0;
+    cells.push_back(task.cell);
+  }
+  note(shared, "several tasks on a cell");
+  return traits;
 }
 
 std::string counts(const std::map<std::string, std::int64_t>& of) {
@@ -50,7 +78,9 @@ void Tally::add(const FuzzCase& fuzz_case, const CaseResult& result) {
   }
   ++by_status[std::string(to_string(result.status))];
   ++by_omega[fuzz_case.options.omega.to_string()];
-  ++by_kind[kind_of(fuzz_case.instance)];
+  ++by_kind[problem_of(fuzz_case.instance)];
+  ++by_world[world_of(fuzz_case.instance)];
+  for (const std::string& trait : traits_of(fuzz_case.instance)) ++by_trait[trait];
 }
 
 double Tally::unsolved_percent() const {
@@ -59,10 +89,11 @@ double Tally::unsolved_percent() const {
 
 std::string Tally::summary() const {
   return fmt::format(
-      "kinds:  {}\nomega:  {}\nstatus: {}\nwithout a plan {}, not solved in time {} of {}, "
+      "kinds:  {}\nworlds: {}\nwith:   {}\nomega:  {}\nstatus: {}\nwithout a plan {}, not solved "
+      "in time {} of {}, "
       "too large for the oracle {}\n{} passed, {} failed\n",
-      counts(by_kind), counts(by_omega), counts(by_status), infeasible, unsolved, unstopped,
-      too_large, passed, failed);
+      counts(by_kind), counts(by_world), counts(by_trait), counts(by_omega), counts(by_status),
+      infeasible, unsolved, unstopped, too_large, passed, failed);
 }
 
 std::string Failure::report() const {

@@ -23,7 +23,9 @@ struct Tally {
   std::int64_t unsolved = 0;    // ... but its patience did
   std::map<std::string, std::int64_t> by_status;
   std::map<std::string, std::int64_t> by_omega;
-  std::map<std::string, std::int64_t> by_kind;  // CTS, MG, mixed
+  std::map<std::string, std::int64_t> by_kind;   // CTS, MG, mixed
+  std::map<std::string, std::int64_t> by_world;  // grid, roads; turning, work
+  std::map<std::string, std::int64_t> by_trait;  // what else there is; a case may have several
 
   void add(const FuzzCase& fuzz_case, const CaseResult& result);
   // Of the unstopped cases. Being slow is no wrong claim; being slow often means a search that goes

@@ -193,8 +193,11 @@ FuzzCase FuzzCase::parse(std::string_view text) {
 
 FuzzCase random_case(std::uint64_t seed) {
   FuzzCase fuzz_case;
-  const bool on_roads = Random(seed ^ 0x70AD5).percent(30);
-  fuzz_case.instance = on_roads ? random_roads(seed) : random_instance(seed);
+  const int world = Random(seed ^ 0x70AD5).below(100);
+  const bool on_plain_grid = world < 35;
+  fuzz_case.instance = on_plain_grid ? random_instance(seed)
+                       : world < 50  ? random_roads(seed)
+                                     : random_world(seed);
   Random random(~seed);
   fuzz_case.options.omega = random_omega(random);
   fuzz_case.options.policy =
@@ -208,8 +211,8 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.options.node_memory = random_node_memory(random);
   fuzz_case.options.threads = random.pick<int>({1, 1, 1, 1, 1, 2, 2, 3, 4});
   fuzz_case.options.deterministic = random.below(8) == 0;
-  // The published low levels go along roads in both directions.
-  if (fuzz_case.options.policy != Policy::kFixed && random.below(6) == 0 && !on_roads)
+  // What the published low levels are for.
+  if (fuzz_case.options.policy != Policy::kFixed && random.below(6) == 0 && on_plain_grid)
     fuzz_case.options.low_level = random.pick<LowLevel>(
         {LowLevel::kVisitedSets, LowLevel::kSingleLegs, LowLevel::kTimeIntervalForest});
   fuzz_case.options.tuning = random_tuning(random);

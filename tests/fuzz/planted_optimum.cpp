@@ -25,21 +25,22 @@ class RealizedSequences {
   RealizedSequences(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
                     std::span<const Constraint> constraints, const Path& path)
       : instance_(instance),
-        tasks_(instance.agent(agent).tasks),
-        rests_on_task_(!instance.agent(agent).goal),
+        tasks_(instance.agent(agent).stops),
+        rests_on_task_(instance.rests_on_last_stop(agent)),
         sequences_(sequences),
         constraints_(constraints),
         path_(path) {}
 
   bool any(std::size_t time = 0) {
     if (so_far_.size() == tasks_.size())
-      return !rests_on_task_ || cell(so_far_.back()) == path_.back();
+      return !rests_on_task_ || instance_.is_visited(tasks_[so_far_.back()], path_.back());
     for (Stop stop = 0; stop < static_cast<Stop>(tasks_.size()); ++stop) {
       if (std::ranges::count(so_far_, stop) > 0 || !may_be_next(sequences_, so_far_, stop) ||
           !obeys(stop))
         continue;
       const auto visit =
-          std::find(path_.begin() + static_cast<std::ptrdiff_t>(time), path_.end(), cell(stop));
+          std::find_if(path_.begin() + static_cast<std::ptrdiff_t>(time), path_.end(),
+                       [&](State state) { return instance_.is_visited(tasks_[stop], state); });
       if (visit == path_.end()) continue;
       so_far_.push_back(stop);
       if (any(static_cast<std::size_t>(visit - path_.begin()))) return true;
@@ -49,11 +50,10 @@ class RealizedSequences {
   }
 
  private:
-  Cell cell(Stop stop) const { return instance_.task(tasks_[stop]).cell; }
   bool obeys(Stop next) const {
     return std::ranges::all_of(constraints_, [&](const Constraint& c) {
       if (!is_about_sequence(c) || c.begin != static_cast<Time>(so_far_.size())) return true;
-      return (cell(next) == c.cell) == (c.kind == ConstraintKind::kStopIs);
+      return (next == c.from) == (c.kind == ConstraintKind::kStopIs);
     });
   }
 
@@ -77,13 +77,19 @@ bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& 
          RealizedSequences(instance, agent, sequences, constraints, path).any();
 }
 
+PlantedOptimum::PlantedOptimum(const Instance& instance, Plan optimum)
+    : instance_(instance), optimum_(std::move(optimum)) {
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
+    paths_.push_back(walked_path(instance, agent, optimum_.agents[agent]));
+}
+
 bool PlantedOptimum::held_by(const Node& node) const {
   std::vector<Constraint> constraints;
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
     constraints.clear();
     node.constraints(agent, constraints);
     if (!obeys_all(instance_, agent, node.tree().orders[agent]->sequences, constraints,
-                   optimum_.agents[agent].path))
+                   paths_[agent]))
       return false;
   }
   return true;

@@ -20,8 +20,7 @@ namespace grove::fuzz {
 class PlantedOptimum : public RunObserver {
  public:
   // `instance` must outlive this. `optimum` must be valid and cost-optimal.
-  PlantedOptimum(const Instance& instance, Plan optimum)
-      : instance_(instance), optimum_(std::move(optimum)) {}
+  PlantedOptimum(const Instance& instance, Plan optimum);
 
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
@@ -42,6 +41,7 @@ class PlantedOptimum : public RunObserver {
 
   const Instance& instance_;
   const Plan optimum_;
+  std::vector<Path> paths_;  // as the search walks them
   // Live nodes that hold the plan; by address, for the nodes do not outlive the search. Nothing is
   // followed any more once a plan as cheap is found: from then on the gate may drop them.
   std::unordered_set<const Node*> holding_;

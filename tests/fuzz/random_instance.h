@@ -17,4 +17,8 @@ TinyInstance random_instance(std::uint64_t seed, int agents);
 // On a roadmap: roads of several lengths, some one way, some twice.
 TinyInstance random_roads(std::uint64_t seed);
 
+// A mixture: on a grid or roads, agents that turn, work that takes time, several tasks on a cell,
+// agents with nothing to do, starts on the way.
+TinyInstance random_world(std::uint64_t seed);
+
 }  // namespace grove::fuzz

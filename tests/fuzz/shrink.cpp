@@ -9,6 +9,16 @@
 namespace grove::fuzz {
 namespace {
 
+TinyInstance without_task(TinyInstance instance, std::size_t task) {
+  instance.tasks.erase(instance.tasks.begin() + static_cast<std::ptrdiff_t>(task));
+  for (auto& agent : instance.agents) {
+    if (agent.work == static_cast<int>(task)) agent.work = -1;
+    if (agent.work > static_cast<int>(task)) --agent.work;
+    if (agent.work < 0) agent.done = 0;
+  }
+  return instance;
+}
+
 TinyInstance without_agent(TinyInstance instance, int agent) {
   instance.agents.erase(instance.agents.begin() + agent);
   for (auto& task : instance.tasks) {
@@ -16,12 +26,8 @@ TinyInstance without_agent(TinyInstance instance, int agent) {
     for (int& a : task.agents)
       if (a > agent) --a;
   }
-  std::erase_if(instance.tasks, [](const auto& task) { return task.agents.empty(); });
-  return instance;
-}
-
-TinyInstance without_task(TinyInstance instance, std::size_t task) {
-  instance.tasks.erase(instance.tasks.begin() + static_cast<std::ptrdiff_t>(task));
+  for (std::size_t t = instance.tasks.size(); t-- > 0;)
+    if (instance.tasks[t].agents.empty()) instance = without_task(std::move(instance), t);
   return instance;
 }
 
@@ -79,6 +85,8 @@ class Steps {
     drop_tasks();
     drop_rows_and_columns();
     simplify_roads();
+    simplify_agents();
+    simplify_work();
     plainer_options();
     block_cells();
     return std::move(cases_);
@@ -133,6 +141,52 @@ class Steps {
       plainer.roads[r] = plain;
       offer(std::move(plainer));
     }
+  }
+
+  // Offers the instance with agent `a` changed, if that changes it.
+  template <typename Change>
+  void change_agent(std::size_t a, Change change) {
+    TinyInstance plainer = from_.instance;
+    change(plainer.agents[a]);
+    if (plainer != from_.instance) offer(std::move(plainer));
+  }
+
+  void simplify_agents() {
+    using Agent = TinyInstance::Agent;
+    for (std::size_t a = 0; a < from_.instance.agents.size(); ++a) {
+      change_agent(a, [](Agent& agent) {
+        agent.turn_steps = agent.turned = 0;
+        agent.heading = agent.to = Heading::kNorth;
+        agent.goal_heading.reset();
+      });
+      change_agent(a, [](Agent& agent) {
+        agent.turned = 0;
+        agent.to = Heading::kNorth;
+      });
+      change_agent(a, [](Agent& agent) {
+        if (agent.turn_steps > 1) --agent.turn_steps;
+      });
+      change_agent(a, [](Agent& agent) { agent.goal_heading.reset(); });
+      change_agent(a, [](Agent& agent) {
+        agent.work = -1;
+        agent.done = 0;
+      });
+      change_agent(a, [](Agent& agent) { agent.done = 0; });
+      change_agent(a, [](Agent& agent) {
+        agent.road = -1;
+        agent.along = 0;
+      });
+    }
+  }
+
+  void simplify_work() {
+    for (std::size_t t = 0; t < from_.instance.tasks.size(); ++t)
+      for (const Time duration : {0, from_.instance.tasks[t].duration - 1}) {
+        if (duration < 0 || duration == from_.instance.tasks[t].duration) continue;
+        TinyInstance plainer = from_.instance;
+        plainer.tasks[t].duration = duration;
+        offer(std::move(plainer));
+      }
   }
 
   template <typename T>

@@ -46,20 +46,35 @@ Place vertex_at(const Roadmap& roadmap, Position p) {
   return roadmap.place_of_vertex(*vertex);
 }
 
-Instance build_on_roads(const TinyInstance& tiny) {
-  InstanceBuilder builder(roadmap_of(tiny));
-  const Roadmap& roadmap = *builder.roadmap();
-  for (std::size_t a = 0; a < tiny.agents.size(); ++a) {
-    const TinyInstance::Agent& agent = tiny.agents[a];
-    const auto goal = agent.goal ? std::optional(vertex_at(roadmap, *agent.goal)) : std::nullopt;
-    builder.add_agent(fmt::format("a{}", a), vertex_at(roadmap, agent.start), goal);
+Place place_of(const InstanceBuilder& builder, Position p) {
+  if (const Roadmap* roadmap = builder.roadmap()) return vertex_at(*roadmap, p);
+  const auto& grid = std::get<Grid>(builder.map());
+  if (!grid.contains(p)) throw std::invalid_argument("outside the map");
+  return grid.cell(p);
+}
+
+Place start_of(const InstanceBuilder& builder, const TinyInstance::Agent& agent) {
+  if (agent.road < 0) return place_of(builder, agent.start);
+  const auto& roads = builder.roadmap()->roads();
+  if (agent.road >= std::ssize(roads) || agent.along < 1 || agent.along >= roads[agent.road].steps)
+    throw std::invalid_argument("not on a road");
+  return builder.roadmap()->place_on_road(agent.road, agent.along);
+}
+
+AgentSpec spec_of(const InstanceBuilder& builder, int number, const TinyInstance::Agent& agent) {
+  AgentSpec spec{.id = fmt::format("a{}", number),
+                 .start = {.place = start_of(builder, agent)},
+                 .goal = {},
+                 .motion = {agent.turn_steps}};
+  if (agent.goal) spec.goal = place_of(builder, *agent.goal);
+  if (agent.turn_steps > 0) {
+    spec.start.heading = agent.heading;
+    spec.start.to = agent.turned > 0 ? agent.to : agent.heading;
+    spec.start.steps = agent.turned;
+    spec.goal_heading = agent.goal_heading;
   }
-  for (std::size_t t = 0; t < tiny.tasks.size(); ++t) {
-    std::vector<std::string> ids;
-    for (int agent : tiny.tasks[t].agents) ids.push_back(fmt::format("a{}", agent));
-    builder.add_task(fmt::format("t{}", t), vertex_at(roadmap, tiny.tasks[t].cell), ids);
-  }
-  return std::move(builder).build();
+  if (agent.work >= 0) spec.working = WorkBegun{fmt::format("t{}", agent.work), agent.done};
+  return spec;
 }
 
 // Reads `x,y`, leaving the stream behind it.
@@ -70,21 +85,64 @@ Position read_position(std::istream& in) {
   return p;
 }
 
+Heading read_heading(std::istream& in) {
+  std::string text;
+  in >> text;
+  const auto heading = heading_of(text);
+  if (!heading) throw std::invalid_argument("expected a heading");
+  return *heading;
+}
+
+int read_number(std::istream& in) {
+  int number = 0;
+  if (!(in >> number)) throw std::invalid_argument("expected a number");
+  return number;
+}
+
+void read_more(std::istream& in, TinyInstance::Agent& agent) {
+  for (std::string word; in >> word;) {
+    if (word == "turn") {
+      agent.turn_steps = read_number(in);
+      agent.heading = read_heading(in);
+    } else if (word == "to") {
+      agent.to = read_heading(in);
+      agent.turned = read_number(in);
+    } else if (word == "end") {
+      agent.goal_heading = read_heading(in);
+    } else if (word == "work") {
+      agent.work = read_number(in);
+      agent.done = read_number(in);
+    } else if (word == "road") {
+      agent.road = read_number(in);
+      agent.along = read_number(in);
+    } else {
+      throw std::invalid_argument(fmt::format("did not expect '{}'", word));
+    }
+  }
+  in.clear();
+}
+
 TinyInstance::Agent read_agent(std::istream& in) {
-  TinyInstance::Agent agent{read_position(in), std::nullopt};
+  TinyInstance::Agent agent{.start = read_position(in), .goal = {}};
   std::string arrow;
   if (!(in >> arrow) || arrow != "->") throw std::invalid_argument("expected start -> goal");
   in >> std::ws;
-  if (in.peek() == '-') {
+  if (in.peek() == '-')
     in.get();
-    return agent;
-  }
-  agent.goal = read_position(in);
+  else
+    agent.goal = read_position(in);
+  read_more(in, agent);
   return agent;
 }
 
 TinyInstance::Task read_task(std::istream& in) {
   TinyInstance::Task task{read_position(in), {}};
+  in >> std::ws;
+  if (in.peek() == 't') {
+    std::string takes;
+    in >> takes;
+    task.duration = read_number(in);
+  }
   char colon = 0;
   if (!(in >> colon) || colon != ':') throw std::invalid_argument("expected cell: agents");
   for (int agent = 0; in >> agent;) task.agents.push_back(agent);
@@ -143,14 +201,16 @@ std::vector<Position> passable_cells(const std::vector<std::string>& rows) {
 }
 
 Instance TinyInstance::build() const {
-  if (!roads.empty()) return build_on_roads(*this);
-  InstanceBuilder builder(grid_of(rows));
+  InstanceBuilder builder(roads.empty() ? Map(grid_of(rows)) : Map(roadmap_of(*this)));
   for (std::size_t a = 0; a < agents.size(); ++a)
-    builder.add_agent(fmt::format("a{}", a), agents[a].start, agents[a].goal);
+    builder.add_agent(spec_of(builder, static_cast<int>(a), agents[a]));
   for (std::size_t t = 0; t < tasks.size(); ++t) {
     std::vector<std::string> ids;
     for (int agent : tasks[t].agents) ids.push_back(fmt::format("a{}", agent));
-    builder.add_task(fmt::format("t{}", t), tasks[t].cell, ids);
+    const Place place = place_of(builder, tasks[t].cell);
+    if (const auto* grid = std::get_if<Grid>(&builder.map()); grid && !grid->passable(place))
+      throw std::invalid_argument("a task on a blocked cell");
+    builder.add_task(fmt::format("t{}", t), place, ids, tasks[t].duration);
   }
   return std::move(builder).build();
 }
@@ -164,11 +224,20 @@ std::string TinyInstance::to_text() const {
   text += "agents\n";
   for (const Agent& agent : agents) {
     text += fmt::format("{},{} -> ", agent.start.x, agent.start.y);
-    text += agent.goal ? fmt::format("{},{}\n", agent.goal->x, agent.goal->y) : "-\n";
+    text += agent.goal ? fmt::format("{},{}", agent.goal->x, agent.goal->y) : "-";
+    if (agent.turn_steps > 0)
+      text += fmt::format(" turn {} {}", agent.turn_steps, letter(agent.heading));
+    if (agent.turned > 0) text += fmt::format(" to {} {}", letter(agent.to), agent.turned);
+    if (agent.goal_heading) text += fmt::format(" end {}", letter(*agent.goal_heading));
+    if (agent.work >= 0) text += fmt::format(" work {} {}", agent.work, agent.done);
+    if (agent.road >= 0) text += fmt::format(" road {} {}", agent.road, agent.along);
+    text += '\n';
   }
   if (!tasks.empty()) text += "tasks\n";
   for (const Task& task : tasks)
-    text += fmt::format("{},{}: {}\n", task.cell.x, task.cell.y, fmt::join(task.agents, " "));
+    text += fmt::format("{},{}{}: {}\n", task.cell.x, task.cell.y,
+                        task.duration > 0 ? fmt::format(" takes {}", task.duration) : "",
+                        fmt::join(task.agents, " "));
   return text;
 }
 

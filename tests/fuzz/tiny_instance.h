@@ -23,6 +23,15 @@ namespace grove::fuzz {
 //     3,0 -> -       (an MG agent)
 //     tasks
 //     2,0: 0 1       (cell: the agents that must visit it)
+//     2,0 takes 3: 0 (they must be at work there for 3 steps)
+//
+// Behind an agent there may be, in this order:
+//
+//     turn 2 N       (it turns, a quarter in 2 steps, and looks north)
+//     to E 1         (it has made one step of the turn to the east)
+//     end S          (it must look south at the end)
+//     work 0 2       (it has done 2 steps of task 0)
+//     road 1 2       (it starts 2 steps along road 1 instead)
 //
 // With roads the passable cells are the vertices of a roadmap, and nothing else joins them:
 //
@@ -33,11 +42,21 @@ struct TinyInstance {
   struct Agent {
     Position start;
     std::optional<Position> goal;
+    Time turn_steps = 0;  // 0: it turns freely
+    Heading heading = Heading::kNorth;
+    Heading to = Heading::kNorth;
+    Time turned = 0;
+    std::optional<Heading> goal_heading = {};
+    int work = -1;  // a task
+    Time done = 0;
+    int road = -1;
+    Time along = 0;
     friend bool operator==(const Agent&, const Agent&) = default;
   };
   struct Task {
     Position cell;
     std::vector<int> agents;
+    Time duration = 0;
     friend bool operator==(const Task&, const Task&) = default;
   };
 

@@ -51,6 +51,14 @@ TEST(RandomInstance, IsValidAndSurvivesItsText) {
   }
 }
 
+TEST(RandomWorld, IsValidAndSurvivesItsText) {
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const TinyInstance instance = random_world(seed);
+    ASSERT_NO_THROW(instance.build()) << instance.to_text();
+    ASSERT_EQ(TinyInstance::parse(instance.to_text()), instance) << instance.to_text();
+  }
+}
+
 TEST(RandomInstance, IsTheSameForTheSameSeed) {
   EXPECT_EQ(random_instance(7), random_instance(7));
   EXPECT_NE(random_instance(7), random_instance(8));

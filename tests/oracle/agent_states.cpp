@@ -2,68 +2,144 @@
 #include "tests/oracle/agent_states.h"
 
 #include <algorithm>
-#include <variant>
 
 #include "tests/oracle/steps.h"
 
 namespace grove::oracle {
 namespace {
 
-constexpr std::size_t kMaxStates = std::size_t{1} << 22;
+constexpr std::size_t kMaxStates = std::size_t{1} << 20;
+
+std::uint64_t bit(std::size_t task) {
+  return std::uint64_t{1} << task;
+}
 
 }  // namespace
 
-bool AgentStates::fits(const Instance& instance, AgentIndex agent) {
-  const std::size_t tasks = instance.agent(agent).tasks.size();
-  return tasks < 20 &&
-         (static_cast<std::size_t>(instance.world().place_count()) << tasks) * 2 <= kMaxStates;
-}
-
 AgentStates::AgentStates(const Instance& instance, AgentIndex agent)
-    : goal_(instance.agent(agent).goal) {
-  const auto* grid = std::get_if<Grid>(&instance.map());
-  for (Place p = 0; p < instance.world().place_count(); ++p)
-    if (!grid || grid->passable(p)) passable_.push_back(p);
-  for (TaskIndex task : instance.agent(agent).tasks)
-    task_cells_.push_back(instance.task(task).cell);
-  const Place start = instance.agent(agent).start;
-  start_ =
-      state(std::ranges::lower_bound(passable_, start) - passable_.begin(), visit(0, start), false);
-  connect(instance.map());
+    : instance_(instance), agent_(instance.agent(agent)), steps_(steps_on(instance.map())) {
+  Standing start{.pose = instance.pose_of(agent_.start)};
+  if (instance.world().is_working(agent_.start)) {
+    const Work& work = instance.world().work(agent_.start);
+    start.work =
+        static_cast<int>(std::ranges::find(agent_.tasks, work.task) - agent_.tasks.begin());
+    start.done = work.done;
+  }
+  arrive(start);
+  number(start);
+  for (State s = 0; s < count(); ++s) connect(s);
   settle_costs();
 }
 
-AgentStates::State AgentStates::state(std::size_t cell_index, std::uint64_t visited,
-                                      bool resting) const {
-  return static_cast<State>((visited * passable_.size() + cell_index) * 2 + (resting ? 1 : 0));
+AgentStates::State AgentStates::number(const Standing& standing) {
+  const auto [known, is_new] = numbers_.try_emplace(standing, count());
+  if (is_new) {
+    if (states_.size() == kMaxStates) throw TooMany();
+    states_.push_back(standing);
+    moves_.emplace_back();
+  }
+  return known->second;
 }
 
-std::uint64_t AgentStates::visit(std::uint64_t visited, Place cell) const {
-  for (std::size_t k = 0; k < task_cells_.size(); ++k)
-    if (task_cells_[k] == cell) visited |= std::uint64_t{1} << k;
-  return visited;
+// Tasks that take no time are visited by being there.
+void AgentStates::arrive(Standing& standing) const {
+  for (std::size_t k = 0; k < agent_.tasks.size(); ++k) {
+    const Task& task = instance_.task(agent_.tasks[k]);
+    if (task.duration == 0 && task.cell == standing.pose.place) standing.visited |= bit(k);
+  }
 }
 
-bool AgentStates::may_rest(Place cell, std::uint64_t visited) const {
-  if (visited != (std::uint64_t{1} << task_cells_.size()) - 1) return false;
-  return goal_ ? cell == *goal_ : std::ranges::count(task_cells_, cell) > 0;
+bool AgentStates::may_rest(const Standing& standing) const {
+  if (standing.work >= 0 || standing.visited != bit(agent_.tasks.size()) - 1) return false;
+  const Pose& pose = standing.pose;
+  if (agent_.goal)
+    return pose.place == *agent_.goal &&
+           (!agent_.goal_heading || (pose.steps == 0 && pose.heading == *agent_.goal_heading));
+  return agent_.tasks.empty() || std::ranges::any_of(agent_.tasks, [&](TaskIndex task) {
+           return instance_.task(task).cell == pose.place;
+         });
 }
 
-void AgentStates::connect(const Map& map) {
-  const auto steps = steps_on(map);
-  std::vector<std::size_t> index(steps.size());
-  for (std::size_t i = 0; i < passable_.size(); ++i) index[passable_[i]] = i;
-  moves_.resize((passable_.size() << task_cells_.size()) * 2);
-  for (State s = 0; s < count(); ++s) {
-    const auto here = index[cell(s)];
-    if (resting(s)) {
-      moves_[s].push_back({s, 0});
-      continue;
+// The poses one step away; a wait is none of them.
+std::vector<Pose> AgentStates::next_poses(const Pose& pose) const {
+  std::vector<Pose> poses;
+  const Time turn_steps = agent_.motion.turn_steps;
+  if (turn_steps == 0) {
+    for (const Place place : steps_[pose.place]) poses.push_back({.place = place});
+    return poses;
+  }
+  const auto turn_on = [&](Heading to, Time steps) {
+    if (steps < turn_steps)
+      poses.push_back({pose.place, pose.heading, to, steps});
+    else
+      poses.push_back({pose.place, to, to, 0});
+  };
+  if (pose.steps > 0) {
+    turn_on(pose.to, pose.steps + 1);
+    return poses;
+  }
+  const Position here = instance_.grid().position(pose.place);
+  for (const Place place : steps_[pose.place]) {
+    const Position there = instance_.grid().position(place);
+    const Heading way = there.y < here.y   ? Heading::kNorth
+                        : there.y > here.y ? Heading::kSouth
+                        : there.x > here.x ? Heading::kEast
+                                           : Heading::kWest;
+    if (way == pose.heading) poses.push_back({place, way, way, 0});
+  }
+  for (const int quarters : {1, 3})
+    turn_on(static_cast<Heading>((static_cast<int>(pose.heading) + quarters) % 4), 1);
+  return poses;
+}
+
+// Work that has begun is gone on with; when it is done the agent may go on at once.
+std::vector<Standing> AgentStates::next(const Standing& standing) const {
+  std::vector<Standing> next;
+  const auto work_on = [&](int work, Time done) {
+    Standing then = standing;
+    const auto k = static_cast<std::size_t>(work);
+    then.work = work;
+    then.done = done;
+    if (done == instance_.task(agent_.tasks[k]).duration) {
+      then.work = -1;
+      then.done = 0;
+      then.visited |= bit(k);
     }
-    if (may_rest(cell(s), visited(s))) moves_[s].push_back({state(here, visited(s), true), 0});
-    moves_[s].push_back({s, 1});
-    for (Place next : steps[cell(s)])
-      moves_[s].push_back({state(index[next], visit(visited(s), next), false), 1});
+    next.push_back(then);
+  };
+  if (standing.work >= 0) {
+    work_on(standing.work, standing.done + 1);
+    return next;
+  }
+  next.push_back(standing);
+  for (const Pose& pose : next_poses(standing.pose)) {
+    next.push_back(standing);
+    next.back().pose = pose;
+    arrive(next.back());
+  }
+  for (std::size_t k = 0; k < agent_.tasks.size(); ++k) {
+    const Task& task = instance_.task(agent_.tasks[k]);
+    if (task.duration > 0 && task.cell == standing.pose.place && (standing.visited & bit(k)) == 0)
+      work_on(static_cast<int>(k), 1);
+  }
+  return next;
+}
+
+void AgentStates::connect(State s) {
+  const Standing here = states_[s];
+  if (here.resting) {
+    moves_[s].push_back({s, 0});
+    return;
+  }
+  if (may_rest(here)) {
+    Standing resting = here;
+    resting.resting = true;
+    const State to = number(resting);
+    moves_[s].push_back({to, 0});
+  }
+  for (const Standing& then : next(here)) {
+    const State to = number(then);
+    moves_[s].push_back({to, 1});
   }
 }
 
@@ -71,7 +147,7 @@ void AgentStates::connect(const Map& map) {
 void AgentStates::settle_costs() {
   to_go_.assign(moves_.size(), kNever);
   for (State s = 0; s < count(); ++s)
-    if (resting(s) || may_rest(cell(s), visited(s))) to_go_[s] = 0;
+    if (resting(s) || may_rest(states_[s])) to_go_[s] = 0;
   for (bool changed = true; changed;) {
     changed = false;
     for (State s = count() - 1; s >= 0; --s) {

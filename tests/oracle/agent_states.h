@@ -3,16 +3,32 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "grove/model/instance.h"
 
 namespace grove::oracle {
 
-// The states of one agent: (cell, set of visited tasks, has it come to rest for ever), numbered
-// from 0. A state in which the agent may come to rest offers, besides its moves, the decision to do
-// so: it stays, now and for ever, and no longer costs anything.
+// Where an agent is and what it is doing there, said from the instance alone.
+struct Standing {
+  Pose pose;
+  int work = -1;              // the task it is at work on, as position in Agent::tasks; -1: none
+  Time done = 0;              // steps of that
+  std::uint64_t visited = 0;  // of Agent::tasks, as bits
+  bool resting = false;       // for ever
+
+  auto key() const {
+    return std::tuple(pose.place, pose.heading, pose.to, pose.steps, work, done, visited, resting);
+  }
+  bool operator<(const Standing& other) const { return key() < other.key(); }
+};
+
+// The states that one agent can come to, numbered from 0. A state in which the agent may come to
+// rest offers, besides its moves, the decision to do so: it stays, now and for ever, and no longer
+// costs anything.
 class AgentStates {
  public:
   using State = std::int32_t;
@@ -22,37 +38,34 @@ class AgentStates {
     Time cost;
   };
 
+  // Throws TooMany if there are more than kMaxStates.
   AgentStates(const Instance& instance, AgentIndex agent);
+  struct TooMany {};
 
-  State count() const { return static_cast<State>(moves_.size()); }
-  // At time 0; a task on the start is visited already.
-  State start() const { return start_; }
+  State count() const { return static_cast<State>(states_.size()); }
+  // At time 0; a task on the start that takes no time is visited already.
+  State start() const { return 0; }
   const std::vector<Move>& moves(State s) const { return moves_[s]; }
-  Place cell(State s) const {
-    return passable_[static_cast<std::size_t>(s / 2) % passable_.size()];
-  }
-  // Which of Agent::tasks are visited, as bits.
-  std::uint64_t visited(State s) const {
-    return static_cast<std::size_t>(s / 2) / passable_.size();
-  }
-  bool resting(State s) const { return s % 2 != 0; }
+  const Standing& standing(State s) const { return states_[s]; }
+  Place cell(State s) const { return states_[s].pose.place; }
+  bool resting(State s) const { return states_[s].resting; }
   // Least cost until it can rest, were it alone; 0 exactly where it rests or may. kNever: never.
   Time to_go(State s) const { return to_go_[s]; }
 
-  // Would the numbers above fit for this agent?
-  static bool fits(const Instance& instance, AgentIndex agent);
-
  private:
-  State state(std::size_t cell_index, std::uint64_t visited, bool resting) const;
-  std::uint64_t visit(std::uint64_t visited, Place cell) const;
-  bool may_rest(Place cell, std::uint64_t visited) const;
-  void connect(const Map& map);
+  State number(const Standing& standing);
+  void connect(State s);
+  void arrive(Standing& standing) const;
+  bool may_rest(const Standing& standing) const;
+  std::vector<Standing> next(const Standing& standing) const;
+  std::vector<Pose> next_poses(const Pose& pose) const;
   void settle_costs();
 
-  std::vector<Place> passable_;
-  std::vector<Place> task_cells_;
-  std::optional<Place> goal_;
-  State start_ = 0;
+  const Instance& instance_;
+  const Agent& agent_;
+  std::vector<std::vector<Place>> steps_;  // by place
+  std::map<Standing, State> numbers_;
+  std::vector<Standing> states_;
   std::vector<std::vector<Move>> moves_;
   std::vector<Time> to_go_;
 };

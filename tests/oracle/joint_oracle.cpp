@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A* over joint states. A joint state holds, for every agent, its cell, the tasks it has visited
-// and whether it has come to rest for ever (agent_states.h); a step moves all agents at once and
-// costs the number of agents that are not at rest. So the cost of a way is the sum of the agents'
-// finish times: an agent pays for every step up to the one at which it rests for ever, waits
-// included. Whether to rest is a decision: an agent that is done may also pay on and leave again.
+// A* over joint states. A joint state holds, for every agent, where it is, its work, the tasks it
+// has visited and whether it has come to rest for ever (agent_states.h); a step moves all agents at
+// once and costs the number of agents that are not at rest. So the cost of a way is the sum of the
+// agents' finish times: an agent pays for every step up to the one at which it rests for ever,
+// waits included. Whether to rest is a decision: an agent that is done may also pay on and leave
+// again.
 //
 // Soundness. The heuristic adds up the agents' exact costs when alone: one step costs an agent 1
 // and lowers its cost to go by at most 1, or costs 0 and leaves it at 0. So it is consistent, a
@@ -87,7 +88,7 @@ class JointSearch {
   void reach(Key key, Time cost);
   Plan plan(NodeIndex last) const;
   AgentPlan agent_plan(std::size_t agent, const std::vector<Key>& keys) const;
-  void finish_on_last(AgentPlan& agent) const;
+  void finish_on_last(AgentIndex index, AgentPlan& agent) const;
 
   const Instance& instance_;
   std::size_t state_cap_;
@@ -108,8 +109,11 @@ class JointSearch {
 bool JointSearch::prepare() {
   int bits = 0;
   for (AgentIndex a = 0; a < instance_.agent_count(); ++a) {
-    if (!AgentStates::fits(instance_, a)) return false;
-    agents_.emplace_back(instance_, a);
+    try {
+      agents_.emplace_back(instance_, a);
+    } catch (const AgentStates::TooMany&) {
+      return false;
+    }
     const auto width =
         static_cast<int>(std::bit_width(static_cast<Key>(agents_.back().count() - 1)));
     shift_.push_back(bits);
@@ -213,25 +217,32 @@ Plan JointSearch::plan(NodeIndex last) const {
 
 AgentPlan JointSearch::agent_plan(std::size_t agent, const std::vector<Key>& keys) const {
   const AgentStates& states = agents_[agent];
-  const auto& tasks = instance_.agent(static_cast<AgentIndex>(agent)).tasks;
+  const auto index = static_cast<AgentIndex>(agent);
+  const auto& tasks = instance_.agent(index).tasks;
   AgentPlan result;
   std::uint64_t before = 0;
   for (const Key key : keys) {
-    const State s = state(key, agent);
-    if (states.resting(s)) break;  // it rests since the step before
-    result.path.push_back(states.cell(s));
-    const std::uint64_t now = states.visited(s);
-    if (now != before) result.sequence.push_back(tasks[std::countr_zero(now & ~before)]);
-    before = now;
+    const Standing& here = states.standing(state(key, agent));
+    if (here.resting) break;  // it rests since the step before
+    const auto now = static_cast<Time>(result.path.size());
+    result.path.push_back(instance_.state_of(index, here.pose));
+    for (std::uint64_t bits = here.visited & ~before; bits != 0; bits &= bits - 1) {
+      const TaskIndex task = tasks[std::countr_zero(bits)];
+      result.sequence.push_back(task);
+      if (const Time duration = instance_.task(task).duration; duration > 0)
+        result.work.push_back({task, now - duration, now});
+    }
+    before = here.visited;
   }
   result.cost = static_cast<Time>(result.path.size()) - 1;
-  finish_on_last(result);
+  finish_on_last(index, result);
   return result;
 }
 
-// An agent that comes back to a task to rest there visits it last.
-void JointSearch::finish_on_last(AgentPlan& agent) const {
-  const auto last = std::ranges::find(agent.sequence, agent.path.back(),
+// An agent that comes back to a task to rest there visits it last, if it takes no time.
+void JointSearch::finish_on_last(AgentIndex index, AgentPlan& agent) const {
+  if (!instance_.rests_on_last_stop(index)) return;
+  const auto last = std::ranges::find(agent.sequence, instance_.world().place(agent.path.back()),
                                       [&](TaskIndex t) { return instance_.task(t).cell; });
   if (last != agent.sequence.end()) std::rotate(last, last + 1, agent.sequence.end());
 }

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "grove/model/check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/layered_search.h"
 
@@ -99,19 +100,20 @@ TEST(JointOracle, SaysWhenItIsTooLarge) {
   EXPECT_EQ(solve_jointly(instance, 5).verdict, Verdict::kTooLarge);
 }
 
-TEST(JointOracle, PlansAddUp) {
+TEST(JointOracle, PlansAreValid) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const Instance instance = fuzz::random_instance(seed).build();
+    const fuzz::TinyInstance tiny =
+        seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed);
+    const Instance instance = tiny.build();
     const Answer answer = solve_jointly(instance);
     if (!answer.plan) continue;
-    Cost sum = 0;
-    for (AgentIndex a = 0; a < instance.agent_count(); ++a) {
-      const AgentPlan& agent = answer.plan->agents[a];
-      EXPECT_EQ(agent.path.front(), instance.agent(a).start);
-      EXPECT_EQ(agent.sequence.size(), instance.agent(a).tasks.size());
-      sum += agent.cost;
-    }
-    EXPECT_EQ(sum, answer.plan->cost) << fuzz::random_instance(seed).to_text();
+    const Solution solution{.status = Status::kOptimal,
+                            .plan = answer.plan,
+                            .lower_bound = answer.plan->cost,
+                            .omega = {},
+                            .stats = {}};
+    for (const Violation& wrong : check(instance, solution))
+      ADD_FAILURE() << wrong.place << ": " << wrong.message << "\n" << tiny.to_text();
   }
 }
 
@@ -121,7 +123,9 @@ TEST(JointOracle, AgreesWithASearchByLayersOfTime) {
   int solved = 0;
   int infeasible = 0;
   for (std::uint64_t seed = 0; seed < rounds; ++seed) {
-    const fuzz::TinyInstance tiny = fuzz::random_instance(seed, 2);
+    const fuzz::TinyInstance tiny =
+        seed % 2 == 0 ? fuzz::random_instance(seed, 2) : fuzz::random_world(seed);
+    if (tiny.agents.size() != 2) continue;
     const Instance instance = tiny.build();
     const Answer answer = solve_jointly(instance);
     const std::optional<Cost> second = solve_two_agents(instance);

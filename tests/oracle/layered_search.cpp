@@ -8,6 +8,7 @@
 #include "tests/oracle/layered_search.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -17,41 +18,108 @@
 namespace grove::oracle {
 namespace {
 
+// An agent, and what is left of the tasks it has still to do: steps of work, 0 for being there.
 struct Walker {
   Place cell;
-  std::set<Place> to_visit;
+  Heading heading;
+  Heading turning_to;
+  Time turned;
+  std::map<TaskIndex, Time> left;
+  TaskIndex at_work;  // it must go on with this one; -1: with none
   auto operator<=>(const Walker&) const = default;
 };
 
-void arrive(Walker& walker, Place cell) {
+void arrive(const Instance& instance, Walker& walker, Place cell) {
   walker.cell = cell;
-  walker.to_visit.erase(cell);
+  std::erase_if(walker.left, [&](const auto& task) {
+    return instance.task(task.first).duration == 0 && instance.task(task.first).cell == cell;
+  });
 }
 
 bool is_home(const Instance& instance, AgentIndex agent, const Walker& walker) {
-  if (!walker.to_visit.empty()) return false;
-  if (const auto goal = instance.agent(agent).goal) return walker.cell == *goal;
-  return std::ranges::any_of(instance.agent(agent).tasks, [&](TaskIndex task) {
-    return instance.task(task).cell == walker.cell;
-  });
+  if (!walker.left.empty()) return false;
+  const Agent& who = instance.agent(agent);
+  if (who.goal) {
+    if (walker.cell != *who.goal) return false;
+    return !who.goal_heading || (walker.turned == 0 && walker.heading == *who.goal_heading);
+  }
+  return who.tasks.empty() || std::ranges::any_of(who.tasks, [&](TaskIndex task) {
+           return instance.task(task).cell == walker.cell;
+         });
 }
 
 using Steps = std::vector<std::vector<Place>>;
 
-std::vector<Walker> steps(const Steps& map, const Walker& walker) {
-  std::vector<Walker> next{walker};
+// A step of the work that is under way, or of this task.
+Walker worked(const Walker& walker, TaskIndex task) {
+  Walker then = walker;
+  Time& left = then.left.at(task);
+  --left;
+  then.at_work = left > 0 ? task : -1;
+  if (left == 0) then.left.erase(task);
+  return then;
+}
+
+Walker turned(const Instance& instance, AgentIndex agent, Walker walker, Heading to) {
+  walker.turning_to = to;
+  if (++walker.turned < instance.agent(agent).motion.turn_steps) return walker;
+  walker.heading = walker.turning_to = to;
+  walker.turned = 0;
+  return walker;
+}
+
+bool looks_at(const Instance& instance, const Walker& walker, Place cell) {
+  const Position a = instance.grid().position(walker.cell);
+  const Position b = instance.grid().position(cell);
+  const Position ahead{b.x - a.x, b.y - a.y};
+  switch (walker.heading) {
+    case Heading::kNorth:
+      return ahead == Position{0, -1};
+    case Heading::kEast:
+      return ahead == Position{1, 0};
+    case Heading::kSouth:
+      return ahead == Position{0, 1};
+    default:
+      return ahead == Position{-1, 0};
+  }
+}
+
+std::vector<Walker> steps(const Instance& instance, const Steps& map, AgentIndex agent,
+                          const Walker& walker) {
+  const bool turns = instance.agent(agent).motion.turn_steps > 0;
+  std::vector<Walker> next;
+  if (walker.at_work >= 0) return {worked(walker, walker.at_work)};
+  for (const auto& [task, left] : walker.left)
+    if (instance.task(task).duration > 0 && instance.task(task).cell == walker.cell)
+      next.push_back(worked(walker, task));
+  next.push_back(walker);
+  if (walker.turned > 0) {
+    next.push_back(turned(instance, agent, walker, walker.turning_to));
+    return next;
+  }
   for (Place cell : map[walker.cell]) {
+    if (turns && !looks_at(instance, walker, cell)) continue;
     next.push_back(walker);
-    arrive(next.back(), cell);
+    arrive(instance, next.back(), cell);
+  }
+  if (turns) {
+    next.push_back(turned(instance, agent, walker, right_of(walker.heading)));
+    next.push_back(turned(instance, agent, walker, left_of(walker.heading)));
   }
   return next;
 }
 
 Walker at_start(const Instance& instance, AgentIndex agent) {
-  Walker walker{kNoPlace, {}};
-  for (TaskIndex task : instance.agent(agent).tasks)
-    walker.to_visit.insert(instance.task(task).cell);
-  arrive(walker, instance.agent(agent).start);
+  const Agent& who = instance.agent(agent);
+  const Pose pose = instance.pose_of(who.start);
+  Walker walker{pose.place, pose.heading, pose.to, pose.steps, {}, -1};
+  for (TaskIndex task : who.tasks) walker.left[task] = instance.task(task).duration;
+  arrive(instance, walker, pose.place);
+  if (instance.world().is_working(who.start)) {
+    const Work& work = instance.world().work(who.start);
+    walker.left[work.task] -= work.done;
+    walker.at_work = work.task;
+  }
   return walker;
 }
 
@@ -64,7 +132,7 @@ std::optional<Cost> way_home(const Instance& instance, const Steps& map, AgentIn
     std::vector<Walker> next_layer;
     for (const Walker& now : layer) {
       if (is_home(instance, agent, now)) return time;
-      for (const Walker& next : steps(map, now))
+      for (const Walker& next : steps(instance, map, agent, now))
         if (next.cell != wall && seen.insert(next).second) next_layer.push_back(next);
     }
     layer = std::move(next_layer);
@@ -106,8 +174,8 @@ std::optional<Cost> solve_two_agents(const Instance& instance) {
     for (const Pair& now : layer) {
       const auto rest = cost_after_first_rest(instance, map, now);
       if (rest && (!best || 2 * time + *rest < *best)) best = 2 * time + *rest;
-      for (const Walker& first : steps(map, now.first))
-        for (const Walker& second : steps(map, now.second))
+      for (const Walker& first : steps(instance, map, 0, now.first))
+        for (const Walker& second : steps(instance, map, 1, now.second))
           if (const Pair next{first, second}; !collide(now, next) && seen.insert(next).second)
             next_layer.push_back(next);
     }

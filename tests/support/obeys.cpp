@@ -55,7 +55,9 @@ bool is_mouth(const World& grid, Cell end, Cell inner) {
          std::ranges::count(grid.neighbors(end), inner) > 0;
 }
 
-bool obeys(const World& grid, const Path& path, const Constraint& c) {
+bool obeys(const World& grid, const Path& walked, const Constraint& c) {
+  Path path;  // of places: constraints speak of nothing else
+  for (const State state : walked) path.push_back(grid.place(state));
   const Time rest = last_arrival(path);
   switch (c.kind) {
     case ConstraintKind::kBar:

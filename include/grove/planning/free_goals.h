@@ -31,6 +31,7 @@ class AgentStops {
   AgentIndex agent() const { return agent_; }
   int count() const { return static_cast<int>(places_.size()); }
   State start() const { return start_; }
+  Place start_place() const { return start_place_; }
   std::optional<Place> destination() const { return destination_; }
   Place place(int stop) const { return places_[stop]; }
   // The stop where an agent in this state is: on its place or, if it takes time, with the work just
@@ -71,6 +72,7 @@ class AgentStops {
 
   AgentIndex agent_;
   State start_;
+  Place start_place_;
   std::optional<Place> destination_;
   std::vector<Place> places_;
   std::vector<Time> durations_;  // by stop

@@ -188,7 +188,7 @@ TEST_F(ConvertCommand, TellsWhereInEachFormatTheTroubleIs) {
   };
   starts({"mg.cts.json", "o.yaml"}, "mg.cts.json: /agents/0: agent 'red' has no goal; ");
   starts({"mg.cts.json", "o.scen", "--drop", "tasks"},
-         "mg.cts.json: /agents/0: agent 'red' has neither a goal nor a task; ");
+         "mg.cts.json: /agents/0: agent 'red' has no goal; ");
   starts({"mg.yaml", "o.mapfw.json"}, "mg.yaml: /agents/0: agent 'red' has no goal; ");
   starts({"plain.yaml", "o.yml", "--to", "mgcbs"},
          "plain.yaml: /agents/0: agent 'a0' has a goal to end on, ");
