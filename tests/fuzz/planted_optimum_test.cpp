@@ -118,7 +118,7 @@ TEST(ObeysAll, ReadsOrdersOffAPath) {
   const Instance instance =
       TinyInstance::parse("map\n....\nagents\n0,0 -> -\ntasks\n1,0: 0\n3,0: 0\n").build();
   const auto obeys = [&](const Path& path, ConstraintKind kind, Cell first) {
-    const std::vector<Constraint> constraints{{first, kNoCell, 0, 0, kind}};
+    const std::vector<Constraint> constraints{{first, first == 1 ? 0 : 1, 0, 0, kind}};
     return obeys_all(instance, 0, SequenceClass(), constraints, path);
   };
   const Path there{0, 1, 2, 3};

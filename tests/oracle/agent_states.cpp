@@ -60,38 +60,6 @@ bool AgentStates::may_rest(const Standing& standing) const {
          });
 }
 
-// The poses one step away; a wait is none of them.
-std::vector<Pose> AgentStates::next_poses(const Pose& pose) const {
-  std::vector<Pose> poses;
-  const Time turn_steps = agent_.motion.turn_steps;
-  if (turn_steps == 0) {
-    for (const Place place : steps_[pose.place]) poses.push_back({.place = place});
-    return poses;
-  }
-  const auto turn_on = [&](Heading to, Time steps) {
-    if (steps < turn_steps)
-      poses.push_back({pose.place, pose.heading, to, steps});
-    else
-      poses.push_back({pose.place, to, to, 0});
-  };
-  if (pose.steps > 0) {
-    turn_on(pose.to, pose.steps + 1);
-    return poses;
-  }
-  const Position here = instance_.grid().position(pose.place);
-  for (const Place place : steps_[pose.place]) {
-    const Position there = instance_.grid().position(place);
-    const Heading way = there.y < here.y   ? Heading::kNorth
-                        : there.y > here.y ? Heading::kSouth
-                        : there.x > here.x ? Heading::kEast
-                                           : Heading::kWest;
-    if (way == pose.heading) poses.push_back({place, way, way, 0});
-  }
-  for (const int quarters : {1, 3})
-    turn_on(static_cast<Heading>((static_cast<int>(pose.heading) + quarters) % 4), 1);
-  return poses;
-}
-
 // Work that has begun is gone on with; when it is done the agent may go on at once.
 std::vector<Standing> AgentStates::next(const Standing& standing) const {
   std::vector<Standing> next;
@@ -112,7 +80,7 @@ std::vector<Standing> AgentStates::next(const Standing& standing) const {
     return next;
   }
   next.push_back(standing);
-  for (const Pose& pose : next_poses(standing.pose)) {
+  for (const Pose& pose : next_poses(instance_, agent_, steps_, standing.pose)) {
     next.push_back(standing);
     next.back().pose = pose;
     arrive(next.back());

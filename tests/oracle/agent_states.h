@@ -58,7 +58,6 @@ class AgentStates {
   void arrive(Standing& standing) const;
   bool may_rest(const Standing& standing) const;
   std::vector<Standing> next(const Standing& standing) const;
-  std::vector<Pose> next_poses(const Pose& pose) const;
   void settle_costs();
 
   const Instance& instance_;

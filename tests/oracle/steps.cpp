@@ -43,4 +43,36 @@ std::vector<std::vector<Place>> steps_on(const Map& map) {
   return std::visit([](const auto& m) { return steps(m); }, map);
 }
 
+std::vector<Pose> next_poses(const Instance& instance, const Agent& agent,
+                             const std::vector<std::vector<Place>>& steps, const Pose& pose) {
+  std::vector<Pose> poses;
+  const Time turn_steps = agent.motion.turn_steps;
+  if (turn_steps == 0) {
+    for (const Place place : steps[pose.place]) poses.push_back({.place = place});
+    return poses;
+  }
+  const auto turn_on = [&](Heading to, Time made) {
+    if (made < turn_steps)
+      poses.push_back({pose.place, pose.heading, to, made});
+    else
+      poses.push_back({pose.place, to, to, 0});
+  };
+  if (pose.steps > 0) {
+    turn_on(pose.to, pose.steps + 1);
+    return poses;
+  }
+  const Position here = instance.grid().position(pose.place);
+  for (const Place place : steps[pose.place]) {
+    const Position there = instance.grid().position(place);
+    const Heading way = there.y < here.y   ? Heading::kNorth
+                        : there.y > here.y ? Heading::kSouth
+                        : there.x > here.x ? Heading::kEast
+                                           : Heading::kWest;
+    if (way == pose.heading) poses.push_back({place, way, way, 0});
+  }
+  for (const int quarters : {1, 3})
+    turn_on(static_cast<Heading>((static_cast<int>(pose.heading) + quarters) % 4), 1);
+  return poses;
+}
+
 }  // namespace grove::oracle

@@ -14,7 +14,7 @@ namespace grove::testing {
 class StepRules {
  public:
   // Both must outlive this.
-  StepRules(const Grid& grid, const std::vector<Constraint>& constraints)
+  StepRules(const World& grid, const std::vector<Constraint>& constraints)
       : grid_(grid), constraints_(constraints) {}
 
   bool barred(Cell cell, Time time) const;
@@ -29,7 +29,7 @@ class StepRules {
   Time last_change() const;
 
  private:
-  const Grid& grid_;
+  const World& grid_;
   const std::vector<Constraint>& constraints_;
 };
 

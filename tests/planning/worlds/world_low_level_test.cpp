@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// The low levels on all worlds - grids and roads, agents that turn, work that takes time, starts on
+// the way - against a search that looks at every time step. GROVE_FUZZ_FACTOR multiplies the number
+// of cases.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include "grove/planning/chains.h"
+#include "grove/planning/free_low_level_search.h"
+#include "grove/planning/goal_sequence.h"
+#include "grove/planning/low_level_search.h"
+#include "grove/planning/optimal_paths.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/planning/worlds/world_reference.h"
+#include "tests/support/fuzz_factor.h"
+#include "tests/support/obeys.h"
+
+namespace grove {
+namespace world_low_level_test {
+
+using testing::world_reference_cost;
+
+class Fuzzer {
+ public:
+  explicit Fuzzer(unsigned seed)
+      : random_(seed),
+        tiny_(fuzz::random_world(seed)),
+        instance_(tiny_.build()),
+        world_(instance_.world()),
+        distances_(instance_),
+        chains_(world_),
+        fixed_(world_),
+        free_(world_),
+        builder_(world_) {}
+
+  void run() {
+    for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
+      if (!reaches_all(agent)) continue;
+      run_agent(agent);
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+  }
+  std::string text() const { return tiny_.to_text(); }
+
+  int cases = 0;
+  int delayed = 0;
+  int infeasible = 0;
+  int late_finishes = 0;  // finish and last arrival part
+  std::map<std::string, int> by_world;
+
+ private:
+  int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
+
+  bool reaches_all(AgentIndex agent) const {
+    const Agent& a = instance_.agent(agent);
+    const auto reaches = [&](const DistanceField& to) { return to[a.start] < kNever; };
+    return std::ranges::all_of(a.stops,
+                               [&](TaskIndex t) { return reaches(distances_.to_task(t)); }) &&
+           (instance_.rests_on_last_stop(agent) || reaches(distances_.to_rest(agent)));
+  }
+
+  SequenceClass sequence_class(int stops) {
+    SequenceClass work;
+    if (below(3) == 0) return work;
+    Sequence order(static_cast<std::size_t>(stops));
+    std::iota(order.begin(), order.end(), Stop{0});
+    std::ranges::shuffle(order, random_);
+    work.prefix.assign(order.begin(), order.begin() + (below(2) == 0 ? stops : below(stops + 1)));
+    for (int stop = 0; stop < stops; ++stop)
+      if (below(3) == 0) work.forbidden_next |= StopSet{1} << stop;
+    return work;
+  }
+
+  void run_agent(AgentIndex agent) {
+    AgentStops stops(instance_, distances_, agent);
+    const SequenceClass work = sequence_class(stops.count());
+    FreeGoals goals(stops, work);
+    constraints_.clear();
+    Path path;
+    for (int n = below(14); n >= 0; --n) {
+      const bool found = check(agent, goals, work, path);
+      if (::testing::Test::HasFatalFailure() || !found) return;
+      constraints_.push_back(constraint(path));
+      std::ranges::shuffle(constraints_, random_);
+    }
+  }
+
+  Constraint constraint(const Path& path) {
+    const auto cost = static_cast<int>(path.size()) - 1;
+    const auto place = [&](Time t) { return place_at(world_, path, t); };
+    const Time at = below(cost + 3);
+    const Time long_after = below(6) == 0 ? kNever : at + below(4);
+    switch (below(8)) {
+      case 0:
+      case 1:
+      case 2:
+        return {place(at), kNoPlace, at, long_after};
+      case 3:
+      case 4:
+        for (Time t = 1 + below(cost + 1); t <= cost; ++t)
+          if (place(t) != place(t - 1)) return {place(t), place(t - 1), t, t + below(5)};
+        return {place(at), kNoPlace, at, at};
+      case 5:
+        return {place(cost), kNoPlace, 0, std::max(-1, cost - 2 + below(6)),
+                ConstraintKind::kNoRestBy};
+      case 6:
+        return {place(cost), kNoPlace, 0, std::max(-1, cost - 3 + below(7)),
+                ConstraintKind::kRestBy};
+      default:
+        break;
+    }
+    if (chains_.count() == 0) return {place(at), kNoPlace, at, at};
+    const auto row = chains_.places(below(chains_.count()));
+    const bool front = below(2) == 0;
+    const Time begin = below(cost + 2);
+    return {front ? row.front() : row.back(), front ? row[1] : row[row.size() - 2], begin,
+            begin + below(8), ConstraintKind::kNoTraversal};
+  }
+
+  bool check(AgentIndex agent, FreeGoals& goals, const SequenceClass& work, Path& path) {
+    ++cases;
+    ++by_world[world_of(agent)];
+    const auto expected = world_reference_cost(instance_, agent, work, constraints_);
+    check_free(agent, goals, expected, path);
+    if (::testing::Test::HasFatalFailure()) return false;
+    if (work.prefix.size() == static_cast<std::size_t>(goals.stops().count()))
+      check_fixed(agent, work, expected);
+    if (::testing::Test::HasFatalFailure()) return false;
+    if (!expected) {
+      ++infeasible;
+      return false;
+    }
+    delayed += *expected > goals.distance(goals.first_stage(), goals.stops().start());
+    late_finishes += last_arrival(world_, path) < *expected;
+    check_optimal_paths(agent, goals, *expected);
+    return true;
+  }
+
+  std::string world_of(AgentIndex agent) const {
+    std::string world = instance_.is_on_grid() ? "grid" : "roads";
+    if (instance_.agent(agent).kind > 0) world += " + turning";
+    const auto takes_time = [&](TaskIndex t) { return instance_.task(t).duration > 0; };
+    if (std::ranges::any_of(instance_.agent(agent).tasks, takes_time)) world += " + work";
+    return world;
+  }
+
+  void check_free(AgentIndex agent, FreeGoals& goals, std::optional<Time> expected, Path& path) {
+    PathQuery query{constraints_};
+    const PathOutcome outcome = free_.find(goals, query, Limits(), path);
+    ASSERT_EQ(outcome, expected ? PathOutcome::kFound : PathOutcome::kInfeasible) << text();
+    if (!expected) return;
+    ASSERT_EQ(static_cast<Time>(path.size()) - 1, *expected) << text();
+    check_path(agent, path);
+    ASSERT_NO_THROW(realized_sequence(goals, path)) << text();
+    Path again;
+    query.cutoff = *expected - 1;
+    ASSERT_EQ(free_.find(goals, query, Limits(), again), PathOutcome::kAbove) << text();
+    query.cutoff = *expected;
+    ASSERT_EQ(free_.find(goals, query, Limits(), again), PathOutcome::kFound) << text();
+  }
+
+  void check_fixed(AgentIndex agent, const SequenceClass& work, std::optional<Time> expected) {
+    std::vector<TaskIndex> stops;
+    for (const Stop stop : work.prefix) stops.push_back(instance_.agent(agent).stops[stop]);
+    const GoalSequence sequence(instance_, distances_, agent, stops);
+    Path path;
+    const PathOutcome outcome = fixed_.find(sequence, {constraints_}, Limits(), path);
+    ASSERT_EQ(outcome, expected ? PathOutcome::kFound : PathOutcome::kInfeasible) << text();
+    if (!expected) return;
+    ASSERT_EQ(static_cast<Time>(path.size()) - 1, *expected) << text();
+    check_path(agent, path);
+  }
+
+  // All of that cost, and none of less.
+  void check_optimal_paths(AgentIndex agent, FreeGoals& goals, Time cost) {
+    using Outcome = OptimalPathsBuilder::Outcome;
+    OptimalPaths paths;
+    constexpr std::size_t kPlenty = 1 << 20;
+    if (cost > 0) {
+      ASSERT_EQ(builder_.build(goals, constraints_, cost - 1, kPlenty, Limits(), paths),
+                Outcome::kNone)
+          << text();
+    }
+    ASSERT_EQ(builder_.build(goals, constraints_, cost, kPlenty, Limits(), paths), Outcome::kBuilt)
+        << text();
+    Path way;
+    auto node = paths.layer(0).first;
+    for (Time t = 0; t < cost; ++t) {
+      way.push_back(paths.state(node));
+      const auto next = paths.successors(node);
+      node = next[below(static_cast<int>(next.size()))];
+    }
+    way.push_back(paths.state(node));
+    check_path(agent, way);
+  }
+
+  void check_path(AgentIndex agent, const Path& path) const {
+    ASSERT_EQ(path.front(), instance_.agent(agent).start) << text();
+    for (std::size_t t = 1; t < path.size(); ++t)
+      ASSERT_TRUE(path[t] == path[t - 1] ||
+                  std::ranges::count(world_.moves(path[t - 1]), path[t]) > 0)
+          << text();
+    for (const Constraint& c : constraints_)
+      ASSERT_TRUE(testing::obeys(world_, path, c)) << text();
+    for (const TaskIndex task : instance_.agent(agent).tasks)
+      ASSERT_TRUE(std::ranges::any_of(
+          path, [&](State state) { return instance_.is_visited(task, state); }))
+          << text();
+    ASSERT_TRUE(instance_.may_rest(agent, path.back())) << text();
+  }
+
+  std::mt19937 random_;
+  const fuzz::TinyInstance tiny_;
+  const Instance instance_;
+  const World& world_;
+  const DistanceFields distances_;
+  const Chains chains_;
+  LowLevelSearch fixed_;
+  FreeLowLevelSearch free_;
+  OptimalPathsBuilder builder_;
+  std::vector<Constraint> constraints_;
+};
+
+TEST(WorldLowLevel, AgreesWithATimeExpandedSearch) {
+  int cases = 0;
+  int delayed = 0;
+  int infeasible = 0;
+  int late_finishes = 0;
+  std::map<std::string, int> by_world;
+  const int seeds = testing::fuzz_rounds(600);
+  for (int seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Fuzzer fuzzer(static_cast<unsigned>(seed));
+    fuzzer.run();
+    if (HasFatalFailure()) return;
+    cases += fuzzer.cases;
+    delayed += fuzzer.delayed;
+    infeasible += fuzzer.infeasible;
+    late_finishes += fuzzer.late_finishes;
+    for (const auto& [world, count] : fuzzer.by_world) by_world[world] += count;
+  }
+  // Most cases must be worth something.
+  EXPECT_GT(delayed, 2 * seeds);
+  EXPECT_GT(infeasible, seeds / 2);
+  EXPECT_GT(late_finishes, seeds / 4);
+  EXPECT_EQ(by_world.size(), 6U);
+  RecordProperty("cases", cases);
+  for (const auto& [world, count] : by_world) std::printf("%s: %d\n", world.c_str(), count);
+  std::printf("cases %d, delayed %d, infeasible %d, late finishes %d\n", cases, delayed,
+              infeasible, late_finishes);
+}
+
+}  // namespace world_low_level_test
+}  // namespace grove
