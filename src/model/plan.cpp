@@ -45,14 +45,16 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
   AgentPlan plan;
   plan.sequence = instance.tasks_in_order(agent, stops);
   plan.path.reserve(path.size());
+  plan.cost = last_arrival(world, path);
   for (Time t = 0; t < static_cast<Time>(path.size()); ++t) {
     plan.path.push_back(world.base(path[t]));
-    if (t > 0 && plan.path[t] != plan.path[t - 1]) plan.cost = t;
     if (const auto work = work_begun(instance, path, t)) {
       plan.work.push_back(*work);
       plan.cost = std::max(plan.cost, work->end);
     }
   }
+  const auto end = static_cast<Time>(path.size()) - 1;
+  while (plan.cost < end && !instance.may_rest(agent, plan.path[plan.cost])) ++plan.cost;
   plan.path.resize(static_cast<std::size_t>(plan.cost) + 1, plan.path.back());
   return plan;
 }

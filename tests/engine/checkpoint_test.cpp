@@ -361,7 +361,7 @@ TEST_F(DamagedCheckpoint, OfAnotherVersionOrKindIsRefused) {
   std::string later = bytes_;
   later[8] = 7;
   EXPECT_EQ(reading(later),
-            "checkpoint.grove: is a checkpoint of format version 7; expected version 1");
+            "checkpoint.grove: is a checkpoint of format version 7; expected version 2");
   EXPECT_EQ(reading("{\"status\": \"optimal\"}"),
             "checkpoint.grove: is no checkpoint: begins with '{\"status'; expected 'GROVE-CP'");
   EXPECT_EQ(reading(""), "checkpoint.grove: is no checkpoint: begins with ''; expected 'GROVE-CP'");

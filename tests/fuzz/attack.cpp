@@ -231,6 +231,14 @@ TinyInstance make(std::uint64_t seed, bool tiny) {
   return instance;
 }
 
+// On a grid, or in a world of any kind.
+TinyInstance draw(std::uint64_t seed, bool tiny, Random& random) {
+  if (tiny && random.percent(30)) return random_instance(seed);
+  if (tiny && random.percent(50)) return random_world(seed);
+  const TinyInstance instance = make(seed, tiny);
+  return tiny || random.percent(50) ? instance : with_motions(instance, seed);
+}
+
 Techniques random_techniques(Random& random) {
   if (random.percent(40)) return Techniques::usual();
   Techniques any = Techniques::all();
@@ -248,10 +256,10 @@ Solution solve_for(const Instance& instance, SolveOptions options, double second
   return solve(instance, options, limits, observer);
 }
 
-std::vector<Path> paths_of(const Plan& plan) {
+std::vector<Path> paths_of(const Instance& instance, const Plan& plan) {
   std::vector<Path> paths;
-  for (const AgentPlan& a : plan.agents)
-    paths.emplace_back(a.path.begin(), a.path.begin() + a.cost + 1);
+  for (AgentIndex a = 0; a < instance.agent_count(); ++a)
+    paths.push_back(walked_path(instance, a, plan.agents[a]));
   return paths;
 }
 
@@ -306,7 +314,7 @@ std::vector<Plan> some_plans(const TinyInstance& tiny, const Instance& instance,
       if (tiny.rows[y][x] == '.' && !in_use(tiny, {x, y})) free.push_back({x, y});
   for (int k = 1; k < wanted; ++k) {
     TinyInstance changed = tiny;
-    if (!free.empty())
+    if (!free.empty() && tiny.roads.empty())
       for (int b = random.below(3); b >= 0; --b) {
         const Position p = random.pick(free);
         changed.rows[p.y][p.x] = '@';
@@ -316,7 +324,7 @@ std::vector<Plan> some_plans(const TinyInstance& tiny, const Instance& instance,
     options.techniques = random_techniques(random);
     try {
       keep(solve_for(changed.build(), options, seconds / 3));
-    } catch (const InstanceError&) {
+    } catch (const std::invalid_argument&) {
     }
   }
   return plans;
@@ -343,7 +351,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
       Limits::Clock::now() + std::chrono::milliseconds(static_cast<int>(seconds * 1000));
   for (int round = 0; round < 40 && Limits::Clock::now() < end; ++round) {
     const Plan& plan = random.pick(plans);
-    const auto paths = paths_of(plan);
+    const auto paths = paths_of(instance, plan);
     NodePtr node = random.percent(40) ? root : random.pick(reached);
     if (!holds(instance, *node, paths)) continue;
     ++counts.descents;
@@ -592,8 +600,7 @@ int main_of(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (print) {
     Random random(seed ^ 0x5555);
-    fmt::print("{}",
-               (tiny && random.percent(40) ? random_instance(seed) : make(seed, tiny)).to_text());
+    fmt::print("{}", draw(seed, tiny, random).to_text());
     return 0;
   }
   Counts counts;
@@ -603,8 +610,7 @@ int main_of(int argc, char** argv) {
   for (std::int64_t k = 0; k < count && Limits::Clock::now() < end && failures < 5; ++k) {
     const std::uint64_t at = seed + static_cast<std::uint64_t>(k);
     Random random(at ^ 0x5555);
-    const TinyInstance instance_text =
-        tiny && random.percent(40) ? random_instance(at) : make(at, tiny);
+    const TinyInstance instance_text = draw(at, tiny, random);
     if (std::getenv("SHOW")) fmt::print(stderr, "SEED {}\n", at);
     if (!trace.empty()) std::ofstream(trace) << "# seed " << at << "\n" << instance_text.to_text();
     try {

@@ -20,5 +20,7 @@ TinyInstance random_roads(std::uint64_t seed);
 // A mixture: on a grid or roads, agents that turn, work that takes time, several tasks on a cell,
 // agents with nothing to do, starts on the way.
 TinyInstance random_world(std::uint64_t seed);
+// This instance with agents that turn and the like, however large it is.
+TinyInstance with_motions(TinyInstance instance, std::uint64_t seed);
 
 }  // namespace grove::fuzz

@@ -20,13 +20,15 @@ class Decorator {
   explicit Decorator(std::uint64_t seed)
       : random_(seed ^ 0x3D0E1D),
         instance_(random_.percent(40) ? random_roads(seed) : random_instance(seed)) {}
+  Decorator(TinyInstance instance, std::uint64_t seed)
+      : random_(seed ^ 0x3D0E1D), instance_(std::move(instance)), must_fit_(false) {}
 
   TinyInstance make() {
     if (instance_.roads.empty() && random_.percent(70)) turn();
     if (random_.percent(60)) work();
     if (random_.percent(30)) share_cells();
     if (random_.percent(30)) idle();
-    make_fit();
+    if (must_fit_) make_fit();
     if (random_.percent(40)) begin_work();
     if (random_.percent(40)) start_on_roads();
     return instance_;
@@ -143,12 +145,17 @@ class Decorator {
 
   Random random_;
   TinyInstance instance_;
+  bool must_fit_ = true;
 };
 
 }  // namespace
 
 TinyInstance random_world(std::uint64_t seed) {
   return Decorator(seed).make();
+}
+
+TinyInstance with_motions(TinyInstance instance, std::uint64_t seed) {
+  return Decorator(std::move(instance), seed).make();
 }
 
 }  // namespace grove::fuzz

@@ -132,8 +132,13 @@ void serialize(Archive& archive, TreeRecord& record) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, WorkTime& work) {
+  archive(work.task, work.begin, work.end);
+}
+
+template <class Archive>
 void serialize(Archive& archive, AgentPlan& plan) {
-  archive(plan.cost, plan.sequence, plan.path);
+  archive(plan.cost, plan.sequence, plan.path, plan.work);
 }
 
 template <class Archive>

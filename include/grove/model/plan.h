@@ -48,8 +48,9 @@ struct AgentPlan {
   std::vector<WorkTime> work = {};  // in order of time
 };
 
-// The plan of an agent that walks this path, its states at work included, and is at rest at its
-// end. `stops`: a sequence that it realizes, as positions in Agent::stops.
+// The plan of an agent that walks this path, its states at work included, and may rest at its end.
+// It rests as soon as it may: turns that serve nothing are left out. `stops`: a sequence that it
+// realizes, as positions in Agent::stops.
 AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
                      std::span<const std::uint8_t> stops, const Path& path);
 // And back: the path that it walks until it finishes. The plan must be a valid one.
