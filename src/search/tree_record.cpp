@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A root's cost is the first bound of its tree, so what comes from elsewhere is checked as far as
-// the distances settle it at once: a path that takes the least time for the order in which it
-// visits its stops. For a fixed order that proves the bound again.
+// A root's cost is the first bound of its tree, so what comes from elsewhere is checked: a path that
+// takes the least time for the order in which it visits its stops. For a fixed order that proves the
+// bound again. Mostly the distances settle it at once; where agents turn, they may be too small.
 #include "grove/search/tree_record.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "grove/planning/low_level_search.h"
 #include "require.h"
 
 namespace grove {
@@ -79,6 +80,16 @@ Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) 
   return known.emplace_back(std::make_shared<const AgentOrder>(made(agent, record)));
 }
 
+// Of a path through the goals, which takes `known` steps at most.
+Time Trees::least_cost(const GoalSequence& goals, std::uint32_t known) {
+  const Time distance = goals.distance(goals.start(), 0);
+  if (distance == static_cast<Time>(known)) return distance;
+  LowLevelSearch search(problem_.instance.world());
+  Path path;
+  const auto outcome = search.find(goals, {}, Limits(), path);
+  return outcome == PathOutcome::kFound ? static_cast<Time>(path.size()) - 1 : kNever;
+}
+
 AgentOrder Trees::made(AgentIndex agent, const TreeRecord::Order& record) {
   const Instance& instance = problem_.instance;
   const Path path = path_of(record, instance, agent);
@@ -91,7 +102,7 @@ AgentOrder Trees::made(AgentIndex agent, const TreeRecord::Order& record) {
       record.fixed ? record.sequences.prefix
                    : realized_sequence(FreeGoals(stops_.of(agent), record.sequences), path));
   require(visits_in_turn(path, goals), "a tree's path must visit its agent's stops in order");
-  require(static_cast<Time>(record.steps) == goals.distance(goals.start(), 0),
+  require(static_cast<Time>(record.steps) == least_cost(goals, record.steps),
           "a tree's path must be shortest in its order of stops");
   return {record.sequences, record.fixed ? std::optional(std::move(goals)) : std::nullopt,
           PackedPath(instance.world(), path)};

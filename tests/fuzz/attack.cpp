@@ -454,6 +454,12 @@ TinyInstance transformed(const TinyInstance& from, Random& random) {
         return {h - 1 - p.y, p.x};
     }
   };
+  const auto turn = [&](Heading heading) {
+    constexpr std::array<Position, 4> kAhead{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+    const Position a = move({0, 0}), b = move(kAhead[static_cast<std::size_t>(heading)]);
+    const Position ahead{b.x - a.x, b.y - a.y};
+    return static_cast<Heading>(std::ranges::find(kAhead, ahead) - kAhead.begin());
+  };
   to.rows = kind < 2 ? filled(w, h, '@') : filled(h, w, '@');
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
@@ -467,13 +473,21 @@ TinyInstance transformed(const TinyInstance& from, Random& random) {
     auto agent = from.agents[a];
     agent.start = move(agent.start);
     if (agent.goal) agent.goal = move(*agent.goal);
+    if (agent.turn_steps > 0) agent.heading = turn(agent.heading);
+    if (agent.turned > 0) agent.to = turn(agent.to);
+    if (agent.goal_heading) agent.goal_heading = turn(*agent.goal_heading);
     to.agents[order[a]] = agent;
+  }
+  for (auto& road : to.roads) {
+    road.from = move(road.from);
+    road.to = move(road.to);
   }
   for (auto& task : to.tasks) {
     task.cell = move(task.cell);
     for (int& a : task.agents) a = order[a];
   }
-  random.shuffle(to.tasks);
+  const auto at_work = [](const auto& agent) { return agent.work >= 0; };
+  if (std::ranges::none_of(to.agents, at_work)) random.shuffle(to.tasks);
   return to;
 }
 
