@@ -92,7 +92,37 @@ DistanceFields::DistanceFields(const Instance& instance, const Limits& limits) {
   for (const int set : targets.of_tasks) by_task_.push_back(fields_[set].get());
   for (const int set : targets.of_agents)
     by_agent_.push_back(set == Targets::kNone ? nullptr : fields_[set].get());
-  complete_ = true;
+  complete_ = add_ports(instance, limits);
+}
+
+// False if a limit struck.
+bool DistanceFields::add_ports(const Instance& instance, const Limits& limits) {
+  const World& world = instance.world();
+  if (world.kind_count() == 1 || world.state_count() > kMostStatesWithPorts) return true;
+  kinds_ = static_cast<std::size_t>(world.kind_count());
+  by_port_.resize(static_cast<std::size_t>(instance.task_count()) * kinds_ * kPorts);
+  const auto bytes = static_cast<std::size_t>(world.state_count()) * sizeof(Time) * kPorts;
+  for (const Agent& agent : instance.agents()) {
+    if (agent.kind == 0) continue;
+    for (const TaskIndex task : agent.stops) {
+      DistanceField* fields =
+          &by_port_[(static_cast<std::size_t>(task) * kinds_ + agent.kind) * kPorts];
+      if (!fields->empty()) continue;
+      if (limits.stop_requested()) return false;
+      if (!limits.memory_allows(bytes)) {
+        limits.memory_exhausted();
+        return false;
+      }
+      const State first = world.bases(instance.task(task).cell, agent.kind).first;
+      for (int port = 0; port < kPorts; ++port) {
+        std::vector<State> there;
+        for (const State state : instance.states_visiting(task))
+          if (world.base(state) == first + port) there.push_back(state);
+        fields[port] = distance_field(world, there);
+      }
+    }
+  }
+  return true;
 }
 
 Time least_from(const World& world, Place place, int kind, const DistanceField& distance) {

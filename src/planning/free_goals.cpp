@@ -36,6 +36,13 @@
 // D(u, w). What remains is a handful of stops. (No two can rule out each other: on two places
 // D is positive, and on one place there is work to be done.) Onward costs are the least over the
 // states in which a stop may be left, so never more than what is to be paid.
+//
+// *Ports.* Where agents turn, and the tables are small, each stop has four ports (cost_matrix.h),
+// and all of this is said of ports: it makes onward costs exact. Whoever counts a stop does so in
+// a heading, or within a turn after which it is there in a heading (but for those who start
+// within a turn; they have no ports): so a path that counts u pays at least dist(state, port) +
+// onward(port) for the port that it is in then. A port does not rule out another of a stop that
+// takes time: who is at work there in one heading would have to begin anew in the other.
 #include "grove/planning/free_goals.h"
 
 #include <algorithm>
@@ -70,12 +77,15 @@ StopSet checked_set(const Sequence& prefix, StopSet all) {
 }  // namespace
 
 AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent)
-    : agent_(agent),
+    : world_(&instance.world()),
+      agent_(agent),
+      kind_(instance.agent(agent).kind),
+      turn_steps_(instance.agent(agent).motion.turn_steps),
       start_(instance.agent(agent).start),
       start_place_(instance.world().place(start_)),
       destination_(instance.agent(agent).goal),
-      turn_about_(instance.world().turn_about(instance.agent(agent).kind)),
-      completions_(cost_matrix(instance, agent, distances)) {
+      completions_(port_matrix(instance, agent, distances)) {
+  ports_ = completions_.matrix().ports;
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);
   std::vector<std::int8_t> stop_at(world.state_count(), kNoStop);
@@ -95,27 +105,42 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
   }
   if (!instance.rests_on_last_stop(agent)) to_rest_ = &distances.to_rest(agent);
 
-  std::vector<Time> to_stops(stop_at.size() * places_.size());
-  longest_legs_.resize(places_.size() * places_.size());
-  for (std::size_t stop = 0; stop < places_.size(); ++stop) {
-    const DistanceField& field = distances.to_task(who.stops[stop]);
+  const std::size_t ports = port_count();
+  std::vector<Time> to_ports(stop_at.size() * ports);
+  longest_legs_.resize(ports * ports);
+  for (std::size_t port = 0; port < ports; ++port) {
+    const auto stop = port / static_cast<std::size_t>(ports_);
+    const DistanceField& field =
+        ports_ == 1 ? distances.to_task(who.stops[stop])
+                    : distances.to_port(who.stops[stop], who.kind, static_cast<int>(port) % ports_);
     for (std::size_t state = 0; state < field.size(); ++state)
-      to_stops[state * places_.size() + stop] = field[state];
-    for (std::size_t from = 0; from < places_.size(); ++from)
-      longest_legs_[from * places_.size() + stop] =
-          most_from(world, places_[from], who.kind, field);
+      to_ports[state * ports + port] = field[state];
+    for (std::size_t from = 0; from < ports; ++from) {
+      const Place here = places_[from / static_cast<std::size_t>(ports_)];
+      longest_legs_[from * ports + port] =
+          ports_ == 1 ? most_from(world, here, who.kind, field)
+                      : field[world.bases(here, who.kind).first + static_cast<int>(from) % ports_];
+    }
   }
   stop_at_ = std::make_shared<const std::vector<std::int8_t>>(std::move(stop_at));
-  distances_ = std::make_shared<const std::vector<Time>>(std::move(to_stops));
+  distances_ = std::make_shared<const std::vector<Time>>(std::move(to_ports));
 }
 
 // Whoever is there for good, on what nobody bars for ever after, turns and works at once: all of
 // its work there, with a turn before and after at most.
 Time AgentStops::longest_finish(Place place) const {
-  Time longest = turn_about_;
+  Time longest = world_->turn_about(kind_);
   for (std::size_t stop = 0; stop < places_.size(); ++stop)
     if (places_[stop] == place) longest += durations_[stop];
   return longest;
+}
+
+Time AgentStops::turn(State state, int port) const {
+  const State base = world_->base(state);
+  const int heading = base - world_->bases(world_->place(base), kind_).first;
+  if (ports_ == 1 || heading >= ports_) return world_->turn_about(kind_);
+  const int quarters = std::abs(heading - port % ports_);
+  return std::min(quarters, ports_ - quarters) * turn_steps_;
 }
 
 FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work)
@@ -133,9 +158,9 @@ FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work, Completions& complet
 
 bool FreeGoals::plausible() const {
   if (free_ != 0 && first_free_ == 0) return false;
-  const Time* to_stop = stops_.distances_from(stops_.start());
-  const bool reachable = std::all_of(to_stop, to_stop + stride_, [](Time d) { return d < kNever; });
-  return reachable && (stops_.rests_on_last_stop() || stops_.to_rest(stops_.start()) < kNever);
+  for (int stop = 0; stop < stops_.count(); ++stop)
+    if (stops_.distance(stops_.start(), stop) >= kNever) return false;
+  return stops_.rests_on_last_stop() || stops_.to_rest(stops_.start()) < kNever;
 }
 
 FreeGoals::StageId FreeGoals::first_stage() {
@@ -151,10 +176,9 @@ FreeGoals::StageId FreeGoals::first_stage() {
 
 Time FreeGoals::to_rest(const Stage& stage, State state) const {
   if (!stops_.rests_on_last_stop()) return stops_.to_rest(state);
-  const Time* to_stop = stops_.distances_from(state);
   Time best = kNever;
   for (StopSet rests = stage.rests; rests != 0; rests &= rests - 1)
-    best = std::min(best, to_stop[std::countr_zero(rests)]);
+    best = std::min(best, stops_.distance(state, std::countr_zero(rests)));
   return best;
 }
 
@@ -170,19 +194,29 @@ StopSet FreeGoals::rests_after(const Stage& stage, int stop) const {
   return first ? stage.rests & ~bit(stop) : stage.rests;
 }
 
-// From `stop`, the next one, through the other stops of `left` to the end.
-Time FreeGoals::onward_cost(StopSet left, int stop) const {
+// From each port of the next stop through the other stops of `left` to the end.
+FreeGoals::PortCosts FreeGoals::onward_costs(StopSet left, int stop) const {
+  const int ports = stops_.ports();
+  const int first = stop * ports;
   left &= ~bit(stop);
   const Completions& completions = *completions_;
-  if (left != free_ && (left & ~free_) == 0) return completions.completion(left, stop);
-  if (left == 0) return completions.completion(0, stop);
-  Time best = kNever;
+  PortCosts costs;
+  costs.fill(kNever);
+  if (left == 0 || (left != free_ && (left & ~free_) == 0)) {
+    for (int port = 0; port < ports; ++port)
+      costs[port] = completions.completion(left, first + port);
+    return costs;
+  }
   for (StopSet next = next_of(left); next != 0; next &= next - 1) {
     const int then = std::countr_zero(next);
-    const Time leg = completions.matrix().between(stop, then);
-    if (leg < kNever) best = std::min(best, leg + std::min(onward_cost(left, then), kNever));
+    const PortCosts rest = onward_costs(left, then);
+    for (int from = 0; from < ports; ++from)
+      for (int to = 0; to < ports; ++to) {
+        const Time leg = completions.matrix().between(first + from, then * ports + to);
+        if (leg < kNever && rest[to] < kNever) costs[from] = std::min(costs[from], leg + rest[to]);
+      }
   }
-  return std::min(best, kNever);
+  return costs;
 }
 
 FreeGoals::StageId FreeGoals::make_after(StageId id, int stop) {
@@ -211,16 +245,21 @@ FreeGoals::StageId FreeGoals::make_stage(StopSet left, StopSet rests) {
 
 void FreeGoals::add_onward(Stage& stage) {
   stage.first = static_cast<std::int32_t>(onward_.size());
+  const int ports = stops_.ports();
   for (StopSet next = stage.next; next != 0; next &= next - 1) {
     const int stop = std::countr_zero(next);
-    const Time cost = onward_cost(stage.left, stop);
-    if (cost < kNever) onward_.push_back({stop, cost});
+    const PortCosts costs = onward_costs(stage.left, stop);
+    for (int port = 0; port < ports; ++port)
+      if (costs[port] < kNever) onward_.push_back({stop * ports + port, costs[port]});
   }
   stage.count = static_cast<std::int32_t>(onward_.size()) - stage.first;
   const auto ways = onward_.begin() + stage.first;
   const auto needed = [&](const Onward& u) {
     return std::none_of(ways, onward_.end(), [&](const Onward& w) {
-      return w.stop != u.stop && u.cost >= stops_.longest_leg(u.stop, w.stop) + w.cost;
+      if (w.port / ports == u.port / ports &&
+          (w.port == u.port || stops_.takes_time(u.port / ports)))
+        return false;
+      return u.cost >= stops_.longest_leg(u.port, w.port) + w.cost;
     });
   };
   std::vector<Onward> sorted;

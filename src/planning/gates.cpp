@@ -13,9 +13,9 @@
 // other stops on the way to u. The states before are cut off by gates of their own.
 //
 // Where agents turn, L may count u in another state than G: then G turns, too, which takes it
-// turn_about() steps at most, on its place and in its interval. So there the gate stands for those
-// that count u at g + turn_about() or later. (At the end of work on u G has all moves of the state
-// that it worked in.)
+// so many steps at most, on its place and in its interval. So there the gate of a port stands for
+// those that count u by it that much later than g. (At the end of work on u G has all moves of the
+// state that it worked in.)
 //
 // "Later interval" goes by the time of arrival: if u may not be rested on by t and G came by then,
 // P comes by t, and then it leaves u again, as G can, or it comes at n = t + 1 or later. And "stand
@@ -35,10 +35,14 @@ void Gates::begin_search() {
 }
 
 // One gate is kept per way: the one that puts off furthest.
-void Gates::close(const FreeGoals& goals, StageId from, int stop, Time time, Time until) {
+void Gates::close(const FreeGoals& goals, StageId from, State state, Time time, Time until) {
+  const AgentStops& stops = goals.stops();
+  const int stop = stops.stop_at(state);
   const auto ways = goals.onward(goals.stage(from));
-  const auto way = std::ranges::find(ways, stop, &FreeGoals::Onward::stop);
-  if (way == ways.end()) return;
+  const auto of_stop = [&](const FreeGoals::Onward& way) {
+    return way.port / stops.ports() == stop;
+  };
+  if (std::ranges::none_of(ways, of_stop)) return;
   if (static_cast<std::size_t>(from) >= by_stage_.size())
     by_stage_.resize(2 * static_cast<std::size_t>(from) + 1, kNone);
   if (by_stage_[from] == kNone) {
@@ -46,17 +50,20 @@ void Gates::close(const FreeGoals& goals, StageId from, int stop, Time time, Tim
     gates_.resize(gates_.size() + ways.size());
     by_stage_[from] = static_cast<std::int32_t>(gates_.size() - ways.size());
   }
-  Gate& gate = gates_[static_cast<std::size_t>(by_stage_[from] + (way - ways.begin()))];
-  time += goals.stops().turn_about();
-  if (until > gate.until || (until == gate.until && time < gate.from)) gate = {time, until};
+  for (std::size_t way = 0; way < ways.size(); ++way) {
+    if (!of_stop(ways[way])) continue;
+    Gate& gate = gates_[static_cast<std::size_t>(by_stage_[from]) + way];
+    const Time there = time + stops.turn(state, ways[way].port);
+    if (until > gate.until || (until == gate.until && there < gate.from)) gate = {there, until};
+  }
 }
 
 Time Gates::least_cost(const FreeGoals& goals, StageId stage, State state, Time time) const {
   const Gate* gate = &gates_[static_cast<std::size_t>(by_stage_[stage])];
-  const Time* to_stop = goals.stops().distances_from(state);
+  const Time* to_port = goals.stops().distances_from(state);
   Time least = kNever;
   for (const FreeGoals::Onward& way : goals.onward(goals.stage(stage))) {
-    const Time there = time + to_stop[way.stop];
+    const Time there = time + to_port[way.port];
     const Time visit = there >= gate->from ? std::max(there, gate->until) : there;
     if (visit < kNever) least = std::min(least, visit + way.cost);
     ++gate;

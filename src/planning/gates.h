@@ -20,9 +20,10 @@ class Gates {
   // Opens all.
   void begin_search();
 
-  // A label in the state after `from` was expanded on `stop`, just counted at `time`. Whoever comes
-  // to that stop earlier than `until` could be where it is; kNever: whoever comes at all.
-  void close(const FreeGoals& goals, StageId from, int stop, Time time, Time until);
+  // A label in the stage after `from` was expanded in `state`, on a stop just counted at `time`.
+  // Whoever comes to that stop earlier than `until` could be where it is; kNever: whoever comes at
+  // all.
+  void close(const FreeGoals& goals, StageId from, State state, Time time, Time until);
 
   // Is any way on from this state closed?
   bool any(StageId stage) const {

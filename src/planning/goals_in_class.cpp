@@ -45,10 +45,10 @@ void GoalsInClass::begin(Time cap) {
 }
 
 bool GoalsInClass::misses_deadline(Progress stage, State state, Time time) const {
-  const Time* to_stop = goals_->stops().distances_from(state);
+  const AgentStops& stops = goals_->stops();
   const StopSet left = goals_->stage(stage).left;
   return std::ranges::any_of(deadlines_, [&](const Deadline& d) {
-    return (left >> d.stop & 1) != 0 && time + to_stop[d.stop] > d.time;
+    return (left >> d.stop & 1) != 0 && time + stops.distance(state, d.stop) > d.time;
   });
 }
 
@@ -62,7 +62,7 @@ Time GoalsInClass::put_off_by_gates(Progress id, State state, Time time, Time la
     if (put_off <= layer) return layer;
   }
   const FreeGoals::Stage& stage = goals_->stage(id);
-  if (std::popcount(stage.next) != stage.count) outside_ = true;
+  if (std::popcount(stage.next) * goals_->stops().ports() != stage.count) outside_ = true;
   return put_off;
 }
 

@@ -78,7 +78,7 @@ class GoalsInClass {
   }
   bool makes_gate(State, Progress before, Progress progress) const { return before != progress; }
   void close_gate(State state, Progress before, Progress, Time time, Time until) {
-    gates_.close(*goals_, before, goals_->stops().stop_at(state), time, until);
+    gates_.close(*goals_, before, state, time, until);
   }
 
  private:
@@ -96,7 +96,7 @@ class GoalsInClass {
   Time distance(Progress stage, State state) const {
     const Time distance = goals_->distance(stage, state);
     if (only_rest_ == AgentStops::kNoStop) return distance;
-    return std::max(distance, goals_->stops().distances_from(state)[only_rest_]);
+    return std::max(distance, goals_->stops().distance(state, only_rest_));
   }
   Time layer_of(Time least_cost, Time to_go) const {
     return least_cost + static_cast<Time>(std::int64_t{to_go} * greed_percent_ / 100);

@@ -43,10 +43,10 @@ class LateCosts {
     if (barred_.empty()) return std::nullopt;
     const int n = stops_.count();
     for (int stop = 0; stop < n; ++stop) {
-      const Time begin = stops_.distances_from(stops_.start())[stop];
+      const Time begin = stops_.distance(stops_.start(), stop);
       raise_row(stop, begin);
       if (stops_.destination())
-        raise_last_leg(stop, std::max(begin, least_cost - matrix_.to_end(stop)));
+        raise_last_leg(stop, std::max(begin, least_cost - longest_end(stop)));
     }
     raise_row(n, 0);
     return raised_ ? std::optional(std::move(matrix_)) : std::nullopt;
@@ -58,14 +58,29 @@ class LateCosts {
     if (row < stops_.count() && !is_late(row, begin)) return;
     walk_from(row, begin);
     for (int stop = 0; stop < stops_.count(); ++stop)
-      raise_to(row, stop, stops_.place(stop),
-               [&](State state) { return stops_.stop_at(state) == stop; });
+      if (stop != row)
+        for (int port = 0; port < stops_.ports(); ++port)
+          raise_to(row, stop * stops_.ports() + port, stops_.place(stop), [&](State state) {
+            return stops_.stop_at(state) == stop && is_port(state, port);
+          });
+  }
+  bool is_port(State state, int port) const {
+    if (stops_.ports() == 1) return true;
+    const State first = world_.bases(world_.place(state), world_.kind(stops_.start())).first;
+    return world_.base(state) == first + port;
+  }
+  // Of all ports of a stop.
+  Time longest_end(int stop) const {
+    Time longest = 0;
+    for (int port = 0; port < stops_.ports(); ++port)
+      longest = std::max(longest, matrix_.to_end(stop * stops_.ports() + port));
+    return longest;
   }
 
   void raise_last_leg(int stop, Time begin) {
     if (!is_late(stop, begin)) return;
     walk_from(stop, begin);
-    raise_to(stop, stops_.count(), *stops_.destination(),
+    raise_to(stop, stops_.count() * stops_.ports(), *stops_.destination(),
              [&](State state) { return stops_.to_rest(state) == 0; });
   }
 
@@ -76,16 +91,20 @@ class LateCosts {
     world_.for_each_state(place, [&](State state) {
       if (counts(state)) depth = std::min(depth, depth_[state]);
     });
-    Time& cost = matrix_.cost(row, column);
-    if (row == column || depth <= cost) return;
-    cost = depth;
-    raised_ = true;
+    const bool from_start = row == stops_.count();
+    const int first = row * stops_.ports();
+    for (int from = first; from < first + (from_start ? 1 : stops_.ports()); ++from) {
+      Time& cost = matrix_.cost(from, column);
+      if (depth <= cost) continue;
+      cost = depth;
+      raised_ = true;
+    }
   }
 
   // Does a leg from a stop, begun then, come too late for a place?
   bool is_late(int stop, Time begin) const {
     return std::ranges::any_of(barred_, [&](State state) {
-      const Time there = stops_.distances_from(state)[stop];
+      const Time there = stops_.distance(state, stop);
       return there < kNever && begin + there > last_[world_.place(state)];
     });
   }

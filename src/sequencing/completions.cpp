@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "grove/model/assert.h"
+#include "grove/sequencing/cost_matrix.h"
 #include "grove/sequencing/rtsp.h"
 #include "grove/sequencing/sequence_dag.h"
 #include "held_karp_table.h"
@@ -25,7 +26,7 @@ class Completions::Store {
   const CostMatrix& matrix() const { return *matrix_; }
   virtual Time relaxed_bound() const = 0;
   virtual Time beyond() const = 0;
-  virtual Time completion(StopSet left, int stop) const = 0;
+  virtual Time completion(StopSet left, int port) const = 0;
   // One with a beyond() > reach; null when a limit struck. Only if this has not.
   virtual std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const = 0;
 
@@ -41,10 +42,10 @@ class Completions::Table : public Store {
  public:
   using Store::Store;
 
-  Time relaxed_bound() const override { return relaxation_bound(matrix()); }
+  Time relaxed_bound() const override { return relaxation_bound(least_matrix(matrix())); }
   Time beyond() const override { return table_.built() ? kNever : 0; }
-  Time completion(StopSet left, int stop) const override {
-    return table_.built() ? table_.completion(left, stop) : kNever;
+  Time completion(StopSet left, int port) const override {
+    return table_.built() ? table_.completion(left, port) : kNever;
   }
   std::shared_ptr<const Store> widened(Time, const Limits& limits) const override {
     auto built = std::make_shared<Table>(this->shared_matrix());
@@ -100,8 +101,8 @@ Time Completions::beyond() const {
   return store_->beyond();
 }
 
-Time Completions::completion(StopSet left, int stop) const {
-  return store_->completion(left, stop);
+Time Completions::completion(StopSet left, int port) const {
+  return store_->completion(left, port);
 }
 
 bool Completions::widen(Time reach, const Limits& limits) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rtsp_backends.h"
 #include "stop_set.h"
 
 namespace grove {
@@ -28,6 +29,49 @@ CostMatrix cost_matrix(const Instance& instance, AgentIndex agent,
     for (Eigen::Index stop = 0; stop < n; ++stop)
       if (who.stops[stop] != world.work(who.start).task) matrix.cost(n, stop) = kNever;
   return matrix;
+}
+
+CostMatrix port_matrix(const Instance& instance, AgentIndex agent,
+                       const DistanceFields& distances) {
+  const Agent& who = instance.agent(agent);
+  const World& world = instance.world();
+  const int n = static_cast<int>(who.stops.size());
+  const bool apply = who.kind > 0 && distances.has_ports() && n > 0 && n <= kTableStops &&
+                     instance.pose_of(who.start).steps == 0;
+  if (!apply) return cost_matrix(instance, agent, distances);
+
+  constexpr int kPorts = DistanceFields::kPorts;
+  CostMatrix matrix{CostMatrix::Matrix::Zero(n * kPorts + 1, n * kPorts + 1), kPorts};
+  const auto state = [&](int port) {
+    return world.bases(instance.task(who.stops[port / kPorts]).cell, who.kind).first +
+           port % kPorts;
+  };
+  const auto fill_column = [&](Eigen::Index column, const DistanceField& distance) {
+    for (int port = 0; port < n * kPorts; ++port) matrix.cost(port, column) = distance[state(port)];
+    matrix.cost(n * kPorts, column) = distance[who.start];
+  };
+  for (int port = 0; port < n * kPorts; ++port)
+    fill_column(port, distances.to_port(who.stops[port / kPorts], who.kind, port % kPorts));
+  if (!instance.rests_on_last_stop(agent)) fill_column(n * kPorts, distances.to_rest(agent));
+  if (world.is_working(who.start))
+    for (int port = 0; port < n * kPorts; ++port)
+      if (who.stops[port / kPorts] != world.work(who.start).task)
+        matrix.cost(n * kPorts, port) = kNever;
+  return matrix;
+}
+
+CostMatrix least_matrix(const CostMatrix& matrix) {
+  if (matrix.ports == 1) return matrix;
+  const int n = matrix.stops();
+  CostMatrix least{CostMatrix::Matrix::Constant(n + 1, n + 1, kNever)};
+  for (Eigen::Index row = 0; row < matrix.cost.rows(); ++row)
+    for (Eigen::Index column = 0; column < matrix.cost.cols(); ++column) {
+      Time& cost = least.cost(row / matrix.ports, column / matrix.ports);
+      cost = std::min(cost, matrix.cost(row, column));
+    }
+  for (int stop = 0; stop <= n; ++stop)
+    if (stop < n) least.cost(stop, stop) = 0;
+  return least;
 }
 
 Time sequence_cost(const CostMatrix& matrix, const Sequence& sequence) {

@@ -28,7 +28,7 @@ inline std::int64_t most_expensive(const CostMatrix& matrix) {
     Time most = 0;
     for (Time cost : matrix.cost.row(row))
       if (cost < kNever) most = std::max(most, cost);
-    sum += most;
+    sum += most;  // of all ports of a stop, though but one is passed
   }
   return sum;
 }
@@ -38,7 +38,8 @@ inline bool fits_narrow_table(const CostMatrix& matrix) {
   return most_expensive(matrix) < kNoWay<std::int16_t>;
 }
 
-// h[left][stop], once built. Immutable then; any thread may read it.
+// h[left][port], once built; ports of a stop, see CostMatrix. Immutable then; any thread may read
+// it.
 template <class Entry>
 class HeldKarpTable {
  public:
@@ -47,29 +48,36 @@ class HeldKarpTable {
   // False, and not built, when a limit struck.
   bool build(const CostMatrix& matrix, const Limits& limits) {
     stops_ = matrix.stops();
-    const std::size_t entries =
-        stops_ > kMostTableStops ? 0 : (std::size_t{1} << stops_) * stops_ + 4 * kLanes;
+    ports_ = matrix.ports;
+    const int width = stops_ * ports_;
+    const std::size_t entries = stops_ > kMostTableStops || width > kMostLanes * kLanes
+                                    ? 0
+                                    : (std::size_t{1} << stops_) * width + kMostLanes * kLanes;
     if (limits.stop_requested()) return false;
     if (entries == 0 || !limits.memory_allows(entries * sizeof(Entry)) || !allocate(entries)) {
       limits.memory_exhausted();
       return false;
     }
-    const bool complete = stops_ <= kLanes       ? fill<kLanes>(matrix, limits)
-                          : stops_ <= 2 * kLanes ? fill<2 * kLanes>(matrix, limits)
-                          : stops_ <= 3 * kLanes ? fill<3 * kLanes>(matrix, limits)
-                                                 : fill<4 * kLanes>(matrix, limits);
+    const bool complete = width <= kLanes       ? fill<kLanes>(matrix, limits)
+                          : width <= 2 * kLanes ? fill<2 * kLanes>(matrix, limits)
+                          : width <= 3 * kLanes ? fill<3 * kLanes>(matrix, limits)
+                          : width <= 4 * kLanes ? fill<4 * kLanes>(matrix, limits)
+                          : width <= 5 * kLanes ? fill<5 * kLanes>(matrix, limits)
+                          : width <= 6 * kLanes ? fill<6 * kLanes>(matrix, limits)
+                                                : fill<kMostLanes * kLanes>(matrix, limits);
     if (!complete) table_.reset();
     return complete;
   }
 
-  // The least cost from `stop` through all of `left` to the end; kNever when there is no way.
-  Time completion(StopSet left, int stop) const {
-    const Entry cost = table_[left * static_cast<StopSet>(stops_) + stop];
+  // The least cost from a port through all of `left` to the end; kNever when there is no way.
+  Time completion(StopSet left, int port) const {
+    const Entry cost = table_[left * static_cast<StopSet>(stops_ * ports_) + port];
     return cost == kNoWay<Entry> ? kNever : Time{cost};
   }
 
  private:
   static constexpr int kLanes = 8;
+  static constexpr int kMostLanes = 7;                  // 14 stops of four ports
   static constexpr std::uint32_t kPollInterval = 4096;  // rows, together about 0.2 ms
 
   bool allocate(std::size_t entries) {
@@ -79,18 +87,20 @@ class HeldKarpTable {
 
   template <int kWidth>
   bool fill(const CostMatrix& matrix, const Limits& limits) {
-    const int n = stops_;
+    const int n = stops_ * ports_;
     const std::vector<Entry> into = columns(matrix, kWidth);
     for (int v = 0; v < n; ++v) table_[v] = entry(matrix.to_end(v));
-    for (std::uint32_t set = 1; set < std::uint32_t{1} << n; ++set) {
+    for (std::uint32_t set = 1; set < std::uint32_t{1} << stops_; ++set) {
       if (set % kPollInterval == 0 && limits.stop_requested()) return false;
       Entry row[kWidth];
       std::fill_n(row, kWidth, kNoWay<Entry>);
-      for_each_stop(set, [&](int u) {
-        const Entry rest = table_[(set & ~bit(u)) * n + u];
-        const Entry* leg = &into[static_cast<std::size_t>(u) * kWidth];
-        for (int v = 0; v < kWidth; ++v)
-          row[v] = std::min(row[v], static_cast<Entry>(leg[v] + rest));
+      for_each_stop(set, [&](int stop) {
+        for (int u = stop * ports_; u < (stop + 1) * ports_; ++u) {
+          const Entry rest = table_[(set & ~bit(stop)) * n + u];
+          const Entry* leg = &into[static_cast<std::size_t>(u) * kWidth];
+          for (int v = 0; v < kWidth; ++v)
+            row[v] = std::min(row[v], static_cast<Entry>(leg[v] + rest));
+        }
       });
       std::copy_n(row, kWidth, &table_[std::size_t{set} * n]);
     }
@@ -99,7 +109,7 @@ class HeldKarpTable {
 
   // The cost matrix by columns: entry u * width + v is the leg from v to u.
   static std::vector<Entry> columns(const CostMatrix& matrix, int width) {
-    const int n = matrix.stops();
+    const int n = matrix.stops() * matrix.ports;
     std::vector<Entry> into(static_cast<std::size_t>(n) * width, kNoWay<Entry>);
     for (int u = 0; u < n; ++u)
       for (int v = 0; v < n; ++v) into[u * width + v] = entry(matrix.between(v, u));
@@ -111,6 +121,7 @@ class HeldKarpTable {
   }
 
   int stops_ = 0;
+  int ports_ = 1;
   std::unique_ptr<Entry[]> table_;
 };
 

@@ -34,6 +34,13 @@ class DistanceFields {
 
   // To where the task is visited: a state on its place or, if it takes time, the end of the work.
   const DistanceField& to_task(TaskIndex task) const { return *by_task_[task]; }
+  // The same in one heading, a port: the agent of that kind is there, or has done the work, looking
+  // that way. Only if there are such fields: on worlds of moderate size in which agents turn.
+  static constexpr int kPorts = 4;
+  bool has_ports() const { return !by_port_.empty(); }
+  const DistanceField& to_port(TaskIndex task, int kind, int port) const {
+    return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
+  }
   // To where the agent may rest. Not of agents that rest on the last stop of their sequence.
   const DistanceField& to_rest(AgentIndex agent) const {
     GROVE_ASSERT(by_agent_[agent], "an agent that rests on its last stop has no other place");
@@ -44,7 +51,13 @@ class DistanceFields {
   std::vector<std::unique_ptr<const DistanceField>> fields_;
   std::vector<const DistanceField*> by_task_;
   std::vector<const DistanceField*> by_agent_;
+  // By task, kind and heading; empty where no such agent has the task.
+  std::vector<DistanceField> by_port_;
+  std::size_t kinds_ = 1;
   bool complete_ = false;
+
+  static constexpr State kMostStatesWithPorts = 1 << 16;
+  bool add_ports(const Instance& instance, const Limits& limits);
 };
 
 // The least of the distances from the base states of one kind on a place.

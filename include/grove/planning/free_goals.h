@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -49,38 +50,51 @@ class AgentStops {
   // if it does not tarry.
   Time longest_finish(Place place) const;
 
-  // From a state to each stop: count() distances in a row.
+  // How many ports each stop has (CostMatrix). Where there is but one, a port is its stop.
+  int ports() const { return ports_; }
+  // From a state to each port, in a row.
   const Time* distances_from(State state) const {
-    return distances_->data() + static_cast<std::size_t>(state) * places_.size();
+    return distances_->data() + static_cast<std::size_t>(state) * port_count();
+  }
+  // To a stop, by whatever port.
+  Time distance(State state, int stop) const {
+    const Time* to_port = distances_from(state) + stop * ports_;
+    return *std::min_element(to_port, to_port + ports_);
   }
   // From a state to where the agent may rest, unless it rests on its last stop.
   Time to_rest(State state) const { return (*to_rest_)[state]; }
-  // From any base state on the place of a stop to another stop, at most.
+  // From a port of one stop to a port of another, at most, whatever the base state on the stop.
   Time longest_leg(int from, int to) const {
-    return longest_legs_[static_cast<std::size_t>(from) * places_.size() + to];
+    return longest_legs_[static_cast<std::size_t>(from) * port_count() + to];
   }
-  // Of the agent's kind, see world.h.
-  Time turn_about() const { return turn_about_; }
+  // How long it takes at most to turn from a state on a stop to where a port of it is left: in its
+  // heading, or where there is but one port in any base state.
+  Time turn(State state, int port) const;
 
   const Completions& completions() const { return completions_; }
   Completions& completions() { return completions_; }
 
  private:
+  std::size_t port_count() const { return places_.size() * static_cast<std::size_t>(ports_); }
+
   // What stands for work on stop s is kFirstWork - s.
   static constexpr int kFirstWork = -2;
   static constexpr int kForeignWork = -128;
 
+  const World* world_;
   AgentIndex agent_;
+  int kind_;
+  Time turn_steps_;
   State start_;
   Place start_place_;
   std::optional<Place> destination_;
   std::vector<Place> places_;
   std::vector<Time> durations_;  // by stop
   StopSet work_stops_ = 0;
-  Time turn_about_;
   std::shared_ptr<const std::vector<std::int8_t>> stop_at_;  // by state
-  std::shared_ptr<const std::vector<Time>> distances_;       // by state, then stop
-  std::vector<Time> longest_legs_;                           // by stop, then stop
+  std::shared_ptr<const std::vector<Time>> distances_;       // by state, then port
+  std::vector<Time> longest_legs_;                           // by port, then port
+  int ports_ = 1;
   const DistanceField* to_rest_ = nullptr;
   Completions completions_;
 };
@@ -103,9 +117,10 @@ class FreeGoals {
     std::int32_t nearest = 0;  // so many of them settle the distance
     std::int32_t count = 0;
   };
-  // A stop that may come next, and the least cost from there through all that is then left.
+  // A port of a stop that may come next, and the least cost from there through all that is then
+  // left.
   struct Onward {
-    std::int32_t stop;
+    std::int32_t port;
     Time cost;
   };
 
@@ -165,10 +180,10 @@ class FreeGoals {
   Time distance(StageId id, State state) const {
     const Stage& s = stages_[id];
     if (s.left == 0) return to_rest(s, state);
-    const Time* to_stop = stops_.distances_from(state);
+    const Time* to_port = stops_.distances_from(state);
     Time best = kNever;
     for (const Onward& o : std::span(&onward_[s.first], static_cast<std::size_t>(s.nearest)))
-      best = std::min(best, to_stop[o.stop] + o.cost);
+      best = std::min(best, to_port[o.port] + o.cost);
     return best;
   }
   // All ways known from a stage; the first Stage::nearest of them settle distance().
@@ -195,7 +210,8 @@ class FreeGoals {
   Time to_rest(const Stage& stage, State state) const;
   StopSet next_of(StopSet left) const;
   StopSet rests_after(const Stage& stage, int stop) const;
-  Time onward_cost(StopSet left, int stop) const;
+  using PortCosts = std::array<Time, DistanceFields::kPorts>;
+  PortCosts onward_costs(StopSet left, int stop) const;
   StageId make_after(StageId id, int stop);
   StageId make_stage(StopSet left, StopSet rests);
   void add_onward(Stage& stage);

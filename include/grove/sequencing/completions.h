@@ -16,14 +16,16 @@ namespace grove {
 // each is widened for itself: a copy may go to another thread.
 class Completions {
  public:
+  // With ports: of kTableStops stops at most (port_matrix()).
   explicit Completions(CostMatrix matrix);
   const CostMatrix& matrix() const;
 
   // Proven: a sequence with a state outside costs at least this. kNever: there is none such.
   Time beyond() const;
-  // The least cost from `stop` through all of `left` (without it) to the end, over the ways known;
-  // kNever when there is none, or the state is outside.
-  Time completion(StopSet left, int stop) const;
+  // The least cost from a port (of a stop, which is the same where the matrix has none) through all
+  // of `left` (without the stop) to the end, over the ways known; kNever when there is none, or the
+  // state is outside.
+  Time completion(StopSet left, int port) const;
 
   // A lower bound on every complete sequence (relaxation_bound() in rtsp.h), whatever is known.
   Time relaxed_bound() const;
