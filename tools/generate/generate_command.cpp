@@ -56,9 +56,10 @@ std::string map_as_seen_from(const std::filesystem::path& instance, const std::s
 }
 
 void add_generate_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("generate", "Make maps, scenarios and data sets");
+  CLI::App* command = app.add_subcommand("generate", "Make maps, roadmaps, scenarios and data sets");
   command->footer(kFooter)->require_subcommand(1);
   add_generate_map_command(*command);
+  add_generate_roadmap_command(*command);
   add_generate_scenario_command(*command);
   add_generate_instance_command(*command);
   add_generate_dataset_command(*command);

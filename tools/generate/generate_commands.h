@@ -18,6 +18,7 @@ inline constexpr IntegerRange kScenarioNumbers{1, 10'000};
 inline constexpr IntegerRange kTaskNumbers{0, 1'000'000};
 
 void add_generate_map_command(CLI::App& generate);
+void add_generate_roadmap_command(CLI::App& generate);
 void add_generate_scenario_command(CLI::App& generate);
 void add_generate_instance_command(CLI::App& generate);
 void add_generate_dataset_command(CLI::App& generate);

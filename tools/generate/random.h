@@ -9,7 +9,7 @@
 namespace grove {
 
 // What the numbers of a seed are for: different uses of one seed do not depend on each other.
-enum class RandomUse : std::uint32_t { kMap = 1, kScenario = 2, kTasks = 3 };
+enum class RandomUse : std::uint32_t { kMap = 1, kScenario = 2, kTasks = 3, kRoadmap = 4 };
 
 inline Random random_for(RandomUse use, std::uint64_t seed) {
   return Random(seed, static_cast<std::uint32_t>(use));
