@@ -2,6 +2,8 @@
 #include "tools/generate/components.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 namespace grove {
 namespace {
@@ -17,6 +19,29 @@ void flood(const Grid& grid, Cell first, int label, std::vector<int>& labels) {
       labels[next] = label;
       stack.push_back(next);
     }
+  }
+}
+
+using Neighbors = std::vector<std::vector<int>>;  // by vertex
+
+// `from` and what can be reached from it and is not seen yet; each vertex after all that it leads
+// to for the first time.
+void visit_after_next(const Neighbors& next, int from, std::vector<bool>& seen,
+                      std::vector<int>& visited) {
+  std::vector<std::pair<int, std::size_t>> stack{
+      {from, 0}};  // with how many of its neighbours done
+  seen[from] = true;
+  while (!stack.empty()) {
+    auto& [here, done] = stack.back();
+    if (done == next[here].size()) {
+      visited.push_back(here);
+      stack.pop_back();
+      continue;
+    }
+    const int to = next[here][done++];
+    if (seen[to]) continue;
+    seen[to] = true;
+    stack.emplace_back(to, 0);
   }
 }
 
@@ -40,6 +65,37 @@ std::vector<Cell> largest_component(const Grid& grid) {
   for (Cell cell = 0; cell < grid.cell_count(); ++cell)
     if (labels[cell] == largest) cells.push_back(cell);
   return cells;
+}
+
+// Kosaraju's two searches: along the roads, and then against them, from those vertices on that the
+// first one was done with last.
+std::vector<int> largest_strong_component(const Roadmap& roadmap) {
+  const std::size_t count = roadmap.vertices().size();
+  Neighbors next(count);
+  Neighbors before(count);
+  const auto add = [&](int from, int to) {
+    next[from].push_back(to);
+    before[to].push_back(from);
+  };
+  for (const Road& road : roadmap.roads()) {
+    add(road.from, road.to);
+    if (!road.one_way) add(road.to, road.from);
+  }
+  std::vector<int> order;
+  std::vector<bool> seen(count);
+  for (std::size_t v = 0; v < count; ++v)
+    if (!seen[v]) visit_after_next(next, static_cast<int>(v), seen, order);
+  seen.assign(count, false);
+  std::vector<int> largest;
+  for (auto v = order.rbegin(); v != order.rend(); ++v) {
+    if (seen[*v]) continue;
+    std::vector<int> part;
+    visit_after_next(before, *v, seen, part);
+    std::ranges::sort(part);
+    if (part.size() > largest.size() || (part.size() == largest.size() && part < largest))
+      largest = std::move(part);
+  }
+  return largest;
 }
 
 }  // namespace grove

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "grove/model/grid.h"
+#include "grove/model/roadmap.h"
 
 namespace grove {
 
@@ -14,5 +15,9 @@ std::vector<int> components(const Grid& grid);
 // The cells of the largest part (the first of several), in ascending order; empty if all is
 // blocked.
 std::vector<Cell> largest_component(const Grid& grid);
+
+// The vertices of the largest part (the first of several) in which every vertex can be reached from
+// every other, in ascending order.
+std::vector<int> largest_strong_component(const Roadmap& roadmap);
 
 }  // namespace grove

@@ -20,6 +20,9 @@ Examples:
   grove generate scenario --map my.map --rows 200 --seed 1 -o my.scen
   grove generate instance --map my.map --scen my.scen --agents 10 --tasks 30 -o my.cts.json
   grove generate instance --map my.map --agents 5 --tasks 10 --mg -o my_mg.cts.json
+  grove generate roadmap --kind warehouse -o hall.roadmap.json
+  grove generate instance --roadmap hall.roadmap.json --tasks-on a --agents 100 --tasks 300 \
+        -o hall.cts.json
   grove generate dataset --map my.map --scen my.scen --agents 5,10,20 --tasks 10,30,50 \
         --output-dir my_set
   grove generate paper --scenarios 1-5 --output-dir paper)";
@@ -56,7 +59,8 @@ std::string map_as_seen_from(const std::filesystem::path& instance, const std::s
 }
 
 void add_generate_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("generate", "Make maps, roadmaps, scenarios and data sets");
+  CLI::App* command =
+      app.add_subcommand("generate", "Make maps, roadmaps, scenarios and data sets");
   command->footer(kFooter)->require_subcommand(1);
   add_generate_map_command(*command);
   add_generate_roadmap_command(*command);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "grove/io/input_error.h"
+#include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/generate_set.h"
 
@@ -15,6 +16,16 @@ namespace grove {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kDatasetFooter =
+    R"(Each instance is what 'grove generate instance' makes with the same seed. Files are named
+MAP_sS_nN_mM.cts.json (S: the number at the end of the scenario's name, N agents, M tasks); what is
+asked for besides is added: _turning, or _turningD where a turn takes D > 1 steps, _headings,
+_dA-B, _mg. manifest.txt lists them.
+
+Example, the paper's room cells:
+  grove generate dataset --map room-32-32-4.map --scen room-32-32-4-random-*.scen \
+        --agents 5,10,20 --tasks 10,20,30,40,50 --output-dir room)";
 
 struct DatasetArguments {
   std::string map;
@@ -24,6 +35,7 @@ struct DatasetArguments {
   std::vector<std::int64_t> tasks;
   std::int64_t seed = 0;
   bool mg = false;
+  ExtrasArguments extras;
   std::string output_dir;
 };
 
@@ -64,12 +76,13 @@ std::vector<NumberedScenario> draw_scenarios(const DatasetArguments& arguments, 
 }
 
 void run(const DatasetArguments& arguments) {
+  const Extras extras = arguments.extras.extras(!arguments.mg);
   const Grid grid = load_map(arguments.map);
   const std::vector<MapSet> maps{{arguments.map, grid,
                                   arguments.scenario_files.empty()
                                       ? draw_scenarios(arguments, grid)
                                       : load_scenarios(arguments, grid)}};
-  const SetSizes sizes{arguments.agents, arguments.tasks, {arguments.mg}};
+  const SetSizes sizes{arguments.agents, arguments.tasks, {arguments.mg}, extras};
   // First without writing: a set that does not fit must not leave half of itself behind.
   require_fitting(maps, sizes);
   write_set(arguments.output_dir, maps, sizes);
@@ -81,14 +94,7 @@ void add_generate_dataset_command(CLI::App& generate) {
   const auto arguments = std::make_shared<DatasetArguments>();
   CLI::App* command = generate.add_subcommand(
       "dataset", "Instances for all combinations of scenarios, agents and tasks");
-  command->footer(
-      "Each instance is what 'grove generate instance' makes with the same seed. Files are named\n"
-      "MAP_sS_nN_mM.cts.json (S: the number at the end of the scenario's name, N agents, M tasks;\n"
-      "_mg is added with --mg); manifest.txt lists them.\n"
-      "\n"
-      "Example, the paper's room cells:\n"
-      "  grove generate dataset --map room-32-32-4.map --scen room-32-32-4-random-*.scen \\\n"
-      "        --agents 5,10,20 --tasks 10,20,30,40,50 --output-dir room");
+  command->footer(kDatasetFooter);
   command->add_option("--map", arguments->map, "map")->required()->type_name("FILE.map");
   command->add_option("--scen", arguments->scenario_files, "scenarios for this map")
       ->type_name("FILE.scen");
@@ -99,6 +105,7 @@ void add_generate_dataset_command(CLI::App& generate) {
   add_integers(*command, "--tasks", arguments->tasks, kTaskNumbers, "numbers of tasks")->required();
   add_integer(*command, "--seed", arguments->seed, kSeeds, "seed");
   command->add_flag("--mg", arguments->mg, "make MG-MAPF instances");
+  arguments->extras.add_to(*command);
   command->add_option("--output-dir", arguments->output_dir, "folder to write to; made if missing")
       ->required()
       ->type_name("DIR");

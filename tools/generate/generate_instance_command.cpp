@@ -7,7 +7,11 @@
 
 #include "grove/io/atomic_file.h"
 #include "grove/io/instance_file.h"
+#include "grove/io/roadmap_file.h"
+#include "tools/common/instance_arguments.h"
+#include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
+#include "tools/generate/roadmap_instance.h"
 #include "tools/generate/scenario_generator.h"
 
 namespace grove {
@@ -31,30 +35,88 @@ void run_scenario(const ScenarioArguments& arguments) {
   fmt::print("wrote {}: {} rows\n", arguments.output, scenario.rows.size());
 }
 
+constexpr const char* kInstanceFooter =
+    R"(On a map, the recipe of the paper: the first N rows of the scenario are the agents; the starts of
+the rows from 21 on are the tasks (with more than 20 agents: of the rows after theirs), each given
+to 1, 2 or 3 random agents. With --mg no agent has a destination: what it was is one more task of
+that agent. Without --scen a scenario is drawn with the same seed.
+
+On a roadmap all are drawn, in the largest part in which every vertex can be reached from every
+other: distinct starts, distinct goals, and tasks on distinct vertices where nobody starts, given
+to agents as above. A robot at rest on a dead end, as parking bays are, is in nobody's way.
+
+Examples:
+  grove generate instance --map my.map --agents 10 --tasks 30 --seed 1 -o my.cts.json
+  grove generate instance --map my.map --agents 10 --tasks 30 --turning --durations 0-10 \
+        -o my_turning.cts.json
+  grove generate instance --roadmap hall.roadmap.json --tasks-on a --agents 100 --tasks 300 \
+        -o hall.cts.json)";
+
 struct NewInstanceArguments {
   std::string map;
   std::string scenario;
+  std::string roadmap;
+  std::string agents_on;
+  std::string tasks_on;
   std::int64_t agents = 0;
   std::int64_t tasks = 0;
   std::int64_t seed = 0;
   bool mg = false;
+  ExtrasArguments extras;
   std::string output;
 };
 
-void run_instance(const NewInstanceArguments& arguments) {
-  const InstanceRequest request{.agents = static_cast<int>(arguments.agents),
-                                .tasks = static_cast<int>(arguments.tasks),
-                                .seed = static_cast<std::uint64_t>(arguments.seed),
-                                .mg = arguments.mg};
+void require_fitting(const CLI::App& command) {
+  if (command.count("--map") + command.count("--roadmap") == 0)
+    throw CLI::RequiredError("--map or --roadmap");
+  const auto require_only = [&](const std::string& option, const std::string& where) {
+    if (command.count(option) > 0)
+      throw CLI::ValidationError(option, fmt::format("expected only {}", where));
+  };
+  if (command.count("--roadmap") > 0) {
+    require_only("--map", "without --roadmap");
+    require_only("--scen", "with --map");
+    require_only("--turning", "with --map: headings are those of a grid");
+  } else {
+    require_only("--agents-on", "with --roadmap");
+    require_only("--tasks-on", "with --roadmap");
+  }
+}
+
+Instance instance_on_map(const NewInstanceArguments& arguments, const InstanceRequest& request) {
   const Grid grid = load_map(arguments.map);
   const Scenario scenario =
       arguments.scenario.empty()
           ? draw_scenario(arguments.map, grid, rows_needed(request), arguments.seed)
           : load_scenario(arguments.scenario, arguments.map, grid);
-  const Instance instance = generate_instance(grid, scenario, request);
+  return generate_instance(grid, scenario, request);
+}
+
+Instance instance_on_roadmap(const CLI::App& command, const NewInstanceArguments& arguments,
+                             const InstanceRequest& request) {
+  std::vector<std::string> warnings;
+  Site site{arguments.roadmap, read_roadmap(arguments.roadmap, &warnings)};
+  print_warnings(warnings);
+  if (command.count("--agents-on") > 0) site.agents_on = arguments.agents_on;
+  if (command.count("--tasks-on") > 0) site.tasks_on = arguments.tasks_on;
+  return generate_instance(site, request);
+}
+
+void run_instance(const CLI::App& command, const NewInstanceArguments& arguments) {
+  require_fitting(command);
+  const InstanceRequest request{.agents = static_cast<int>(arguments.agents),
+                                .tasks = static_cast<int>(arguments.tasks),
+                                .seed = static_cast<std::uint64_t>(arguments.seed),
+                                .mg = arguments.mg,
+                                .extras = arguments.extras.extras(!arguments.mg)};
+  const Instance instance = arguments.roadmap.empty()
+                                ? instance_on_map(arguments, request)
+                                : instance_on_roadmap(command, arguments, request);
   require_distinct_files(arguments.output, arguments.map, "the map");
   require_distinct_files(arguments.output, arguments.scenario, "the scenario");
-  write_instance(arguments.output, instance, map_as_seen_from(arguments.output, arguments.map));
+  require_distinct_files(arguments.output, arguments.roadmap, "the roadmap");
+  const std::string& map = arguments.roadmap.empty() ? arguments.map : arguments.roadmap;
+  write_instance(arguments.output, instance, map_as_seen_from(arguments.output, map));
   fmt::print("wrote {}: {} agents, {} tasks\n", arguments.output, instance.agent_count(),
              instance.task_count());
 }
@@ -78,17 +140,26 @@ void add_generate_scenario_command(CLI::App& generate) {
 
 void add_generate_instance_command(CLI::App& generate) {
   const auto arguments = std::make_shared<NewInstanceArguments>();
-  CLI::App* command = generate.add_subcommand(
-      "instance", "A CTS-MAPF or MG-MAPF instance from a map and perhaps a scenario");
-  command->footer(
-      "The recipe of the paper: the first N rows of the scenario are the agents; the starts of "
-      "the\n"
-      "rows from 21 on are the tasks (with more than 20 agents: of the rows after theirs), each\n"
-      "given to 1, 2 or 3 random agents. With --mg no agent has a destination: what it was is one\n"
-      "more task of that agent. Without --scen a scenario is drawn with the same seed.");
-  command->add_option("--map", arguments->map, "map")->required()->type_name("FILE.map");
+  CLI::App* command =
+      generate.add_subcommand("instance", "A CTS-MAPF or MG-MAPF instance on a map or a roadmap");
+  command->footer(kInstanceFooter);
+  command->add_option("--map", arguments->map, "map")->type_name("FILE.map");
   command->add_option("--scen", arguments->scenario, "scenario for this map")
       ->type_name("FILE.scen");
+  command->add_option("--roadmap", arguments->roadmap, "roadmap, in place of a map")
+      ->type_name("FILE.roadmap.json");
+  command
+      ->add_option(
+          "--agents-on", arguments->agents_on,
+          "with --roadmap: agents start and end on vertices whose ids begin so; '': on any; by "
+          "default on dead ends, if there are enough")
+      ->type_name("PREFIX");
+  command
+      ->add_option(
+          "--tasks-on", arguments->tasks_on,
+          "with --roadmap: tasks are on vertices whose ids begin so; '': on any; by default "
+          "where agents do not start and end, if these have places of their own")
+      ->type_name("PREFIX");
   add_integer(*command, "--agents", arguments->agents, kAgentNumbers, "agents")
       ->required()
       ->default_str("");
@@ -97,8 +168,9 @@ void add_generate_instance_command(CLI::App& generate) {
       ->default_str("");
   add_integer(*command, "--seed", arguments->seed, kSeeds, "seed");
   command->add_flag("--mg", arguments->mg, "make an MG-MAPF instance");
+  arguments->extras.add_to(*command);
   add_output(*command, arguments->output, "FILE.cts.json");
-  command->callback([arguments] { run_instance(*arguments); });
+  command->callback([command, arguments] { run_instance(*command, *arguments); });
 }
 
 }  // namespace grove

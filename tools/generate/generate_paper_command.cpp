@@ -10,6 +10,7 @@
 #include "grove/batch/folder.h"
 #include "grove/io/input_error.h"
 #include "grove/io/map_file.h"
+#include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/generate_set.h"
 #include "tools/generate/map_generator.h"
@@ -26,6 +27,9 @@ constexpr const char* kPaperFooter =
 destinations and without: 4,500 instances, and DIR/manifest.txt with them all, for 'grove bench'.
 Files are named MAP_sS_nN_mM.cts.json; _mg is added to those without destinations. manifest-cts.txt
 and manifest-mg.txt list those with and those without, for methods that are for one of them.
+
+With --turning or --durations the same instances are made for robots that need time to turn, and
+for tasks that take time; the names then tell: MAP_sS_nN_mM_turning_d0-10.cts.json.
 
 With --movingai the maps and scenarios are those of the Moving AI benchmark, in one folder: MAP.map,
 scenarios 1 to 25 from MAP-random-1.scen to MAP-random-25.scen, 26 to 50 from MAP-even-1.scen to
@@ -52,6 +56,7 @@ struct PaperArguments {
   std::vector<std::int64_t> tasks{10, 20, 30, 40, 50};
   std::string problem = "both";
   std::int64_t seed = 0;
+  ExtrasArguments extras;
   std::string output_dir;
 };
 
@@ -135,11 +140,12 @@ std::vector<MapSet> draw_map_sets(const PaperArguments& arguments) {
 }
 
 void run(const CLI::App& app, const PaperArguments& arguments) {
+  const Extras extras = arguments.extras.extras(arguments.problem != "mg");
   const bool draws = arguments.movingai.empty();
   if (draws && app.count("--maps") > 0)
     throw CLI::ValidationError("--maps", "expected only with --movingai");
   const std::vector<MapSet> maps = draws ? draw_map_sets(arguments) : load_map_sets(arguments);
-  const SetSizes sizes{arguments.agents, arguments.tasks, kProblems.at(arguments.problem)};
+  const SetSizes sizes{arguments.agents, arguments.tasks, kProblems.at(arguments.problem), extras};
   require_fitting(maps, sizes);
   batch::make_folder(arguments.output_dir);
   if (draws)
@@ -177,6 +183,7 @@ void add_generate_paper_command(CLI::App& generate) {
       ->check(one_of({"both", "cts", "mg"}))
       ->capture_default_str();
   add_integer(*command, "--seed", arguments->seed, {0, 1'000'000'000}, "another set");
+  arguments->extras.add_to(*command);
   command->add_option("--output-dir", arguments->output_dir, "folder to write to; made if missing")
       ->required()
       ->type_name("DIR");

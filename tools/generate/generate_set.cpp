@@ -27,9 +27,10 @@ void for_each_instance(const MapSet& map, const SetSizes& sizes, const UseInstan
           const InstanceRequest request{.agents = static_cast<int>(agents),
                                         .tasks = static_cast<int>(tasks),
                                         .seed = static_cast<std::uint64_t>(seed),
-                                        .mg = mg};
-          use(fmt::format("{}_s{}_n{}_m{}{}.cts.json", stem, number, agents, tasks,
-                          mg ? "_mg" : ""),
+                                        .mg = mg,
+                                        .extras = sizes.extras};
+          use(fmt::format("{}_s{}_n{}_m{}{}{}.cts.json", stem, number, agents, tasks,
+                          sizes.extras.suffix(), mg ? "_mg" : ""),
               generate_instance(map.grid, scenario, request));
         }
       }

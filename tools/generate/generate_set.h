@@ -31,14 +31,15 @@ struct SetSizes {
   std::vector<std::int64_t> agents;
   std::vector<std::int64_t> tasks;
   std::vector<bool> mg{false};  // CTS-MAPF, MG-MAPF
+  Extras extras = {};           // the same in all
 };
 
 // Throws what generate_instance() throws when a combination does not fit.
 void require_fitting(const std::vector<MapSet>& maps, const SetSizes& sizes);
 
-// Writes DIR/MAP_sS_nN_mM.cts.json (_mg is added to MG-MAPF ones) and DIR/manifest.txt, which lists
-// them, and says so; of a set with both, manifest-cts.txt and manifest-mg.txt beside it list each.
-// The folder is made if missing. Throws InputError.
+// Writes DIR/MAP_sS_nN_mM.cts.json (the suffix of the extras is added, and _mg to MG-MAPF ones) and
+// DIR/manifest.txt, which lists them, and says so; of a set with both, manifest-cts.txt and
+// manifest-mg.txt beside it list each. The folder is made if missing. Throws InputError.
 void write_set(const std::filesystem::path& directory, const std::vector<MapSet>& maps,
                const SetSizes& sizes);
 

@@ -16,12 +16,28 @@ struct Scenario {
   std::vector<ScenarioRow> rows;
 };
 
+// What the paper's instances do not have.
+struct Extras {
+  struct Range {
+    Time least = 0;
+    Time most = 0;
+  };
+  Time turn_steps = 0;         // of a quarter turn; 0: agents turn freely
+  bool goal_headings = false;  // of agents that need time to turn, in which they must rest
+  Range durations = {};        // of tasks, drawn uniformly
+
+  // "_turning2_d0-10", for names of files; empty without any.
+  std::string suffix() const;
+};
+
 struct InstanceRequest {
   int agents = 1;
   int tasks = 0;
   std::uint64_t seed = 0;
   // MG-MAPF: no agent has a destination; what it was becomes an ordinary task of that agent.
   bool mg = false;
+  // Drawn apart, so all else is the same whatever they are. On grids only: turns.
+  Extras extras = {};
 };
 
 // The first row (from 0) whose start may become a task. 20 rows are reserved for agents, or more if

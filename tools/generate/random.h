@@ -9,7 +9,14 @@
 namespace grove {
 
 // What the numbers of a seed are for: different uses of one seed do not depend on each other.
-enum class RandomUse : std::uint32_t { kMap = 1, kScenario = 2, kTasks = 3, kRoadmap = 4 };
+enum class RandomUse : std::uint32_t {
+  kMap = 1,
+  kScenario = 2,  // starts, goals and places of tasks
+  kTasks = 3,     // whose they are
+  kRoadmap = 4,
+  kMotion = 5,  // headings
+  kDurations = 6
+};
 
 inline Random random_for(RandomUse use, std::uint64_t seed) {
   return Random(seed, static_cast<std::uint32_t>(use));

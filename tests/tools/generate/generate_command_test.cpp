@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -122,6 +123,151 @@ TEST(GenerateCommand, DrawsScenariosForADatasetFromAMapAlone) {
             "my_s1_n5_m10_mg.cts.json\nmy_s2_n5_m10_mg.cts.json\n");
   EXPECT_NE(file_content(directory / "my_s1_n5_m10_mg.cts.json"),
             file_content(directory / "my_s2_n5_m10_mg.cts.json"));
+}
+
+TEST(GenerateCommand, MakesRoadmapsAndInstancesOnThem) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(
+      generate(directory, "roadmap --kind planar --vertices 40 --one-way 25 -o a.roadmap.json")
+          .out.substr(0, 35),
+      "wrote a.roadmap.json: 40 vertices, ");
+  EXPECT_EQ(
+      generate(directory, "roadmap --kind warehouse --aisles 4 --slots 6 -o w.roadmap.json").out,
+      "wrote w.roadmap.json: 84 vertices, 98 roads, 80 of them one way\n");
+  fs::create_directories(directory / "made");
+  for (const char* arguments :
+       {"--roadmap a.roadmap.json --agents 6 --tasks 12 --durations 0-3 -o made/a.cts.json",
+        "--roadmap w.roadmap.json --tasks-on a --agents 12 --tasks 20 -o made/w.cts.json"}) {
+    const ProcessResult result = generate(directory, std::string("instance ") + arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+  for (const char* name : {"a", "w"}) {
+    const std::string file = directory / fmt::format("made/{}.cts.json", name);
+    const LoadedInstance loaded = read_instance(file);
+    EXPECT_TRUE(loaded.warnings.empty());
+    EXPECT_TRUE(loaded.instance.roadmap());
+    const std::string plan = directory / "plan.json";
+    const ProcessResult solved = run_grove({"solve", file, "--omega", "0.1", "--time-limit", "20",
+                                            "--require-plan", "--output", plan});
+    EXPECT_EQ(solved.exit_code, 0) << solved.err;
+    EXPECT_EQ(run_grove({"check", file, plan}).exit_code, 0);
+    fs::remove(plan);
+  }
+}
+
+TEST(GenerateCommand, MakesTheSameRoadmapOfTheSameSeed) {
+  const TemporaryDirectory directory;
+  const std::string start = "roadmap --kind planar --vertices 30 --one-way 20 ";
+  for (const char* rest : {"--seed 4 -o 4.json", "--seed 4 -o again.json", "--seed 5 -o 5.json"})
+    generate(directory, start + rest);
+  EXPECT_EQ(file_content(directory / "4.json"), file_content(directory / "again.json"));
+  EXPECT_NE(file_content(directory / "4.json"), file_content(directory / "5.json"));
+}
+
+TEST(GenerateCommand, MakesAgentsThatTurnAndTasksThatTakeTime) {
+  const TemporaryDirectory directory;
+  generate(directory, "map rooms --seed 1 -o my.map");
+  const std::string start = "instance --map my.map --agents 5 --tasks 10 --seed 1 ";
+  generate(directory, start + "-o plain.cts.json");
+  generate(directory, start + "--durations 0-0 -o same.cts.json");
+  generate(directory,
+           start + "--turning --turn-steps 2 --goal-headings --durations 3 -o t.cts.json");
+  EXPECT_EQ(file_content(directory / "same.cts.json"), file_content(directory / "plain.cts.json"));
+  const Instance instance = read_instance(directory / "t.cts.json").instance;
+  for (const Agent& agent : instance.agents()) {
+    EXPECT_EQ(agent.motion, Motion{2});
+    EXPECT_TRUE(agent.goal_heading);
+  }
+  for (const Task& task : instance.tasks()) EXPECT_EQ(task.duration, 3);
+}
+
+TEST(GenerateCommand, TellsExtrasInTheNamesOfASet) {
+  const TemporaryDirectory directory;
+  generate(directory, "map empty -o my.map");
+  const std::string start = "dataset --map my.map --agents 5 --tasks 10 --output-dir set ";
+  for (const char* rest : {"", "--mg", "--turning", "--turning --mg", "--durations 0-10",
+                           "--turning --turn-steps 3 --goal-headings --durations 2-5"})
+    EXPECT_EQ(generate(directory, start + rest).exit_code, 0) << rest;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(directory / "set"))
+    names.insert(entry.path().filename());
+  EXPECT_EQ(names,
+            (std::set<std::string>{
+                "manifest.txt", "my_s1_n5_m10.cts.json", "my_s1_n5_m10_mg.cts.json",
+                "my_s1_n5_m10_turning.cts.json", "my_s1_n5_m10_turning_mg.cts.json",
+                "my_s1_n5_m10_d0-10.cts.json", "my_s1_n5_m10_turning3_headings_d2-5.cts.json"}));
+}
+
+TEST(GenerateCommand, RefusesOptionsThatDoNotFitTogether) {
+  const TemporaryDirectory directory;
+  generate(directory, "map empty -o my.map");
+  generate(directory, "roadmap --kind warehouse -o w.json");
+  const auto said = [&](const std::string& arguments) {
+    const std::string text = complaint(generate(directory, arguments + " -o x"));
+    return text.substr(0, text.find(" (see "));
+  };
+  EXPECT_EQ(said("roadmap"), "--kind is required");
+  EXPECT_EQ(said("roadmap --kind x"), "--kind: found 'x'; expected one of planar, warehouse");
+  EXPECT_EQ(said("roadmap --kind warehouse --seed 1"), "--seed: expected only with --kind planar");
+  EXPECT_EQ(said("roadmap --kind planar --bays 1"), "--bays: expected only with --kind warehouse");
+  EXPECT_EQ(said("roadmap --kind planar --one-way 101"),
+            "--one-way: found '101'; expected an integer from 0 to 100");
+  EXPECT_TRUE(said("roadmap --kind planar --vertices 9000")
+                  .starts_with("roadmap: 9000 vertices do not fit into 50 x 50 m"));
+  EXPECT_TRUE(
+      said("roadmap --kind warehouse --aisles 5").starts_with("roadmap: found 5 aisles; expected"));
+  EXPECT_EQ(said("roadmap --kind warehouse --metres-per-step 0"),
+            "--metres-per-step: found '0'; expected a number from 0.01 to 1000");
+  const std::string sizes = "instance --agents 5 --tasks 5 ";
+  EXPECT_EQ(said(sizes), "--map or --roadmap is required");
+  EXPECT_EQ(said(sizes + "--map my.map --roadmap w.json"),
+            "--map: expected only without --roadmap");
+  EXPECT_EQ(said(sizes + "--scen s --roadmap w.json"), "--scen: expected only with --map");
+  EXPECT_EQ(said(sizes + "--turning --roadmap w.json"),
+            "--turning: expected only with --map: headings are those of a grid");
+  EXPECT_EQ(said(sizes + "--map my.map --tasks-on a"), "--tasks-on: expected only with --roadmap");
+  EXPECT_EQ(said(sizes + "--map my.map --turn-steps 2"),
+            "--turn-steps: expected only with --turning");
+  EXPECT_EQ(said(sizes + "--map my.map --goal-headings"),
+            "--goal-headings: expected only with --turning");
+  EXPECT_EQ(said(sizes + "--map my.map --turning --goal-headings --mg"),
+            "--goal-headings: expected only where some agents have destinations");
+  EXPECT_EQ(said(sizes + "--map my.map --durations 3-1"),
+            "--durations: found '3-1'; expected the smaller number first");
+  EXPECT_EQ(said(sizes + "--map my.map --durations 3-"),
+            "--durations: found ''; expected an integer from 0 to 65536");
+  EXPECT_TRUE(said("instance --agents 5 --tasks 500 --roadmap w.json")
+                  .starts_with("w.json: 500 tasks for 5 agents do not fit: "));
+  EXPECT_EQ(complaint(generate(directory, sizes + "--roadmap w.json -o w.json")),
+            "w.json: is the roadmap; expected another file to write to");
+  EXPECT_EQ(directory.files(), (std::vector<std::string>{"my.map", "w.json"}));
+}
+
+TEST(GenerateCommand, HasHelpThatFitsATerminal) {
+  for (const char* part : {"map", "roadmap", "scenario", "instance", "dataset", "paper"}) {
+    const ProcessResult help = run_grove({"generate", part, "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    for (const std::string& line : lines_of(help.out)) EXPECT_LE(line.size(), 100U) << line;
+  }
+}
+
+TEST(GeneratePaper, MakesTheSameSetForRobotsThatTurn) {
+  const TemporaryDirectory directory;
+  const std::string start = "paper --scenarios 1 --agents 5 --tasks 10 --output-dir paper ";
+  ASSERT_EQ(generate(directory, start).exit_code, 0);
+  const ProcessResult result = generate(directory, start + "--turning --durations 0-10");
+  EXPECT_EQ(result.out, "wrote paper/manifest.txt: 6 instances\n") << result.err;
+  const auto names = lines_of(file_content(directory / "paper/manifest.txt"));
+  ASSERT_EQ(names.size(), 6U);
+  EXPECT_EQ(names[0], "empty-32x32_s1_n5_m10_turning_d0-10.cts.json");
+  EXPECT_EQ(names[1], "empty-32x32_s1_n5_m10_turning_d0-10_mg.cts.json");
+  EXPECT_EQ(lines_of(file_content(directory / "paper/manifest-mg.txt")).size(), 3U);
+  const Instance turning = read_instance(directory.path() / "paper" / names[0]).instance;
+  const Instance plain = read_instance(directory / "paper/empty-32x32_s1_n5_m10.cts.json").instance;
+  EXPECT_EQ(turning.agent(0).motion, Motion{1});
+  EXPECT_EQ(turning.pose_of(turning.agent(0).start).place, plain.agent(0).start);
+  EXPECT_EQ(turning.agent(0).tasks, plain.agent(0).tasks);
+  EXPECT_EQ(turning.task(3).cell, plain.task(3).cell);
 }
 
 TEST(GeneratePaper, MakesOneSetOfThreeMapsAndBothProblems) {

@@ -77,6 +77,60 @@ TEST(GenerateInstance, WithMgTurnsGoalsIntoTasks) {
   EXPECT_EQ(mg.task_count(), 80 + 20 - joined);
 }
 
+TEST(GenerateInstance, WithExtrasIsTheSameApartFromThem) {
+  InstanceRequest request{.agents = 20, .tasks = 40, .seed = 1};
+  const Instance plain = generate(request);
+  request.extras = {.turn_steps = 2, .goal_headings = true, .durations = {.least = 1, .most = 3}};
+  const Instance with_extras = generate(request);
+  std::vector<int> of_heading(4);
+  std::vector<int> of_goal_heading(4);
+  for (AgentIndex i = 0; i < 20; ++i) {
+    const Agent& agent = with_extras.agent(i);
+    const Pose start = with_extras.pose_of(agent.start);
+    EXPECT_EQ(start.place, plain.agent(i).start);
+    EXPECT_EQ(start.steps, 0);
+    EXPECT_EQ(agent.goal, plain.agent(i).goal);
+    EXPECT_EQ(agent.tasks, plain.agent(i).tasks);
+    EXPECT_EQ(agent.motion, Motion{2});
+    ++of_heading[static_cast<int>(start.heading)];
+    ++of_goal_heading[static_cast<int>(agent.goal_heading.value())];
+  }
+  EXPECT_GT(*std::ranges::min_element(of_heading), 0);
+  EXPECT_GT(*std::ranges::min_element(of_goal_heading), 0);
+  std::vector<int> of_duration(4);
+  for (TaskIndex k = 0; k < 40; ++k) {
+    EXPECT_EQ(with_extras.task(k).cell, plain.task(k).cell);
+    EXPECT_EQ(plain.task(k).duration, 0);
+    ++of_duration[with_extras.task(k).duration];
+  }
+  EXPECT_EQ(of_duration[0], 0);
+  EXPECT_GT(*std::ranges::min_element(of_duration.begin() + 1, of_duration.end()), 5);
+}
+
+TEST(GenerateInstance, DrawsHeadingsAndDurationsApart) {
+  InstanceRequest request{.agents = 10, .tasks = 30, .seed = 7, .extras = {.turn_steps = 1}};
+  const Instance turning = generate(request);
+  request.extras.goal_headings = true;
+  request.extras.durations = {.least = 0, .most = 10};
+  const Instance both = generate(request);
+  request.extras = {.durations = {.least = 0, .most = 10}};
+  const Instance slow = generate(request);
+  for (AgentIndex i = 0; i < 10; ++i) {
+    EXPECT_FALSE(turning.agent(i).goal_heading);
+    EXPECT_FALSE(slow.agent(i).goal_heading);
+    EXPECT_EQ(turning.pose_of(turning.agent(i).start), both.pose_of(both.agent(i).start));
+  }
+  for (TaskIndex k = 0; k < 30; ++k) EXPECT_EQ(slow.task(k).duration, both.task(k).duration);
+}
+
+TEST(Extras, AreToldApartByTheirSuffixes) {
+  EXPECT_EQ(Extras{}.suffix(), "");
+  EXPECT_EQ((Extras{.turn_steps = 1}).suffix(), "_turning");
+  EXPECT_EQ((Extras{.turn_steps = 2, .goal_headings = true}).suffix(), "_turning2_headings");
+  EXPECT_EQ((Extras{.turn_steps = 1, .durations = {.least = 0, .most = 10}}).suffix(),
+            "_turning_d0-10");
+}
+
 TEST(GenerateInstance, PassesOverRepeatedTaskCells) {
   Scenario repeated = scenario(24);
   repeated.rows[21].start = repeated.rows[20].start;

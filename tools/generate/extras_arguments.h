@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+
+#include "tools/generate/instance_generator.h"
+
+namespace grove {
+
+// --turning, --turn-steps, --goal-headings, --durations. Must outlive the parsing.
+class ExtrasArguments {
+ public:
+  void add_to(CLI::App& command);
+
+  // `with_goals`: some agents will have destinations. Throws CLI::ValidationError when the
+  // arguments do not fit together.
+  Extras extras(bool with_goals) const;
+
+ private:
+  bool turning_ = false;
+  bool goal_headings_ = false;
+  std::int64_t turn_steps_ = 1;
+  Extras::Range durations_;
+  const CLI::App* command_ = nullptr;
+};
+
+}  // namespace grove

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What instances on grids and on roadmaps have in common: whose the tasks are, how agents move, how
+// long tasks take.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grove/model/instance.h"
+#include "tools/generate/instance_generator.h"
+#include "tools/generate/random.h"
+
+namespace grove {
+
+struct DrawnAgent {
+  std::string row;  // of the scenario, for messages; may be empty
+  Place start = kNoPlace;
+  Place goal = kNoPlace;
+};
+
+// An instance in the making. `file`, what the agents are from, stands in messages; all throw
+// InputError, naming it.
+class InstanceDraft {
+ public:
+  // Agents a0, a1, ...
+  InstanceDraft(std::string file, std::vector<DrawnAgent> agents, const InstanceRequest& request);
+
+  int task_count() const { return static_cast<int>(tasks_.size()); }
+  bool has_task_on(Place place) const;
+  // The next of the tasks t0, t1, ..., of 1, 2 or 3 of these agents.
+  void add_task(Place place, std::vector<int> able);
+
+  Instance build(Map map) &&;
+
+ private:
+  struct DrawnTask {
+    Place place;
+    std::vector<int> agents;
+  };
+
+  [[noreturn]] void fail(const std::string& place, const std::string& message) const;
+  void turn_goals_into_tasks();
+  void add_agents(InstanceBuilder& builder) const;
+  AgentSpec spec(int agent, Heading heading, Heading goal_heading) const;
+  void add_tasks(InstanceBuilder& builder) const;
+
+  std::string file_;
+  std::vector<DrawnAgent> agents_;
+  InstanceRequest request_;
+  Random random_;
+  std::vector<DrawnTask> tasks_;
+};
+
+}  // namespace grove
