@@ -180,12 +180,10 @@ bool SafeIntervalSearch<Goals>::postpone(const Entry& entry, State state) {
   return true;
 }
 
-// A gate must leave open what those that it stands for do next: the free copy of an interval does,
-// the others do not.
+// A gate must leave open what those that it stands for do next.
 template <class Goals>
 void SafeIntervalSearch<Goals>::close_gate(const Entry& entry, State state, Progress before) {
-  if (goals_.makes_gate(state, before, entry.progress) &&
-      intervals_.is_free_of_traversals(entry.slot))
+  if (goals_.makes_gate(state, before, entry.progress) && intervals_.stands_for_others(entry.slot))
     goals_.close_gate(state, before, entry.progress, entry.time, intervals_.next_begin(entry.slot));
 }
 

@@ -206,15 +206,15 @@ void SafeIntervals::add_unending_interval(const Group& group, State state, Time 
     if (bars_[i].kind == Bar::Kind::kRest) no_rest_by = std::max(no_rest_by, bars_[i].end);
   no_rest_by = std::min(no_rest_by, kNever);
   // Arrivals from `begin` up to `last`.
-  const auto add = [&](Time last, bool may_rest) {
+  const auto add = [&](Time last, bool may_rest, bool is_late = false) {
     if (begin > last || begin >= kNever) return;
-    intervals_.push_back({state, begin, kNever, last, copy, may_rest, kNoPlace});
+    intervals_.push_back({state, begin, kNever, last, copy, may_rest, kNoPlace, is_late});
     begin = last + 1;
   };
   add(no_rest_by, false);
   if (!states_are_places_ && group.place == only_rest_) {
     add(latest_rest_, true);
-    add(kNever, false);
+    add(kNever, false, true);
   } else {
     add(kNever, true);
   }

@@ -25,6 +25,7 @@ struct SafeInterval {
   bool may_rest = false;       // for ever
   // With reservations: who was here before moves there at `begin`.
   Place left_for = kNoPlace;
+  bool is_late = false;  // whoever came earlier may rest
 };
 
 // The safe intervals of all places under one list of constraints, for each state on them. Most
@@ -88,8 +89,12 @@ class SafeIntervals {
                ? end_of(from_slot)
                : std::min(end_of(from_slot) + 1, last_arrival(slot));
   }
-  // Can all that another copy of this slot can do, at the same time, be done from here?
-  bool is_free_of_traversals(int slot) const { return copy_of(slot) == kFree; }
+  // Can all that is done from another slot of this state, later or at the same time, be done from
+  // here until next_begin()? Not from a copy that is barred from a traversal, nor by who came too
+  // late to rest (kRestBy).
+  bool stands_for_others(int slot) const {
+    return copy_of(slot) == kFree && !(slot >= states_ && interval(slot).is_late);
+  }
 
   // No constraint at all bars the place or a move to it, nor has it copies.
   bool unconstrained(Place place) const { return group_of_[place] == kNoGroup; }

@@ -2,6 +2,7 @@
 // The low levels on all worlds - grids and roads, agents that turn, work that takes time, starts on
 // the way - against a search that looks at every time step. GROVE_FUZZ_FACTOR multiplies the number
 // of cases.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +45,16 @@ class Fuzzer {
       if (::testing::Test::HasFatalFailure()) return;
     }
   }
-  std::string text() const { return tiny_.to_text(); }
+  // The case under way.
+  std::string text() const {
+    std::string text = tiny_.to_text() + fmt::format("agent {}, prefix", agent_);
+    for (const Stop stop : work_.prefix) text += fmt::format(" {}", stop);
+    text += fmt::format(", then none of {:b}\n", work_.forbidden_next);
+    for (const Constraint& c : constraints_)
+      text += fmt::format("{} {} from {} in {} .. {}\n", name_of(c.kind), world_.name(c.cell),
+                          c.from < 0 ? "-" : world_.name(c.from), c.begin, c.end);
+    return text;
+  }
 
   int cases = 0;
   int delayed = 0;
@@ -78,6 +88,8 @@ class Fuzzer {
   void run_agent(AgentIndex agent) {
     AgentStops stops(instance_, distances_, agent);
     const SequenceClass work = sequence_class(stops.count());
+    agent_ = agent;
+    work_ = work;
     FreeGoals goals(stops, work);
     constraints_.clear();
     Path path;
@@ -204,12 +216,11 @@ class Fuzzer {
       ASSERT_TRUE(path[t] == path[t - 1] ||
                   std::ranges::count(world_.moves(path[t - 1]), path[t]) > 0)
           << text();
-    for (const Constraint& c : constraints_)
-      ASSERT_TRUE(testing::obeys(world_, path, c)) << text();
+    for (const Constraint& c : constraints_) ASSERT_TRUE(testing::obeys(world_, path, c)) << text();
     for (const TaskIndex task : instance_.agent(agent).tasks)
-      ASSERT_TRUE(std::ranges::any_of(
-          path, [&](State state) { return instance_.is_visited(task, state); }))
-          << text();
+      ASSERT_TRUE(std::ranges::any_of(path, [&](State state) {
+        return instance_.is_visited(task, state);
+      })) << text();
     ASSERT_TRUE(instance_.may_rest(agent, path.back())) << text();
   }
 
@@ -222,6 +233,8 @@ class Fuzzer {
   LowLevelSearch fixed_;
   FreeLowLevelSearch free_;
   OptimalPathsBuilder builder_;
+  AgentIndex agent_ = 0;
+  SequenceClass work_;
   std::vector<Constraint> constraints_;
 };
 
@@ -232,7 +245,10 @@ TEST(WorldLowLevel, AgreesWithATimeExpandedSearch) {
   int late_finishes = 0;
   std::map<std::string, int> by_world;
   const int seeds = testing::fuzz_rounds(600);
-  for (int seed = 0; seed < seeds; ++seed) {
+  std::vector<int> all(static_cast<std::size_t>(seeds));
+  std::iota(all.begin(), all.end(), 0);
+  all.push_back(3582);  // gates of who came too late to rest closed the way for who did not
+  for (const int seed : all) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Fuzzer fuzzer(static_cast<unsigned>(seed));
     fuzzer.run();
@@ -250,8 +266,8 @@ TEST(WorldLowLevel, AgreesWithATimeExpandedSearch) {
   EXPECT_EQ(by_world.size(), 6U);
   RecordProperty("cases", cases);
   for (const auto& [world, count] : by_world) std::printf("%s: %d\n", world.c_str(), count);
-  std::printf("cases %d, delayed %d, infeasible %d, late finishes %d\n", cases, delayed,
-              infeasible, late_finishes);
+  std::printf("cases %d, delayed %d, infeasible %d, late finishes %d\n", cases, delayed, infeasible,
+              late_finishes);
 }
 
 }  // namespace world_low_level_test
