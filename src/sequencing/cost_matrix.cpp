@@ -36,7 +36,7 @@ CostMatrix port_matrix(const Instance& instance, AgentIndex agent,
   const Agent& who = instance.agent(agent);
   const World& world = instance.world();
   const int n = static_cast<int>(who.stops.size());
-  const bool apply = who.kind > 0 && distances.has_ports() && n > 0 && n <= kTableStops &&
+  const bool apply = who.kind > 0 && distances.has_ports() && n > 0 && n <= kTableStopsWithPorts &&
                      instance.pose_of(who.start).steps == 0;
   if (!apply) return cost_matrix(instance, agent, distances);
 

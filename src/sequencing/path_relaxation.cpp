@@ -24,7 +24,12 @@
 //
 // Everything is in fixed point: costs are integers times kScale, potentials are integers, so the
 // bound is computed exactly and rounding up to a multiple of kScale is sound, costs being integers.
-// Edges of the tree take the cheaper direction, so that a matrix need not be symmetric.
+// Edges of the tree take the cheaper direction, so that a matrix need not be symmetric. But where
+// work takes time, each leg to a stop has that stop's work in it, and the cheaper direction knows
+// only the lesser of two. So legs are *balanced* first: a number s(u) is added to every leg from u
+// and taken off every leg to u. That changes no way through u; a way that begins at u costs s(u)
+// more then, which its bound is lowered by. With s(u) half of what legs to u cost more than those
+// from u, on the mean, work is shared evenly between the two legs of a stop.
 #include "path_relaxation.h"
 
 #include <array>
@@ -77,8 +82,28 @@ PathRelaxation::PathRelaxation(const CostMatrix& matrix)
     }
   if (stops_ == 0)
     root_bound_ = matrix.to_end(0);
-  else
+  else {
+    balance();
     climb();
+  }
+}
+
+void PathRelaxation::balance() {
+  shift_.assign(static_cast<std::size_t>(stops_) + 1, 0);
+  for (int i = 0; i < stops_; ++i) {
+    std::int64_t more = 0;
+    std::int64_t pairs = 0;
+    for (int j = 0; j < stops_; ++j) {
+      if (i == j || leg(i, j) == kNoLeg || leg(j, i) == kNoLeg) continue;
+      more += leg(j, i) - leg(i, j);
+      ++pairs;
+    }
+    if (pairs > 0) shift_[i] = more / (2 * pairs);
+  }
+  for (int from = 0; from <= stops_; ++from)
+    for (int to = 0; to <= stops_; ++to)
+      if (std::int64_t& leg = legs_[from * (stops_ + 1) + to]; leg != kNoLeg && from != to)
+        leg += shift_[from] - shift_[to];
 }
 
 void PathRelaxation::shift_weights() {
@@ -152,12 +177,12 @@ PathRelaxation::EndLegs PathRelaxation::end_legs(const Tail& tail, StopSet next,
 }
 
 Time PathRelaxation::bound(const Tail& tail, StopSet next, int from) const {
-  return to_cost(tail.tree + end_legs(tail, next, from).cost);
+  return to_cost(tail.tree + end_legs(tail, next, from).cost - shift_[from]);
 }
 
 Time PathRelaxation::bound_from(const Tail& tail, int first) const {
   return to_cost(tail.tree + potential_[first] +
-                 (first == tail.nearest_to_end ? tail.second_leg : tail.last_leg));
+                 (first == tail.nearest_to_end ? tail.second_leg : tail.last_leg) - shift_[first]);
 }
 
 // The bound from the start over all stops, and how many legs of the relaxed way touch each.

@@ -42,6 +42,7 @@ class PathRelaxation {
   struct Tree;
   struct EndLegs;
 
+  void balance();
   void climb();
   void shift_weights();
   Tree tree(StopSet left) const;
@@ -52,7 +53,8 @@ class PathRelaxation {
   std::int64_t leg(int from, int to) const { return legs_[from * (stops_ + 1) + to]; }
 
   int stops_;
-  std::vector<std::int64_t> legs_;       // the costs in fixed point, as the matrix
+  std::vector<std::int64_t> legs_;       // the costs in fixed point, as the matrix; balanced
+  std::vector<std::int64_t> shift_;      // by row of the matrix: by how much what begins there
   std::vector<std::int64_t> potential_;  // by stop, in fixed point
   std::vector<std::int64_t> weight_;     // edges between stops, both potentials added
   Time root_bound_ = 0;

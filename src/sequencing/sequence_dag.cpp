@@ -19,8 +19,8 @@
 // beyond() that is its exact cost to go.
 //
 // On a grid all ways between two cells have the same parity, so all complete sequences have the
-// same one too. Where the matrix shows that (verified, not assumed: costs must agree with a
-// two-coloring of the places), g + b is rounded up to that parity.
+// same one too, and so they have with work that takes time. Where the matrix shows that (verified,
+// not assumed), g + b is rounded up to that parity.
 #include "grove/sequencing/sequence_dag.h"
 
 #include <bit>
@@ -35,18 +35,21 @@ namespace {
 constexpr std::size_t kPollInterval = 32;     // sets; each takes a few microseconds
 constexpr std::size_t kCountedExcess = 4096;  // costs this far above the reach are not counted
 
-// The parity of every complete sequence, or -1 when they need not share one.
+// The parity of every complete sequence, or -1 when they need not share one. They do if the parity
+// of each leg is a sum of one number of where it begins and one of where it ends: each stop is
+// entered once and left once.
 int common_parity(const CostMatrix& matrix) {
   const int n = matrix.stops();
   const auto odd = [&](int row, int column) { return matrix.cost(row, column) & 1; };
-  // Colors relative to the start, and of the end.
-  for (int from = 0; from < n; ++from) {
-    const int color = odd(n, from);
+  const auto sum = [&](int from, int to) { return odd(from, n) ^ odd(n, to); };
+  const int more = n > 1 ? odd(0, 1) ^ sum(0, 1) : 0;  // of each leg between stops
+  int parity = (n - 1) * more & 1;
+  for (int stop = 0; stop < n; ++stop) {
+    parity ^= sum(stop, stop);
     for (int to = 0; to < n; ++to)
-      if (odd(from, to) != (color ^ odd(n, to))) return -1;
-    if (odd(from, n) != (color ^ odd(0, n) ^ odd(n, 0))) return -1;
+      if (to != stop && odd(stop, to) != (sum(stop, to) ^ more)) return -1;
   }
-  return odd(n, 0) ^ odd(0, n);
+  return parity;
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace grove {
 // each is widened for itself: a copy may go to another thread.
 class Completions {
  public:
-  // With ports: of kTableStops stops at most (port_matrix()).
+  // With ports: of a few stops at most (port_matrix()).
   explicit Completions(CostMatrix matrix);
   const CostMatrix& matrix() const;
 
