@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
+
 #include "grove/io/atomic_file.h"
 #include "grove/io/expressible.h"
 #include "grove/io/input_error.h"
@@ -115,6 +117,27 @@ void add_task(InstanceBuilder& builder, const JsonValue& task) {
   }
 }
 
+// A key that would change the plan, were it in its place.
+void refuse_misplaced(const JsonValue& object, std::initializer_list<const char*> keys,
+                      std::string_view place) {
+  for (const char* key : keys)
+    if (const auto value = object.find(key))
+      value->fail(fmt::format("this key belongs to {}; expected it there", place));
+}
+
+void refuse_misplaced_keys(const JsonValue& root) {
+  const std::initializer_list<const char*> of_agents = {"motion", "turn_steps", "heading",
+                                                        "goal_heading", "working"};
+  refuse_misplaced(root, of_agents, "an agent");
+  refuse_misplaced(root, {"duration"}, "a task");
+  const JsonValue agents = root.member("agents");
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    refuse_misplaced(agents.element(i), {"duration"}, "a task");
+  const JsonValue tasks = root.member("tasks");
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    refuse_misplaced(tasks.element(i), of_agents, "an agent");
+}
+
 void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unknown) {
   const JsonValue agents = root.member("agents");
   for (std::size_t i = 0; i < agents.size(); ++i) {
@@ -223,12 +246,15 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
   const auto roadmap = root.find("roadmap");
   if (roadmap && root.find("map"))
     root.fail("found both 'map' and 'roadmap'; expected one of them");
+  if (!roadmap && !root.find("map"))
+    root.fail("key 'map' is missing; expected it, or 'roadmap', in this object");
   std::filesystem::path map_path = roadmap ? file_named_by(*roadmap, folder, "a roadmap")
                                            : file_named_by(root.member("map"), folder, "a map");
   InstanceBuilder builder(roadmap ? Map(read_roadmap(map_path, &warnings))
                                   : Map(read_map(map_path, &warnings)));
   add_all(builder, root, unknown);
   std::optional<Instance> instance;
+  refuse_misplaced_keys(root);
   at_place_of(root, [&] { instance = std::move(builder).build(); });
   return {*std::move(instance), std::move(map_path), std::move(warnings)};
 }

@@ -49,7 +49,7 @@ TEST_F(InstanceFile, IsReadFromATextToo) {
   const std::string text = "{" + kMap + ", " + kAgents + ", " + kTasks + "}";
   EXPECT_EQ(parse_instance(text, "x", directory_.path()).map_path, directory_ / "m.map");
   EXPECT_EQ(refusal([&] { parse_instance("{}", "standard input", ""); }),
-            "standard input: /: key 'map' is missing; expected it in this object");
+            "standard input: /: key 'map' is missing; expected it, or 'roadmap', in this object");
 }
 
 TEST_F(InstanceFile, RoundTrips) {
@@ -129,7 +129,8 @@ TEST_F(InstanceFile, RefusesRepeatedKeys) {
 }
 
 TEST_F(InstanceFile, RefusesMissingKeys) {
-  EXPECT_EQ(refused("{}"), "i.json: /: key 'map' is missing; expected it in this object");
+  EXPECT_EQ(refused("{}"),
+            "i.json: /: key 'map' is missing; expected it, or 'roadmap', in this object");
   EXPECT_EQ(refused("{" + kMap + ", " + kTasks + "}"),
             "i.json: /: key 'agents' is missing; expected it in this object");
   EXPECT_EQ(refused("{" + kMap + ", " + kAgents + "}"),

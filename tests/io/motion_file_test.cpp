@@ -193,6 +193,19 @@ TEST_F(MotionFile, EachKeyIsRefusedWhereItIsWrong) {
               duration + wrong + "; expected an integer from 0 to 65536");
 }
 
+// A plan that heeds them not would be wrong for whoever wrote them.
+TEST_F(MotionFile, KeysInTheWrongPlaceAreRefused) {
+  EXPECT_EQ(refused_agent(R"("start": [0, 0], "duration": 3)"),
+            "i.json: /agents/0/duration: this key belongs to a task; expected it there");
+  EXPECT_EQ(refused_task(R"("heading": "N")"),
+            "i.json: /tasks/0/heading: this key belongs to an agent; expected it there");
+  EXPECT_EQ(refusal([&] {
+              instance(R"([{"id": "a", "start": [0, 0]}])", "[]",
+                       R"("map": "m.map", "motion": "turning")");
+            }),
+            "i.json: /motion: this key belongs to an agent; expected it there");
+}
+
 TEST_F(MotionFile, AWorldHasItsLimits) {
   EXPECT_EQ(refused_agent(R"("start": [0, 0], "motion": "turning", "heading": "N",
                              "turn_steps": 65536)",

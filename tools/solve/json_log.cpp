@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/solve/json_log.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -62,6 +63,14 @@ Json map_json(const Instance& instance) {
   return {{"width", instance.grid().width()}, {"height", instance.grid().height()}};
 }
 
+bool turns(const Agent& agent) {
+  return agent.motion.turn_steps > 0;
+}
+
+bool takes_time(const Task& task) {
+  return task.duration > 0;
+}
+
 Json stats_json(const Stats& stats) {
   Json json = Json::object();
   for (const auto& [name, value] : stats.texts) json[name] = value;
@@ -83,6 +92,8 @@ void JsonLog::head(const LogHead& h) {
               {"instance", h.instance},
               {"agents", instance.agent_count()},
               {"tasks", instance.task_count()},
+              {"turning_agents", std::ranges::count_if(instance.agents(), &turns)},
+              {"tasks_taking_time", std::ranges::count_if(instance.tasks(), &takes_time)},
               {"map", h.loaded.map_path.string()}};
   header.update(map_json(instance));
   sink_.line(line_of(header));

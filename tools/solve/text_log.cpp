@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "tools/common/gap_text.h"
 #include "tools/common/machine.h"
@@ -21,11 +25,31 @@ std::string count_text(int count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+// What of the items is out of the ordinary: " (2 turning, 1 idle)", or nothing.
+template <class Item>
+std::string traits_text(
+    std::span<const Item> items,
+    std::initializer_list<std::pair<bool (*)(const Item&), std::string_view>> traits) {
+  std::string text;
+  for (const auto& [holds, name] : traits)
+    if (const auto count = std::ranges::count_if(items, holds); count > 0)
+      text += fmt::format("{}{} {}", text.empty() ? " (" : ", ", count, name);
+  return text.empty() ? text : text + ")";
+}
+
 std::string agents_text(const Instance& instance) {
-  const auto free_ends =
-      std::ranges::count_if(instance.agents(), [](const Agent& agent) { return !agent.goal; });
   return count_text(instance.agent_count(), "agent") +
-         (free_ends == 0 ? "" : fmt::format(" ({} without a goal)", free_ends));
+         traits_text<Agent>(
+             instance.agents(),
+             {{[](const Agent& a) { return a.motion.turn_steps > 0; }, "turning"},
+              {[](const Agent& a) { return !a.goal && !a.is_idle(); }, "without a goal"},
+              {[](const Agent& a) { return a.is_idle(); }, "with nothing to do"}});
+}
+
+std::string tasks_text(const Instance& instance) {
+  return count_text(instance.task_count(), "task") +
+         traits_text<Task>(instance.tasks(),
+                           {{[](const Task& t) { return t.duration > 0; }, "taking time"}});
 }
 
 std::string cost_text(std::optional<Cost> cost) {
@@ -88,7 +112,7 @@ void TextLog::head(const LogHead& h) {
   const Instance& instance = h.loaded.instance;
   sink_.line(fmt::format("{} on {}", version_text(), machine_text()));
   sink_.line(fmt::format("Instance      {}: {}, {}", h.instance, agents_text(instance),
-                         count_text(instance.task_count(), "task")));
+                         tasks_text(instance)));
   sink_.line(fmt::format("{:<14}{}: {}", instance.is_on_grid() ? "Map" : "Roadmap",
                          h.loaded.map_path.string(), map_text(instance)));
   sink_.line(fmt::format("Options       {}", h.options.empty() ? "all defaults" : h.options));
