@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "grove/io/input_error.h"
 #include "grove/io/text_file.h"
 #include "grove/model/parse_number.h"
+#include "utf8.h"
 
 namespace grove {
 namespace {
@@ -31,14 +31,6 @@ std::string description(const YAML::Node& node) {
   if (node.IsMap()) return "a map";
   if (node.IsScalar()) return fmt::format("'{}'", one_line(node.Scalar()));
   return "nothing";
-}
-
-bool is_utf8(const std::string& text) {
-  try {
-    return !nlohmann::json(text).dump().empty();
-  } catch (const nlohmann::json::exception&) {
-    return false;
-  }
 }
 
 // The number that a decimal integer without leading zeros is.

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "utf8.h"
+
+#include <nlohmann/json.hpp>
+
+namespace grove {
+
+bool is_utf8(const std::string& text) {
+  try {
+    return !nlohmann::json(text).dump().empty();
+  } catch (const nlohmann::json::exception&) {
+    return false;
+  }
+}
+
+}  // namespace grove

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "grove/io/road_network.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/refusal.h"
+
+namespace grove {
+namespace road_network_test {
+
+RoadNetwork network(const std::vector<Link>& links) {
+  return {"f", {{"A", {0, 0}}, {"B", {9, 0}}, {"C", {0, 9}}}, links};
+}
+Link link(double metres, std::optional<double> seconds = {}) {
+  return {0, 1, true, metres, seconds, "line 7"};
+}
+Time steps(const Link& one, const StepScale& scale) {
+  return in_steps(network({one}), scale).roads.at(0).steps;
+}
+constexpr StepScale kHalfMetres{.metres_per_step = 0.5};
+constexpr StepScale kSeconds{.seconds_per_step = 2};
+constexpr StepScale kBoth{.metres_per_step = 0.5, .seconds_per_step = 2};
+
+TEST(RoadNetwork, StepsAreRoundedUpToOneAtLeast) {
+  EXPECT_EQ(steps(link(3), kHalfMetres), 6);
+  EXPECT_EQ(steps(link(3.01), kHalfMetres), 7);
+  EXPECT_EQ(steps(link(3.49), kHalfMetres), 7);
+  EXPECT_EQ(steps(link(0.5), kHalfMetres), 1);
+  EXPECT_EQ(steps(link(1e-300), kHalfMetres), 1);
+}
+
+TEST(RoadNetwork, TheLastDigitsOfArithmeticMakeNoStep) {
+  for (int whole = 1; whole <= 1000; ++whole)
+    for (const double unit : {0.1, 0.3, 0.7, 1.1, 1.0 / 3})
+      EXPECT_EQ(steps(link(whole * unit), {.metres_per_step = unit}), whole);
+  EXPECT_EQ(steps(link(1.2), {.metres_per_step = 0.4}), 3);
+  EXPECT_EQ(steps(link(1.2001), {.metres_per_step = 0.4}), 4);
+}
+
+TEST(RoadNetwork, TimeAndLengthCombineToTheLarger) {
+  EXPECT_EQ(steps(link(3, 7), kSeconds), 4);
+  EXPECT_EQ(steps(link(3, 7), kHalfMetres), 6);
+  EXPECT_EQ(steps(link(3, 7), kBoth), 6);
+  EXPECT_EQ(steps(link(3, 17), kBoth), 9);
+  EXPECT_EQ(steps(link(3), kBoth), 6);
+  EXPECT_EQ(refusal([] { steps(link(3), kSeconds); }),
+            "f: line 7: nothing tells how long this edge takes; expected its highest speed (LIF) "
+            "or its duration (GraphML), or --metres-per-step for the robots' own speed");
+}
+
+TEST(RoadNetwork, TheLargestRoundingsAreTold) {
+  const SteppedRoads roads = in_steps(network({link(50.05), link(0.6), link(2)}), kHalfMetres);
+  EXPECT_EQ(roads.most_absolute.link, 0);  // 100.1 became 101
+  EXPECT_NEAR(roads.most_absolute.exact, 100.1, 1e-9);
+  EXPECT_EQ(roads.most_absolute.steps, 101);
+  EXPECT_NEAR(roads.most_absolute.absolute(), 0.9, 1e-9);
+  EXPECT_EQ(roads.most_relative.link, 1);  // 1.2 became 2
+  EXPECT_NEAR(roads.most_relative.relative(), 0.8 / 1.2, 1e-9);
+  EXPECT_EQ(in_steps(network({link(2), link(0.5)}), kHalfMetres).most_absolute.link, -1);
+}
+
+TEST(RoadNetwork, TooManyPlacesAreRefused) {
+  EXPECT_EQ(refusal([] { steps(link(1e9), kHalfMetres); }),
+            "f: line 7: this edge takes 2e+09 steps; expected at most 67108864: take longer steps");
+  EXPECT_EQ(refusal([] { steps(link(1e308), {.metres_per_step = 1e-6}); }),
+            "f: line 7: this edge takes inf steps; expected at most 67108864: take longer steps");
+  EXPECT_EQ(refusal([] {
+              in_steps(network({link(2e7), link(2e7)}), kHalfMetres);
+            }),
+            "f: line 7: the roads up to this one have more than 67108864 places; expected fewer: "
+            "take longer steps");
+}
+
+TEST(RoadNetwork, OppositeRoadsOfAsManyStepsAreMerged) {
+  const std::vector<Road> roads = {
+      {0, 1, 3, true}, {1, 2, 4, true}, {1, 0, 2, true},  {1, 0, 3, true},
+      {2, 1, 5, true}, {0, 2, 1, true}, {2, 0, 1, true},  {0, 1, 3, true},
+      {0, 0, 2, true}, {0, 0, 2, true}, {0, 1, 2, false},
+  };
+  const OppositeRoads count = opposite_roads(roads);
+  EXPECT_EQ(count.alike, 2);   // 0 and 3, 5 and 6
+  EXPECT_EQ(count.unlike, 2);  // 2 and 7, 1 and 4
+  EXPECT_EQ(count.of_step, 1);
+  const std::vector<Road> merged = with_merged_lanes(roads);
+  ASSERT_EQ(merged.size(), 9u);
+  EXPECT_EQ(merged[0].steps, 3);
+  EXPECT_FALSE(merged[0].one_way);
+  EXPECT_TRUE(merged[1].one_way);
+  EXPECT_EQ(merged[2].steps, 2);  // what was 3 is gone
+  EXPECT_TRUE(merged[2].one_way);
+  EXPECT_EQ(merged[3].from, 2);
+  EXPECT_FALSE(merged[4].one_way);
+  EXPECT_TRUE(merged[5].one_way);
+  EXPECT_EQ(opposite_roads(merged).alike, 0);
+}
+
+}  // namespace road_network_test
+}  // namespace grove
