@@ -47,8 +47,8 @@ int read_end(const JsonValue& id, const Numbers& numbers) {
 Time read_steps(const JsonValue& value) {
   if (value.json().is_number_float())
     value.fail_expected(
-        "a whole number of steps, at least 1: where lengths are no multiples of one, count in "
-        "shorter steps, or round up");
+        "a whole number of steps, at least 1; 'grove convert --metres-per-step' makes them of "
+        "lengths in GraphML or LIF, and rounds up");
   return static_cast<Time>(value.integer(1, Roadmap::kMostPlaces));
 }
 

@@ -115,8 +115,8 @@ TEST_F(RoadmapFile, EachWrongKeyIsRefusedWithItsPlace) {
             "r.json: /edges/0/steps: found 0; expected an integer from 1 to 67108864");
   EXPECT_EQ(
       edge(R"({"from": "A", "to": "B", "steps": 2.5})"),
-      "r.json: /edges/0/steps: found 2.5; expected a whole number of steps, at least 1: where "
-      "lengths are no multiples of one, count in shorter steps, or round up");
+      "r.json: /edges/0/steps: found 2.5; expected a whole number of steps, at least 1; 'grove "
+      "convert --metres-per-step' makes them of lengths in GraphML or LIF, and rounds up");
   EXPECT_EQ(edge(R"({"from": "A", "to": "B", "steps": 1, "one_way": 1})"),
             "r.json: /edges/0/one_way: found 1; expected true or false");
   EXPECT_TRUE(edge(R"({"from": "A", "to": "B", "steps": 67108864})")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove convert INSTANCE OUT, grove convert --plan PLAN INSTANCE OUT: the command line.
+// grove convert INSTANCE OUT, grove convert --plan PLAN INSTANCE OUT, grove convert ROADS OUT: the
+// command line.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,9 @@ constexpr const char* kConvertFooter =
                                   Read as libmrp, too: the keys tell
   mapfw    *.mapfw.json           MAPFW: starts, goals and waypoints, which are tasks; no ids
   scen     *.scen                 Moving AI: starts and goals only, no ids
+Roads (--from, in place of INSTANCE; OUT is a *.roadmap.json, or --to roadmap):
+  graphml  *.graphml              GraphML of networkx, yEd, ...
+  lif      *.lif.json             LIF 1, the VDMA's track layouts for VDA 5050
 Plans (--to, with --plan):
   libmrp           *.yaml, *.yml  libMultiRobotPlanning's schedule: [x, y] and t of every step
   mapf-visualizer                 Kei18's text: (x,y) of all agents, one line per time
@@ -42,12 +46,35 @@ there, the map is written beside OUT, as '.' and '@'. The length column of a .sc
 A plan is checked before it is converted. Plan formats hold the paths, not the order of visits.
 Agents that are done are padded with waits in mapf-visualizer, and in no other format.
 
+Roads are counted in steps, all rounded up, to 1 at least:
+  --metres-per-step D   a robot goes D metres in a step: length / D steps
+  --seconds-per-step S  a step lasts S seconds: time / S steps, where an edge's time is the
+                        duration the file gives (graphml) or length / maxSpeed (lif); an edge
+                        that has none is an error
+  both                  the larger of the two: robots go D metres in S seconds, and slower where
+                        the file says so. Of an edge without a time D alone counts
+The largest rounding is printed, in steps and in percent, with its edge.
+graphml: data x and y of nodes (or the middle of yEd's drawing); of edges a length in metres, the
+first there is of length, distance, weight, cost, and a time in seconds, of duration, time. Edges
+are one way if directed; yEd and DiGraph of networkx call all edges directed.
+lif: lengths are those of trajectories, or straight. Edges and nodes that --vehicle-type may not
+use, and edges to other layouts, are left out; stations, actions, loads, orientations, heights
+are not read. A station's interactionNodeIds are the vertices to name as tasks.
+Two opposite one-way edges stay two lanes, on which robots pass one another. If they are one lane
+on the floor, as two straight edges of lif mostly are, --merge-lanes makes each pair of as many
+steps one two-way road; on that, robots may also turn back.
+
 Examples:
   grove convert warehouse.cts.json warehouse.mapfw.json --drop ids
   grove convert mapf_simple1.yaml simple.cts.json
   grove convert random-32-32-20-even-1.scen --map random-32-32-20.map --agents 50 fifty.yaml
   grove convert problem.json --from mapfw problem.cts.json
-  grove convert --plan warehouse.plan.json warehouse.cts.json warehouse.txt --to mapf-visualizer)";
+  grove convert --plan warehouse.plan.json warehouse.cts.json warehouse.txt --to mapf-visualizer
+  grove convert plant.lif.json plant.roadmap.json --metres-per-step 0.5 --merge-lanes)";
+
+// Metres, and seconds, in a step.
+constexpr double kLeastScale = 1e-6;
+constexpr double kMostScale = 1e6;
 
 // Options that do nothing are mistakes.
 void require_use(bool given, bool used, const std::string& option, const std::string& when) {
@@ -62,7 +89,30 @@ void require_known_drops(const std::string& drop) {
                                  fmt::format("found '{}'; expected ids, tasks or ids,tasks", what));
 }
 
+void run_on_roads(const ConvertArguments& arguments) {
+  const std::string instances = "instances and plans, not with roads";
+  require_use(!arguments.plan.empty(), false, "--plan", instances);
+  require_use(!arguments.map.empty(), false, "--map", instances);
+  require_use(arguments.agents > 0, false, "--agents", instances);
+  require_use(!arguments.drop.empty(), false, "--drop", instances);
+  require_use(!arguments.scenario.empty(), false, "--scenario", instances);
+  require_use(arguments.flip_up_down, false, "--flip-up-down", instances);
+  require_distinct_files(arguments.output, arguments.instance, "the roads");
+  convert_roadmap(arguments);
+}
+
+void require_no_options_of_roads(const ConvertArguments& arguments) {
+  const std::string roads = "roads: a *.graphml or *.lif.json INSTANCE, or --from graphml or lif";
+  require_use(arguments.metres_per_step > 0, false, "--metres-per-step", roads);
+  require_use(arguments.seconds_per_step > 0, false, "--seconds-per-step", roads);
+  require_use(!arguments.layout.empty(), false, "--layout", roads);
+  require_use(!arguments.vehicle_type.empty(), false, "--vehicle-type", roads);
+  require_use(arguments.merges_lanes, false, "--merge-lanes", roads);
+}
+
 void run(const ConvertArguments& arguments) {
+  if (is_about_roads(arguments)) return run_on_roads(arguments);
+  require_no_options_of_roads(arguments);
   require_known_drops(arguments.drop);
   const bool is_plan = !arguments.plan.empty();
   const InstanceFormat from = instance_format("--from", arguments.from, arguments.instance);
@@ -87,8 +137,30 @@ void run(const ConvertArguments& arguments) {
   convert_instance(arguments, from, to);
 }
 
+void add_options_of_roads(CLI::App& command, ConvertArguments& arguments) {
+  add_number(command, "--metres-per-step", arguments.metres_per_step, kLeastScale, kMostScale,
+             "roads: how far a robot goes in a step")
+      ->type_name("D")
+      ->default_str("");
+  add_number(command, "--seconds-per-step", arguments.seconds_per_step, kLeastScale, kMostScale,
+             "roads: how long a step is; with both, each road takes the larger number of steps")
+      ->type_name("S")
+      ->default_str("");
+  command.add_option("--layout", arguments.layout, "the layoutId to read, of a LIF with several")
+      ->type_name("ID");
+  command
+      .add_option("--vehicle-type", arguments.vehicle_type,
+                  "the vehicleTypeId to read for, of a LIF with several")
+      ->type_name("ID");
+  command.add_flag("--merge-lanes", arguments.merges_lanes,
+                   "two opposite one-way edges of as many steps are one two-way road, a lane that "
+                   "robots share, not two lanes");
+}
+
 void add_options(CLI::App& command, ConvertArguments& arguments) {
-  command.add_option("INSTANCE", arguments.instance, "instance to read")->required()->type_name("");
+  command.add_option("INSTANCE", arguments.instance, "instance, or roads, to read")
+      ->required()
+      ->type_name("");
   command.add_option("OUT", arguments.output, "file to write, whole or not at all")
       ->required()
       ->type_name("");
@@ -117,6 +189,7 @@ void add_options(CLI::App& command, ConvertArguments& arguments) {
   command.add_flag("--flip-up-down", arguments.flip_up_down,
                    "with --to tracker: u for y + 1, as in the tracker's downloads; its documents "
                    "say y - 1. Send one small plan first");
+  add_options_of_roads(command, arguments);
 }
 
 }  // namespace
@@ -124,7 +197,7 @@ void add_options(CLI::App& command, ConvertArguments& arguments) {
 void add_convert_command(CLI::App& app) {
   const auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command =
-      app.add_subcommand("convert", "Instances and plans in the formats of other tools");
+      app.add_subcommand("convert", "Instances, plans and roads in the formats of other tools");
   command->footer(kConvertFooter);
   add_options(*command, *arguments);
   command->callback([arguments] { run(*arguments); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one asks of grove convert, and the two things that it does.
+// What one asks of grove convert, and the three things that it does.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,11 @@ struct ConvertArguments {
   std::int64_t agents = 0;
   std::string drop;
   bool flip_up_down = false;
+  double metres_per_step = 0;  // 0: not given
+  double seconds_per_step = 0;
+  std::string layout;
+  std::string vehicle_type;
+  bool merges_lanes = false;
 
   bool drops(const std::string& what) const;
 };
@@ -37,6 +42,10 @@ LoadedInstance load(const ConvertArguments& arguments, InstanceFormat from);
 // INSTANCE of what OUT cannot hold; CLI::ValidationError when options do not fit together.
 void convert_instance(const ConvertArguments& arguments, InstanceFormat from, InstanceFormat to);
 void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to);
+
+// Whether INSTANCE is a file of roads, or OUT a roadmap; and the one as the other. Throws as above.
+bool is_about_roads(const ConvertArguments& arguments);
+void convert_roadmap(const ConvertArguments& arguments);
 
 // Runs `write`; of what OUT cannot hold it says where it is in `instance`, which was read from a
 // file of format `from`.

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// grove convert: roads of another tool as a roadmap.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grove/io/graphml_file.h"
+#include "grove/io/input_error.h"
+#include "grove/io/lif_file.h"
+#include "grove/io/roadmap_file.h"
+#include "tools/common/instance_arguments.h"
+#include "tools/convert/convert_parts.h"
+
+namespace grove {
+namespace {
+
+// "graphml" or "lif"; empty where neither --from nor the suffix tells.
+std::string source_format(const ConvertArguments& arguments) {
+  if (!arguments.from.empty()) return arguments.from;
+  if (arguments.instance.ends_with(".graphml")) return "graphml";
+  return arguments.instance.ends_with(".lif.json") ? "lif" : "";
+}
+
+bool is_roadmap_target(const ConvertArguments& arguments) {
+  return arguments.to == "roadmap" ||
+         (arguments.to.empty() && arguments.output.ends_with(".roadmap.json"));
+}
+
+std::string require_source_format(const ConvertArguments& arguments) {
+  const std::string format = source_format(arguments);
+  if (format == "graphml" || format == "lif") return format;
+  if (!format.empty())
+    throw CLI::ValidationError(
+        "--from", fmt::format("found '{}'; expected graphml or lif, for OUT is a roadmap", format));
+  throw CLI::ValidationError(
+      "--from", fmt::format("required, for the name '{}' does not tell the format; expected "
+                            "graphml or lif, for OUT is a roadmap",
+                            arguments.instance));
+}
+
+void require_roadmap_target(const ConvertArguments& arguments, const std::string& format) {
+  if (is_roadmap_target(arguments)) return;
+  throw CLI::ValidationError(
+      "--to", fmt::format("found '{}'; {} holds roads: expected roadmap, or a file "
+                          "*.roadmap.json",
+                          arguments.to.empty() ? arguments.output : arguments.to, format));
+}
+
+std::optional<double> given(double value) {
+  return value > 0 ? std::optional(value) : std::nullopt;
+}
+
+StepScale require_scale(const ConvertArguments& arguments) {
+  if (arguments.metres_per_step == 0 && arguments.seconds_per_step == 0)
+    throw CLI::ValidationError(
+        "--metres-per-step",
+        "required; expected how far a robot goes in a step, or --seconds-per-step");
+  return {given(arguments.metres_per_step), given(arguments.seconds_per_step)};
+}
+
+RoadNetwork read_network(const ConvertArguments& arguments, const std::string& format) {
+  std::vector<std::string> warnings;
+  RoadNetwork network =
+      format == "lif"
+          ? read_lif(arguments.instance, {arguments.layout, arguments.vehicle_type}, &warnings)
+          : read_graphml(arguments.instance, &warnings);
+  print_warnings(warnings);
+  return network;
+}
+
+void warn_of_unused_times(const RoadNetwork& network, const StepScale& scale) {
+  const auto count = std::ranges::count_if(
+      network.links, [](const Link& link) { return link.seconds.has_value(); });
+  if (count > 0 && !scale.seconds_per_step)
+    print_warnings(
+        {fmt::format("{}: tells the speed or the duration of {} edges, which counts "
+                     "only with --seconds-per-step",
+                     one_line(network.file), count)});
+}
+
+// Two lanes where there may be one: whoever knows the place must say which it is.
+void warn_of_opposite_roads(const std::vector<Road>& roads, const ConvertArguments& arguments) {
+  const OppositeRoads count = opposite_roads(roads);
+  std::vector<std::string> warnings;
+  const int pairs = count.alike + count.unlike;
+  if (!arguments.merges_lanes && pairs > 0)
+    warnings.push_back(fmt::format(
+        "{}: {} pairs of opposite edges are two lanes each, on which robots pass one another; "
+        "where robots share one lane: --merge-lanes",
+        one_line(arguments.instance), pairs));
+  if (arguments.merges_lanes && count.unlike > 0)
+    warnings.push_back(fmt::format(
+        "{}: {} pairs of opposite edges take different numbers of steps and stay two lanes each",
+        one_line(arguments.instance), count.unlike));
+  if (!arguments.merges_lanes && count.of_step > 0)
+    warnings.push_back(fmt::format(
+        "{}: on {} of these pairs, of one step, robots cannot pass one another; for that: shorter "
+        "steps",
+        one_line(arguments.instance), count.of_step));
+  print_warnings(warnings);
+}
+
+std::string in_units(const Rounding& rounding, const StepScale& scale) {
+  return scale.seconds_per_step
+             ? fmt::format("{:.4g} s", rounding.absolute() * *scale.seconds_per_step)
+             : fmt::format("{:.4g} m", rounding.absolute() * *scale.metres_per_step);
+}
+
+std::string described(const Rounding& rounding, const RoadNetwork& network) {
+  const Link& link = network.links[rounding.link];
+  return fmt::format("{:.6g} became {}, {} from '{}' to '{}'", rounding.exact, rounding.steps,
+                     link.place, one_line(network.vertices[link.from].id),
+                     one_line(network.vertices[link.to].id));
+}
+
+void print_rounding(const SteppedRoads& stepped, const RoadNetwork& network,
+                    const StepScale& scale) {
+  const Rounding& absolute = stepped.most_absolute;
+  const Rounding& relative = stepped.most_relative;
+  if (absolute.link < 0) {
+    fmt::print("rounding: none; every road takes a whole number of steps\n");
+    return;
+  }
+  fmt::print("rounding: at most {:.4g} steps ({}): {}\n", absolute.absolute(),
+             in_units(absolute, scale), described(absolute, network));
+  fmt::print("rounding: at most {:.4g} %: {}\n", 100 * relative.relative(),
+             described(relative, network));
+}
+
+void print_roadmap(const std::string& file, const Roadmap& roadmap) {
+  const auto& roads = roadmap.roads();
+  fmt::print("wrote {}: {} vertices, {} roads, {} of them one way, {} places\n", file,
+             roadmap.vertices().size(), roads.size(),
+             std::ranges::count(roads, true, &Road::one_way), roadmap.place_count());
+}
+
+}  // namespace
+
+bool is_about_roads(const ConvertArguments& arguments) {
+  const std::string format = source_format(arguments);
+  return format == "graphml" || format == "lif" || is_roadmap_target(arguments);
+}
+
+void convert_roadmap(const ConvertArguments& arguments) {
+  const std::string format = require_source_format(arguments);
+  require_roadmap_target(arguments, format);
+  if (format != "lif" && (!arguments.layout.empty() || !arguments.vehicle_type.empty()))
+    throw CLI::ValidationError(arguments.layout.empty() ? "--vehicle-type" : "--layout",
+                               "expected only with LIF");
+  const StepScale scale = require_scale(arguments);
+  const RoadNetwork network = read_network(arguments, format);
+  const SteppedRoads stepped = in_steps(network, scale);
+  warn_of_unused_times(network, scale);
+  warn_of_opposite_roads(stepped.roads, arguments);
+  const Roadmap roadmap(network.vertices,
+                        arguments.merges_lanes ? with_merged_lanes(stepped.roads) : stepped.roads);
+  write_roadmap(arguments.output, roadmap);
+  print_roadmap(arguments.output, roadmap);
+  print_rounding(stepped, network, scale);
+}
+
+}  // namespace grove
