@@ -112,7 +112,7 @@ std::string in_units(const Rounding& rounding, const StepScale& scale) {
 
 std::string described(const Rounding& rounding, const RoadNetwork& network) {
   const Link& link = network.links[rounding.link];
-  return fmt::format("{:.6g} became {}, {} from '{}' to '{}'", rounding.exact, rounding.steps,
+  return fmt::format("{:.10g} became {}, {} from '{}' to '{}'", rounding.exact, rounding.steps,
                      link.place, one_line(network.vertices[link.from].id),
                      one_line(network.vertices[link.to].id));
 }
