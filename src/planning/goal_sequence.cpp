@@ -26,9 +26,10 @@ GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& dista
     add(who.goal.value_or(kNoPlace), -1, 0, distances.to_rest(agent));
 
   after_goal_.assign(goals_.size(), 0);
-  for (int k = size() - 2; k >= 0; --k)
-    after_goal_[k] = std::min(
-        kNever, least_from(world, goals_[k], who.kind, *to_goal_[k + 1]) + after_goal_[k + 1]);
+  for (int k = size() - 2; k >= 0; --k) {
+    const Time leg = least_from(world, goals_[k], who.kind, *to_goal_[k + 1]);
+    after_goal_[k] = leg >= kNever ? kNever : std::min(kNever, leg + after_goal_[k + 1]);
+  }
 }
 
 Time GoalSequence::longest_finish(Place place) const {
