@@ -37,7 +37,7 @@
 // D is positive, and on one place there is work to be done.) Onward costs are the least over the
 // states in which a stop may be left, so never more than what is to be paid.
 //
-// *Ports.* Where agents turn, and the tables are small, each stop has four ports (cost_matrix.h),
+// *Ports.* Where agents turn on worlds of moderate size, each stop has four ports (cost_matrix.h),
 // and all of this is said of ports: it makes onward costs exact. Whoever counts a stop does so in
 // a heading, or within a turn after which it is there in a heading (but for those who start
 // within a turn; they have no ports): so a path that counts u pays at least dist(state, port) +

@@ -67,7 +67,7 @@ class Completions::Graph : public Store {
 
   Time relaxed_bound() const override { return relaxation_->root_bound(); }
   Time beyond() const override { return dag_.beyond(); }
-  Time completion(StopSet left, int stop) const override { return dag_.completion(left, stop); }
+  Time completion(StopSet left, int port) const override { return dag_.completion(left, port); }
   std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const override {
     auto wider =
         SequenceDag::build(matrix(), *relaxation_, std::max(reach, dag_.next_reach()), limits);
@@ -81,12 +81,19 @@ class Completions::Graph : public Store {
 
 Completions::Completions(CostMatrix matrix) {
   auto shared = std::make_shared<const CostMatrix>(std::move(matrix));
-  if (shared->ports == 1 && shared->stops() > kTableStops)
+  if (shared->stops() > (shared->ports == 1 ? kTableStops : kTableStopsWithPorts))
     store_ = std::make_shared<Graph>(std::move(shared));
   else if (fits_narrow_table(*shared))
     store_ = std::make_shared<Table<std::int16_t>>(std::move(shared));
   else
     store_ = std::make_shared<Table<std::int32_t>>(std::move(shared));
+}
+
+Completions::Completions(std::shared_ptr<const Store> store) : store_(std::move(store)) {}
+
+Completions Completions::as_graph(CostMatrix matrix) {
+  return Completions(
+      std::make_shared<Graph>(std::make_shared<const CostMatrix>(std::move(matrix))));
 }
 
 const CostMatrix& Completions::matrix() const {

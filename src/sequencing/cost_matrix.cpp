@@ -3,10 +3,15 @@
 
 #include <algorithm>
 
-#include "rtsp_backends.h"
 #include "stop_set.h"
 
 namespace grove {
+namespace {
+
+// What keeps the distances to an agent's ports below 16 MB.
+constexpr int kMostPortStates = 1 << 20;
+
+}  // namespace
 
 CostMatrix cost_matrix(const Instance& instance, AgentIndex agent,
                        const DistanceFields& distances) {
@@ -36,7 +41,8 @@ CostMatrix port_matrix(const Instance& instance, AgentIndex agent,
   const Agent& who = instance.agent(agent);
   const World& world = instance.world();
   const int n = static_cast<int>(who.stops.size());
-  const bool apply = who.kind > 0 && distances.has_ports() && n > 0 && n <= kTableStopsWithPorts &&
+  const bool apply = who.kind > 0 && distances.has_ports() && n > 0 &&
+                     world.state_count() <= kMostPortStates / n &&
                      instance.pose_of(who.start).steps == 0;
   if (!apply) return cost_matrix(instance, agent, distances);
 

@@ -30,8 +30,15 @@
 // and taken off every leg to u. That changes no way through u; a way that begins at u costs s(u)
 // more then, which its bound is lowered by. With s(u) half of what legs to u cost more than those
 // from u, on the mean, work is shared evenly between the two legs of a stop.
+//
+// Where stops have ports (cost_matrix.h), a leg of the relaxation takes the cheapest ports at both
+// its ends, so two legs that meet at a stop need not meet at one port: the turn between them is
+// lost. But s may differ from port to port: what a way adds at the port where it leaves a stop it
+// takes off where it came, and that is the same port. Where the relaxed way leaves a port more
+// often than it comes there, a greater s makes it dearer: the ascent moves s along with p.
 #include "path_relaxation.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -57,13 +64,13 @@ Time to_cost(std::int64_t fixed_point) {
 
 }  // namespace
 
-// A minimum spanning tree by Prim's algorithm: its weight and, in the order of `stops`, the number
-// of tree edges at each stop.
+// A minimum spanning tree by Prim's algorithm: its weight, and its stops in the order in which they
+// joined it.
 struct PathRelaxation::Tree {
   std::int64_t weight = 0;
   int size = 0;
   std::array<Stop, kMaxTasksPerAgent> stops;
-  std::array<std::uint8_t, kMaxTasksPerAgent> degree{};
+  std::array<Stop, kMaxTasksPerAgent> joined;  // to which one, of those before
 };
 
 // The cheapest pair of first and last leg, and the stops where they meet the tree.
@@ -74,42 +81,61 @@ struct PathRelaxation::EndLegs {
 };
 
 PathRelaxation::PathRelaxation(const CostMatrix& matrix)
-    : stops_(matrix.stops()), potential_(stops_, 0), weight_(stops_ * stops_) {
-  for (int from = 0; from <= stops_; ++from)
-    for (int to = 0; to <= stops_; ++to) {
+    : stops_(matrix.stops()),
+      ports_(matrix.ports),
+      shift_(row_count(), 0),
+      potential_(stops_, 0),
+      weight_(stops_ * stops_) {
+  for (int from = 0; from < row_count(); ++from)
+    for (int to = 0; to < row_count(); ++to) {
       const Time cost = matrix.between(from, to);
-      legs_.push_back(cost >= kNever ? kNoLeg : cost * kScale);
+      costs_.push_back(cost >= kNever ? kNoLeg : cost * kScale);
     }
-  if (stops_ == 0)
+  if (stops_ == 0) {
     root_bound_ = matrix.to_end(0);
-  else {
+  } else {
+    shift_legs();
     balance();
     climb();
   }
 }
 
+std::int64_t PathRelaxation::shifted(int from, int to) const {
+  const std::int64_t cost = costs_[from * row_count() + to];
+  return cost == kNoLeg ? kNoLeg : cost + shift_[from] - shift_[to];
+}
+
+void PathRelaxation::shift_legs() {
+  const int width = stops_ + 1;
+  legs_.assign(row_count() * width, kNoLeg);
+  edges_.assign(width * width, kNoLeg);
+  for (int from = 0; from < row_count(); ++from)
+    for (int to = 0; to < row_count(); ++to) {
+      std::int64_t& leg = legs_[from * width + to / ports_];
+      leg = std::min(leg, shifted(from, to));
+      std::int64_t& edge = edges_[from / ports_ * width + to / ports_];
+      edge = std::min(edge, leg);
+    }
+}
+
 void PathRelaxation::balance() {
-  shift_.assign(static_cast<std::size_t>(stops_) + 1, 0);
   for (int i = 0; i < stops_; ++i) {
     std::int64_t more = 0;
     std::int64_t pairs = 0;
     for (int j = 0; j < stops_; ++j) {
-      if (i == j || leg(i, j) == kNoLeg || leg(j, i) == kNoLeg) continue;
-      more += leg(j, i) - leg(i, j);
+      if (i == j || edge(i, j) == kNoLeg || edge(j, i) == kNoLeg) continue;
+      more += edge(j, i) - edge(i, j);
       ++pairs;
     }
-    if (pairs > 0) shift_[i] = more / (2 * pairs);
+    if (pairs > 0) std::fill_n(&shift_[i * ports_], ports_, more / (2 * pairs));
   }
-  for (int from = 0; from <= stops_; ++from)
-    for (int to = 0; to <= stops_; ++to)
-      if (std::int64_t& leg = legs_[from * (stops_ + 1) + to]; leg != kNoLeg && from != to)
-        leg += shift_[from] - shift_[to];
+  shift_legs();
 }
 
-void PathRelaxation::shift_weights() {
+void PathRelaxation::weigh() {
   for (int i = 0; i < stops_; ++i)
     for (int j = 0; j < stops_; ++j)
-      weight_[i * stops_ + j] = std::min(leg(i, j), leg(j, i)) + potential_[i] + potential_[j];
+      weight_[i * stops_ + j] = std::min(edge(i, j), edge(j, i)) + potential_[i] + potential_[j];
 }
 
 PathRelaxation::Tree PathRelaxation::tree(StopSet left) const {
@@ -117,32 +143,32 @@ PathRelaxation::Tree PathRelaxation::tree(StopSet left) const {
   for_each_stop(left, [&](int stop) { tree.stops[tree.size++] = static_cast<Stop>(stop); });
   // tree.stops[0 .. in_tree-1] are connected; the others wait with their cheapest edge to those.
   std::array<std::int64_t, kMaxTasksPerAgent> edge;
-  std::array<std::uint8_t, kMaxTasksPerAgent> parent{};
   const std::int64_t* row = &weight_[tree.stops[0] * stops_];
-  for (int i = 1; i < tree.size; ++i) edge[i] = row[tree.stops[i]];
+  for (int i = 1; i < tree.size; ++i) {
+    edge[i] = row[tree.stops[i]];
+    tree.joined[i] = tree.stops[0];
+  }
   for (int in_tree = 1; in_tree < tree.size; ++in_tree) {
     int next = in_tree;
     for (int i = in_tree + 1; i < tree.size; ++i)
       if (edge[i] < edge[next]) next = i;
     tree.weight += edge[next];
-    ++tree.degree[parent[next]];
-    ++tree.degree[in_tree];
     std::swap(tree.stops[next], tree.stops[in_tree]);
+    std::swap(tree.joined[next], tree.joined[in_tree]);
     edge[next] = edge[in_tree];
-    parent[next] = parent[in_tree];
 
     row = &weight_[tree.stops[in_tree] * stops_];
     for (int i = in_tree + 1; i < tree.size; ++i)
       if (const std::int64_t weight = row[tree.stops[i]]; weight < edge[i]) {
         edge[i] = weight;
-        parent[i] = static_cast<std::uint8_t>(in_tree);
+        tree.joined[i] = tree.stops[in_tree];
       }
   }
   return tree;
 }
 
 void PathRelaxation::add_end_legs(Tail& tail, StopSet left) const {
-  const auto last_leg = [&](int stop) { return leg(stop, stops_) + potential_[stop]; };
+  const auto last_leg = [&](int stop) { return edge(stop, stops_) + potential_[stop]; };
   const auto nearest = [&](StopSet among) {
     int best = std::countr_zero(among);
     for_each_stop(among, [&](int stop) {
@@ -181,53 +207,93 @@ Time PathRelaxation::bound(const Tail& tail, StopSet next, int from) const {
 }
 
 Time PathRelaxation::bound_from(const Tail& tail, int first) const {
-  return to_cost(tail.tree + potential_[first] +
-                 (first == tail.nearest_to_end ? tail.second_leg : tail.last_leg) - shift_[first]);
+  const int stop = first / ports_;
+  return to_cost(tail.tree + potential_[stop] +
+                 (stop == tail.nearest_to_end ? tail.second_leg : tail.last_leg) - shift_[first]);
 }
 
-// The bound from the start over all stops, and how many legs of the relaxed way touch each.
-std::int64_t PathRelaxation::bound_and_degrees(std::vector<int>& degree) const {
+// The cheapest ports of a leg between two rows of edges_.
+void PathRelaxation::count_ports(int from, int to, Excess& excess) const {
+  const int first = from * ports_;
+  const int last = std::min(first + ports_, row_count());
+  for (int row = first; row < last; ++row)
+    for (int column = to * ports_; column < std::min((to + 1) * ports_, row_count()); ++column)
+      if (shifted(row, column) == edge(from, to)) {
+        ++excess.of_port[row];
+        --excess.of_port[column];
+        return;
+      }
+}
+
+// The bound from the start over all stops, and what the relaxed way has too much of.
+std::int64_t PathRelaxation::bound_and_excess(Excess& excess) const {
   const StopSet all = stops_ == 64 ? ~StopSet{0} : bit(stops_) - 1;
   const Tree span = tree(all);
   Tail tail;
   tail.tree = span.weight;
   add_end_legs(tail, all);
-  const EndLegs ends = end_legs(tail, all, stops_);
+  const EndLegs ends = end_legs(tail, all, start_or_end());
 
-  for (int i = 0; i < span.size; ++i) degree[span.stops[i]] = span.degree[i];
-  ++degree[ends.first];
-  ++degree[ends.last];
+  excess.of_stop.assign(stops_, -2);
+  excess.of_port.assign(row_count(), 0);
+  for (int i = 1; i < span.size; ++i) {
+    const int a = span.joined[i];
+    const int b = span.stops[i];
+    ++excess.of_stop[a];
+    ++excess.of_stop[b];
+    if (edge(a, b) <= edge(b, a))
+      count_ports(a, b, excess);
+    else
+      count_ports(b, a, excess);
+  }
+  ++excess.of_stop[ends.first];
+  ++excess.of_stop[ends.last];
+  count_ports(stops_, ends.first, excess);
+  count_ports(ends.last, stops_, excess);
   return tail.tree + ends.cost;
 }
 
 // Subgradient ascent with a step that shrinks geometrically and some of the last direction kept
-// (Volgenant and Jonker 1982). Any potentials are sound; the best ones met are kept.
+// (Volgenant and Jonker 1982). Any potentials and shifts are sound; the best ones met are kept.
 void PathRelaxation::climb() {
-  std::vector<int> degree(stops_, 2);
-  std::vector<int> last_degree(stops_, 2);
+  Excess excess;
+  Excess last;
+  weigh();
   std::vector<std::int64_t> best_potential = potential_;
-  shift_weights();
-  std::int64_t best = bound_and_degrees(last_degree);
+  std::vector<std::int64_t> best_shift = shift_;
+  std::int64_t best = bound_and_excess(last);
   double step = static_cast<double>(best) / (4.0 * stops_);
   const double shrink = step > 1 ? std::pow(1 / step, 1.0 / kSteps) : 1;
+  const auto move = [&](std::vector<std::int64_t>& what, const std::vector<int>& now,
+                        const std::vector<int>& before, int count, double by) {
+    for (int i = 0; i < count; ++i)
+      what[i] = std::clamp(what[i] + std::lround(by * (0.7 * now[i] + 0.3 * before[i])),
+                           -kMostPotential, kMostPotential);
+  };
   for (int k = 0; k < kSteps && best < kSurelyNoWay; ++k, step *= shrink) {
-    const std::int64_t bound = bound_and_degrees(degree);
+    const std::int64_t bound = bound_and_excess(excess);
     if (bound > best) {
       best = bound;
       best_potential = potential_;
+      best_shift = shift_;
     }
-    if (std::ranges::all_of(degree, [](int d) { return d == 2; }))
+    const auto none = [](const std::vector<int>& counts) {
+      return std::ranges::all_of(counts, [](int count) { return count == 0; });
+    };
+    if (none(excess.of_stop) && (ports_ == 1 || none(excess.of_port)))
       break;  // a path: nothing to gain
-    for (int i = 0; i < stops_; ++i) {
-      const double direction = 0.7 * (degree[i] - 2) + 0.3 * (last_degree[i] - 2);
-      const std::int64_t moved = potential_[i] + std::llround(step * direction);
-      potential_[i] = std::clamp(moved, -kMostPotential, kMostPotential);
+    move(potential_, excess.of_stop, last.of_stop, stops_, step);
+    if (ports_ > 1) {
+      move(shift_, excess.of_port, last.of_port, stops_ * ports_, step);
+      shift_legs();
     }
-    shift_weights();
-    std::swap(degree, last_degree);
+    weigh();
+    std::swap(excess, last);
   }
   potential_ = best_potential;
-  shift_weights();
+  shift_ = best_shift;
+  shift_legs();
+  weigh();
   root_bound_ = to_cost(best);
 }
 

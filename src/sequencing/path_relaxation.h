@@ -34,27 +34,43 @@ class PathRelaxation {
   // tail to the end when one of `next`, a subset of them, comes first; kNever when there is proven
   // to be no way. O(|next|).
   Time bound(const Tail& tail, StopSet next, int from) const;
-  // A proven lower bound on the cost from `first`, a stop of the tail, through its other stops to
-  // the end. Weaker than bound() over the others' own tail, which need not be known. O(1).
+  // A proven lower bound on the cost from `first`, a port of a stop of the tail, through its other
+  // stops to the end. Weaker than bound() over the others' own tail, which need not be known. O(1).
   Time bound_from(const Tail& tail, int first) const;
 
  private:
   struct Tree;
   struct EndLegs;
+  // Of the relaxed way: at each stop, how many legs touch it less two; at each port, how many begin
+  // there less those that end there.
+  struct Excess {
+    std::vector<int> of_stop;
+    std::vector<int> of_port;
+  };
 
   void balance();
   void climb();
-  void shift_weights();
+  void shift_legs();
+  void weigh();
   Tree tree(StopSet left) const;
   void add_end_legs(Tail& tail, StopSet left) const;
   EndLegs end_legs(const Tail& tail, StopSet next, int from) const;
-  std::int64_t bound_and_degrees(std::vector<int>& degree) const;
+  std::int64_t bound_and_excess(Excess& excess) const;
+  void count_ports(int from, int to, Excess& excess) const;
 
+  int row_count() const { return stops_ * ports_ + 1; }
+  // The start, as a row; the end, as a column of costs_, not of legs_.
+  int start_or_end() const { return stops_ * ports_; }
+  std::int64_t shifted(int from, int to) const;
   std::int64_t leg(int from, int to) const { return legs_[from * (stops_ + 1) + to]; }
+  std::int64_t edge(int from, int to) const { return edges_[from * (stops_ + 1) + to]; }
 
   int stops_;
-  std::vector<std::int64_t> legs_;       // the costs in fixed point, as the matrix; balanced
-  std::vector<std::int64_t> shift_;      // by row of the matrix: by how much what begins there
+  int ports_;
+  std::vector<std::int64_t> costs_;      // in fixed point, as the matrix
+  std::vector<std::int64_t> shift_;      // by row of the matrix
+  std::vector<std::int64_t> legs_;       // from a row to a stop or the end: least over its ports
+  std::vector<std::int64_t> edges_;      // from a stop or the start: least over its ports too
   std::vector<std::int64_t> potential_;  // by stop, in fixed point
   std::vector<std::int64_t> weight_;     // edges between stops, both potentials added
   Time root_bound_ = 0;

@@ -9,9 +9,8 @@ namespace grove {
 // Up to here a table takes less than a millisecond and 0.5 MB; sequence graphs take about as long
 // from here on, stay small, and only deep lists come from them more slowly.
 inline constexpr int kTableStops = 14;
-// With four ports a stop: 40 MB and some 0.1 s. Graphs would have to reach a tenth beyond the least
-// sequence there, for they know of no turns at stops: seconds, and gigabytes, from 15 stops on.
-inline constexpr int kTableStopsWithPorts = 18;
+// The same with four ports a stop.
+inline constexpr int kTableStopsWithPorts = 10;
 
 std::unique_ptr<RtspSolver> make_held_karp(const CostMatrix& matrix, const Limits& limits);
 std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limits& limits);

@@ -15,6 +15,9 @@
 // dropped, beyond(), bounds all sequences outside the graph from below - and no reach below it adds
 // any.
 //
+// Where stops have several ports (cost_matrix.h), a state has a g for each, and what is said of
+// states is said of their ports: each is kept or dropped by its own g + b.
+//
 // The backward pass then computes the exact cost to go within the graph. For a sequence below
 // beyond() that is its exact cost to go.
 //
@@ -23,8 +26,10 @@
 // not assumed), g + b is rounded up to that parity.
 #include "grove/sequencing/sequence_dag.h"
 
+#include <array>
 #include <bit>
 
+#include "grove/model/assert.h"
 #include "grove/sequencing/cost_matrix.h"
 #include "path_relaxation.h"
 #include "stop_set.h"
@@ -39,6 +44,7 @@ constexpr std::size_t kCountedExcess = 4096;  // costs this far above the reach 
 // of each leg is a sum of one number of where it begins and one of where it ends: each stop is
 // entered once and left once.
 int common_parity(const CostMatrix& matrix) {
+  if (matrix.ports > 1) return -1;
   const int n = matrix.stops();
   const auto odd = [&](int row, int column) { return matrix.cost(row, column) & 1; };
   const auto sum = [&](int from, int to) { return odd(from, n) ^ odd(n, to); };
@@ -76,14 +82,17 @@ void StopSetIndex::grow() {
     if (slot.number != kAbsent) slots_[slot_of(slot.set)] = slot;
 }
 
-Time SequenceDag::completion(StopSet left, int stop) const {
+Time SequenceDag::completion(StopSet left, int port) const {
   const std::uint32_t number = index_.find(left);
   if (number == StopSetIndex::kAbsent) return kNever;
   const Node& node = nodes_[number];
+  const int stop = port / ports_;
   if ((node.at & bit(stop)) == 0) return kNever;
-  return completions_[node.first + std::popcount(node.at & (bit(stop) - 1))];
+  const auto state = node.first + std::popcount(node.at & (bit(stop) - 1));
+  return completions_[state * ports_ + port % ports_];
 }
 
+template <int kPorts>
 class SequenceDagBuilder {
  public:
   SequenceDagBuilder(const CostMatrix& matrix, const PathRelaxation& relaxation, Time reach,
@@ -92,12 +101,18 @@ class SequenceDagBuilder {
         relaxation_(relaxation),
         reach_(reach),
         limits_(limits),
-        parity_(common_parity(matrix)) {}
+        parity_(common_parity(matrix)) {
+    dag_.ports_ = kPorts;
+  }
 
   std::optional<SequenceDag> build() {
     const StopSet all = matrix_.all();
-    for_each_stop(all,
-                  [&](int stop) { reach_state(all & ~bit(stop), stop, matrix_.from_start(stop)); });
+    for_each_stop(all, [&](int stop) {
+      PortCosts costs;
+      for (int port = 0; port < kPorts; ++port)
+        costs[port] = matrix_.from_start(stop * kPorts + port);
+      reach_state(all & ~bit(stop), stop, costs);
+    });
     std::size_t layer = 0;
     for (int size = matrix_.stops(); size > 0; --size) {
       close_layer();
@@ -111,6 +126,8 @@ class SequenceDagBuilder {
   }
 
  private:
+  using PortCosts = std::array<Time, kPorts>;
+
   // A set of the layer that is being reached, and a state in it.
   struct Group {
     SequenceDag::Node node;
@@ -118,13 +135,16 @@ class SequenceDagBuilder {
   };
   struct State {
     std::uint32_t group;
-    Time cost;
+    PortCosts costs;
     Stop stop;
   };
 
-  // Keeps the state (left, stop), reached at this cost, if it lies on a way within reach.
-  void reach_state(StopSet left, int stop, Time cost) {
-    if (cost >= kNever) return;
+  static Time least(const PortCosts& costs) { return *std::ranges::min_element(costs); }
+
+  // Keeps the state (left, stop), reached at these costs, if it lies on a way within reach; of its
+  // ports those that do.
+  void reach_state(StopSet left, int stop, PortCosts costs) {
+    if (least(costs) >= kNever) return;
     const std::uint32_t number =
         group_index_.insert(left, static_cast<std::uint32_t>(groups_.size()));
     if (number == groups_.size()) {
@@ -132,14 +152,18 @@ class SequenceDagBuilder {
       if (left != 0) groups_.back().tail = relaxation_.tail(left);
     }
     Group& group = groups_[number];
-    const Time rest = left == 0 ? matrix_.to_end(stop) : relaxation_.bound(group.tail, left, stop);
-    const Time whole = round_up(add_costs(cost, rest));
-    if (whole > reach_) {
+    for (int i = 0; i < kPorts; ++i) {
+      const int port = stop * kPorts + i;
+      const Time rest =
+          left == 0 ? matrix_.to_end(port) : relaxation_.bound(group.tail, left, port);
+      const Time whole = round_up(add_costs(costs[i], rest));
+      if (whole <= reach_) continue;
       drop(whole);
-      return;
+      costs[i] = kNever;
     }
+    if (least(costs) >= kNever) return;
     group.node.at |= bit(stop);
-    states_.push_back({number, cost, static_cast<Stop>(stop)});
+    states_.push_back({number, costs, static_cast<Stop>(stop)});
   }
 
   void drop(Time whole) {
@@ -163,12 +187,14 @@ class SequenceDagBuilder {
     return cost < kNever && parity_ >= 0 && (cost & 1) != parity_ ? cost + 1 : cost;
   }
 
+  Time* costs_of(std::uint32_t state) { return &dag_.completions_[state * std::size_t{kPorts}]; }
+
   // Moves the groups that hold a state into the graph. Until the backward pass, "completions" are
   // the costs of getting there.
   void close_layer() {
     tails_.clear();
-    auto first = static_cast<std::uint32_t>(dag_.completions_.size());
-    dag_.completions_.resize(first + states_.size());
+    auto first = static_cast<std::uint32_t>(dag_.state_count());
+    dag_.completions_.resize((first + states_.size()) * kPorts);
     for (Group& group : groups_) {
       group.node.first = first;
       if (group.node.at == 0) continue;
@@ -179,7 +205,8 @@ class SequenceDagBuilder {
     }
     for (const State& state : states_) {
       const SequenceDag::Node& node = groups_[state.group].node;
-      dag_.completions_[node.first + std::popcount(node.at & (bit(state.stop) - 1))] = state.cost;
+      std::ranges::copy(state.costs,
+                        costs_of(node.first + std::popcount(node.at & (bit(state.stop) - 1))));
     }
     groups_.clear();
     states_.clear();
@@ -192,21 +219,36 @@ class SequenceDagBuilder {
       if (i % kPollInterval == 0 && !may_go_on()) return false;
       const SequenceDag::Node& node = dag_.nodes_[i];
       for_each_stop(node.left, [&](int next) {
-        Time cost = kNever;
-        std::uint32_t state = node.first;
-        for_each_stop(node.at, [&](int stop) {
-          cost = std::min(cost, add_costs(dag_.completions_[state++], matrix_.between(stop, next)));
-        });
+        const PortCosts costs = costs_of_reaching(next, node);
         // Few pass: spares the others a tail of their own.
-        const Time whole =
-            round_up(add_costs(cost, relaxation_.bound_from(tails_[i - begin], next)));
+        Time whole = kNever;
+        for (int port = 0; port < kPorts; ++port)
+          whole = std::min(
+              whole, add_costs(costs[port],
+                               relaxation_.bound_from(tails_[i - begin], next * kPorts + port)));
+        whole = round_up(whole);
         if (whole <= reach_)
-          reach_state(node.left & ~bit(next), next, cost);
+          reach_state(node.left & ~bit(next), next, costs);
         else
           drop(whole);
       });
     }
     return true;
+  }
+
+  PortCosts costs_of_reaching(int next, const SequenceDag::Node& node) {
+    PortCosts costs;
+    costs.fill(kNever);
+    std::uint32_t state = node.first;
+    for_each_stop(node.at, [&](int stop) {
+      const Time* here = costs_of(state++);
+      for (int from = 0; from < kPorts; ++from)
+        for (int to = 0; to < kPorts; ++to)
+          costs[to] = std::min(
+              costs[to],
+              add_costs(here[from], matrix_.between(stop * kPorts + from, next * kPorts + to)));
+    });
+    return costs;
   }
 
   // Whatever grows next may double: asks for that much before it happens.
@@ -229,17 +271,25 @@ class SequenceDagBuilder {
     return true;
   }
 
+  // Ports that were dropped get the cost of their ways inside the graph too: those are real ways.
   void settle(const SequenceDag::Node& node) {
-    Time onward[kMaxTasksPerAgent];
-    for_each_stop(node.left,
-                  [&](int next) { onward[next] = dag_.completion(node.left & ~bit(next), next); });
+    Time onward[kMaxTasksPerAgent * kPorts];
+    for_each_stop(node.left, [&](int next) {
+      for (int port = next * kPorts; port < (next + 1) * kPorts; ++port)
+        onward[port] = dag_.completion(node.left & ~bit(next), port);
+    });
     std::uint32_t state = node.first;
     for_each_stop(node.at, [&](int stop) {
-      Time best = node.left == 0 ? matrix_.to_end(stop) : kNever;
-      for_each_stop(node.left, [&](int next) {
-        best = std::min(best, add_costs(matrix_.between(stop, next), onward[next]));
-      });
-      dag_.completions_[state++] = best;
+      Time* here = costs_of(state++);
+      for (int from = 0; from < kPorts; ++from) {
+        const int port = stop * kPorts + from;
+        Time best = node.left == 0 ? matrix_.to_end(port) : kNever;
+        for_each_stop(node.left, [&](int next) {
+          for (int to = next * kPorts; to < (next + 1) * kPorts; ++to)
+            best = std::min(best, add_costs(matrix_.between(port, to), onward[to]));
+        });
+        here[from] = best;
+      }
     });
   }
 
@@ -261,7 +311,9 @@ class SequenceDagBuilder {
 std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,
                                               const PathRelaxation& relaxation, Time reach,
                                               const Limits& limits) {
-  return SequenceDagBuilder(matrix, relaxation, reach, limits).build();
+  if (matrix.ports == 1) return SequenceDagBuilder<1>(matrix, relaxation, reach, limits).build();
+  GROVE_ASSERT(matrix.ports == 4, "a stop has one port, or one for each heading");
+  return SequenceDagBuilder<4>(matrix, relaxation, reach, limits).build();
 }
 
 }  // namespace grove

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "brute_force.h"
+#include "grove/sequencing/completions.h"
 #include "grove/sequencing/k_best_sequences.h"
 #include "grove/sequencing/sequence_dag.h"
 #include "matrices.h"
@@ -18,13 +19,31 @@
 namespace grove::testing {
 namespace bounded_dp_test {
 
-// The least cost from `at` through `left` to the end, by trying everything.
+std::vector<CostMatrix> matrices_of(int n, Variant variant, Random& random) {
+  return {grid_matrix(n, variant, random), metric_matrix(n, variant, random),
+          wild_matrix(n, variant, random), turning_matrix(n, variant, random),
+          wild_port_matrix(n, variant, random)};
+}
+
+// Calls visit(port) for every port of every stop of a set.
+template <class Visit>
+void for_each_port(const CostMatrix& matrix, StopSet set, Visit visit) {
+  for_each_stop(set, [&](int stop) {
+    for (int port = stop * matrix.ports; port < (stop + 1) * matrix.ports; ++port) visit(port);
+  });
+}
+
+StopSet stop_of(const CostMatrix& matrix, int port) {
+  return bit(port / matrix.ports);
+}
+
+// The least cost from a row, `at`, through `left` to the end, by trying everything.
 Time cheapest_rest(const CostMatrix& matrix, StopSet left, int at) {
   if (left == 0) return matrix.to_end(at);
   Time best = kNever;
-  for_each_stop(left, [&](int next) {
-    best = std::min(
-        best, add_costs(matrix.between(at, next), cheapest_rest(matrix, left & ~bit(next), next)));
+  for_each_port(matrix, left, [&](int next) {
+    best = std::min(best, add_costs(matrix.between(at, next),
+                                    cheapest_rest(matrix, left & ~stop_of(matrix, next), next)));
   });
   return best;
 }
@@ -34,41 +53,48 @@ TEST(PathRelaxation, BoundsEveryState) {
   for (int round = 0; round < fuzz_rounds(15); ++round)
     for (Variant variant : kVariants)
       for (int n = 1; n <= 6; ++n)
-        for (const CostMatrix& matrix :
-             {grid_matrix(n, variant, random), metric_matrix(n, variant, random),
-              wild_matrix(n, variant, random)}) {
+        for (const CostMatrix& matrix : matrices_of(n, variant, random)) {
+          if (matrix.ports > 1 && n > 3) continue;
           const PathRelaxation relaxation(matrix);
           for (StopSet left = 1; left <= matrix.all(); ++left)
-            for (int at = 0; at <= n; ++at) {
-              if (at < n && (left & bit(at)) != 0) continue;
+            for (int at = 0; at <= n * matrix.ports; ++at) {
+              if (at < n * matrix.ports && (left & stop_of(matrix, at)) != 0) continue;
               ASSERT_LE(relaxation.bound(relaxation.tail(left), left, at),
                         cheapest_rest(matrix, left, at));
             }
         }
 }
 
-// Visits every sequence of the graph: calls visit(cost) for each complete one within `reach`.
-template <class Visit>
-void walk(const SequenceDag& dag, const CostMatrix& matrix, StopSet left, int at, Time cost,
-          Time reach, const Visit& visit) {
+// Every way through all of `left` and, where a stop has several ports, one of each: calls
+// visit(cost) for each of cost <= reach whose states `may_pass`.
+template <class MayPass, class Visit>
+void walk(const CostMatrix& matrix, StopSet left, int at, Time cost, Time reach,
+          const MayPass& may_pass, const Visit& visit) {
   if (left == 0) {
-    if (cost + matrix.to_end(at) <= reach) visit(cost + matrix.to_end(at));
+    if (add_costs(cost, matrix.to_end(at)) <= reach) visit(cost + matrix.to_end(at));
     return;
   }
-  for_each_stop(left, [&](int next) {
-    const Time rest = dag.completion(left & ~bit(next), next);
+  for_each_port(matrix, left, [&](int next) {
+    const StopSet after = left & ~stop_of(matrix, next);
     const Time here = add_costs(cost, matrix.between(at, next));
-    if (add_costs(here, rest) <= reach)
-      walk(dag, matrix, left & ~bit(next), next, here, reach, visit);
+    if (here <= reach && may_pass(after, next, here))
+      walk(matrix, after, next, here, reach, may_pass, visit);
   });
 }
 
-std::vector<Time> costs_within(const SequenceDag& dag, const CostMatrix& matrix, Time reach) {
+template <class MayPass>
+std::vector<Time> costs_of_walks(const CostMatrix& matrix, Time reach, const MayPass& may_pass) {
   std::vector<Time> costs;
-  walk(dag, matrix, matrix.all(), matrix.stops(), 0, reach,
+  walk(matrix, matrix.all(), matrix.stops() * matrix.ports, 0, reach, may_pass,
        [&](Time cost) { costs.push_back(cost); });
   std::sort(costs.begin(), costs.end());
   return costs;
+}
+
+std::vector<Time> costs_within(const SequenceDag& dag, const CostMatrix& matrix, Time reach) {
+  return costs_of_walks(matrix, reach, [&](StopSet left, int port, Time cost) {
+    return add_costs(cost, dag.completion(left, port)) <= reach;
+  });
 }
 
 TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
@@ -76,22 +102,23 @@ TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
   const Limits limits;
   for (int round = 0; round < fuzz_rounds(10); ++round)
     for (Variant variant : kVariants)
-      for (int n = 1; n <= 7; ++n) {
-        const CostMatrix matrix =
-            round % 2 == 0 ? grid_matrix(n, variant, random) : metric_matrix(n, variant, random);
-        const std::vector<Time> all = all_costs(matrix, {});
-        if (all.empty()) continue;
-        const PathRelaxation relaxation(matrix);
-        for (Time slack : {-1, 0, 1, 5}) {
-          const Time reach = all.front() + slack;
-          const auto dag = SequenceDag::build(matrix, relaxation, reach, limits);
-          ASSERT_TRUE(dag);
-          ASSERT_GT(dag->beyond(), reach);
-          const Time below = dag->beyond() - 1;
-          const auto end = std::upper_bound(all.begin(), all.end(), below);
-          ASSERT_EQ(costs_within(*dag, matrix, below), std::vector(all.begin(), end));
+      for (int n = 1; n <= 7; ++n)
+        for (const CostMatrix& matrix : matrices_of(n, variant, random)) {
+          if (matrix.ports > 1 && n > 4) continue;
+          const std::vector<Time> all =
+              costs_of_walks(matrix, kNever - 1, [](auto...) { return true; });
+          if (all.empty()) continue;
+          const PathRelaxation relaxation(matrix);
+          for (Time slack : {-1, 0, 1, 5}) {
+            const Time reach = all.front() + slack;
+            const auto dag = SequenceDag::build(matrix, relaxation, reach, limits);
+            ASSERT_TRUE(dag);
+            ASSERT_GT(dag->beyond(), reach);
+            const Time below = std::min(dag->beyond(), kNever) - 1;
+            const auto end = std::upper_bound(all.begin(), all.end(), below);
+            ASSERT_EQ(costs_within(*dag, matrix, below), std::vector(all.begin(), end));
+          }
         }
-      }
 }
 
 // Of every set: from each of its stops through the others, against every order.
@@ -99,33 +126,63 @@ TEST(PathRelaxation, TheTreeOfASetBoundsTheWaysThatBeginInIt) {
   Random random(34);
   int above_zero = 0;
   for (int round = 0; round < fuzz_rounds(10); ++round)
-    for (Variant variant : kVariants) {
-      const CostMatrix matrix =
-          round % 2 == 0 ? grid_matrix(6, variant, random) : metric_matrix(6, variant, random);
-      const PathRelaxation relaxation(matrix);
-      for (StopSet left = 1; left <= matrix.all(); ++left) {
-        const PathRelaxation::Tail tail = relaxation.tail(left);
-        for_each_stop(left, [&](int first) {
-          const Time bound = relaxation.bound_from(tail, first);
-          ASSERT_LE(bound, cheapest_rest(matrix, left & ~bit(first), first));
-          above_zero += bound > 0;
-        });
-      }
-    }
+    for (Variant variant : kVariants)
+      for (int n : {3, 6})
+        for (const CostMatrix& matrix : matrices_of(n, variant, random)) {
+          if (matrix.ports > 1 && n > 3) continue;
+          const PathRelaxation relaxation(matrix);
+          for (StopSet left = 1; left <= matrix.all(); ++left) {
+            const PathRelaxation::Tail tail = relaxation.tail(left);
+            for_each_port(matrix, left, [&](int first) {
+              const Time bound = relaxation.bound_from(tail, first);
+              ASSERT_LE(bound, cheapest_rest(matrix, left & ~stop_of(matrix, first), first));
+              above_zero += bound > 0;
+            });
+          }
+        }
   EXPECT_GT(above_zero, 1000);
 }
 
 TEST(SequenceDag, KnowsItsCostsToGoExactly) {
   Random random(33);
   const Limits limits;
-  const CostMatrix matrix = metric_matrix(7, Variant::kCts, random);
-  const auto dag = SequenceDag::build(matrix, PathRelaxation(matrix), kNever - 1, limits);
-  ASSERT_TRUE(dag);
-  EXPECT_EQ(dag->beyond(), kNever);  // nothing was dropped
-  for (StopSet left = 0; left < matrix.all(); ++left)
-    for_each_stop(matrix.all() & ~left, [&](int at) {
-      EXPECT_EQ(dag->completion(left, at), cheapest_rest(matrix, left, at));
+  for (const CostMatrix& matrix :
+       {metric_matrix(7, Variant::kCts, random), turning_matrix(4, Variant::kCts, random),
+        turning_matrix(4, Variant::kMg, random)}) {
+    const auto dag = SequenceDag::build(matrix, PathRelaxation(matrix), kNever - 1, limits);
+    ASSERT_TRUE(dag);
+    EXPECT_EQ(dag->beyond(), kNever);  // nothing was dropped
+    for (StopSet left = 0; left < matrix.all(); ++left)
+      for_each_port(matrix, matrix.all() & ~left, [&](int at) {
+        EXPECT_EQ(dag->completion(left, at), cheapest_rest(matrix, left, at));
+      });
+  }
+}
+
+// What a turn between two legs costs is seen by the shifts at ports: what no spanning tree over
+// least legs can know.
+TEST(PathRelaxation, SeesMostTurns) {
+  Random random(35);
+  Time blind = 0;
+  Time bound = 0;
+  Time exact = 0;
+  for (int round = 0; round < 20; ++round) {
+    const CostMatrix matrix = turning_matrix(8, Variant::kCts, random);
+    Completions table(matrix);
+    ASSERT_TRUE(table.widen(0, Limits()));
+    Time best = kNever;
+    for_each_port(matrix, matrix.all(), [&](int first) {
+      best = std::min(best,
+                      add_costs(matrix.from_start(first),
+                                table.completion(matrix.all() & ~stop_of(matrix, first), first)));
     });
+    if (best >= kNever) continue;
+    blind += PathRelaxation(least_matrix(matrix)).root_bound();
+    bound += PathRelaxation(matrix).root_bound();
+    exact += best;
+  }
+  EXPECT_LE(bound, exact);
+  EXPECT_LT(2 * (exact - bound), exact - blind);
 }
 
 class OnMaps : public ::testing::Test {

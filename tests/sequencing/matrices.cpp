@@ -23,18 +23,24 @@ Grid random_grid(int width, int height, Random& random) {
 }
 
 // The agent's start, its destination and its n tasks are distinct passable cells.
-Instance instance_on(const Grid& grid, int n, Variant variant, Random& random) {
+Instance instance_on(const Grid& grid, int n, Variant variant, Random& random, Motion motion = {},
+                     Time longest_work = 0) {
   std::vector<Cell> cells;
   for (Cell cell = 0; cell < grid.cell_count(); ++cell)
     if (grid.passable(cell)) cells.push_back(cell);
   std::shuffle(cells.begin(), cells.end(), random);
   InstanceBuilder builder(grid);
   const std::string agent = "a";
-  builder.add_agent(
-      agent, grid.position(cells.at(0)),
-      variant == Variant::kMg ? std::nullopt : std::optional(grid.position(cells.at(1))));
-  for (int i = 0; i < n; ++i)
-    builder.add_task(fmt::format("t{}", i), grid.position(cells.at(i + 2)), {&agent, 1});
+  AgentSpec spec;
+  spec.id = agent;
+  spec.start.place = cells.at(0);
+  spec.motion = motion;
+  if (variant == Variant::kCts) spec.goal = cells.at(1);
+  builder.add_agent(spec);
+  for (int i = 0; i < n; ++i) {
+    const Time duration = longest_work > 0 ? below(longest_work + 1, random) : 0;
+    builder.add_task(fmt::format("t{}", i), grid.position(cells.at(i + 2)), {&agent, 1}, duration);
+  }
   return std::move(builder).build();
 }
 
@@ -92,6 +98,24 @@ CostMatrix wild_matrix(int n, Variant variant, Random& random) {
       matrix.cost(i, j) = below(4, random) == 0 ? kNever : below(9, random);
   if (variant == Variant::kMg) matrix.cost.col(n).setZero();
   return matrix;
+}
+
+CostMatrix wild_port_matrix(int n, Variant variant, Random& random) {
+  constexpr int kPorts = DistanceFields::kPorts;
+  CostMatrix matrix = wild_matrix(n * kPorts, variant, random);
+  matrix.ports = kPorts;
+  return matrix;
+}
+
+CostMatrix turning_matrix(int n, Variant variant, Random& random) {
+  while (true) {
+    const Grid grid = random_grid(4 + below(4, random), 4 + below(4, random), random);
+    if (grid.passable_count() < n + 2) continue;
+    const Motion motion{.turn_steps = 1 + below(3, random)};
+    const Instance instance = instance_on(grid, n, variant, random, motion, 4);
+    const CostMatrix matrix = port_matrix(instance, 0, DistanceFields(instance));
+    if (matrix.ports > 1) return matrix;
+  }
 }
 
 std::optional<CostMatrix> map_matrix(const std::string& map, int n, Variant variant,

@@ -27,6 +27,11 @@ CostMatrix metric_matrix(int n, Variant variant, Random& random);
 // Any costs at all: asymmetric, some legs without a way.
 CostMatrix wild_matrix(int n, Variant variant, Random& random);
 
+// The same with four ports a stop; every leg from and to every port has its own cost.
+CostMatrix wild_port_matrix(int n, Variant variant, Random& random);
+// An agent that turns, with n tasks on a small random grid, some of which take time.
+CostMatrix turning_matrix(int n, Variant variant, Random& random);
+
 // n tasks on a Moving AI map, from the first random scenario's starts; none when the map is absent.
 std::optional<CostMatrix> map_matrix(const std::string& map, int n, Variant variant,
                                      Random& random);

@@ -16,8 +16,9 @@ namespace grove {
 // each is widened for itself: a copy may go to another thread.
 class Completions {
  public:
-  // With ports: of a few stops at most (port_matrix()).
   explicit Completions(CostMatrix matrix);
+  // A graph however small a table were: they must tell the same.
+  static Completions as_graph(CostMatrix matrix);
   const CostMatrix& matrix() const;
 
   // Proven: a sequence with a state outside costs at least this. kNever: there is none such.
@@ -36,6 +37,7 @@ class Completions {
 
  private:
   class Store;
+  explicit Completions(std::shared_ptr<const Store> store);
   class Graph;
   template <class Entry>
   class Table;

@@ -34,8 +34,8 @@ struct CostMatrix {
 };
 
 CostMatrix cost_matrix(const Instance& instance, AgentIndex agent, const DistanceFields& distances);
-// With ports, if the agent turns, distances to them are known, it does not start within a turn (it
-// could work there and turn no further) and a table of all sets of its stops is small.
+// With ports, if the agent turns, distances to them are known and not too many, and it does not
+// start within a turn (it could work there and turn no further).
 CostMatrix port_matrix(const Instance& instance, AgentIndex agent, const DistanceFields& distances);
 // The least over the ports; the same if there are none.
 CostMatrix least_matrix(const CostMatrix& matrix);

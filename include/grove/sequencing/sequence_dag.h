@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // All sequences of one agent up to a cost, as a graph of states: what is left to visit, and the
-// stop where the agent stands.
+// stop where the agent stands; each with a cost for each port of that stop (cost_matrix.h).
 #pragma once
 
 #include <cstdint>
@@ -58,13 +58,14 @@ class SequenceDag {
   // that building again and again costs little more than the last build alone.
   Time next_reach() const { return next_reach_; }
 
-  // The least cost from `stop` through all of `left` to the end, over the ways inside the graph;
+  // The least cost from a port through all of `left` to the end, over the ways inside the graph;
   // kNever when there is none, or the state is outside.
-  Time completion(StopSet left, int stop) const;
+  Time completion(StopSet left, int port) const;
 
-  std::size_t state_count() const { return completions_.size(); }
+  std::size_t state_count() const { return completions_.size() / static_cast<std::size_t>(ports_); }
 
  private:
+  template <int kPorts>
   friend class SequenceDagBuilder;
 
   // The states that share what is left; one for each stop in `at`, ascending, from `first` on.
@@ -74,11 +75,12 @@ class SequenceDag {
     std::uint32_t first = 0;
   };
 
+  int ports_ = 1;
   Time beyond_ = 0;
   Time next_reach_ = 0;
-  std::vector<Node> nodes_;  // sets in descending order of size
-  std::vector<Time> completions_;
-  StopSetIndex index_;  // into nodes_
+  std::vector<Node> nodes_;        // sets in descending order of size
+  std::vector<Time> completions_;  // of each state, as many as ports
+  StopSetIndex index_;             // into nodes_
 };
 
 }  // namespace grove

@@ -15,6 +15,7 @@
 #include "grove/planning/goal_sequence.h"
 #include "grove/planning/low_level_search.h"
 #include "grove/planning/optimal_paths.h"
+#include "grove/sequencing/cost_matrix.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/planning/worlds/world_reference.h"
 #include "tests/support/fuzz_factor.h"
@@ -90,7 +91,8 @@ class Fuzzer {
     const SequenceClass work = sequence_class(stops.count());
     agent_ = agent;
     work_ = work;
-    FreeGoals goals(stops, work);
+    Completions graph = Completions::as_graph(stops.completions().matrix());
+    FreeGoals goals(stops, work, below(2) == 0 ? graph : stops.completions());
     constraints_.clear();
     Path path;
     for (int n = below(14); n >= 0; --n) {
