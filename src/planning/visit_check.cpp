@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Earliest arrivals over (safe interval, been on the place), in order of time. The earliest arrival
-// in an interval can do all that a later one can, after waiting; so what is not reached is not
-// reachable, and what is reached is not reachable earlier.
+// Earliest arrivals over (safe interval, been on the place). The earliest arrival in an interval
+// can do all that a later one can, after waiting; so what is not reached is not reachable, and what
+// is reached is not reachable earlier. In order of the time plus what is still to go at least (A*):
+// distances without intervals, which are consistent.
 #include "visit_check.h"
 
 #include <algorithm>
+
+#include "grove/sequencing/cost_matrix.h"
 
 namespace grove {
 
@@ -20,6 +23,14 @@ Time VisitCheck::least_cost(const AgentStops& stops, const Limits& limits) {
 // cannot at all.
 Time VisitCheck::first_rest(int via) {
   via_ = via;
+  after_via_ = 0;
+  if (!stops_->rests_on_last_stop()) {
+    const CostMatrix& matrix = stops_->completions().matrix();
+    after_via_ = kNever;
+    for (int port = via * matrix.ports; port < (via + 1) * matrix.ports; ++port)
+      after_via_ = std::min(after_via_, matrix.to_end(port));
+    if (after_via_ >= kNever) return kNever;
+  }
   earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_limit()), kNever);
   queue_.reset(0);
   const State start = stops_->start();
@@ -36,6 +47,12 @@ Time VisitCheck::first_rest(int via) {
   return kNever;
 }
 
+// How long it takes from there at least; kNever: it is impossible.
+Time VisitCheck::to_go(State state, bool visited) const {
+  if (!visited) return std::min(kNever, stops_->distance(state, via_) + after_via_);
+  return stops_->rests_on_last_stop() ? 0 : stops_->to_rest(state);
+}
+
 bool VisitCheck::may_rest(int slot) const {
   if (!intervals_.may_rest(slot)) return false;
   const State state = intervals_.state_of(slot);
@@ -50,7 +67,10 @@ void VisitCheck::reach(int slot, State state, Time time, bool visited) {
       earliest_[2 * static_cast<std::size_t>(slot) + static_cast<std::size_t>(visited)];
   if (earliest <= time) return;
   earliest = time;
-  queue_.push(time, {.slot = slot, .time = time, .progress = static_cast<std::uint8_t>(visited)});
+  const Time to_go = this->to_go(state, visited);
+  if (to_go >= kNever) return;
+  queue_.push(time + to_go,
+              {.slot = slot, .time = time, .progress = static_cast<std::uint8_t>(visited)});
 }
 
 }  // namespace grove

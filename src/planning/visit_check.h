@@ -28,6 +28,7 @@ class VisitCheck {
   using Queue = BasicBucketQueue<std::uint8_t>;  // progress: has been on `via`
 
   Time first_rest(int via);
+  Time to_go(State state, bool visited) const;
   bool may_rest(int slot) const;
   void reach(int slot, State state, Time time, bool visited);
 
@@ -37,6 +38,7 @@ class VisitCheck {
   std::vector<Time> earliest_;  // by slot, then progress
   const AgentStops* stops_ = nullptr;
   int via_ = AgentStops::kNoStop;
+  Time after_via_ = 0;  // from there to where the agent may rest, at least
 };
 
 }  // namespace grove

@@ -16,6 +16,7 @@
 #include "grove/planning/low_level_search.h"
 #include "grove/planning/optimal_paths.h"
 #include "grove/sequencing/cost_matrix.h"
+#include "src/planning/visit_check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/planning/worlds/world_reference.h"
 #include "tests/support/fuzz_factor.h"
@@ -37,7 +38,9 @@ class Fuzzer {
         chains_(world_),
         fixed_(world_),
         free_(world_),
-        builder_(world_) {}
+        builder_(world_),
+        intervals_(world_),
+        visit_check_(world_, intervals_) {}
 
   void run() {
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
@@ -139,6 +142,7 @@ class Fuzzer {
     ++cases;
     ++by_world[world_of(agent)];
     const auto expected = world_reference_cost(instance_, agent, work, constraints_);
+    check_visits(goals.stops(), expected);
     check_free(agent, goals, expected, path);
     if (::testing::Test::HasFatalFailure()) return false;
     if (work.prefix.size() == static_cast<std::size_t>(goals.stops().count()))
@@ -160,6 +164,16 @@ class Fuzzer {
     const auto takes_time = [&](TaskIndex t) { return instance_.task(t).duration > 0; };
     if (std::ranges::any_of(instance_.agent(agent).tasks, takes_time)) world += " + work";
     return world;
+  }
+
+  // Each stop by itself bounds the cost; one that is all there is settles it.
+  void check_visits(const AgentStops& stops, std::optional<Time> expected) {
+    intervals_.assign(constraints_);
+    const Time least = visit_check_.least_cost(stops, Limits());
+    ASSERT_LE(least, expected.value_or(kNever)) << text();
+    if (expected && stops.count() == 1) {
+      ASSERT_EQ(least, *expected) << text();
+    }
   }
 
   void check_free(AgentIndex agent, FreeGoals& goals, std::optional<Time> expected, Path& path) {
@@ -235,6 +249,8 @@ class Fuzzer {
   LowLevelSearch fixed_;
   FreeLowLevelSearch free_;
   OptimalPathsBuilder builder_;
+  SafeIntervals intervals_;
+  VisitCheck visit_check_;
   AgentIndex agent_ = 0;
   SequenceClass work_;
   std::vector<Constraint> constraints_;
