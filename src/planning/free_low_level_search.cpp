@@ -206,7 +206,8 @@ std::optional<PathOutcome> FreeLowLevelSearch::Workspace::find_within(Time cap) 
 std::optional<PathOutcome> FreeLowLevelSearch::Workspace::doubt() {
   if (doubt_at_ == kNotAgain) return std::nullopt;
   doubt_at_ = kNotAgain;
-  const Time least_cost = visit_check_.least_cost(goals().stops(), *limits_);
+  const Time least_cost =
+      visit_check_.least_cost(goals().stops(), search_.goals().first_rest(), *limits_);
   if (limits_->stop_requested()) return PathOutcome::kStopped;
   if (least_cost >= kNever) return PathOutcome::kInfeasible;
   return least_cost > latest_ ? std::optional(above_) : std::nullopt;

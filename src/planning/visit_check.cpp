@@ -11,17 +11,17 @@
 
 namespace grove {
 
-Time VisitCheck::least_cost(const AgentStops& stops, const Limits& limits) {
+Time VisitCheck::least_cost(const AgentStops& stops, Time least, const Limits& limits) {
   stops_ = &stops;
-  Time least = 0;
+  least_ = least;
   for (int stop = 0; stop < stops.count() && !limits.stop_requested(); ++stop)
-    least = std::max(least, first_rest(stop));
-  return least;
+    least_ = least_cost_through(stop);
+  return least_;
 }
 
-// The first time at which the agent can rest for ever, having been on the stop `via`; kNever: it
-// cannot at all.
-Time VisitCheck::first_rest(int via) {
+// least_ or, if it is later, the first time at which the agent can rest for ever, having been on
+// the stop `via`; kNever: it cannot at all.
+Time VisitCheck::least_cost_through(int via) {
   via_ = via;
   after_via_ = 0;
   if (!stops_->rests_on_last_stop()) {
@@ -32,14 +32,15 @@ Time VisitCheck::first_rest(int via) {
     if (after_via_ >= kNever) return kNever;
   }
   earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_limit()), kNever);
-  queue_.reset(0);
+  queue_.reset(least_);
   const State start = stops_->start();
   intervals_.see(world_.place(start));
   if (const int slot = intervals_.start_slot(start); slot >= 0) reach(slot, start, 0, false);
   Queue::Entry entry;
   while (queue_.pop(entry)) {
+    if (earliest_[index(entry.slot, entry.progress)] < entry.time) continue;
     const bool visited = entry.progress != 0;
-    if (visited && may_rest(entry.slot)) return entry.time;
+    if (visited && may_rest(entry.slot)) return std::max(least_, entry.time);
     intervals_.for_each_move(entry.slot, entry.time, [&](int slot, State state, Time time) {
       reach(slot, state, time, visited);
     });
@@ -63,14 +64,17 @@ void VisitCheck::reach(int slot, State state, Time time, bool visited) {
   const int at = stops_->stop_at(state);
   if (at < AgentStops::kNoStop && AgentStops::stop_of_work(at) < 0) return;  // not its own work
   visited = visited || at == via_;
-  Time& earliest =
-      earliest_[2 * static_cast<std::size_t>(slot) + static_cast<std::size_t>(visited)];
+  Time& earliest = earliest_[index(slot, visited)];
   if (earliest <= time) return;
   earliest = time;
   const Time to_go = this->to_go(state, visited);
   if (to_go >= kNever) return;
-  queue_.push(time + to_go,
-              {.slot = slot, .time = time, .progress = static_cast<std::uint8_t>(visited)});
+  queue_.push(
+      std::max(least_, time + to_go),
+      {.slot = slot,
+       .time = time,
+       .conflicts = static_cast<std::uint16_t>(std::min<Time>(to_go, Queue::kMostConflicts)),
+       .progress = static_cast<std::uint8_t>(visited)});
 }
 
 }  // namespace grove

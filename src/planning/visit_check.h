@@ -20,14 +20,17 @@ class VisitCheck {
   // Both must outlive this.
   VisitCheck(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
-  // What a path through all stops costs at least under the intervals; kNever: there is none. Looks
-  // at fewer of them if a limit strikes.
-  Time least_cost(const AgentStops& stops, const Limits& limits);
+  // What a path through all stops costs at least under the intervals, `least` being known; kNever:
+  // there is none. Looks at fewer of them if a limit strikes.
+  Time least_cost(const AgentStops& stops, Time least, const Limits& limits);
 
  private:
   using Queue = BasicBucketQueue<std::uint8_t>;  // progress: has been on `via`
 
-  Time first_rest(int via);
+  static std::size_t index(int slot, int visited) {
+    return 2 * static_cast<std::size_t>(slot) + static_cast<std::size_t>(visited);
+  }
+  Time least_cost_through(int via);
   Time to_go(State state, bool visited) const;
   bool may_rest(int slot) const;
   void reach(int slot, State state, Time time, bool visited);
@@ -38,6 +41,7 @@ class VisitCheck {
   std::vector<Time> earliest_;  // by slot, then progress
   const AgentStops* stops_ = nullptr;
   int via_ = AgentStops::kNoStop;
+  Time least_ = 0;
   Time after_via_ = 0;  // from there to where the agent may rest, at least
 };
 

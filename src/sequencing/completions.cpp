@@ -81,7 +81,7 @@ class Completions::Graph : public Store {
 
 Completions::Completions(CostMatrix matrix) {
   auto shared = std::make_shared<const CostMatrix>(std::move(matrix));
-  if (shared->stops() > (shared->ports == 1 ? kTableStops : kTableStopsWithPorts))
+  if (shared->stops() > kTableStops)
     store_ = std::make_shared<Graph>(std::move(shared));
   else if (fits_narrow_table(*shared))
     store_ = std::make_shared<Table<std::int16_t>>(std::move(shared));

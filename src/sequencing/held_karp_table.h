@@ -62,6 +62,7 @@ class HeldKarpTable {
                           : width <= 2 * kLanes ? fill<2 * kLanes>(matrix, limits)
                           : width <= 3 * kLanes ? fill<3 * kLanes>(matrix, limits)
                           : width <= 4 * kLanes ? fill<4 * kLanes>(matrix, limits)
+                          : width <= 5 * kLanes ? fill<5 * kLanes>(matrix, limits)
                                                 : fill<kMostLanes * kLanes>(matrix, limits);
     if (!complete) table_.reset();
     return complete;
@@ -75,7 +76,7 @@ class HeldKarpTable {
 
  private:
   static constexpr int kLanes = 8;
-  static constexpr int kMostLanes = 5;                  // 10 stops of four ports
+  static constexpr int kMostLanes = 7;                  // 14 stops of four ports
   static constexpr std::uint32_t kPollInterval = 4096;  // rows, together about 0.2 ms
 
   bool allocate(std::size_t entries) {

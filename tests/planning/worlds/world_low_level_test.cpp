@@ -169,7 +169,7 @@ class Fuzzer {
   // Each stop by itself bounds the cost; one that is all there is settles it.
   void check_visits(const AgentStops& stops, std::optional<Time> expected) {
     intervals_.assign(constraints_);
-    const Time least = visit_check_.least_cost(stops, Limits());
+    const Time least = visit_check_.least_cost(stops, 0, Limits());
     ASSERT_LE(least, expected.value_or(kNever)) << text();
     if (expected && stops.count() == 1) {
       ASSERT_EQ(least, *expected) << text();
