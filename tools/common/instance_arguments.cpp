@@ -58,6 +58,14 @@ LoadedInstance InstanceArguments::read() const {
   if (path_.ends_with(".map"))
     throw InputError(
         path_, "", "a map; expected an instance, FILE.cts.json, which names its map, or FILE.scen");
+  if (path_.ends_with(".roadmap.json"))
+    throw InputError(path_, "",
+                     "a roadmap; expected an instance, FILE.cts.json, which names its roadmap "
+                     "('grove generate instance' makes one)");
+  if (path_.ends_with(".graphml") || path_.ends_with(".lif.json"))
+    throw InputError(path_, "",
+                     "a road network of another tool; expected an instance, FILE.cts.json, on the "
+                     "roadmap that 'grove convert' makes of it");
   if (is_called_like_another_tools_instance(path_))
     throw InputError(path_, "",
                      "an instance of another tool; expected FILE.cts.json, which 'grove convert' "

@@ -18,6 +18,7 @@ TEST(Usage, HelpIsWorthReading) {
                                      {"generate", "--help"},
                                      {"generate", "map", "--help"},
                                      {"generate", "map", "rooms", "--help"},
+                                     {"generate", "roadmap", "--help"},
                                      {"generate", "scenario", "--help"},
                                      {"generate", "instance", "--help"},
                                      {"generate", "dataset", "--help"},

@@ -348,7 +348,8 @@ TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
               HasSubstr("expected --policy fixed with it, or no --rtsp cbc"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omgea", "0"})), HasSubstr("--omgea"));
   EXPECT_THAT(complaint(solve({"missing.json"})), HasSubstr("missing.json"));
-  EXPECT_THAT(complaint(solve({data("first.map")})), HasSubstr("expected an instance"));
+  for (const char* file : {"first.map", "plant.roadmap.json", "plant.graphml", "plant.lif.json"})
+    EXPECT_THAT(complaint(solve({data(file)})), HasSubstr("expected an instance"));
   EXPECT_THAT(complaint(solve({data("empty-32x32.scen")})), HasSubstr("--agents"));
   EXPECT_THAT(complaint(solve(
                   {data("empty-32x32.scen"), "--map", data("empty-32x32.map"), "--agents", "900"})),
