@@ -58,12 +58,8 @@ class HeldKarpTable {
       limits.memory_exhausted();
       return false;
     }
-    const bool complete = width <= kLanes       ? fill<kLanes>(matrix, limits)
-                          : width <= 2 * kLanes ? fill<2 * kLanes>(matrix, limits)
-                          : width <= 3 * kLanes ? fill<3 * kLanes>(matrix, limits)
-                          : width <= 4 * kLanes ? fill<4 * kLanes>(matrix, limits)
-                          : width <= 5 * kLanes ? fill<5 * kLanes>(matrix, limits)
-                                                : fill<kMostLanes * kLanes>(matrix, limits);
+    const bool complete =
+        ports_ == 1 ? fill_lanes<1>(matrix, limits) : fill_lanes<4>(matrix, limits);
     if (!complete) table_.reset();
     return complete;
   }
@@ -84,9 +80,17 @@ class HeldKarpTable {
     return table_ != nullptr;
   }
 
-  template <int kWidth>
+  // As many lanes as it takes.
+  template <int kPorts, int kCount = 1>
+  bool fill_lanes(const CostMatrix& matrix, const Limits& limits) {
+    if constexpr (kCount < kMostLanes)
+      if (stops_ * kPorts > kCount * kLanes) return fill_lanes<kPorts, kCount + 1>(matrix, limits);
+    return fill<kPorts, kCount * kLanes>(matrix, limits);
+  }
+
+  template <int kPorts, int kWidth>
   bool fill(const CostMatrix& matrix, const Limits& limits) {
-    const int n = stops_ * ports_;
+    const int n = stops_ * kPorts;
     const std::vector<Entry> into = columns(matrix, kWidth);
     for (int v = 0; v < n; ++v) table_[v] = entry(matrix.to_end(v));
     for (std::uint32_t set = 1; set < std::uint32_t{1} << stops_; ++set) {
@@ -94,7 +98,7 @@ class HeldKarpTable {
       Entry row[kWidth];
       std::fill_n(row, kWidth, kNoWay<Entry>);
       for_each_stop(set, [&](int stop) {
-        for (int u = stop * ports_; u < (stop + 1) * ports_; ++u) {
+        for (int u = stop * kPorts; u < (stop + 1) * kPorts; ++u) {
           const Entry rest = table_[(set & ~bit(stop)) * n + u];
           const Entry* leg = &into[static_cast<std::size_t>(u) * kWidth];
           for (int v = 0; v < kWidth; ++v)

@@ -84,6 +84,7 @@ PathRelaxation::PathRelaxation(const CostMatrix& matrix)
     : stops_(matrix.stops()),
       ports_(matrix.ports),
       shift_(row_count(), 0),
+      apart_(stops_ * stops_),
       potential_(stops_, 0),
       weight_(stops_ * stops_) {
   for (int from = 0; from < row_count(); ++from)
@@ -116,6 +117,8 @@ void PathRelaxation::shift_legs() {
       std::int64_t& edge = edges_[from / ports_ * width + to / ports_];
       edge = std::min(edge, leg);
     }
+  for (int i = 0; i < stops_; ++i)
+    for (int j = 0; j < stops_; ++j) apart_[i * stops_ + j] = std::min(edge(i, j), edge(j, i));
 }
 
 void PathRelaxation::balance() {
@@ -135,7 +138,7 @@ void PathRelaxation::balance() {
 void PathRelaxation::weigh() {
   for (int i = 0; i < stops_; ++i)
     for (int j = 0; j < stops_; ++j)
-      weight_[i * stops_ + j] = std::min(edge(i, j), edge(j, i)) + potential_[i] + potential_[j];
+      weight_[i * stops_ + j] = apart_[i * stops_ + j] + potential_[i] + potential_[j];
 }
 
 PathRelaxation::Tree PathRelaxation::tree(StopSet left) const {
@@ -214,6 +217,7 @@ Time PathRelaxation::bound_from(const Tail& tail, int first) const {
 
 // The cheapest ports of a leg between two rows of edges_.
 void PathRelaxation::count_ports(int from, int to, Excess& excess) const {
+  if (ports_ == 1) return;
   const int first = from * ports_;
   const int last = std::min(first + ports_, row_count());
   for (int row = first; row < last; ++row)

@@ -71,6 +71,7 @@ class PathRelaxation {
   std::vector<std::int64_t> shift_;      // by row of the matrix
   std::vector<std::int64_t> legs_;       // from a row to a stop or the end: least over its ports
   std::vector<std::int64_t> edges_;      // from a stop or the start: least over its ports too
+  std::vector<std::int64_t> apart_;      // between two stops, in the cheaper direction
   std::vector<std::int64_t> potential_;  // by stop, in fixed point
   std::vector<std::int64_t> weight_;     // edges between stops, both potentials added
   Time root_bound_ = 0;
