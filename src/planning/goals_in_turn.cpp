@@ -13,6 +13,7 @@ bool GoalsInTurn::assign(const World& world, const GoalSequence& goals,
   last_progress_ = goals.size() - 1;
   first_rest_ = goals.last() == kNoPlace ? 0 : intervals.rest_begin(goals.last());
   if (first_rest_ >= kNever || goals.distance(goals.start(), 0) >= kNever) return false;
+  const int kind = world.kind(world.base(goals.start()));
   stages_.resize(static_cast<std::size_t>(goals.size()));
   Time latest = std::numeric_limits<Time>::max();
   if (intervals.latest_rest() < kNever)
@@ -21,7 +22,11 @@ bool GoalsInTurn::assign(const World& world, const GoalSequence& goals,
     const Place goal = goals.goal(k);
     const Time deadline = goal == kNoPlace ? kNever : intervals.last_time(goal);
     if (deadline < kNever) latest = std::min(latest, deadline + goals.after_goal(k));
+    const StateRange bases =
+        goal == kNoPlace ? StateRange{0, world.state_count()} : world.bases(goal, kind);
     stages_[k] = {.to_goal = goals.to_goal(k).data(),
+                  .first = bases.first,
+                  .states = static_cast<std::uint32_t>(bases.end - bases.first),
                   .after_goal = goals.after_goal(k),
                   .work = goals.work(k),
                   .latest = latest,

@@ -57,7 +57,7 @@ class GoalsInTurn {
   template <class Reach>
   void on_arrival(Progress progress, State state, Reach reach) const {
     if (world_->is_working(state) && world_->work(state).task != stages_[progress].work) return;
-    while (progress < last_progress_ && stages_[progress].to_goal[state] == 0) ++progress;
+    while (progress < last_progress_ && is_at_goal(progress, state)) ++progress;
     reach(progress);
   }
   Time layer(Progress progress, State state, Time time) const {
@@ -65,7 +65,7 @@ class GoalsInTurn {
     return cost > stages_[progress].latest ? kDropped : cost;
   }
   bool may_end(Progress progress, State state) const {
-    return progress == last_progress_ && stages_[progress].to_goal[state] == 0;
+    return progress == last_progress_ && is_at_goal(progress, state);
   }
   Time put_off(Progress progress, State state, Time time, Time layer) const {
     const Stage& stage = stages_[progress];
@@ -74,14 +74,24 @@ class GoalsInTurn {
     return stage.gate_until < kNever ? stage.gate_until : kDropped;
   }
   bool makes_gate(State state, Progress, Progress progress) const {
-    return progress > 0 && stages_[progress - 1].to_goal[state] == 0;
+    return progress > 0 && is_at_goal(progress - 1, state);
   }
   void close_gate(State state, Progress before, Progress progress, Time time, Time until);
 
  private:
+  // Is the goal after so much progress visited in this state? Most states are no base states on its
+  // place, which is known without a look at the distances.
+  bool is_at_goal(Progress progress, State state) const {
+    const Stage& stage = stages_[progress];
+    const auto rank = static_cast<std::uint32_t>(state) - static_cast<std::uint32_t>(stage.first);
+    return (rank < stage.states || world_->is_working(state)) && stage.to_goal[state] == 0;
+  }
+
   // What there is to know of one progress.
   struct Stage {
-    const Time* to_goal;  // distance field of the next goal
+    const Time* to_goal;   // distance field of the next goal
+    State first;           // of the base states on its place
+    std::uint32_t states;  // and how many there are
     Time after_goal;
     TaskIndex work;  // the work to be done next; -1: none
     Time latest;     // labels of greater f miss a deadline
