@@ -9,9 +9,9 @@ namespace grove {
 namespace {
 
 constexpr const char* kDescription =
-    "Grove solves CTS-MAPF: many agents on a grid, each with cells to visit in any order and a\n"
-    "destination, without collisions, at the least sum of finish times - with a proof of how far\n"
-    "from the least the answer can be.\n";
+    "Grove solves CTS-MAPF: many agents on a grid or a roadmap, each with places to visit in any\n"
+    "order and a destination, without collisions, at the least sum of finish times - with a proof of\n"
+    "how far from the least the answer can be. Agents may need time to turn, tasks may take time.\n";
 
 constexpr const char* kProgramFooter = R"(Exit codes:
   0  ended cleanly; a plan file says how

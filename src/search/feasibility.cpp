@@ -42,7 +42,7 @@ std::optional<std::string> unreachable_cell(const Problem& problem) {
     const Agent& agent = instance.agent(i);
     const auto no_way = [&](const DistanceField& to) { return to[agent.start] == kNever; };
     const auto told = [&](Place place) {
-      return fmt::format("agent '{}' cannot reach cell {}: there is no way from its start",
+      return fmt::format("agent '{}' cannot reach {}: there is no way from its start",
                          agent.id, instance.world().name(place));
     };
     for (const TaskIndex task : agent.stops)
@@ -156,7 +156,7 @@ std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Pl
     const Agent& agent = *agents[r];
     for (Cell cell : required_cells(instance, agent))
       if (place[cell] < r || place[cell] > length - (count - r))
-        return fmt::format("agent '{}' cannot get to cell {}: other agents fill the corridor",
+        return fmt::format("agent '{}' cannot get to {}: other agents fill the corridor",
                            agent.id, instance.world().name(cell));
     if (!agent.goal) continue;
     if (place[*agent.goal] < last_goal)

@@ -231,7 +231,7 @@ TEST_F(SolveCommand, SaysWhyThereIsNoPlan) {
       R"({"map": "wall.map", "agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]}], "tasks": []})");
   const ProcessResult solved = solve({"wall.json", "--output", "p.json"});
   EXPECT_EQ(solved.exit_code, 0);
-  EXPECT_THAT(solved.out, HasSubstr("agent 'a' cannot reach cell [2, 0]"));
+  EXPECT_THAT(solved.out, HasSubstr("agent 'a' cannot reach [2, 0]"));
   EXPECT_EQ(plan("p.json")["status"], "infeasible");
 }
 
