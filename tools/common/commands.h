@@ -31,5 +31,6 @@ void add_generate_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
+void add_view_command(CLI::App& app);
 
 }  // namespace grove

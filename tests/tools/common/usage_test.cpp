@@ -15,6 +15,7 @@ TEST(Usage, HelpIsWorthReading) {
                                      {"-h"},
                                      {"check", "--help"},
                                      {"convert", "--help"},
+                                     {"view", "--help"},
                                      {"generate", "--help"},
                                      {"generate", "map", "--help"},
                                      {"generate", "map", "rooms", "--help"},

@@ -6,67 +6,26 @@
 
 Exit codes: 0 passed, 1 failed, 77 there is no Chromium here.
 """
-import json
-import os
-import re
-import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
-from typing import NamedTuple
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parent.parent)]
 
 import synthetic  # noqa: E402
+from browser import CHROMIUM, is_blank, shares, visit  # noqa: E402
 
 GROVE = Path("build/release/bin/grove")
 SKIPPED = 77
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium"))), None)
-WIDTH, HEIGHT = 1280, 2400
 LINE_COLOUR = (0x00, 0x72, 0xB2)  # of the first method, in every figure
-
-
-class Visit(NamedTuple):
-    console: list     # what the browser said of the page
-    requests: set     # URLs that went to the network, or would have
-    picture: object   # what is seen
-
-
-def visit(page):
-    from PIL import Image
-    with tempfile.TemporaryDirectory() as folder:
-        command = [CHROMIUM, "--headless", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
-                   f"--user-data-dir={folder}/profile", f"--window-size={WIDTH},{HEIGHT}",
-                   "--enable-logging=stderr", f"--log-net-log={folder}/net.json",
-                   "--host-resolver-rules=MAP * ~NOTFOUND", f"--screenshot={folder}/shot.png",
-                   *(["--no-sandbox"] if os.getuid() == 0 else []), page.as_uri()]
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
-        if not Path(f"{folder}/shot.png").exists():
-            raise AssertionError(f"no picture: {done.stderr}")
-        log = json.loads(Path(f"{folder}/net.json").read_text(encoding="utf-8"))
-        requests = {event["params"]["url"] for event in log["events"]
-                    if "url" in event.get("params", {})}
-        return Visit(re.findall(r"CONSOLE[:(]\d+\)?\] (.*)", done.stderr),
-                     {url for url in requests if not url.startswith(("file:", "data:"))},
-                     Image.open(f"{folder}/shot.png").convert("RGB").copy())
 
 
 def rows():
     """Few: each map and number of agents is drawn."""
     found = synthetic.rows(1, maps=("room-32-32-4",), agents=(5,), tasks=(10, 30))
     return [row for row in found if row["method"] in ("auto", "cts-cbs-a", "hcbs") or row["problem"] == "cts"]
-
-
-def shares(picture):
-    """{colour: share of the picture}"""
-    return {colour: count / (picture.width * picture.height)
-            for count, colour in picture.getcolors(1 << 24)}
-
-
-def is_blank(picture):
-    return max(shares(picture).values()) > 0.999
 
 
 class Browser(unittest.TestCase):

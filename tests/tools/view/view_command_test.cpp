@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "tests/support/temporary_directory.h"
+#include "tests/tools/program.h"
+
+namespace grove {
+namespace view_command_test {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+std::string data(const std::string& name) {
+  return std::string(GROVE_DATA) + "/" + name;
+}
+
+class ViewCommand : public ::testing::Test {
+ protected:
+  // The plan of one of our own instances, solved.
+  std::string plan_of(const std::string& name) {
+    const std::string file = directory_ / (name + ".plan.json");
+    const ProcessResult solved =
+        run_grove({"solve", data(name + ".cts.json"), "--quiet", "--output", file});
+    EXPECT_EQ(solved.exit_code, 0) << solved.err;
+    return file;
+  }
+  std::string read(const std::string& name) const {
+    std::ifstream file(directory_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  nlohmann::json data_of(const std::string& page) const {
+    const std::string html = read(page);
+    const std::string begin = R"(<script type="application/json" id="grove-data">)";
+    const auto from = html.find(begin) + begin.size();
+    return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(ViewCommand, WritesAPageWithInstanceAndPlan) {
+  const ProcessResult done =
+      run_grove({"view", data("shop.cts.json"), plan_of("shop"), "-o", directory_ / "shop.html"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("shop.html"));
+  const nlohmann::json page = data_of("shop.html");
+  EXPECT_EQ(page["format"], "grove view 1");
+  EXPECT_EQ(page["world"]["free"], "4 1 8 1 17 1 8 1 4");
+  EXPECT_EQ(page["agents"][1]["turn"], 2);
+  EXPECT_EQ(page["tasks"][1]["duration"], 3);
+  EXPECT_EQ(page["plans"][0]["claims"]["cost"], 66);
+  EXPECT_THAT(page["plans"][0]["agents"][0]["path"], StartsWith("@0;"));
+}
+
+TEST_F(ViewCommand, RoadmapsAreInMetresAndPathsInPlaces) {
+  const ProcessResult done =
+      run_grove({"view", data("yard.cts.json"), plan_of("yard"), "-o", directory_ / "yard.html"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json page = data_of("yard.html");
+  EXPECT_EQ(page["world"]["kind"], "roadmap");
+  EXPECT_EQ(page["world"]["roads"][0].size(), 4u);
+  EXPECT_FALSE(page["plans"][0]["agents"][0].contains("turns"));
+}
+
+TEST_F(ViewCommand, WithoutAPlanShowsTheInstance) {
+  const ProcessResult done =
+      run_grove({"view", data("first.cts.json"), "-o", directory_ / "first.html"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(data_of("first.html")["plans"].size(), 0u);
+}
+
+TEST_F(ViewCommand, ShowsWhatOtherSolversWriteAndClaimsNothingForThem) {
+  directory_.write("m.map", "type octile\nheight 1\nwidth 3\nmap\n...\n");
+  directory_.write(
+      "i.json",
+      R"({"map": "m.map", "agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]}], "tasks": []})");
+  directory_.write("paths.txt", "Agent 0: (0,0)->(0,2)->\n");
+  const ProcessResult done = run_grove(
+      {"view", directory_ / "i.json", directory_ / "paths.txt", "-o", directory_ / "p.html"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json plan = data_of("p.html")["plans"][0];
+  EXPECT_EQ(plan["claims"], nlohmann::json::object());
+  EXPECT_EQ(plan["agents"][0]["path"], "@0;@2;");  // a jump, as it stands
+}
+
+TEST_F(ViewCommand, IdsAreNoMarkup) {
+  directory_.write("m.map", "type octile\nheight 1\nwidth 3\nmap\n...\n");
+  directory_.write(
+      "i.json",
+      R"({"map": "m.map", "agents": [{"id": "</script><b>", "start": [0, 0]}], "tasks": []})");
+  const ProcessResult done =
+      run_grove({"view", directory_ / "i.json", "-o", directory_ / "p.html"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(read("p.html"), Not(HasSubstr("</script><b>")));
+  EXPECT_EQ(data_of("p.html")["agents"][0]["id"], "</script><b>");
+}
+
+TEST_F(ViewCommand, DrawsPictures) {
+  const std::string plan = plan_of("shop");
+  const ProcessResult done = run_grove(
+      {"view", data("shop.cts.json"), plan, "--svg", directory_ / "s.svg", "--png",
+       directory_ / "s.png", "--gif", directory_ / "s.gif", "--at", "0,8,20.5", "--width", "300"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(read("s.svg"), HasSubstr("<svg"));
+  EXPECT_THAT(read("s.svg"), HasSubstr("width=\"924px\""));  // three moments and two gaps
+  EXPECT_THAT(read("s.png"), StartsWith("\x89PNG"));
+  EXPECT_THAT(read("s.gif"), StartsWith("GIF89a"));
+  EXPECT_EQ(read("s.gif").back(), ';');
+  EXPECT_EQ(read("shop.html"), "");
+}
+
+TEST_F(ViewCommand, OpensThePageByTheDesktopsOpener) {
+  directory_.write("xdg-open", "#!/bin/sh\necho \"$1\" > opened\n");
+  std::filesystem::permissions(directory_ / "xdg-open", std::filesystem::perms::owner_all);
+  ProcessOptions options;
+  options.directory = directory_.path();
+  ::setenv("PATH", (directory_.path().string() + ":/usr/bin:/bin").c_str(), 1);
+  const ProcessResult done =
+      run_grove({"view", data("first.cts.json"), "-o", "p.html", "--open"}, options);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  for (int i = 0; i < 100 && read("opened").empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(read("opened"), (directory_.path() / "p.html").string() + "\n");
+}
+
+TEST_F(ViewCommand, RefusesWhatItDoesNotUnderstand) {
+  const auto complaint = [](const ProcessResult& result) {
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    return result.err;
+  };
+  EXPECT_THAT(complaint(run_grove({"view", data("first.cts.json"), "missing.json"})),
+              HasSubstr("missing.json"));
+  EXPECT_THAT(complaint(run_grove({"view", data("first.cts.json"), data("first.cts.json")})),
+              HasSubstr("first.cts.json"));
+  EXPECT_THAT(complaint(run_grove(
+                  {"view", data("first.cts.json"), "--svg", directory_ / "x.svg", "--at", "-1"})),
+              HasSubstr("--at"));
+  EXPECT_THAT(complaint(run_grove(
+                  {"view", data("first.cts.json"), "--gif", directory_ / "x.gif", "--width", "5"})),
+              HasSubstr("--width"));
+  EXPECT_THAT(complaint(run_grove({"view", data("first.cts.json"), "-o", "/nowhere/x.html"})),
+              HasSubstr("/nowhere"));
+}
+
+}  // namespace view_command_test
+}  // namespace grove

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What part of the world is seen, and how large: world units to pixels and back.
+
+import type { Point } from "./model";
+
+export class Camera {
+  // The point of the world in the middle of the view, and pixels for a unit of the world.
+  center: Point = { x: 0, y: 0 };
+  scale = 1;
+  width = 1; // of the view, in pixels
+  height = 1;
+  private leastScale = 1;
+  private mostScale = 1;
+
+  constructor(
+    private readonly worldWidth: number,
+    private readonly worldHeight: number,
+    private readonly unit: number, // the length of a step
+  ) {}
+
+  // The view has this size now; what was in the middle stays there.
+  resize(width: number, height: number): void {
+    const fitted = this.scale <= this.leastScale * 1.001;
+    this.width = Math.max(1, width);
+    this.height = Math.max(1, height);
+    const whole = Math.min(this.width / this.worldWidth, this.height / this.worldHeight);
+    this.leastScale = Math.min(whole, kLargestStep / this.unit);
+    this.mostScale = Math.max(this.leastScale, kLargestStep / this.unit);
+    if (fitted) this.fit();
+    else this.set(this.center, this.scale);
+  }
+
+  // All of the world.
+  fit(): void {
+    this.set({ x: this.worldWidth / 2, y: this.worldHeight / 2 }, this.leastScale);
+  }
+
+  get isFitted(): boolean {
+    return this.scale <= this.leastScale * 1.001;
+  }
+
+  toView(x: number, y: number): Point {
+    return {
+      x: (x - this.center.x) * this.scale + this.width / 2,
+      y: (y - this.center.y) * this.scale + this.height / 2,
+    };
+  }
+
+  toWorld(x: number, y: number): Point {
+    return {
+      x: (x - this.width / 2) / this.scale + this.center.x,
+      y: (y - this.height / 2) / this.scale + this.center.y,
+    };
+  }
+
+  // By pixels.
+  pan(dx: number, dy: number): void {
+    this.set({ x: this.center.x - dx / this.scale, y: this.center.y - dy / this.scale }, this.scale);
+  }
+
+  // What is under this point of the view stays under it.
+  zoom(factor: number, x: number, y: number): void {
+    const fixed = this.toWorld(x, y);
+    const scale = Math.min(this.mostScale, Math.max(this.leastScale, this.scale * factor));
+    this.set(
+      { x: fixed.x - (x - this.width / 2) / scale, y: fixed.y - (y - this.height / 2) / scale },
+      scale,
+    );
+  }
+
+  // Puts a point into the middle, and comes near if it was far.
+  show(x: number, y: number): void {
+    this.set({ x, y }, Math.max(this.scale, Math.min(this.mostScale, kNear / this.unit)));
+  }
+
+  // No further away from the world than its edge in the middle of the view; all of it where it has
+  // room.
+  private set(center: Point, scale: number): void {
+    this.scale = scale;
+    const keep = (value: number, size: number, view: number) =>
+      size * scale <= view ? size / 2 : Math.min(size, Math.max(0, value));
+    this.center = {
+      x: keep(center.x, this.worldWidth, this.width),
+      y: keep(center.y, this.worldHeight, this.height),
+    };
+  }
+}
+
+const kLargestStep = 120; // pixels
+const kNear = 28;

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: MIT
+// Paints a frame on a 2D canvas: the world (once for each view), then what moves.
+
+import type { Camera } from "./camera";
+import { Doing, visitsBy, type PlanFacts } from "./facts";
+import type { Frame } from "./frame";
+import type { Model, World } from "./model";
+import type { Colors } from "./colors";
+
+export interface Shown {
+  chosen: number; // a robot; -1: none
+  chosenTask: number;
+  heat: Float32Array | null; // by place, 0 .. 1
+  path: number[] | null; // places of the robot chosen, in order
+  labels: boolean;
+}
+
+export class Painter {
+  private readonly ground: HTMLCanvasElement = document.createElement("canvas");
+  private groundKey = "";
+  private mapImage: HTMLCanvasElement | null = null;
+  private mapColors: Colors | null = null;
+
+  private readonly tasksByPlace = new Map<number, number[]>();
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly model: Model,
+    private readonly facts: PlanFacts | null,
+  ) {
+    model.tasks.forEach(({ place }, index) => {
+      const others = this.tasksByPlace.get(place);
+      if (others) others.push(index);
+      else this.tasksByPlace.set(place, [index]);
+    });
+  }
+
+  paint(camera: Camera, frame: Frame | null, shown: Shown, colors: Colors, ratio: number): void {
+    const width = Math.round(camera.width * ratio);
+    const height = Math.round(camera.height * ratio);
+    if (this.canvas.width !== width) this.canvas.width = width;
+    if (this.canvas.height !== height) this.canvas.height = height;
+    const c = this.canvas.getContext("2d")!;
+    c.setTransform(1, 0, 0, 1, 0, 0);
+    this.paintGround(camera, colors, ratio, width, height);
+    c.drawImage(this.ground, 0, 0);
+    c.setTransform(ratio, 0, 0, ratio, 0, 0);
+    if (shown.heat) this.paintHeat(c, camera, shown.heat, colors);
+    this.paintPlaces(c, camera, frame, shown, colors);
+    if (shown.path) this.paintPath(c, camera, shown.path, colors);
+    if (frame) this.paintRobots(c, camera, frame, shown, colors);
+  }
+
+  // The world does not change while the camera stands still.
+  private paintGround(
+    camera: Camera, colors: Colors, ratio: number, width: number, height: number,
+  ): void {
+    const { center, scale } = camera;
+    const key = [center.x, center.y, scale, width, height, ratio, colors.name].join();
+    if (key === this.groundKey) return;
+    this.groundKey = key;
+    this.ground.width = width;
+    this.ground.height = height;
+    const c = this.ground.getContext("2d")!;
+    c.fillStyle = colors.outside;
+    c.fillRect(0, 0, width, height);
+    c.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const { world } = this.model;
+    if (world.kind === "grid") this.paintGrid(c, camera, world, colors);
+    else paintRoads(c, camera, world, colors);
+  }
+
+  private paintGrid(c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors): void {
+    if (!this.mapImage || this.mapColors !== colors) {
+      this.mapImage = imageOfGrid(world, colors);
+      this.mapColors = colors;
+    }
+    const at = camera.toView(0, 0);
+    c.imageSmoothingEnabled = camera.scale < 1;
+    c.drawImage(this.mapImage, at.x, at.y, world.width * camera.scale, world.height * camera.scale);
+    if (camera.scale >= 12) paintLines(c, camera, world, colors);
+  }
+
+  private paintHeat(
+    c: CanvasRenderingContext2D, camera: Camera, heat: Float32Array, colors: Colors,
+  ): void {
+    const { world } = this.model;
+    const size = Math.max(2, world.unit * camera.scale);
+    c.fillStyle = colors.heat;
+    for (let place = 0; place < world.places; ++place) {
+      if (heat[place] === 0) continue;
+      const p = camera.toView(world.xs[place], world.ys[place]);
+      if (isOutside(p.x, p.y, size, camera)) continue;
+      c.globalAlpha = 0.1 + 0.75 * heat[place];
+      c.fillRect(p.x - size / 2, p.y - size / 2, size, size);
+    }
+    c.globalAlpha = 1;
+  }
+
+  // Destinations and tasks.
+  private paintPlaces(
+    c: CanvasRenderingContext2D, camera: Camera, frame: Frame | null, shown: Shown, colors: Colors,
+  ): void {
+    const { world, agents, tasks } = this.model;
+    const step = world.unit * camera.scale;
+    if (step < 3) return;
+    agents.forEach((agent, index) => {
+      if (agent.goal < 0) return;
+      const p = camera.toView(world.xs[agent.goal], world.ys[agent.goal]);
+      if (isOutside(p.x, p.y, step, camera)) return;
+      c.strokeStyle = index === shown.chosen ? colors.chosen : colors.goal;
+      c.lineWidth = index === shown.chosen ? 2.5 : 1.25;
+      const r = Math.max(2, 0.4 * step);
+      c.strokeRect(p.x - r, p.y - r, 2 * r, 2 * r);
+    });
+    const time = frame ? frame.time : 0;
+    for (const [place, indices] of this.tasksByPlace) {
+      const p = camera.toView(world.xs[place], world.ys[place]);
+      if (isOutside(p.x, p.y, step, camera)) continue;
+      const visits = indices.map((index) => (this.facts ? visitsBy(this.facts.tasks[index], time) : 0));
+      const totals = indices.map((index) => tasks[index].agents.length);
+      paintTasks(c, p.x, p.y, step, indices, visits, totals, indices.includes(shown.chosenTask), colors);
+    }
+  }
+
+  private paintPath(
+    c: CanvasRenderingContext2D, camera: Camera, path: number[], colors: Colors,
+  ): void {
+    const { world } = this.model;
+    c.strokeStyle = colors.chosen;
+    c.globalAlpha = 0.75;
+    c.lineWidth = Math.max(1.5, Math.min(5, 0.12 * world.unit * camera.scale));
+    c.lineJoin = "round";
+    c.beginPath();
+    path.forEach((place, i) => {
+      const p = camera.toView(world.xs[place], world.ys[place]);
+      if (i === 0) c.moveTo(p.x, p.y);
+      else c.lineTo(p.x, p.y);
+    });
+    c.stroke();
+    c.globalAlpha = 1;
+  }
+
+  private paintRobots(
+    c: CanvasRenderingContext2D, camera: Camera, frame: Frame, shown: Shown, colors: Colors,
+  ): void {
+    const { world } = this.model;
+    const step = world.unit * camera.scale;
+    const radius = Math.max(1.5, 0.34 * step);
+    for (let doing = Doing.kMoving; doing <= Doing.kResting; ++doing) {
+      c.fillStyle = colors.doing[doing];
+      c.beginPath();
+      for (let i = 0; i < frame.count; ++i) {
+        if (frame.missing[i] || frame.doing[i] !== doing || frame.colliding[i]) continue;
+        const p = camera.toView(frame.xs[i], frame.ys[i]);
+        if (!isOutside(p.x, p.y, radius, camera)) addRobot(c, p.x, p.y, radius);
+      }
+      c.fill();
+    }
+    for (let i = 0; i < frame.count; ++i) {
+      if (frame.missing[i]) continue;
+      const p = camera.toView(frame.xs[i], frame.ys[i]);
+      if (isOutside(p.x, p.y, 2 * radius, camera)) continue;
+      if (frame.colliding[i]) paintCollision(c, p.x, p.y, radius, colors);
+      if (step >= 10 && !Number.isNaN(frame.angles[i]))
+        paintHeading(c, p.x, p.y, radius, frame.angles[i], colors);
+      if (i === shown.chosen) paintRing(c, p.x, p.y, radius, colors);
+      if (shown.labels && step >= 22) {
+        const id = this.model.agents[i].id;
+        c.fillStyle = colors.onRobot;
+        c.font = `600 ${Math.min(15, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
+        c.textAlign = "center";
+        c.textBaseline = "middle";
+        c.fillText(id.length > 6 ? id.slice(0, 5) + "…" : id, p.x, p.y + 0.5, 2.4 * radius);
+      }
+    }
+  }
+}
+
+function isOutside(x: number, y: number, size: number, camera: Camera): boolean {
+  return x < -size || y < -size || x > camera.width + size || y > camera.height + size;
+}
+
+// A pixel for each cell.
+function imageOfGrid(world: World, colors: Colors): HTMLCanvasElement {
+  const canvas = document.createElement("canvas");
+  canvas.width = world.columns;
+  canvas.height = world.places / world.columns;
+  const c = canvas.getContext("2d")!;
+  const image = c.createImageData(canvas.width, canvas.height);
+  const pixels = new Uint32Array(image.data.buffer);
+  const free = packed(colors.floor);
+  const blocked = packed(colors.wall);
+  for (let place = 0; place < world.places; ++place)
+    pixels[place] = world.free[place] ? free : blocked;
+  c.putImageData(image, 0, 0);
+  return canvas;
+}
+
+// "#rrggbb" as a little-endian pixel.
+function packed(color: string): number {
+  const value = parseInt(color.slice(1), 16);
+  const [r, g, b] = [value >> 16, (value >> 8) & 255, value & 255];
+  return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
+}
+
+function paintLines(c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors): void {
+  const from = camera.toWorld(0, 0);
+  const to = camera.toWorld(camera.width, camera.height);
+  c.strokeStyle = colors.lines;
+  c.lineWidth = 1;
+  c.beginPath();
+  for (let x = Math.max(0, Math.floor(from.x)); x <= Math.min(world.width, to.x); ++x) {
+    const a = camera.toView(x, Math.max(0, from.y));
+    const b = camera.toView(x, Math.min(world.height, to.y));
+    c.moveTo(Math.round(a.x) + 0.5, a.y);
+    c.lineTo(Math.round(a.x) + 0.5, b.y);
+  }
+  for (let y = Math.max(0, Math.floor(from.y)); y <= Math.min(world.height, to.y); ++y) {
+    const a = camera.toView(Math.max(0, from.x), y);
+    const b = camera.toView(Math.min(world.width, to.x), y);
+    c.moveTo(a.x, Math.round(a.y) + 0.5);
+    c.lineTo(b.x, Math.round(a.y) + 0.5);
+  }
+  c.stroke();
+}
+
+function paintRoads(c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors): void {
+  const step = world.unit * camera.scale;
+  c.lineCap = "round";
+  c.strokeStyle = colors.road;
+  c.lineWidth = Math.max(1.5, Math.min(14, 0.55 * step));
+  c.beginPath();
+  for (const road of world.roads) {
+    const a = camera.toView(world.xs[road.from], world.ys[road.from]);
+    c.moveTo(a.x, a.y);
+    for (let k = 0; k < road.steps - 1; ++k) {
+      const p = camera.toView(world.xs[road.first + k], world.ys[road.first + k]);
+      c.lineTo(p.x, p.y);
+    }
+    const b = camera.toView(world.xs[road.to], world.ys[road.to]);
+    c.lineTo(b.x, b.y);
+  }
+  c.stroke();
+  if (step >= 4) paintArrows(c, camera, world, step, colors);
+  c.fillStyle = colors.vertex;
+  c.beginPath();
+  const r = Math.max(1, Math.min(7, 0.2 * step));
+  for (let v = 0; v < world.vertexNames.length; ++v) {
+    const p = camera.toView(world.xs[v], world.ys[v]);
+    c.moveTo(p.x + r, p.y);
+    c.arc(p.x, p.y, r, 0, 2 * Math.PI);
+  }
+  c.fill();
+  if (step >= 26) paintVertexNames(c, camera, world, colors);
+}
+
+function paintVertexNames(
+  c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors,
+): void {
+  c.fillStyle = colors.faint;
+  c.font = "11px system-ui, sans-serif";
+  c.textAlign = "left";
+  c.textBaseline = "top";
+  world.vertexNames.forEach((name, v) => {
+    const p = camera.toView(world.xs[v], world.ys[v]);
+    if (!isOutside(p.x, p.y, 60, camera)) c.fillText(name, p.x + 6, p.y + 5);
+  });
+}
+
+// In the middle of each one-way road.
+function paintArrows(
+  c: CanvasRenderingContext2D, camera: Camera, world: World, step: number, colors: Colors,
+): void {
+  c.fillStyle = colors.arrow;
+  const size = Math.max(3, Math.min(8, 0.3 * step));
+  c.beginPath();
+  for (const road of world.roads) {
+    if (!road.oneWay) continue;
+    const places = [road.from];
+    for (let k = 0; k < road.steps - 1; ++k) places.push(road.first + k);
+    places.push(road.to);
+    const middle = (places.length - 1) >> 1;
+    const a = camera.toView(world.xs[places[middle]], world.ys[places[middle]]);
+    const b = camera.toView(world.xs[places[middle + 1]], world.ys[places[middle + 1]]);
+    const length = Math.hypot(b.x - a.x, b.y - a.y) || 1;
+    const [dx, dy] = [((b.x - a.x) / length) * size, ((b.y - a.y) / length) * size];
+    const [x, y] = [(a.x + b.x) / 2, (a.y + b.y) / 2];
+    if (isOutside(x, y, 10, camera)) continue;
+    c.moveTo(x + dx, y + dy);
+    c.lineTo(x - dx - dy, y - dy + dx);
+    c.lineTo(x - dx + dy, y - dy - dx);
+    c.closePath();
+  }
+  c.fill();
+}
+
+// A diamond for all tasks of a place: pale while open, yellow once begun, grey when done.
+function paintTasks(
+  c: CanvasRenderingContext2D, x: number, y: number, step: number, indices: number[],
+  visits: number[], totals: number[], chosen: boolean, colors: Colors,
+): void {
+  const r = Math.max(2.5, 0.42 * step);
+  const diamond = () => {
+    c.beginPath();
+    c.moveTo(x, y - r);
+    c.lineTo(x + r, y);
+    c.lineTo(x, y + r);
+    c.lineTo(x - r, y);
+    c.closePath();
+  };
+  const done = visits.every((count, i) => count >= totals[i]);
+  const begun = visits.some((count) => count > 0);
+  diamond();
+  c.fillStyle = done ? colors.taskDone : begun ? colors.taskBegun : colors.taskOpen;
+  c.fill();
+  c.strokeStyle = chosen ? colors.chosen : colors.task;
+  c.lineWidth = chosen ? 3 : 1.25;
+  c.stroke();
+  if (step < 26) return;
+  c.fillStyle = done ? colors.faint : colors.text;
+  c.font = `${Math.min(12, 0.24 * step)}px system-ui, sans-serif`;
+  c.textAlign = "left";
+  c.textBaseline = "bottom";
+  indices.slice(0, 3).forEach((index, i) => {
+    const count = totals[i] > 1 ? `: ${visits[i]} of ${totals[i]}` : "";
+    c.fillText(`${index + 1}${count}`, x + 0.5 * r, y - 0.5 * r - 0.26 * step * i);
+  });
+}
+
+function addRobot(c: CanvasRenderingContext2D, x: number, y: number, radius: number): void {
+  if (radius < 3) {
+    c.rect(x - radius, y - radius, 2 * radius, 2 * radius);
+  } else {
+    c.moveTo(x + radius, y);
+    c.arc(x, y, radius, 0, 2 * Math.PI);
+  }
+}
+
+// Larger than a robot, and of another shape: red is not seen by everybody.
+function paintCollision(
+  c: CanvasRenderingContext2D, x: number, y: number, radius: number, colors: Colors,
+): void {
+  const r = Math.max(5, 1.15 * radius);
+  c.fillStyle = colors.collision;
+  c.beginPath();
+  for (let k = 0; k < 16; ++k) {
+    const length = k % 2 === 0 ? r : 0.7 * r;
+    const angle = (k * Math.PI) / 8;
+    c.lineTo(x + length * Math.cos(angle), y + length * Math.sin(angle));
+  }
+  c.closePath();
+  c.fill();
+}
+
+function paintHeading(
+  c: CanvasRenderingContext2D, x: number, y: number, radius: number, angle: number, colors: Colors,
+): void {
+  const [dx, dy] = [Math.sin(angle), -Math.cos(angle)];
+  const tip = 1.25 * radius;
+  c.fillStyle = colors.heading;
+  c.beginPath();
+  c.moveTo(x + dx * tip, y + dy * tip);
+  c.lineTo(x + dx * 0.75 * radius - dy * 0.5 * radius, y + dy * 0.75 * radius + dx * 0.5 * radius);
+  c.lineTo(x + dx * 0.75 * radius + dy * 0.5 * radius, y + dy * 0.75 * radius - dx * 0.5 * radius);
+  c.closePath();
+  c.fill();
+}
+
+function paintRing(
+  c: CanvasRenderingContext2D, x: number, y: number, radius: number, colors: Colors,
+): void {
+  c.strokeStyle = colors.chosen;
+  c.lineWidth = 3;
+  c.beginPath();
+  c.arc(x, y, Math.max(7, radius + 3), 0, 2 * Math.PI);
+  c.stroke();
+}

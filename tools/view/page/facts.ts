@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// What one wants to know of a plan, worked out from its paths: who does what when, which visits are
+// made by when, and who waits for whom.
+
+import type { Agent, AgentPlan, Model, Plan } from "./model";
+
+export enum Doing {
+  kMoving,
+  kWaiting,
+  kWorking,
+  kResting,
+}
+
+export interface Span {
+  doing: Doing;
+  begin: number;
+  end: number; // Infinity: for ever
+  task: number; // at work: on which; else -1
+}
+
+// When the agent comes to rest: after its last step and its last work.
+export function finish(plan: AgentPlan): number {
+  let time = lastChange(plan);
+  for (const work of plan.work) time = Math.max(time, work.end);
+  return time;
+}
+
+function lastChange(plan: AgentPlan): number {
+  const { track, turns } = plan;
+  let last = 0;
+  for (let run = track.runs - 1; run >= 0; --run)
+    if (track.deltas[run] !== 0) {
+      last = track.times[run + 1];
+      break;
+    }
+  if (turns)
+    for (let run = turns.runs - 1; run >= 0; --run)
+      if (turns.deltas[run] !== 0 || turns.jumps[run]) return Math.max(last, turns.times[run + 1]);
+  return last;
+}
+
+// What an agent does from 0 on, span after span; the last one is rest, for ever.
+export function spans(plan: AgentPlan): Span[] {
+  const all: Span[] = [];
+  const add = (doing: Doing, begin: number, end: number, task = -1) => {
+    if (begin >= end) return;
+    const last = all[all.length - 1];
+    if (last && last.doing === doing && last.end === begin && last.task === task) last.end = end;
+    else all.push({ doing, begin, end, task });
+  };
+  const rest = finish(plan);
+  const works = [...plan.work].sort((a, b) => a.begin - b.begin);
+  const moves = movingTimes(plan);
+  let time = 0;
+  let move = 0;
+  // Steps that move, and waits between them, up to `end`.
+  const walk = (end: number) => {
+    while (time < end) {
+      while (move < moves.length && moves[move][1] <= time) ++move;
+      const next = move < moves.length ? moves[move] : null;
+      if (next && next[0] <= time) {
+        const until = Math.min(end, next[1]);
+        add(Doing.kMoving, time, until);
+        time = until;
+      } else {
+        const until = Math.min(end, next ? next[0] : end);
+        add(Doing.kWaiting, time, until);
+        time = until;
+      }
+    }
+  };
+  for (const work of works) {
+    walk(Math.min(rest, Math.max(0, work.begin)));
+    const end = Math.max(time, work.end);
+    add(Doing.kWorking, time, end, work.task);
+    time = end;
+  }
+  walk(rest);
+  all.push({ doing: Doing.kResting, begin: time, end: Infinity, task: -1 });
+  return all;
+}
+
+// Pieces of time in which the agent moves or turns, in order.
+function movingTimes(plan: AgentPlan): [number, number][] {
+  const pieces: [number, number][] = [];
+  const { track, turns } = plan;
+  for (let run = 0; run < track.runs; ++run)
+    if (track.deltas[run] !== 0) pieces.push([track.times[run], track.times[run + 1]]);
+  if (turns)
+    for (let run = 0; run < turns.runs; ++run)
+      if (turns.deltas[run] !== 0 || turns.jumps[run])
+        pieces.push([turns.times[run], turns.times[run + 1]]);
+  pieces.sort((a, b) => a[0] - b[0]);
+  const merged: [number, number][] = [];
+  for (const piece of pieces) {
+    const last = merged[merged.length - 1];
+    if (last && last[1] >= piece[0]) last[1] = Math.max(last[1], piece[1]);
+    else merged.push([piece[0], piece[1]]);
+  }
+  return merged;
+}
+
+// When the agent has visited a task: the end of its work, or the first time on the place. Infinity:
+// never.
+export function visitTime(model: Model, plan: AgentPlan, task: number): number {
+  const { place, duration } = model.tasks[task];
+  if (duration > 0) {
+    const work = plan.work.find((w) => w.task === task);
+    return work ? work.end : Infinity;
+  }
+  const { track } = plan;
+  if (track.isEmpty) return Infinity;
+  if (track.places[0] === place) return 0;
+  for (let run = 0; run < track.runs; ++run) {
+    const delta = track.deltas[run];
+    if (delta === 0) continue;
+    const steps = (place - track.places[run]) / delta;
+    const most = track.times[run + 1] - track.times[run];
+    if (Number.isInteger(steps) && steps >= 1 && steps <= most) return track.times[run] + steps;
+  }
+  return Infinity;
+}
+
+export interface TaskFacts {
+  agents: number[]; // in the order of their visits
+  times: number[]; // of the visits, ascending; Infinity: never
+}
+
+export interface PlanFacts {
+  finish: number[]; // by agent
+  spans: Span[][]; // by agent
+  tasks: TaskFacts[];
+  cost: number;
+}
+
+export function planFacts(model: Model, plan: Plan): PlanFacts {
+  const finishes = plan.agents.map(finish);
+  return {
+    finish: finishes,
+    spans: plan.agents.map(spans),
+    tasks: model.tasks.map((task, index) => {
+      const visits = task.agents
+        .map((agent) => ({ agent, time: visitTime(model, plan.agents[agent], index) }))
+        .sort((a, b) => a.time - b.time || a.agent - b.agent);
+      return { agents: visits.map((v) => v.agent), times: visits.map((v) => v.time) };
+    }),
+    cost: finishes.reduce((sum, time) => sum + time, 0),
+  };
+}
+
+// How many of the task's agents have been there by `time`.
+export function visitsBy(facts: TaskFacts, time: number): number {
+  let count = 0;
+  while (count < facts.times.length && facts.times[count] <= time) ++count;
+  return count;
+}
+
+export interface Wait {
+  begin: number;
+  end: number;
+  place: number;
+  for: number[]; // who was where it went next, meanwhile
+}
+
+// The waits of an agent, and whom it lets pass: who is on the place that it goes to next at some
+// time when it could have come there, or comes from there to its own.
+export function waits(plan: Plan, agent: number, all: Span[]): Wait[] {
+  const { track } = plan.agents[agent];
+  return all
+    .filter((span) => span.doing === Doing.kWaiting)
+    .map((span) => {
+      const place = track.place(span.begin);
+      const next = track.place(span.end + 1);
+      const passing: number[] = [];
+      plan.agents.forEach((other, index) => {
+        if (index === agent || other.track.isEmpty) return;
+        for (let t = span.begin + 1; t <= span.end; ++t)
+          if (other.track.place(t) === next && next !== place) {
+            passing.push(index);
+            return;
+          }
+      });
+      return { begin: span.begin, end: span.end, place, for: passing };
+    });
+}
+
+// In which order the agent's tasks are visited.
+export function visitsOf(model: Model, plan: AgentPlan, agent: Agent): { task: number; time: number }[] {
+  return agent.tasks
+    .map((task) => ({ task, time: visitTime(model, plan, task) }))
+    .sort((a, b) => a.time - b.time || a.task - b.task);
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Everything that moves, at a moment: where each robot is, which way it looks, what it does, and
+// whether it collides. O(robots), whatever the length of the plan.
+
+import { Doing, type PlanFacts } from "./facts";
+import type { Model, Plan } from "./model";
+
+export class Frame {
+  time = 0;
+  readonly count: number;
+  readonly xs: Float32Array; // in the world's units
+  readonly ys: Float32Array;
+  readonly angles: Float32Array; // clockwise from up, in radians; NaN: turns freely
+  readonly doing: Uint8Array;
+  readonly colliding: Uint8Array;
+  readonly missing: Uint8Array; // no path: not drawn
+
+  private readonly runs: Int32Array; // by agent: where it was last
+  private readonly spanAt: Int32Array;
+  private readonly here: Int32Array; // places at the step before, and after
+  private readonly next: Int32Array;
+  private readonly occupant: Int32Array; // by place
+  private readonly stamp: Int32Array;
+  private stamps = 0;
+  private step = -1; // of which here and next are
+
+  constructor(
+    private readonly model: Model,
+    readonly plan: Plan,
+    private readonly facts: PlanFacts,
+  ) {
+    const count = plan.agents.length;
+    this.count = count;
+    this.xs = new Float32Array(count);
+    this.ys = new Float32Array(count);
+    this.angles = new Float32Array(count);
+    this.doing = new Uint8Array(count);
+    this.colliding = new Uint8Array(count);
+    this.missing = Uint8Array.from(plan.agents, (agent) => (agent.track.isEmpty ? 1 : 0));
+    this.runs = new Int32Array(count);
+    this.spanAt = new Int32Array(count);
+    this.here = new Int32Array(count);
+    this.next = new Int32Array(count);
+    this.occupant = new Int32Array(model.world.places);
+    this.stamp = new Int32Array(model.world.places);
+  }
+
+  update(time: number): void {
+    this.time = time;
+    const step = Math.floor(time);
+    if (step !== this.step) this.enter(step);
+    const part = time - step;
+    const { xs, ys } = this.model.world;
+    for (let i = 0; i < this.count; ++i) {
+      if (this.missing[i]) continue;
+      const a = this.here[i];
+      const b = this.next[i];
+      this.xs[i] = xs[a] + (xs[b] - xs[a]) * part;
+      this.ys[i] = ys[a] + (ys[b] - ys[a]) * part;
+      const { turns } = this.plan.agents[i];
+      this.angles[i] = turns ? (turns.angle(time) * Math.PI) / (2 * turns.turnSteps) : NaN;
+    }
+    this.findCollisions(part);
+  }
+
+  // The place of a robot at the step before this moment.
+  place(agent: number): number {
+    return this.here[agent];
+  }
+
+  private enter(step: number): void {
+    this.step = step;
+    for (let i = 0; i < this.count; ++i) {
+      const { track } = this.plan.agents[i];
+      if (track.isEmpty) continue;
+      this.runs[i] = track.run(step, this.runs[i]);
+      this.here[i] = track.place(step, this.runs[i]);
+      this.next[i] = track.place(step + 1, this.runs[i]);
+      this.doing[i] = this.doingAt(i, step);
+    }
+  }
+
+  private doingAt(agent: number, step: number): Doing {
+    const spans = this.facts.spans[agent];
+    let at = this.spanAt[agent];
+    if (spans[at].begin > step) at = 0;
+    while (spans[at].end <= step) ++at;
+    this.spanAt[agent] = at;
+    return spans[at].doing;
+  }
+
+  // On one place at this step, or, on the way to the next one, exchanging places or coming to one
+  // place: so a collision is seen coming and stays until it is over.
+  private findCollisions(part: number): void {
+    this.colliding.fill(0);
+    this.meet(this.here);
+    if (part === 0) return;
+    this.findSwaps();
+    if (part >= 0.5) this.meet(this.next);
+  }
+
+  private meet(places: Int32Array): void {
+    const mark = ++this.stamps;
+    for (let i = 0; i < this.count; ++i) {
+      if (this.missing[i]) continue;
+      const place = places[i];
+      if (this.stamp[place] === mark) {
+        this.colliding[i] = 1;
+        this.colliding[this.occupant[place]] = 1;
+      }
+      this.stamp[place] = mark;
+      this.occupant[place] = i;
+    }
+  }
+
+  private findSwaps(): void {
+    const mark = ++this.stamps;
+    for (let i = 0; i < this.count; ++i) {
+      if (this.missing[i]) continue;
+      this.stamp[this.here[i]] = mark;
+      this.occupant[this.here[i]] = i;
+    }
+    for (let i = 0; i < this.count; ++i) {
+      if (this.missing[i] || this.here[i] === this.next[i]) continue;
+      const other = this.stamp[this.next[i]] === mark ? this.occupant[this.next[i]] : -1;
+      if (other >= 0 && other !== i && this.next[other] === this.here[i])
+        this.colliding[i] = this.colliding[other] = 1;
+    }
+  }
+}

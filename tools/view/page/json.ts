@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Reads JSON strictly: whatever is not as expected is an error that says where it is.
+
+export class Value {
+  constructor(
+    private readonly value: unknown,
+    readonly path: string,
+  ) {}
+
+  fail(expected: string): never {
+    throw new Error(`${this.path || "the data"}: expected ${expected}`);
+  }
+
+  get isThere(): boolean {
+    return this.value !== undefined;
+  }
+
+  key(name: string): Value {
+    const object = this.value;
+    if (typeof object !== "object" || object === null || Array.isArray(object))
+      this.fail("an object");
+    const own = Object.prototype.hasOwnProperty.call(object, name);
+    const value = own ? (object as Record<string, unknown>)[name] : undefined;
+    return new Value(value, this.path === "" ? name : `${this.path}.${name}`);
+  }
+
+  list(length = -1): Value[] {
+    if (!Array.isArray(this.value)) this.fail("a list");
+    const all = this.value as unknown[];
+    if (length >= 0 && all.length !== length) this.fail(`a list of ${length}`);
+    return all.map((value, i) => new Value(value, `${this.path}[${i}]`));
+  }
+
+  text(): string {
+    if (typeof this.value !== "string") this.fail("a text");
+    return this.value as string;
+  }
+
+  number(): number {
+    if (typeof this.value !== "number" || !Number.isFinite(this.value)) this.fail("a number");
+    return this.value as number;
+  }
+
+  // least <= it < bound
+  integer(least: number, bound: number): number {
+    const value = this.value;
+    if (typeof value !== "number" || !Number.isSafeInteger(value) || value < least || value >= bound)
+      this.fail(`a whole number from ${least} to ${bound - 1}`);
+    return value as number;
+  }
+
+  // What `read` makes of it; its own errors get this place.
+  as<T>(read: (text: string) => T): T {
+    try {
+      return read(this.text());
+    } catch (error) {
+      throw new Error(`${this.path}: ${error instanceof Error ? error.message : String(error)}`);
+    }
+  }
+}
+
+export function parse(text: string): Value {
+  try {
+    return new Value(JSON.parse(text), "");
+  } catch (error) {
+    throw new Error(`the data is no JSON: ${error instanceof Error ? error.message : String(error)}`);
+  }
+}

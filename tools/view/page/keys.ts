@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The keyboard alone is enough.
+
+import type { App } from "./app";
+import type { Camera } from "./camera";
+
+export interface Keys {
+  app: App;
+  cameras: Camera[];
+  search: HTMLElement;
+}
+
+export function listenToKeys({ app, cameras, search }: Keys): void {
+  const zoom = (factor: number) => {
+    for (const camera of cameras) camera.zoom(factor, camera.width / 2, camera.height / 2);
+  };
+  const pan = (dx: number, dy: number) => {
+    for (const camera of cameras) camera.pan(dx * 80, dy * 80);
+  };
+  const { player } = app;
+  const acts: Record<string, () => void> = {
+    " ": () => player.toggle(),
+    ArrowRight: () => player.step(1),
+    ArrowLeft: () => player.step(-1),
+    PageDown: () => player.step(10),
+    PageUp: () => player.step(-10),
+    Home: () => player.go(0),
+    End: () => player.go(player.end),
+    ".": () => player.faster(1),
+    ",": () => player.faster(-1),
+    l: () => (player.loop = !player.loop),
+    "+": () => zoom(1.25),
+    "=": () => zoom(1.25),
+    "-": () => zoom(0.8),
+    w: () => pan(0, 1),
+    s: () => pan(0, -1),
+    a: () => pan(1, 0),
+    d: () => pan(-1, 0),
+    "0": () => {
+      app.following = false;
+      for (const camera of cameras) camera.fit();
+    },
+    f: () => (app.following = app.chosen >= 0 && !app.following),
+    n: () => app.choose((app.chosen + 1) % app.model.agents.length),
+    p: () => app.choose((app.chosen + app.model.agents.length - 1) % app.model.agents.length),
+    Escape: () => app.choose(-1),
+    "/": () => search.focus(),
+  };
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const target = event.target as HTMLElement;
+    if (target instanceof HTMLInputElement && target.type === "search") return;
+    if (target instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter")) return;
+    const act = acts[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!act) return;
+    event.preventDefault();
+    act();
+    app.changed();
+  });
+}

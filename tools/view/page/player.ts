@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Time: which moment is shown, and how it goes on.
+
+export const kSpeeds = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64]; // steps a second
+
+export class Player {
+  time = 0; // in steps; between two of them while it plays
+  playing = false;
+  loop = false;
+  speed = 4;
+
+  constructor(readonly end: number) {}
+
+  toggle(): void {
+    if (!this.playing && this.time >= this.end) this.time = 0;
+    this.playing = !this.playing && this.end > 0;
+  }
+
+  // To a moment; playing goes on from there.
+  go(time: number): void {
+    this.time = Math.min(this.end, Math.max(0, time));
+  }
+
+  // By whole steps, from a standstill.
+  step(by: number): void {
+    this.playing = false;
+    const from = by > 0 ? Math.floor(this.time) : Math.ceil(this.time);
+    this.go(from + by);
+  }
+
+  faster(by: number): void {
+    const at = kSpeeds.findIndex((speed) => speed >= this.speed);
+    this.speed = kSpeeds[Math.min(kSpeeds.length - 1, Math.max(0, at + by))];
+  }
+
+  // So many seconds have gone by. Long ones are those of a page that was not looked at.
+  advance(seconds: number): void {
+    if (!this.playing) return;
+    this.time += Math.min(seconds, 0.25) * this.speed;
+    if (this.time < this.end) return;
+    if (this.loop) {
+      this.time = this.end > 0 ? this.time % this.end : 0;
+    } else {
+      this.time = this.end;
+      this.playing = false;
+    }
+  }
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The page's data (README.md), read strictly: ids are text, everything else must be as expected.
+
+import { parse, type Value } from "./json";
+import type { Agent, AgentPlan, Claims, Model, Plan, Task, World } from "./model";
+import { readAngle, readTrack, readTurns, stepsOnGrid, stepsOnRoads } from "./track";
+import { readWorld } from "./world";
+
+const kMostTime = 1 << 30;
+const kMostTurn = (1 << 16) + 1;
+
+export function readModel(text: string): Model {
+  const data = parse(text);
+  if (data.key("format").text() !== "grove view 1") data.key("format").fail("'grove view 1'");
+  const world = readWorld(data.key("world"));
+  const taskCount = data.key("tasks").list().length;
+  const agents = data.key("agents").list().map((agent) => readAgent(agent, world, taskCount));
+  const tasks = data.key("tasks").list().map((task, index) => readTask(task, index, world, agents));
+  const plans = data.key("plans").list().map((plan) => readPlan(plan, world, agents, tasks));
+  return { instance: data.key("instance").text(), world, agents, tasks, plans };
+}
+
+function readAgent(data: Value, world: World, taskCount: number): Agent {
+  const goal = data.key("goal");
+  const turn = data.key("turn");
+  const goalAngle = data.key("goalAngle");
+  const working = data.key("working");
+  const turnSteps = turn.isThere ? turn.integer(1, kMostTurn) : 0;
+  if (turnSteps > 0 && world.kind !== "grid") turn.fail("no robot that turns on a roadmap");
+  const agent: Agent = {
+    id: data.key("id").text(),
+    start: data.key("start").integer(0, world.places),
+    goal: goal.isThere ? goal.integer(0, world.places) : -1,
+    turnSteps,
+    startAngle: turnSteps > 0
+      ? data.key("angle").as((text) => readAngle(text, turnSteps)) : { steps: 0, direction: 0 },
+    goalAngle: turnSteps > 0 && goalAngle.isThere ? goalAngle.integer(0, 4 * turnSteps) : -1,
+    working: null,
+    tasks: [],
+  };
+  if (working.isThere) {
+    const [task, done] = working.list(2);
+    agent.working = { task: task.integer(0, taskCount), done: done.integer(0, kMostTime) };
+  }
+  return agent;
+}
+
+function readTask(data: Value, index: number, world: World, agents: Agent[]): Task {
+  const duration = data.key("duration");
+  const task: Task = {
+    id: data.key("id").text(),
+    place: data.key("place").integer(0, world.places),
+    agents: data.key("agents").list().map((agent) => agent.integer(0, agents.length)),
+    duration: duration.isThere ? duration.integer(0, kMostTime) : 0,
+  };
+  for (const agent of task.agents) agents[agent].tasks.push(index);
+  return task;
+}
+
+function readPlan(data: Value, world: World, agents: Agent[], tasks: Task[]): Plan {
+  const list = data.key("agents");
+  const plans = list.isThere
+    ? list.list(agents.length).map((plan, i) => readAgentPlan(plan, world, agents[i], tasks)) : [];
+  return {
+    name: data.key("name").text(),
+    claims: readClaims(data.key("claims")),
+    agents: plans,
+    end: plans.reduce((end, plan) => Math.max(end, endOf(plan)), 0),
+  };
+}
+
+function endOf(plan: AgentPlan): number {
+  const worked = plan.work.reduce((end, work) => Math.max(end, work.end), 0);
+  return Math.max(plan.track.end, plan.turns ? plan.turns.end : 0, worked);
+}
+
+function readClaims(data: Value): Claims {
+  const claims: Claims = {};
+  const status = data.key("status");
+  const cost = data.key("cost");
+  const bound = data.key("lower_bound");
+  const omega = data.key("omega");
+  if (status.isThere) claims.status = status.text();
+  if (cost.isThere) claims.cost = cost.integer(-Number.MAX_SAFE_INTEGER, Number.MAX_SAFE_INTEGER);
+  if (bound.isThere)
+    claims.lower_bound = bound.integer(-Number.MAX_SAFE_INTEGER, Number.MAX_SAFE_INTEGER);
+  if (omega.isThere) claims.omega = omega.text();
+  return claims;
+}
+
+function readAgentPlan(data: Value, world: World, agent: Agent, tasks: Task[]): AgentPlan {
+  const steps = world.kind === "grid" ? stepsOnGrid(world.columns) : stepsOnRoads();
+  const cost = data.key("cost");
+  const order = data.key("tasks");
+  const work = data.key("work");
+  const turns = data.key("turns");
+  if (turns.isThere && agent.turnSteps === 0) turns.fail("no turns of a robot that turns freely");
+  const plan: AgentPlan = {
+    cost: cost.isThere ? cost.integer(-kMostTime, kMostTime) : null,
+    track: data.key("path").as((text) => readTrack(text, steps, world.places)),
+    turns: agent.turnSteps > 0
+      ? turns.as((text) => readTurns(text, agent.turnSteps)) : null,
+    tasks: order.isThere
+      ? order.list().map((task) => task.integer(0, tasks.length)) : null,
+    work: work.isThere
+      ? work.list().map((piece) => {
+          const [task, begin, end] = piece.list(3);
+          return {
+            task: task.integer(0, tasks.length),
+            begin: begin.integer(-kMostTime, kMostTime),
+            end: end.integer(-kMostTime, kMostTime),
+          };
+        })
+      : [],
+  };
+  if (plan.turns && plan.turns.end !== plan.track.end) turns.fail("as many times as the path has");
+  return plan;
+}

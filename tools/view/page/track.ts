@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// A path as runs of equal steps: place(t) without a number for each time.
+
+import type { Angle } from "./model";
+
+// Runs of equal steps: from times[i] (exclusive) to times[i + 1], each step adds steps[i]. jump[i]:
+// the run is one step to places[i + 1], whatever the world says of it.
+export class Track {
+  constructor(
+    readonly times: Int32Array, // when run i begins; one more for the end
+    readonly places: Int32Array, // where it begins
+    readonly deltas: Int32Array, // what each of its steps adds to the place
+    readonly jumps: Uint8Array,
+  ) {}
+
+  // No place at all: the plan has no path for the agent.
+  get isEmpty(): boolean {
+    return this.times.length === 0;
+  }
+  // The last time of the path; from then on the agent stays.
+  get end(): number {
+    return this.isEmpty ? 0 : this.times[this.times.length - 1];
+  }
+  get runs(): number {
+    return this.deltas.length;
+  }
+
+  // The run that the step from `time` to `time` + 1 is in; runs: after the end.
+  run(time: number, near = 0): number {
+    const times = this.times;
+    let low = near < this.runs && times[near] <= time ? near : 0;
+    if (low + 1 <= this.runs && time < times[low + 1]) return low;
+    let high = this.runs;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (times[middle] <= time) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
+  place(time: number, near = 0): number {
+    if (time >= this.end) return this.places[this.runs];
+    if (time <= 0) return this.places[0];
+    const run = this.run(time, near);
+    return this.places[run] + this.deltas[run] * (time - this.times[run]);
+  }
+}
+
+// The same for the angle of an agent that turns.
+export class TurnTrack {
+  constructor(
+    readonly times: Int32Array,
+    readonly angles: Int32Array, // not reduced: a turn to the right from 3 goes to 4
+    readonly deltas: Int8Array,
+    readonly directions: Int8Array, // at the beginning of each run, and at the end: within a turn
+    readonly jumps: Uint8Array,
+    readonly turnSteps: number,
+  ) {}
+
+  get end(): number {
+    return this.times.length === 0 ? 0 : this.times[this.times.length - 1];
+  }
+  get runs(): number {
+    return this.deltas.length;
+  }
+
+  run(time: number): number {
+    let low = 0;
+    let high = this.runs;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.times[middle] <= time) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
+  // Not reduced, for drawing; time may lie between two steps.
+  angle(time: number): number {
+    if (time >= this.end) return this.angles[this.runs];
+    const run = this.run(Math.floor(time));
+    if (this.jumps[run]) return this.angles[run];
+    return this.angles[run] + this.deltas[run] * (time - this.times[run]);
+  }
+
+  at(moment: number): Angle {
+    const time = Math.min(moment, this.end);
+    const around = 4 * this.turnSteps;
+    const raw = this.angle(time);
+    const steps = ((raw % around) + around) % around;
+    if (steps % this.turnSteps === 0) return { steps, direction: 0 };
+    const run = this.run(time);
+    const within = time > this.times[run] && this.deltas[run] !== 0;
+    return { steps, direction: within ? this.deltas[run] : this.directions[run] };
+  }
+}
+
+interface Step {
+  letter: string;
+  count: number;
+  jump: string;
+}
+
+const kMostSteps = 1 << 24;
+
+// "12E.@17;3N": steps with their counts.
+function* stepsOf(text: string, letters: string): Generator<Step> {
+  let count = 0;
+  for (let i = 0; i < text.length; ++i) {
+    const c = text[i];
+    if (c >= "0" && c <= "9") {
+      count = 10 * count + (c.charCodeAt(0) - 48);
+      if (count > kMostSteps) throw new Error("a path is longer than 16 million steps");
+    } else if (c === "@" && count === 0) {
+      const end = text.indexOf(";", i);
+      if (end < 0) throw new Error(`a path ends within '${text.slice(i, i + 12)}'`);
+      yield { letter: "@", count: 1, jump: text.slice(i + 1, end) };
+      i = end;
+    } else if (letters.includes(c)) {
+      yield { letter: c, count: count === 0 ? 1 : count, jump: "" };
+      count = 0;
+    } else {
+      throw new Error(`a path holds '${c}', which is no step`);
+    }
+  }
+  if (count !== 0) throw new Error("a path ends with a number");
+}
+
+// What each letter adds to a place.
+export function stepsOnGrid(columns: number): Map<string, number> {
+  return new Map([["E", 1], ["W", -1], ["S", columns], ["N", -columns], [".", 0]]);
+}
+export function stepsOnRoads(): Map<string, number> {
+  return new Map([["+", 1], ["-", -1], [".", 0]]);
+}
+
+class Runs {
+  times: number[] = [];
+  values: number[] = [];
+  deltas: number[] = [];
+  jumps: number[] = [];
+  time = 0;
+  value = 0;
+
+  add(delta: number, count: number, jump: boolean): void {
+    this.times.push(this.time);
+    this.values.push(this.value);
+    this.deltas.push(delta);
+    this.jumps.push(jump ? 1 : 0);
+    this.time += count;
+    this.value += delta * count;
+    if (this.time > kMostSteps) throw new Error("a path is longer than 16 million steps");
+  }
+  close(): void {
+    this.times.push(this.time);
+    this.values.push(this.value);
+  }
+}
+
+function number(text: string, least: number, bound: number): number {
+  const value = /^[0-9]{1,10}$/.test(text) ? Number(text) : NaN;
+  if (!(value >= least && value < bound)) throw new Error(`a path is on '${text}', which is no place`);
+  return value;
+}
+
+export function readTrack(text: string, steps: Map<string, number>, places: number): Track {
+  const runs = new Runs();
+  let begun = false;
+  for (const step of stepsOf(text, [...steps.keys()].join(""))) {
+    if (step.letter === "@") {
+      const to = number(step.jump, 0, places);
+      if (begun) runs.add(to - runs.value, 1, true);
+      else runs.value = to;
+    } else {
+      if (!begun) throw new Error("a path does not say where it begins");
+      runs.add(steps.get(step.letter)!, step.count, false);
+      if (runs.value < 0 || runs.value >= places) throw new Error("a path leaves the world");
+    }
+    begun = true;
+  }
+  if (begun) runs.close();
+  return new Track(
+    Int32Array.from(runs.times),
+    Int32Array.from(runs.values),
+    Int32Array.from(runs.deltas),
+    Uint8Array.from(runs.jumps),
+  );
+}
+
+// "3", "3r", "3l"
+export function readAngle(text: string, turnSteps: number): Angle {
+  const match = /^([0-9]{1,7})([rl]?)$/.exec(text);
+  const steps = match ? Number(match[1]) : NaN;
+  if (!match || !(steps < 4 * turnSteps)) throw new Error(`'${text}' is no angle`);
+  const direction = match[2] === "r" ? 1 : match[2] === "l" ? -1 : 0;
+  if ((direction === 0) !== (steps % turnSteps === 0)) throw new Error(`'${text}' is no angle`);
+  return { steps, direction };
+}
+
+export function readTurns(text: string, turnSteps: number): TurnTrack {
+  const runs = new Runs();
+  const directions: number[] = [];
+  let begun = false;
+  let direction = 0;
+  for (const step of stepsOf(text, "rl.")) {
+    if (step.letter === "@") {
+      const angle = readAngle(step.jump, turnSteps);
+      if (begun) {
+        directions.push(direction);
+        runs.add(angle.steps - runs.value, 1, true);
+      } else {
+        runs.value = angle.steps;
+      }
+      direction = angle.direction;
+    } else {
+      if (!begun) throw new Error("turns do not say where they begin");
+      directions.push(direction);
+      const delta = step.letter === "r" ? 1 : step.letter === "l" ? -1 : 0;
+      runs.add(delta, step.count, false);
+      if (delta !== 0) direction = runs.value % turnSteps === 0 ? 0 : delta;
+    }
+    begun = true;
+  }
+  if (begun) {
+    directions.push(direction);
+    runs.close();
+  }
+  return new TurnTrack(
+    Int32Array.from(runs.times),
+    Int32Array.from(runs.values),
+    Int8Array.from(runs.deltas.map((d, i) => (runs.jumps[i] ? 0 : d))),
+    Int8Array.from(directions),
+    Uint8Array.from(runs.jumps),
+    turnSteps,
+  );
+}

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// The world as the page draws it and moves in it: where each place is, and which steps there are.
+
+import type { Value } from "./json";
+import type { Road, World } from "./model";
+
+const kMostPlaces = 1 << 26;
+const kMargin = 1.5; // around a roadmap, in steps
+const kBend = 0.35; // between two roads that join the same vertices, in steps
+
+export function readWorld(data: Value): World {
+  switch (data.key("kind").text()) {
+    case "grid": return readGrid(data);
+    case "roadmap": return readRoadmap(data);
+    default: return data.key("kind").fail("grid or roadmap");
+  }
+}
+
+function readGrid(data: Value): World {
+  const width = data.key("width").integer(1, kMostPlaces);
+  const height = data.key("height").integer(1, Math.floor(kMostPlaces / width) + 1);
+  const places = width * height;
+  const xs = new Float64Array(places);
+  const ys = new Float64Array(places);
+  for (let place = 0; place < places; ++place) {
+    xs[place] = (place % width) + 0.5;
+    ys[place] = Math.floor(place / width) + 0.5;
+  }
+  const free = data.key("free").as((text) => readFree(text, places));
+  return {
+    kind: "grid", places, width, height, unit: 1, xs, ys, free, columns: width, roads: [],
+    vertexNames: [],
+    mayMove: (from, to) => {
+      if (!free[to]) return false;
+      const by = to - from;
+      if (by === width || by === -width) return true;
+      return (by === 1 && to % width !== 0) || (by === -1 && from % width !== 0);
+    },
+    place: (place) => `[${place % width}, ${Math.floor(place / width)}]`,
+  };
+}
+
+// How many cells are free, then how many are blocked, and so on.
+function readFree(text: string, places: number): Uint8Array {
+  const free = new Uint8Array(places);
+  let at = 0;
+  let isFree = 1;
+  for (const word of text.split(" ")) {
+    const count = /^[0-9]{1,9}$/.test(word) ? Number(word) : NaN;
+    if (!(at + count <= places)) throw new Error(`expected ${places} cells as counts`);
+    free.fill(isFree, at, at + count);
+    at += count;
+    isFree = 1 - isFree;
+  }
+  if (at !== places) throw new Error(`expected ${places} cells as counts, but found ${at}`);
+  return free;
+}
+
+interface Vertex {
+  name: string;
+  x: number;
+  y: number;
+}
+
+function readRoadmap(data: Value): World {
+  const vertices = data.key("vertices").list().map((vertex): Vertex => {
+    const [name, x, y] = vertex.list(3);
+    return { name: name.text(), x: x.number(), y: -y.number() };
+  });
+  if (vertices.length === 0) data.key("vertices").fail("a vertex at least");
+  let places = vertices.length;
+  const roads = data.key("roads").list().map((road): Road => {
+    const [from, to, steps, oneWay] = road.list(4);
+    const first = places;
+    places += steps.integer(1, kMostPlaces) - 1;
+    if (places > kMostPlaces) road.fail("fewer places");
+    return {
+      from: from.integer(0, vertices.length), to: to.integer(0, vertices.length),
+      steps: steps.integer(1, kMostPlaces), oneWay: oneWay.integer(0, 2) === 1, first,
+    };
+  });
+  const unit = lengthOfStep(vertices, roads);
+  const margin = kMargin * unit;
+  const least = (of: (v: Vertex) => number) => vertices.reduce((m, v) => Math.min(m, of(v)), Infinity);
+  const most = (of: (v: Vertex) => number) => vertices.reduce((m, v) => Math.max(m, of(v)), -Infinity);
+  const left = least((v) => v.x) - margin;
+  const top = least((v) => v.y) - margin;
+  const xs = new Float64Array(places);
+  const ys = new Float64Array(places);
+  vertices.forEach((vertex, i) => {
+    xs[i] = vertex.x - left;
+    ys[i] = vertex.y - top;
+  });
+  layRoads(roads, xs, ys, unit);
+  return {
+    kind: "roadmap", places, unit, xs, ys, columns: 0, roads,
+    width: most((v) => v.x) - left + margin,
+    height: most((v) => v.y) - top + margin,
+    free: new Uint8Array(places).fill(1),
+    vertexNames: vertices.map((vertex) => vertex.name),
+    mayMove: movesOnRoads(roads, vertices.length),
+    place: (place) => nameOnRoads(place, vertices, roads),
+  };
+}
+
+// In metres, on the mean; of roads that have a length.
+function lengthOfStep(vertices: Vertex[], roads: Road[]): number {
+  let length = 0;
+  let steps = 0;
+  for (const road of roads) {
+    const [a, b] = [vertices[road.from], vertices[road.to]];
+    length += Math.hypot(a.x - b.x, a.y - b.y);
+    steps += road.steps;
+  }
+  return length > 0 ? length / steps : 1;
+}
+
+// Inner places evenly between the ends; roads beside each other where they join the same vertices.
+function layRoads(roads: Road[], xs: Float64Array, ys: Float64Array, unit: number): void {
+  const beside = new Map<string, Road[]>();
+  for (const road of roads) {
+    const key = [Math.min(road.from, road.to), Math.max(road.from, road.to)].join();
+    const others = beside.get(key);
+    if (others) others.push(road);
+    else beside.set(key, [road]);
+  }
+  for (const row of beside.values())
+    row.forEach((road, i) => layRoad(road, (i - (row.length - 1) / 2) * 2 * kBend * unit, xs, ys, unit));
+}
+
+function layRoad(road: Road, bend: number, xs: Float64Array, ys: Float64Array, unit: number): void {
+  const a = { x: xs[road.from], y: ys[road.from] };
+  const b = { x: xs[road.to], y: ys[road.to] };
+  const length = Math.hypot(b.x - a.x, b.y - a.y);
+  // The same side whichever way the road is counted.
+  const sign = road.from < road.to ? 1 : -1;
+  const across = length > 0
+    ? { x: (-(b.y - a.y) / length) * sign, y: ((b.x - a.x) / length) * sign } : { x: 0, y: 0 };
+  for (let k = 1; k < road.steps; ++k) {
+    const part = k / road.steps;
+    const place = road.first + k - 1;
+    if (road.from === road.to) {
+      const angle = 2 * Math.PI * part; // a loop: a circle above its vertex
+      xs[place] = a.x + unit * Math.sin(angle);
+      ys[place] = a.y - unit * (1 - Math.cos(angle));
+    } else {
+      const aside = bend * Math.sin(Math.PI * part);
+      xs[place] = a.x + (b.x - a.x) * part + across.x * aside;
+      ys[place] = a.y + (b.y - a.y) * part + across.y * aside;
+    }
+  }
+}
+
+function movesOnRoads(roads: Road[], vertices: number): (from: number, to: number) => boolean {
+  const steps = new Set<number>();
+  const key = (from: number, to: number) => from * kMostPlaces + to;
+  const oneWay: Uint8Array = new Uint8Array(roads.length);
+  roads.forEach((road, index) => {
+    oneWay[index] = road.oneWay ? 1 : 0;
+    const ends: [number, number][] = road.steps === 1
+      ? [[road.from, road.to]]
+      : [[road.from, road.first], [road.first + road.steps - 2, road.to]];
+    for (const [from, to] of ends) {
+      steps.add(key(from, to));
+      if (!road.oneWay) steps.add(key(to, from));
+    }
+  });
+  const roadOf = (place: number) => lastBefore(roads, place);
+  return (from, to) => {
+    if (from < vertices || to < vertices) return steps.has(key(from, to));
+    const road = roadOf(from);
+    if (road !== roadOf(to)) return false;
+    return to === from + 1 || (to === from - 1 && !oneWay[road]);
+  };
+}
+
+// The road that an inner place is on: the last one that begins at or before it.
+function lastBefore(roads: Road[], place: number): number {
+  let low = 0;
+  let high = roads.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (roads[middle].first <= place) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+function nameOnRoads(place: number, vertices: Vertex[], roads: Road[]): string {
+  if (place < vertices.length) return vertices[place].name;
+  const road = roads[lastBefore(roads, place)];
+  return `${vertices[road.from].name}–${vertices[road.to].name} ${place - road.first + 1}`;
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// A moment of a plan, drawn with cairo: the same drawing becomes SVG, PNG and the frames of a GIF.
+#pragma once
+
+#include <cairo/cairo.h>
+
+#include <string>
+#include <vector>
+
+#include "grove/model/instance.h"
+#include "grove/model/plan.h"
+
+namespace grove {
+
+// Draws an instance and, if there is one, a plan. Holds references: both must outlive it. A plan
+// need not be valid; agents without a path are left out.
+class Drawing {
+ public:
+  Drawing(const Instance& instance, const Plan* plan);
+
+  // Height for a width of 1.
+  double shape() const { return height_ / width_; }
+  // The last time at which anything changes, in steps.
+  Time end() const { return end_; }
+
+  // Fills `width` x (`width` * shape()) units of `cairo` from its origin on. `time` may lie between
+  // two steps.
+  void draw(cairo_t* cairo, double width, double time) const;
+
+ private:
+  struct Robot {
+    Point at;
+    double angle;  // clockwise from up, in radians
+    bool turns;
+    int doing;  // of kDoing
+    bool collides;
+  };
+
+  Point point(Place place) const;
+  Robot robot(AgentIndex agent, double time) const;
+  std::vector<Robot> robots(double time) const;
+  void mark_collisions(std::vector<Robot>& robots, double time) const;
+  int visits_by(TaskIndex task, double time) const;
+
+  void draw_grid(cairo_t* cairo) const;
+  void draw_roads(cairo_t* cairo) const;
+  void draw_goals(cairo_t* cairo) const;
+  void draw_tasks(cairo_t* cairo, double time) const;
+  void draw_robot(cairo_t* cairo, const Robot& robot, const std::string& id) const;
+
+  const Instance& instance_;
+  const Plan* plan_;
+  double width_ = 1;  // in the world's units: cells or metres
+  double height_ = 1;
+  Point origin_;
+  double unit_ = 1;  // the length of a step
+  Time end_ = 0;
+  std::vector<std::vector<Time>> visits_;  // by task: when each of its agents has been there
+};
+
+}  // namespace grove

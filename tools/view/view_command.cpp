@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// grove view INSTANCE [PLAN...]
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grove/io/atomic_file.h"
+#include "grove/io/input_error.h"
+#include "grove/io/plan_import.h"
+#include "tools/common/commands.h"
+#include "tools/common/instance_arguments.h"
+#include "tools/common/options.h"
+#include "tools/view/page.h"
+#include "tools/view/page_data.h"
+#include "tools/view/picture/picture.h"
+
+namespace grove {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kViewFooter =
+    R"(One page that needs no network and nothing installed but a browser. It plays the plan, and finds out
+by itself what is wrong with it: collisions, jumps, tasks left out.
+
+PLAN is a plan file, or what other solvers write: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2
+(--outputPaths) or the text of lacam and pibt. Without any, the page shows the instance.
+
+--svg, --png and --gif write pictures of the first plan instead, without a browser: SVG and PNG of the
+moments --at, side by side; GIF plays all of it.
+
+Examples:
+  grove view benchmarks/data/first.cts.json first.plan.json
+  grove view my.cts.json my.plan.json --svg strip.svg --at 0,10,20,30
+  grove view my.cts.json ours.plan.json theirs.txt -o both.html)";
+
+constexpr IntegerRange kWidths{16, 10'000};
+
+struct ViewArguments {
+  InstanceArguments instance;
+  std::vector<std::string> plans;
+  std::string output;
+  bool open = false;
+  std::string svg;
+  std::string png;
+  std::string gif;
+  std::vector<double> moments;
+  std::int64_t width = 800;
+  double speed = 4;
+
+  bool wants_pictures() const { return !svg.empty() || !png.empty() || !gif.empty(); }
+};
+
+std::string size_text(std::size_t bytes) {
+  const double kilobytes = static_cast<double>(bytes) / 1e3;
+  return kilobytes < 1000 ? fmt::format("{:.0f} kB", std::ceil(kilobytes))
+                          : fmt::format("{:.1f} MB", kilobytes / 1e3);
+}
+
+std::string default_output(const ViewArguments& arguments) {
+  if (arguments.plans.empty()) return arguments.instance.stem() + ".html";
+  const std::string name = fs::path(arguments.plans.front()).filename().string();
+  return name.substr(0, name.find('.')) + ".html";
+}
+
+void write(const std::string& file, const std::string& bytes) {
+  write_file_atomically(file, bytes);
+  fmt::print("wrote {}: {}\n", file, size_text(bytes.size()));
+}
+
+// Hands the page to the desktop's own opener and does not wait for it.
+void open_in_browser(const std::string& file) {
+  const std::string opener = "xdg-open";
+  std::string target = fs::absolute(file).string();
+  std::array<char*, 3> arguments{const_cast<char*>(opener.c_str()), target.data(), nullptr};
+  posix_spawn_file_actions_t silence;
+  ::posix_spawn_file_actions_init(&silence);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    ::posix_spawn_file_actions_addopen(&silence, stream, "/dev/null", O_RDWR, 0);
+  pid_t child = 0;
+  const int failed =
+      ::posix_spawnp(&child, opener.c_str(), &silence, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&silence);
+  if (failed != 0)
+    throw InputError(
+        opener, "",
+        "cannot be run; expected the Debian package xdg-utils, or open the page by hand");
+}
+
+void write_page(const ViewArguments& arguments, const Instance& instance,
+                const std::vector<NamedPlan>& plans) {
+  const std::string name = fs::path(arguments.instance.name()).filename().string();
+  const std::string output =
+      arguments.output.empty() ? default_output(arguments) : arguments.output;
+  write(output, page(name, page_data(name, instance, plans)));
+  if (arguments.open) open_in_browser(output);
+}
+
+void write_pictures(const ViewArguments& arguments, const Instance& instance,
+                    const std::vector<NamedPlan>& plans) {
+  const Plan* plan = nullptr;
+  if (!plans.empty() && plans.front().claimed.solution.plan)
+    plan = &*plans.front().claimed.solution.plan;
+  const Drawing drawing(instance, plan);
+  std::vector<double> moments = arguments.moments;
+  if (moments.empty()) moments.push_back(0);
+  const int width = static_cast<int>(arguments.width);
+  if (!arguments.svg.empty()) write(arguments.svg, svg_picture(drawing, moments, width));
+  if (!arguments.png.empty()) write(arguments.png, png_picture(drawing, moments, width));
+  if (!arguments.gif.empty()) write(arguments.gif, gif_picture(drawing, width, arguments.speed));
+}
+
+void run(const ViewArguments& arguments) {
+  const LoadedInstance loaded = arguments.instance.load();
+  std::vector<std::string> warnings;
+  std::vector<NamedPlan> plans;
+  for (const std::string& file : arguments.plans)
+    plans.push_back({fs::path(file).filename().string(),
+                     read_plan_of_any_tool(file, loaded.instance, &warnings)});
+  print_warnings(warnings);
+  if (arguments.wants_pictures()) write_pictures(arguments, loaded.instance, plans);
+  if (!arguments.wants_pictures() || !arguments.output.empty())
+    write_page(arguments, loaded.instance, plans);
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app) {
+  const auto arguments = std::make_shared<ViewArguments>();
+  CLI::App* command = app.add_subcommand("view", "Show an instance and its plans as a page");
+  command->footer(kViewFooter);
+  arguments->instance.add_to(*command);
+  command->add_option("PLAN", arguments->plans, "plan files, or other solvers' paths")
+      ->type_name("");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "page to write, whole or not at all; by default named after the plan")
+      ->type_name("FILE.html");
+  command->add_flag("--open", arguments->open, "show the page in the browser");
+  command->add_option("--svg", arguments->svg, "vector picture to write")->type_name("FILE.svg");
+  command->add_option("--png", arguments->png, "picture to write")->type_name("FILE.png");
+  command->add_option("--gif", arguments->gif, "animation to write")->type_name("FILE.gif");
+  command
+      ->add_option("--at", arguments->moments, "moments of --svg and --png, in steps; by default 0")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name("T,T,...");
+  add_integer(*command, "--width", arguments->width, kWidths, "pixels of a moment");
+  command->add_option("--speed", arguments->speed, "steps that --gif plays in a second")
+      ->check(CLI::Range(0.1, 50.0))
+      ->type_name("X")
+      ->capture_default_str();
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace grove
