@@ -240,7 +240,7 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   std::vector<std::string> warnings;
-  UnknownKeys unknown(name, &warnings);
+  UnknownKeys unknown(name, &warnings, Misspelt::kRefused);
   unknown.look_at(root, {"map", "roadmap", "agents", "tasks"});
 
   const auto roadmap = root.find("roadmap");

@@ -71,17 +71,24 @@ class JsonDocument {
   nlohmann::json json_;
 };
 
+// What becomes of a key that is nearly a known one, which is not there ("oneway")?
+enum class Misspelt : std::uint8_t { kIgnored, kRefused };
+
 // Collects one warning for each key that a reader does not know, however often the key occurs.
 class UnknownKeys {
  public:
-  UnknownKeys(std::string file, std::vector<std::string>* warnings)
-      : file_(std::move(file)), warnings_(warnings) {}
+  UnknownKeys(std::string file, std::vector<std::string>* warnings,
+              Misspelt misspelt = Misspelt::kIgnored)
+      : file_(std::move(file)), warnings_(warnings), misspelt_(misspelt) {}
+
+  // Throws InputError for a key that is misspelt, if such are refused.
 
   void look_at(const JsonValue& object, std::initializer_list<std::string_view> known);
 
  private:
   std::string file_;
   std::vector<std::string>* warnings_;  // may be null
+  Misspelt misspelt_;
   std::set<std::string> seen_;
 };
 

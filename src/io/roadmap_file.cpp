@@ -88,7 +88,7 @@ Roadmap parse_roadmap(std::string_view text, const std::string& name,
                       std::vector<std::string>* warnings) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
-  UnknownKeys unknown(name, warnings);
+  UnknownKeys unknown(name, warnings, Misspelt::kRefused);
   unknown.look_at(root, {"vertices", "edges"});
   Numbers numbers;
   std::vector<Vertex> vertices = read_vertices(root.member("vertices"), unknown, numbers);

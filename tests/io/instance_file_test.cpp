@@ -79,6 +79,27 @@ TEST_F(InstanceFile, WarnsAboutEachUnknownKeyOnce) {
             std::string::npos);
 }
 
+// It would be another instance without it.
+TEST_F(InstanceFile, RefusesAKeyThatIsMisspelt) {
+  for (const auto& [found, meant] :
+       std::vector<std::pair<std::string, std::string>>{{"gaol", "goal"},
+                                                        {"goals", "goal"},
+                                                        {"Goal", "goal"},
+                                                        {"goall", "goal"},
+                                                        {"headin", "heading"},
+                                                        {"turn-steps", "turn_steps"},
+                                                        {"motions", "motion"}})
+    EXPECT_EQ(refused("{" + kMap + R"(, "agents": [{"id": "a", "start": [0, 0], ")" + found +
+                      R"(": 1}], "tasks": []})"),
+              "i.json: /agents/0: unknown key '" + found + "'; expected '" + meant +
+                  "', if that is what it means");
+  // Beside the key itself it is another one.
+  EXPECT_EQ(read("{" + kMap + R"(, "agents": [{"id": "a", "start": [0, 0], "goal": [2, 0], )" +
+                 R"("goals": 3, "ad": 1}], "tasks": []})")
+                .warnings.size(),
+            2U);
+}
+
 TEST_F(InstanceFile, NamesLineAndColumnOfMalformedJson) {
   EXPECT_EQ(refused(""), "i.json: is empty; expected a JSON object");
   EXPECT_EQ(refused(" \n"), "i.json: is empty; expected a JSON object");

@@ -2,6 +2,7 @@
 // Roadmaps, instances on them, and their plans, as files.
 #include "grove/io/roadmap_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -73,6 +74,17 @@ TEST_F(RoadmapFile, WarnsOfUnknownKeys) {
   EXPECT_EQ(warnings,
             (std::vector<std::string>{"r.json: /: unknown key 'unit' is ignored",
                                       "r.json: /vertices/0: unknown key 'z' is ignored"}));
+}
+
+TEST_F(RoadmapFile, RefusesAKeyThatIsMisspelt) {
+  for (const char* key : {"oneway", "One-Way", "one_ways"})
+    EXPECT_EQ(refused_roads(fmt::format(R"({{"vertices": [{{"id": "A", "at": [0, 0]}}, )"
+                                        R"({{"id": "B", "at": [1, 0]}}], "edges": [)"
+                                        R"({{"from": "A", "to": "B", "steps": 1, "{}": true}}]}})",
+                                        key)),
+              fmt::format("r.json: /edges/0: unknown key '{}'; expected 'one_way', if that is what "
+                          "it means",
+                          key));
 }
 
 TEST_F(RoadmapFile, EachWrongKeyIsRefusedWithItsPlace) {
