@@ -63,9 +63,16 @@ export class Frame {
     this.findCollisions(part);
   }
 
-  // The place of a robot at the step before this moment.
-  place(agent: number): number {
-    return this.here[agent];
+  // The robot nearest to a point of the world, closer than `reach`; -1: none.
+  nearest(x: number, y: number, reach: number): number {
+    let best = -1;
+    let least = reach;
+    for (let i = 0; i < this.count; ++i) {
+      if (this.missing[i]) continue;
+      const distance = Math.hypot(this.xs[i] - x, this.ys[i] - y);
+      if (distance < least) [best, least] = [i, distance];
+    }
+    return best;
   }
 
   private enter(step: number): void {

@@ -10,12 +10,7 @@ export function heatMap(model: Model, plan: Plan, facts: PlanFacts, kind: string
     const { track } = agent;
     if (track.isEmpty) return;
     if (kind === "traffic") {
-      ++heat[track.places[0]];
-      for (let run = 0; run < track.runs; ++run) {
-        const delta = track.deltas[run];
-        const steps = track.times[run + 1] - track.times[run];
-        if (delta !== 0) for (let k = 1; k <= steps; ++k) ++heat[track.places[run] + k * delta];
-      }
+      for (const place of track.visited()) ++heat[place];
     } else if (kind === "waits") {
       for (const span of facts.spans[index])
         if (span.doing === Doing.kWaiting) heat[track.place(span.begin)] += span.end - span.begin;

@@ -1,51 +1,65 @@
 // SPDX-License-Identifier: MIT
-// One plan on its canvas, with its camera and, where not all of the world is seen, a map of it.
+// One plan in its place on the page: three canvases, one over the other (scenery, robots, labels),
+// with their camera and, where not all of the world is seen, a map of it.
 
 import type { App, Heat, Viewed } from "./app";
 import { Camera } from "./camera";
-import { Painter, type Shown } from "./canvas";
 import type { Colors } from "./colors";
 import { el } from "./dom";
 import { Frame } from "./frame";
 import { listen } from "./gestures";
 import { heatMap } from "./heat";
+import { Minimap } from "./minimap";
+import type { World } from "./model";
+import { Labels, type RobotPainter } from "./robots";
+import { CanvasRobots } from "./robots_canvas";
+import { GlRobots } from "./robots_gl";
+import { Scenery, type Shown } from "./scenery";
 
-const kMinimap = 140; // pixels, the longer side
+// A 2D canvas serves so many as well, and is everywhere.
+const kFew = 1500;
+
+function robotPainter(canvas: HTMLCanvasElement, world: World, count: number): RobotPainter {
+  const fast = count > kFew && GlRobots.isFast() ? GlRobots.on(canvas, world, count) : null;
+  return fast ?? new CanvasRobots(canvas, world);
+}
 
 export class Stage {
   readonly element: HTMLElement;
   readonly camera: Camera;
   readonly frame: Frame | null;
-  private readonly canvas = el("canvas", { tabindex: 0 });
-  private readonly painter: Painter;
-  private readonly miniCanvas = el("canvas", { class: "minimap", "aria-hidden": true });
-  private readonly miniPainter: Painter;
-  private readonly miniCamera: Camera;
+  private readonly canvases: HTMLCanvasElement[];
+  private readonly scenery: Scenery;
+  private readonly robots: RobotPainter | null;
+  private readonly labels: Labels;
+  private readonly minimap: Minimap;
   private heat: { kind: Heat; map: Float32Array } | null = null;
   private path: { agent: number; places: number[] } | null = null;
-  private dirty = true;
+  private dirty = true; // something other than time has changed
+  private step = -1; // the last one that the scenery shows
 
   constructor(private readonly app: App, readonly viewed: Viewed | null) {
-    const { world } = app.model;
+    const { model } = app;
+    const { world } = model;
     this.camera = new Camera(world.width, world.height, world.unit);
-    this.miniCamera = new Camera(world.width, world.height, world.unit);
-    this.frame = viewed ? new Frame(app.model, viewed.plan, viewed.facts) : null;
-    const facts = viewed ? viewed.facts : null;
-    this.painter = new Painter(this.canvas, app.model, facts);
-    this.miniPainter = new Painter(this.miniCanvas, app.model, facts);
-    this.canvas.setAttribute("aria-label", viewed ? `The plan ${viewed.plan.name}` : "The instance");
-    this.canvas.setAttribute("role", "img");
-    this.element = el("div", { class: "stage" }, this.canvas, this.miniCanvas);
-    listen(this.canvas, this.camera, {
+    this.frame = viewed ? new Frame(model, viewed.plan, viewed.facts) : null;
+    const [ground, middle, top] = [el("canvas"), el("canvas"), el("canvas", { tabindex: 0 })];
+    this.canvases = [ground, middle, top];
+    this.scenery = new Scenery(ground, model, viewed ? viewed.facts : null);
+    this.robots = this.frame ? robotPainter(middle, world, this.frame.count) : null;
+    this.labels = new Labels(top, model);
+    this.minimap = new Minimap(model, this.camera, () => this.cameraMoved());
+    top.setAttribute("aria-label", viewed ? `The plan ${viewed.plan.name}` : "The instance");
+    top.setAttribute("role", "img");
+    this.element = el("div", { class: "stage" }, ...this.canvases, this.minimap.element);
+    listen(top, this.camera, {
       moved: () => this.cameraMoved(),
       clicked: (x, y) => this.click(x, y),
     });
-    this.listenToMinimap();
   }
 
   onCamera: () => void = () => {};
 
-  // Something other than time has changed.
   touch(): void {
     this.dirty = true;
   }
@@ -56,34 +70,14 @@ export class Stage {
     this.onCamera();
   }
 
-  private listenToMinimap(): void {
-    const go = (event: PointerEvent) => {
-      const box = this.miniCanvas.getBoundingClientRect();
-      const p = this.miniCamera.toWorld(event.clientX - box.left, event.clientY - box.top);
-      this.camera.pan((this.camera.center.x - p.x) * this.camera.scale, (this.camera.center.y - p.y) * this.camera.scale);
-      this.cameraMoved();
-    };
-    this.miniCanvas.addEventListener("pointerdown", go);
-    this.miniCanvas.addEventListener("pointermove", (event) => {
-      if (event.buttons & 1) go(event);
-    });
-  }
-
   // The nearest robot, else the task there, else nothing.
   private click(x: number, y: number): void {
     const { model } = this.app;
     const { world } = model;
     const p = this.camera.toWorld(x, y);
     const reach = Math.max(0.5 * world.unit, 10 / this.camera.scale);
-    let best = -1;
-    let least = reach;
-    if (this.frame)
-      for (let i = 0; i < this.frame.count; ++i) {
-        if (this.frame.missing[i]) continue;
-        const distance = Math.hypot(this.frame.xs[i] - p.x, this.frame.ys[i] - p.y);
-        if (distance < least) [best, least] = [i, distance];
-      }
-    if (best >= 0) return this.app.choose(best);
+    const robot = this.frame ? this.frame.nearest(p.x, p.y, reach) : -1;
+    if (robot >= 0) return this.app.choose(robot);
     const task = model.tasks.findIndex(
       ({ place }) => Math.hypot(world.xs[place] - p.x, world.ys[place] - p.y) < reach,
     );
@@ -93,42 +87,42 @@ export class Stage {
 
   resize(): void {
     this.camera.resize(this.element.clientWidth, this.element.clientHeight);
-    const { world } = this.app.model;
-    const scale = kMinimap / Math.max(world.width, world.height);
-    this.miniCamera.resize(world.width * scale, world.height * scale);
-    this.miniCamera.fit();
-    this.miniCanvas.style.width = `${world.width * scale}px`;
-    this.miniCanvas.style.height = `${world.height * scale}px`;
+    this.minimap.resize();
     this.dirty = true;
   }
 
-  // Draws if something has changed. True if it did.
-  draw(colors: Colors, ratio: number): boolean {
+  // Draws if something has changed.
+  draw(colors: Colors, ratio: number): void {
     const { player, chosen, following } = this.app;
-    if (!this.dirty && this.frame?.time === player.time) return false;
+    if (!this.dirty && this.frame?.time === player.time) return;
+    const { frame } = this;
+    frame?.update(player.time);
+    if (following && chosen >= 0 && frame) {
+      this.camera.show(frame.xs[chosen], frame.ys[chosen]);
+      this.dirty = true;
+    }
+    const shown = this.shown();
+    this.fit(ratio);
+    // Tasks change with whole steps.
+    if (this.dirty || Math.floor(player.time) !== this.step)
+      this.scenery.paint(this.camera, player.time, shown, colors, ratio);
+    this.step = Math.floor(player.time);
     this.dirty = false;
-    this.frame?.update(player.time);
-    if (following && chosen >= 0 && this.frame)
-      this.camera.show(this.frame.xs[chosen], this.frame.ys[chosen]);
-    this.painter.paint(this.camera, this.frame, this.shown(), colors, ratio);
-    this.drawMinimap(colors, ratio);
-    return true;
+    if (!frame) return;
+    this.robots?.paint(this.camera, frame, colors, ratio);
+    this.labels.paint(this.camera, frame, shown, colors, ratio);
+    this.minimap.paint(frame, shown, colors, ratio);
   }
 
-  private drawMinimap(colors: Colors, ratio: number): void {
-    const hidden = this.camera.isFitted;
-    if (this.miniCanvas.hidden !== hidden) this.miniCanvas.hidden = hidden;
-    if (hidden) return;
-    const shown: Shown = { ...this.shown(), heat: null, labels: false };
-    this.miniPainter.paint(this.miniCamera, this.frame, shown, colors, ratio);
-    const c = this.miniCanvas.getContext("2d")!;
-    const a = this.camera.toWorld(0, 0);
-    const b = this.camera.toWorld(this.camera.width, this.camera.height);
-    const from = this.miniCamera.toView(a.x, a.y);
-    const to = this.miniCamera.toView(b.x, b.y);
-    c.strokeStyle = colors.chosen;
-    c.lineWidth = 1.5;
-    c.strokeRect(from.x, from.y, to.x - from.x, to.y - from.y);
+  private fit(ratio: number): void {
+    const width = Math.round(this.camera.width * ratio);
+    const height = Math.round(this.camera.height * ratio);
+    for (const canvas of this.canvases) {
+      if (canvas.width === width && canvas.height === height) continue;
+      canvas.width = width;
+      canvas.height = height;
+      this.dirty = true;
+    }
   }
 
   private shown(): Shown {
@@ -146,17 +140,8 @@ export class Stage {
 
   private pathOf(agent: number): number[] | null {
     if (agent < 0 || !this.viewed) return null;
-    if (this.path?.agent === agent) return this.path.places;
-    const { track } = this.viewed.plan.agents[agent];
-    const places: number[] = [];
-    for (let run = 0; run < track.runs; ++run) {
-      const steps = track.times[run + 1] - track.times[run];
-      if (places.length === 0) places.push(track.places[run]);
-      if (track.jumps[run]) places.push(track.places[run + 1]);
-      else if (track.deltas[run] !== 0)
-        for (let k = 1; k <= steps; ++k) places.push(track.places[run] + k * track.deltas[run]);
-    }
-    this.path = { agent, places };
-    return places;
+    if (this.path?.agent !== agent)
+      this.path = { agent, places: this.viewed.plan.agents[agent].track.visited() };
+    return this.path.places;
   }
 }

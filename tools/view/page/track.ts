@@ -39,6 +39,18 @@ export class Track {
     return low;
   }
 
+  // All places in their order, each as often as it is come to.
+  visited(): number[] {
+    const all: number[] = [];
+    if (!this.isEmpty) all.push(this.places[0]);
+    for (let run = 0; run < this.runs; ++run) {
+      if (this.deltas[run] === 0) continue;
+      const steps = this.times[run + 1] - this.times[run];
+      for (let k = 1; k <= steps; ++k) all.push(this.places[run] + k * this.deltas[run]);
+    }
+    return all;
+  }
+
   place(time: number, near = 0): number {
     if (time >= this.end) return this.places[this.runs];
     if (time <= 0) return this.places[0];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Paints a frame on a 2D canvas: the world (once for each view), then what moves.
+// Paints all that stands still for a while on a 2D canvas: the world (once for each view), heat,
+// destinations, tasks, and the path of the robot chosen.
 
 import type { Camera } from "./camera";
-import { Doing, visitsBy, type PlanFacts } from "./facts";
-import type { Frame } from "./frame";
-import type { Model, World } from "./model";
 import type { Colors } from "./colors";
+import { visitsBy, type PlanFacts } from "./facts";
+import type { Model, World } from "./model";
 
 export interface Shown {
   chosen: number; // a robot; -1: none
@@ -15,7 +15,7 @@ export interface Shown {
   labels: boolean;
 }
 
-export class Painter {
+export class Scenery {
   private readonly ground: HTMLCanvasElement = document.createElement("canvas");
   private groundKey = "";
   private mapImage: HTMLCanvasElement | null = null;
@@ -35,7 +35,7 @@ export class Painter {
     });
   }
 
-  paint(camera: Camera, frame: Frame | null, shown: Shown, colors: Colors, ratio: number): void {
+  paint(camera: Camera, time: number, shown: Shown, colors: Colors, ratio: number): void {
     const width = Math.round(camera.width * ratio);
     const height = Math.round(camera.height * ratio);
     if (this.canvas.width !== width) this.canvas.width = width;
@@ -46,9 +46,8 @@ export class Painter {
     c.drawImage(this.ground, 0, 0);
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     if (shown.heat) this.paintHeat(c, camera, shown.heat, colors);
-    this.paintPlaces(c, camera, frame, shown, colors);
+    this.paintPlaces(c, camera, time, shown, colors);
     if (shown.path) this.paintPath(c, camera, shown.path, colors);
-    if (frame) this.paintRobots(c, camera, frame, shown, colors);
   }
 
   // The world does not change while the camera stands still.
@@ -99,7 +98,7 @@ export class Painter {
 
   // Destinations and tasks.
   private paintPlaces(
-    c: CanvasRenderingContext2D, camera: Camera, frame: Frame | null, shown: Shown, colors: Colors,
+    c: CanvasRenderingContext2D, camera: Camera, time: number, shown: Shown, colors: Colors,
   ): void {
     const { world, agents, tasks } = this.model;
     const step = world.unit * camera.scale;
@@ -113,7 +112,6 @@ export class Painter {
       const r = Math.max(2, 0.4 * step);
       c.strokeRect(p.x - r, p.y - r, 2 * r, 2 * r);
     });
-    const time = frame ? frame.time : 0;
     for (const [place, indices] of this.tasksByPlace) {
       const p = camera.toView(world.xs[place], world.ys[place]);
       if (isOutside(p.x, p.y, step, camera)) continue;
@@ -140,44 +138,9 @@ export class Painter {
     c.stroke();
     c.globalAlpha = 1;
   }
-
-  private paintRobots(
-    c: CanvasRenderingContext2D, camera: Camera, frame: Frame, shown: Shown, colors: Colors,
-  ): void {
-    const { world } = this.model;
-    const step = world.unit * camera.scale;
-    const radius = Math.max(1.5, 0.34 * step);
-    for (let doing = Doing.kMoving; doing <= Doing.kResting; ++doing) {
-      c.fillStyle = colors.doing[doing];
-      c.beginPath();
-      for (let i = 0; i < frame.count; ++i) {
-        if (frame.missing[i] || frame.doing[i] !== doing || frame.colliding[i]) continue;
-        const p = camera.toView(frame.xs[i], frame.ys[i]);
-        if (!isOutside(p.x, p.y, radius, camera)) addRobot(c, p.x, p.y, radius);
-      }
-      c.fill();
-    }
-    for (let i = 0; i < frame.count; ++i) {
-      if (frame.missing[i]) continue;
-      const p = camera.toView(frame.xs[i], frame.ys[i]);
-      if (isOutside(p.x, p.y, 2 * radius, camera)) continue;
-      if (frame.colliding[i]) paintCollision(c, p.x, p.y, radius, colors);
-      if (step >= 10 && !Number.isNaN(frame.angles[i]))
-        paintHeading(c, p.x, p.y, radius, frame.angles[i], colors);
-      if (i === shown.chosen) paintRing(c, p.x, p.y, radius, colors);
-      if (shown.labels && step >= 22) {
-        const id = this.model.agents[i].id;
-        c.fillStyle = colors.onRobot;
-        c.font = `600 ${Math.min(15, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
-        c.textAlign = "center";
-        c.textBaseline = "middle";
-        c.fillText(id.length > 6 ? id.slice(0, 5) + "…" : id, p.x, p.y + 0.5, 2.4 * radius);
-      }
-    }
-  }
 }
 
-function isOutside(x: number, y: number, size: number, camera: Camera): boolean {
+export function isOutside(x: number, y: number, size: number, camera: Camera): boolean {
   return x < -size || y < -size || x > camera.width + size || y > camera.height + size;
 }
 
@@ -326,53 +289,4 @@ function paintTasks(
     const count = totals[i] > 1 ? `: ${visits[i]} of ${totals[i]}` : "";
     c.fillText(`${index + 1}${count}`, x + 0.5 * r, y - 0.5 * r - 0.26 * step * i);
   });
-}
-
-function addRobot(c: CanvasRenderingContext2D, x: number, y: number, radius: number): void {
-  if (radius < 3) {
-    c.rect(x - radius, y - radius, 2 * radius, 2 * radius);
-  } else {
-    c.moveTo(x + radius, y);
-    c.arc(x, y, radius, 0, 2 * Math.PI);
-  }
-}
-
-// Larger than a robot, and of another shape: red is not seen by everybody.
-function paintCollision(
-  c: CanvasRenderingContext2D, x: number, y: number, radius: number, colors: Colors,
-): void {
-  const r = Math.max(5, 1.15 * radius);
-  c.fillStyle = colors.collision;
-  c.beginPath();
-  for (let k = 0; k < 16; ++k) {
-    const length = k % 2 === 0 ? r : 0.7 * r;
-    const angle = (k * Math.PI) / 8;
-    c.lineTo(x + length * Math.cos(angle), y + length * Math.sin(angle));
-  }
-  c.closePath();
-  c.fill();
-}
-
-function paintHeading(
-  c: CanvasRenderingContext2D, x: number, y: number, radius: number, angle: number, colors: Colors,
-): void {
-  const [dx, dy] = [Math.sin(angle), -Math.cos(angle)];
-  const tip = 1.25 * radius;
-  c.fillStyle = colors.heading;
-  c.beginPath();
-  c.moveTo(x + dx * tip, y + dy * tip);
-  c.lineTo(x + dx * 0.75 * radius - dy * 0.5 * radius, y + dy * 0.75 * radius + dx * 0.5 * radius);
-  c.lineTo(x + dx * 0.75 * radius + dy * 0.5 * radius, y + dy * 0.75 * radius - dx * 0.5 * radius);
-  c.closePath();
-  c.fill();
-}
-
-function paintRing(
-  c: CanvasRenderingContext2D, x: number, y: number, radius: number, colors: Colors,
-): void {
-  c.strokeStyle = colors.chosen;
-  c.lineWidth = 3;
-  c.beginPath();
-  c.arc(x, y, Math.max(7, radius + 3), 0, 2 * Math.PI);
-  c.stroke();
 }
