@@ -102,7 +102,8 @@ Drawing::Drawing(const Instance& instance, const Plan* plan) : instance_(instanc
   if (plan_ == nullptr) return;
   for (std::size_t i = 0; i < plan_->agents.size(); ++i) {
     const AgentPlan& agent = plan_->agents[i];
-    end_ = std::max(end_, rest_of(agent));
+    rests_.push_back(rest_of(agent));
+    end_ = std::max(end_, rests_.back());
     for (const TaskIndex task : instance.agent(static_cast<AgentIndex>(i)).tasks) {
       auto& visits = visits_[static_cast<std::size_t>(task)];
       if (instance.task(task).duration > 0) {
@@ -186,7 +187,7 @@ Drawing::Robot Drawing::robot(AgentIndex agent, double time) const {
   const auto at_work = [&](const WorkTime& work) { return work.begin <= time && time < work.end; };
   if (std::ranges::any_of(plan.work, at_work))
     robot.doing = kWorking;
-  else if (time >= rest_of(plan))
+  else if (time >= rests_[static_cast<std::size_t>(agent)])
     robot.doing = kResting;
   else if (from == to)
     robot.doing = kWaiting;

@@ -57,6 +57,7 @@ class Drawing {
   Point origin_;
   double unit_ = 1;  // the length of a step
   Time end_ = 0;
+  std::vector<Time> rests_;                // by agent: from when on it rests
   std::vector<std::vector<Time>> visits_;  // by task: when each of its agents has been there
 };
 
