@@ -61,10 +61,10 @@ export class Scenery {
     this.ground.width = width;
     this.ground.height = height;
     const c = this.ground.getContext("2d")!;
-    c.fillStyle = colors.outside;
+    const { world } = this.model;
+    c.fillStyle = world.kind === "grid" ? colors.outside : colors.floor;
     c.fillRect(0, 0, width, height);
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const { world } = this.model;
     if (world.kind === "grid") this.paintGrid(c, camera, world, colors);
     else paintRoads(c, camera, world, colors);
   }

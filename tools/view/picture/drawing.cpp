@@ -40,6 +40,7 @@ constexpr int kWorking = 2;
 constexpr int kResting = 3;
 constexpr std::array kDoing{hex(0x0072b2), hex(0xe69f00), hex(0x009e73), hex(0x8a929c)};
 
+constexpr double kBend = 0.35;          // between roads that join the same vertices, in steps
 constexpr double kMargin = 1.5;         // of a roadmap, in steps
 constexpr double kLeastLabeled = 16.0;  // pixels of a step from which on robots have their ids
 
@@ -122,10 +123,34 @@ Drawing::Drawing(const Instance& instance, const Plan* plan) : instance_(instanc
 Point Drawing::point(Place place) const {
   if (const Roadmap* roadmap = instance_.roadmap()) {
     const Point at = roadmap->at(place);
-    return {at.x - origin_.x, origin_.y - at.y};
+    const Roadmap::Spot spot = roadmap->spot(place);
+    const Point drawn{at.x - origin_.x, origin_.y - at.y};
+    return spot.road < 0 ? drawn : beside(drawn, spot);
   }
   const Position at = instance_.grid().position(place);
   return {at.x + 0.5, at.y + 0.5};
+}
+
+// Roads that join the same vertices lie beside each other, and a road from a vertex to itself is a
+// circle, as on the page (page/world.ts).
+Point Drawing::beside(Point at, const Roadmap::Spot& spot) const {
+  const Roadmap& roadmap = *instance_.roadmap();
+  const Road& road = roadmap.roads()[static_cast<std::size_t>(spot.road)];
+  const double part = static_cast<double>(spot.steps) / road.steps;
+  if (road.from == road.to) {
+    const double angle = 2 * std::numbers::pi * part;
+    return {at.x + unit_ * std::sin(angle), at.y - unit_ * (1 - std::cos(angle))};
+  }
+  const auto row = roadmap.roads_between(road.from, road.to);
+  if (row.size() < 2) return at;
+  const auto rank = static_cast<double>(std::ranges::find(row, spot.road) - row.begin());
+  const double bend = (rank - static_cast<double>(row.size() - 1) / 2) * 2 * kBend * unit_;
+  const Point a = point(roadmap.place_of_vertex(std::min(road.from, road.to)));
+  const Point b = point(roadmap.place_of_vertex(std::max(road.from, road.to)));
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  if (length == 0) return at;
+  const double aside = bend * std::sin(std::numbers::pi * part) / length;
+  return {at.x - (b.y - a.y) * aside, at.y + (b.x - a.x) * aside};
 }
 
 int Drawing::visits_by(TaskIndex task, double time) const {
@@ -256,35 +281,42 @@ void Drawing::draw_roads(cairo_t* cairo) const {
   set(cairo, kRoad);
   cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_width(cairo, 0.5 * unit_);
-  for (const Road& road : roadmap.roads()) {
-    const Point a = point(roadmap.place_of_vertex(road.from));
-    const Point b = point(roadmap.place_of_vertex(road.to));
-    cairo_move_to(cairo, a.x, a.y);
-    cairo_line_to(cairo, b.x, b.y);
-  }
+  const int roads = static_cast<int>(roadmap.roads().size());
+  for (int r = 0; r < roads; ++r)
+    for (Time step = 0; step <= roadmap.roads()[static_cast<std::size_t>(r)].steps; ++step) {
+      const Point at = point(roadmap.place_on_road(r, step));
+      if (step == 0)
+        cairo_move_to(cairo, at.x, at.y);
+      else
+        cairo_line_to(cairo, at.x, at.y);
+    }
   cairo_stroke(cairo);
   set(cairo, kVertex);
-  const double size = 0.3 * unit_;
-  for (const Road& road : roadmap.roads()) {
-    if (!road.one_way) continue;
-    const Point a = point(roadmap.place_of_vertex(road.from));
-    const Point b = point(roadmap.place_of_vertex(road.to));
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
-    if (length == 0) continue;
-    const double dx = (b.x - a.x) / length * size;
-    const double dy = (b.y - a.y) / length * size;
-    const Point middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
-    cairo_move_to(cairo, middle.x + dx, middle.y + dy);
-    cairo_line_to(cairo, middle.x - dx - dy, middle.y - dy + dx);
-    cairo_line_to(cairo, middle.x - dx + dy, middle.y - dy - dx);
-    cairo_close_path(cairo);
-  }
+  for (int r = 0; r < roads; ++r)
+    if (roadmap.roads()[static_cast<std::size_t>(r)].one_way) draw_arrow(cairo, r);
   cairo_fill(cairo);
   for (int v = 0; v < static_cast<int>(roadmap.vertices().size()); ++v) {
     const Point at = point(roadmap.place_of_vertex(v));
     cairo_arc(cairo, at.x, at.y, 0.18 * unit_, 0, 2 * std::numbers::pi);
     cairo_fill(cairo);
   }
+}
+
+// In the middle of a road, in its direction.
+void Drawing::draw_arrow(cairo_t* cairo, int road) const {
+  const Roadmap& roadmap = *instance_.roadmap();
+  const Time middle = (roadmap.roads()[static_cast<std::size_t>(road)].steps - 1) / 2;
+  const Point a = point(roadmap.place_on_road(road, middle));
+  const Point b = point(roadmap.place_on_road(road, middle + 1));
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  if (length == 0) return;
+  const double dx = 0.3 * unit_ * (b.x - a.x) / length;
+  const double dy = 0.3 * unit_ * (b.y - a.y) / length;
+  const Point at{(a.x + b.x) / 2, (a.y + b.y) / 2};
+  cairo_move_to(cairo, at.x + dx, at.y + dy);
+  cairo_line_to(cairo, at.x - dx - dy, at.y - dy + dx);
+  cairo_line_to(cairo, at.x - dx + dy, at.y - dy - dx);
+  cairo_close_path(cairo);
 }
 
 void Drawing::draw_goals(cairo_t* cairo) const {

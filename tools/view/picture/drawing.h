@@ -37,6 +37,7 @@ class Drawing {
   };
 
   Point point(Place place) const;
+  Point beside(Point at, const Roadmap::Spot& spot) const;
   Robot robot(AgentIndex agent, double time) const;
   std::vector<Robot> robots(double time) const;
   void mark_collisions(std::vector<Robot>& robots, double time) const;
@@ -44,6 +45,7 @@ class Drawing {
 
   void draw_grid(cairo_t* cairo) const;
   void draw_roads(cairo_t* cairo) const;
+  void draw_arrow(cairo_t* cairo, int road) const;
   void draw_goals(cairo_t* cairo) const;
   void draw_tasks(cairo_t* cairo, double time) const;
   void draw_robot(cairo_t* cairo, const Robot& robot, const std::string& id) const;
