@@ -88,7 +88,7 @@ export class Checker {
   // Who is where at each time; who exchanges places in the step before it.
   private *checkMoments(): Generator<void> {
     const crowd = new Crowd(this.plan, this.model.world.places);
-    const report = (kind: "vertex" | "swap", time: number, a: number, b: number) =>
+    const report: ReportCollision = (kind, time, a, b) =>
       this.reportCollision(kind, time, a, b, crowd.here[b]);
     for (let time = 0; time <= this.end; ++time) {
       crowd.check(time, report);
@@ -115,11 +115,14 @@ export class Checker {
     }
     const cost = agents.reduce((sum, plan) => sum + finish(plan), 0);
     if (claims.cost !== undefined && claims.cost !== cost)
-      this.add("cost", this.end, [], -1, `the costs add up to ${cost}, but the plan says ${claims.cost}`);
+      this.add("cost", this.end, [], -1,
+        `the costs add up to ${cost}, but the plan says ${claims.cost}`);
     const wrong = wrongClaim(this.plan, cost);
     if (wrong) this.add("claim", this.end, [], -1, wrong);
   }
 }
+
+type ReportCollision = (kind: "vertex" | "swap", time: number, a: number, b: number) => void;
 
 // All robots, moved through time together: where each is, and who is on a place. A step of a robot
 // is an addition; only where its run of equal steps ends its track is looked at.
@@ -147,7 +150,7 @@ class Crowd {
   }
 
   // Called for each time, from 0 on.
-  check(time: number, report: (kind: "vertex" | "swap", time: number, a: number, b: number) => void): void {
+  check(time: number, report: ReportCollision): void {
     const { here, before, occupant, stamp } = this;
     if (time > 0) this.move(time);
     // Until this moment is stamped, occupants are those of the moment before.
@@ -197,8 +200,10 @@ function wrongClaim(plan: Plan, cost: number): string | null {
   if (status === undefined || bound === undefined || omega === undefined) return null;
   if (bound < 0) return `the lower bound is ${bound}, below 0`;
   if (bound > cost) return `the lower bound ${bound} is above the cost ${cost}`;
-  const deserved = cost === bound ? "optimal" : accepts(omega, cost, bound) ? "bounded" : "feasible";
-  return status === deserved ? null : `the status is ${status}, but cost and bound make it ${deserved}`;
+  const isWithin = accepts(omega, cost, bound);
+  const deserved = cost === bound ? "optimal" : isWithin ? "bounded" : "feasible";
+  if (status === deserved) return null;
+  return `the status is ${status}, but cost and bound make it ${deserved}`;
 }
 
 // cost <= (1 + omega) * bound, exactly: omega is a decimal fraction, perhaps with an exponent
@@ -237,7 +242,8 @@ class AgentCheck {
     yield* this.checkOrder();
     const rest = finish(this.plan);
     if (this.plan.cost !== null && this.plan.cost !== rest)
-      this.report("cost", rest, `comes to rest at ${rest}, but the plan says ${this.plan.cost}`, -1);
+      this.report("cost", rest,
+        `comes to rest at ${rest}, but the plan says ${this.plan.cost}`, -1);
   }
 
   private hasDoneEnough(): boolean {
@@ -258,10 +264,12 @@ class AgentCheck {
     const at = this.place(0);
     const angle = this.angle(0);
     if (at !== start)
-      this.report("start", 0, `begins on ${this.name(at)}, not on its start ${this.name(start)}`, at);
+      this.report("start", 0,
+        `begins on ${this.name(at)}, not on its start ${this.name(start)}`, at);
     else if (this.plan.turns && !sameAngle(angle, startAngle))
       this.report("start", 0, "does not look at the start where it should", at);
-    if (!this.model.world.free[at]) this.report("jump", 0, `is on ${this.name(at)}, which is blocked`, at);
+    if (!this.model.world.free[at])
+      this.report("jump", 0, `is on ${this.name(at)}, which is blocked`, at);
   }
 
   private *checkMoves(): Generator<void> {
@@ -305,7 +313,8 @@ class AgentCheck {
     const [before, after] = [this.angle(time), this.angle(time + 1)];
     const ahead = before.direction === 0 && sameAngle(before, after) &&
       to - from === this.stepAhead(before.steps / this.agent.turnSteps);
-    if (!ahead) this.report("turn", time + 1, `goes to ${this.name(to)}, which is not ahead of it`, to);
+    if (!ahead)
+      this.report("turn", time + 1, `goes to ${this.name(to)}, which is not ahead of it`, to);
   }
 
   private stepAhead(heading: number): number {
@@ -331,8 +340,11 @@ class AgentCheck {
     }
     this.checkOverlaps();
     const { working } = this.agent;
-    if (working && !this.plan.work.some((w) => w.task === working.task && w.begin === -working.done))
-      this.report("work", 0, `does not go on with ${this.model.tasks[working.task].id}, at which it starts`, -1);
+    const goesOn = (w: WorkTime) =>
+      working !== null && w.task === working.task && w.begin === -working.done;
+    if (working && !this.plan.work.some(goesOn))
+      this.report("work", 0,
+        `does not go on with ${this.model.tasks[working.task].id}, at which it starts`, -1);
   }
 
   // In order of begin each piece need only be compared with the one that has lasted longest.
@@ -357,7 +369,9 @@ class AgentCheck {
       return;
     }
     if (piece.end - piece.begin !== task.duration)
-      this.report("work", piece.begin, `works on ${task.id} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`, task.place);
+      this.report("work", piece.begin,
+        `works on ${task.id} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`,
+        task.place);
     const { working } = this.agent;
     const begun = working !== null && working.task === piece.task && working.done === -piece.begin;
     if (piece.begin < 0 && !begun)
@@ -365,7 +379,9 @@ class AgentCheck {
     if (piece.end < 0) return;
     const first = Math.max(0, piece.begin);
     if (this.place(first) !== task.place)
-      this.report("work", first, `works on ${task.id} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`, this.place(first));
+      this.report("work", first,
+        `works on ${task.id} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`,
+        this.place(first));
     this.checkStill(first, piece);
   }
 
@@ -383,7 +399,8 @@ class AgentCheck {
     const at = this.place(end);
     const angle = this.angle(end);
     if (goal >= 0 && at !== goal)
-      this.report("end", end, `ends on ${this.name(at)}, not on its destination ${this.name(goal)}`, at);
+      this.report("end", end,
+        `ends on ${this.name(at)}, not on its destination ${this.name(goal)}`, at);
     else if (goalAngle >= 0 && (angle.direction !== 0 || angle.steps !== goalAngle))
       this.report("end", end, "does not look at the end where it should", at);
     if (goal < 0 && tasks.length > 0 && !tasks.some((task) => this.model.tasks[task].place === at))
@@ -395,7 +412,8 @@ class AgentCheck {
       const task = this.model.tasks[index];
       if (this.visit(index, 0) === Infinity)
         this.report("visit", this.plan.track.end,
-          `never ${task.duration > 0 ? "does" : "visits"} ${task.id} on ${this.name(task.place)}`, task.place);
+          `never ${task.duration > 0 ? "does" : "visits"} ${task.id} on ${this.name(task.place)}`,
+          task.place);
       yield;
     }
   }
@@ -422,7 +440,8 @@ class AgentCheck {
       yield;
       now = this.visit(task, now);
       if (now !== Infinity) continue;
-      this.report("order", this.plan.track.end, `does not visit ${this.model.tasks[task].id} in this order`, -1);
+      this.report("order", this.plan.track.end,
+        `does not visit ${this.model.tasks[task].id} in this order`, -1);
       return;
     }
     this.checkLastOfOrder(order);
@@ -436,7 +455,9 @@ class AgentCheck {
     const end = this.plan.track.end;
     const last = this.model.tasks[order[order.length - 1]];
     if (this.place(end) !== last.place)
-      this.report("order", end, `ends on ${this.name(this.place(end))}, not on ${last.id}, the last of its order`, this.place(end));
+      this.report("order", end,
+        `ends on ${this.name(this.place(end))}, not on ${last.id}, the last of its order`,
+        this.place(end));
   }
 }
 

@@ -50,7 +50,8 @@ export class Value {
   // least <= it < bound
   integer(least: number, bound: number): number {
     const value = this.value;
-    if (typeof value !== "number" || !Number.isSafeInteger(value) || value < least || value >= bound)
+    if (typeof value !== "number" || !Number.isSafeInteger(value) ||
+        value < least || value >= bound)
       this.fail(`a whole number from ${least} to ${bound - 1}`);
     return value as number;
   }
@@ -76,6 +77,7 @@ export function parse(text: string): Value {
   try {
     return new Value(JSON.parse(text), "");
   } catch (error) {
-    throw new Error(`the data is no JSON: ${error instanceof Error ? error.message : String(error)}`);
+    const why = error instanceof Error ? error.message : String(error);
+    throw new Error(`the data is no JSON: ${why}`);
   }
 }

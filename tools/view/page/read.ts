@@ -39,7 +39,8 @@ function readAgent(data: Value, world: World, taskCount: number): Agent {
     working: null,
     tasks: [],
   };
-  data.only("id", "start", "goal", "working", ...(turnSteps > 0 ? ["turn", "angle", "goalAngle"] : []));
+  const ofTurning = turnSteps > 0 ? ["turn", "angle", "goalAngle"] : [];
+  data.only("id", "start", "goal", "working", ...ofTurning);
   if (working.isThere) {
     const [task, done] = working.list(2);
     agent.working = { task: task.integer(0, taskCount), done: done.integer(0, kMostTime) };

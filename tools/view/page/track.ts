@@ -186,7 +186,8 @@ class Runs {
 
 function number(text: string, least: number, bound: number): number {
   const value = /^[0-9]{1,10}$/.test(text) ? Number(text) : NaN;
-  if (!(value >= least && value < bound)) throw new Error(`a path is on '${text}', which is no place`);
+  if (!(value >= least && value < bound))
+    throw new Error(`a path is on '${text}', which is no place`);
   return value;
 }
 
