@@ -6,6 +6,7 @@ agreement_test.py GROVE VERDICTS [--plans N] [--seed S]   VERDICTS: verdicts.ts,
 """
 
 import argparse
+import collections
 import json
 import pathlib
 import random
@@ -14,6 +15,7 @@ import sys
 import tempfile
 
 HEADINGS = "NESW"
+DATA = pathlib.Path(__file__).resolve().parents[3] / "benchmarks" / "data"
 
 
 def random_grid(rng):
@@ -27,13 +29,53 @@ def random_grid(rng):
 def random_roadmap(rng):
     count = rng.randint(4, 8)
     vertices = [{"id": f"v{i}", "at": [rng.randint(0, 20), rng.randint(0, 20)]} for i in range(count)]
-    edges = []
-    for i in range(1, count):
-        edges.append([rng.randrange(i), i])
-    for _ in range(rng.randint(1, count)):
-        edges.append(rng.sample(range(count), 2))
+    edges = [[rng.randrange(i), i] for i in range(1, count)]
+    edges += [rng.sample(range(count), 2) for _ in range(rng.randint(1, count))]
+    # Beside each other, in any direction.
+    edges += [rng.sample(edge, 2) for edge in rng.sample(edges, rng.randint(0, 2))]
     roads = [{"from": f"v{a}", "to": f"v{b}", "steps": rng.randint(1, 4), "one_way": rng.random() < 0.25} for a, b in edges]
     return {"vertices": vertices, "edges": roads}, [v["id"] for v in vertices]
+
+
+def start_on_a_road(rng, roadmap):
+    """None: there is no such place."""
+    long = [i for i, road in enumerate(roadmap["edges"]) if road["steps"] > 1]
+    if not long:
+        return None
+    index = rng.choice(long)
+    road = roadmap["edges"][index]
+    return [road["from"], road["to"], rng.randint(1, road["steps"] - 1), index]
+
+
+def add_turning(rng, agent):
+    steps, heading = rng.randint(1, 3), rng.choice(HEADINGS)
+    agent.update(motion="turning", turn_steps=steps)
+    if steps > 1 and rng.random() < 0.3:
+        to = HEADINGS[(HEADINGS.index(heading) + rng.choice([1, 3])) % 4]
+        agent["start"] = [*agent["start"], heading, to, rng.randint(1, steps - 1)]
+    else:
+        agent["heading"] = heading
+    if "goal" in agent and rng.random() < 0.3:
+        agent["goal_heading"] = rng.choice(HEADINGS)
+
+
+def random_tasks(rng, cells, agents):
+    places = rng.sample(cells, min(len(cells), 2)) if rng.random() < 0.3 else cells  # several on one
+    tasks = []
+    for k in range(rng.randint(0, 4)):
+        who = rng.sample([a["id"] for a in agents], rng.randint(1, len(agents)))
+        task = {"id": f"t{k}", "cell": rng.choice(places), "agents": who}
+        if rng.random() < 0.4:
+            task["duration"] = rng.randint(1, 4)
+        tasks.append(task)
+    return tasks
+
+
+def add_working(rng, agent, cell, tasks):
+    """It starts in the middle of its work."""
+    task = {"id": f"t{len(tasks)}", "cell": cell, "agents": [agent["id"]], "duration": rng.randint(1, 4)}
+    agent["working"] = {"task": task["id"], "done": rng.randint(0, task["duration"] - 1)}
+    tasks.append(task)
 
 
 def random_instance(rng, folder, number):
@@ -49,28 +91,56 @@ def random_instance(rng, folder, number):
         name = f"{number}.map"
         (folder / name).write_text(text)
         instance = {"map": name}
-    agents = rng.randint(1, min(3, max(1, len(cells) - 1)))
-    starts, goals = rng.sample(cells, min(agents, len(cells))), rng.sample(cells, min(agents, len(cells)))
-    instance["agents"] = []
-    for i, start in enumerate(starts):
-        agent = {"id": f"a{i}", "start": start}
+    count = min(rng.randint(1, 3), max(1, len(cells) - 1))
+    starts, goals = rng.sample(cells, min(count, len(cells))), rng.sample(cells, min(count, len(cells)))
+    agents = [{"id": f"a{i}", "start": start} for i, start in enumerate(starts)]
+    tasks = random_tasks(rng, cells, agents)
+    for i, agent in enumerate(agents):
         if rng.random() < 0.75:
             agent["goal"] = goals[i]
         if not on_roads and rng.random() < 0.5:
-            agent.update(motion="turning", turn_steps=rng.randint(1, 3), heading=rng.choice(HEADINGS))
-            if "goal" in agent and rng.random() < 0.3:
-                agent["goal_heading"] = rng.choice(HEADINGS)
-        instance["agents"].append(agent)
-    instance["tasks"] = []
-    for k in range(rng.randint(0, 4)):
-        who = rng.sample([a["id"] for a in instance["agents"]], rng.randint(1, len(starts)))
-        task = {"id": f"t{k}", "cell": rng.choice(cells), "agents": who}
-        if rng.random() < 0.4:
-            task["duration"] = rng.randint(1, 4)
-        instance["tasks"].append(task)
+            add_turning(rng, agent)
+        if rng.random() < 0.15:
+            add_working(rng, agent, starts[i], tasks)
+    if on_roads and rng.random() < 0.3 and "working" not in agents[0]:
+        agents[0]["start"] = start_on_a_road(rng, roadmap) or agents[0]["start"]
     path = folder / f"{number}.cts.json"
-    path.write_text(json.dumps(instance))
+    path.write_text(json.dumps({**instance, "agents": agents, "tasks": tasks}))
     return path
+
+
+def generated_instance(rng, folder, number, run_grove):
+    """By grove's own generator."""
+    path, seed = folder / f"{number}.cts.json", str(rng.randrange(1000))
+    if rng.random() < 0.5:
+        world = ["--map", folder / f"{number}.map"]
+        kind = rng.choice([["random", "--obstacles", "0.1"], ["empty"]])
+        run_grove("generate", "map", *kind, "--width", "8", "--height", "8", "--seed", seed, "-o", world[1])
+    else:
+        world = ["--roadmap", folder / f"{number}.roadmap.json"]
+        run_grove("generate", "roadmap", "--kind", "planar", "--vertices", "12", "--seed", seed, "-o", world[1])
+    more = ["--mg"] if rng.random() < 0.3 else []
+    run_grove("generate", "instance", *world, "--agents", "3", "--tasks", "4", "--seed", seed, *more, "-o", path)
+    return path
+
+
+def features(instance):
+    """Of what kinds of things it is made."""
+    data = json.loads(instance.read_text())
+    agents, tasks = data["agents"], data.get("tasks", [])
+    cells = [str(task["cell"]) for task in tasks]
+    with_tasks = {agent for task in tasks for agent in task["agents"]}
+    found = {
+        "roadmap": "roadmap" in data,
+        "start on a road": "roadmap" in data and any(isinstance(a["start"], list) and len(a["start"]) > 2 for a in agents),
+        "turning": any("motion" in a for a in agents),
+        "start within a turn": any("motion" in a and len(a["start"]) == 5 for a in agents),
+        "duration": any(task.get("duration") for task in tasks),
+        "start at work": any("working" in a for a in agents),
+        "tasks on one cell": len(set(cells)) < len(cells),
+        "idle agent": any("goal" not in a and a["id"] not in with_tasks for a in agents),
+    }
+    return [name for name, is_so in found.items() if is_so]
 
 
 def shift_step(rng, plan):
@@ -148,8 +218,91 @@ def rest_longer(rng, plan):
     agent["path"] += [agent["path"][-1]] * rng.randint(1, 3)
 
 
+def no_way(rng, plan):
+    """Steps over blocked cells, along other roads or past the map."""
+    agent = rng.choice(plan["agents"])
+    entry = agent["path"][rng.randrange(len(agent["path"]))]
+    numbers = [i for i, part in enumerate(entry) if isinstance(part, int)]
+    if numbers:
+        entry[rng.choice(numbers)] += rng.choice([-1, 1])
+
+
+def rest_on_another(rng, plan):
+    """All that one does, another does too."""
+    if len(plan["agents"]) > 1:
+        a, b = rng.sample(plan["agents"], 2)
+        a["path"] = list(b["path"])
+
+
+def work_again(rng, plan):
+    agents = [a for a in plan["agents"] if a.get("work")]
+    if agents:
+        agent = rng.choice(agents)
+        piece = dict(rng.choice(agent["work"]))
+        later = rng.randint(0, 3)
+        agent["work"].append({**piece, "begin": piece["begin"] + later, "end": piece["end"] + later})
+
+
+def work_for_another(rng, plan):
+    works = [w for a in plan["agents"] for w in a.get("work", [])]
+    tasks = [t for a in plan["agents"] for t in a["sequence"]]
+    if works:
+        rng.choice(works)["task"] = rng.choice(tasks)
+
+
+def without_a_path(rng, plan):
+    if rng.random() < 0.5:
+        plan["agents"].pop(rng.randrange(len(plan["agents"])))
+    else:
+        rng.choice(plan["agents"])["path"] = []
+
+
+def huge_number(rng, plan):
+    agent = rng.choice(plan["agents"])
+    for work in agent.get("work", [])[:1]:
+        work[rng.choice(["begin", "end"])] = rng.choice([-(2**30), 2**30])
+    agent["cost"] = rng.choice([agent["cost"], 2**30])
+    plan[rng.choice(["cost", "lower_bound"])] = 2**60
+
+
+def change_omega(rng, plan):
+    plan["omega"] = rng.choice([0, 1e-9, 1e-5, 0.05, 0.25, 1, 1e6, "inf"])
+
+
+def change_bound(rng, plan):
+    plan["lower_bound"] = rng.choice([-1, 0, plan["cost"] // 2, plan["cost"] - 1, plan["cost"], plan["cost"] + 1])
+    if rng.random() < 0.5:
+        change_status(rng, plan)
+
+
 BREAKS = [shift_step, drop_step, cut_end, teleport, swap_tails, turn, unwind, change_work, drop_work, change_number,
-          change_order, change_status, rest_longer]  # fmt: skip
+          change_order, change_status, rest_longer, no_way, rest_on_another, work_again, work_for_another,
+          without_a_path, huge_number, change_omega, change_bound]  # fmt: skip
+
+
+def path_lists(plan):
+    """As EECBS writes paths: row before column."""
+    lines = (
+        f"Agent {i}: " + "".join(f"({y},{x})->" for x, y in agent["path"]) for i, agent in enumerate(plan["agents"])
+    )
+    return "\n".join(lines) + "\n"
+
+
+def visualizer_text(rng, plan):
+    """As lacam writes them; what it says of cost and bound may be wrong."""
+    paths = [agent["path"] for agent in plan["agents"]]
+    cells = [[path[min(t, len(path) - 1)] for path in paths] for t in range(max(map(len, paths)))]
+    lines = [f"{t}:" + "".join(f"({x},{y})," for x, y in row) for t, row in enumerate(cells)]
+    claims = [f"soc={plan['cost']}", f"soc_lb={plan['lower_bound']}"]
+    return "\n".join([f"agents={len(paths)}", *rng.sample(claims, rng.randint(0, 2)), "solution=", *lines]) + "\n"
+
+
+def is_for_others(plan):
+    """Other tools know neither roads nor turns nor work, and have a path for every agent."""
+    agents = plan["agents"]
+    return len(agents) > 0 and plan["lower_bound"] >= 0 and all(
+        a["path"] and not a.get("work") and all(len(e) == 2 and min(e) >= 0 for e in a["path"]) for a in agents
+    )
 
 
 class Cases:
@@ -157,20 +310,19 @@ class Cases:
         self.grove, self.rng = grove, random.Random(seed)
         self.node = subprocess.Popen(["node", verdicts], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.valid = self.invalid = self.unreadable = 0
+        self.seen = collections.Counter()
         self.differ = []
 
     def run_grove(self, *arguments):
         return subprocess.run([self.grove, *map(str, arguments)], capture_output=True, text=True)
 
-    def solved(self, folder, number):
-        instance = random_instance(self.rng, folder, number)
-        plan = folder / f"{number}.plan.json"
+    def solved(self, instance, plan):
+        """The plan, read; none if there is no plan."""
         omega = self.rng.choice(["0", "0.1", "0.5", "inf"])
         limits = ("--time-limit", "0.3", "--threads", "1", "--quiet")
         self.run_grove("solve", instance, *limits, "--omega", omega, "--output", plan)
-        if not plan.exists() or "agents" not in json.loads(plan.read_text()):
-            return None
-        return instance, plan
+        found = json.loads(plan.read_text()) if plan.exists() else {}
+        return found if "agents" in found else None
 
     def compare(self, instance, plan):
         check = self.run_grove("check", instance, plan)
@@ -178,32 +330,56 @@ class Cases:
         view = self.run_grove("view", instance, plan, "-o", page)
         if view.returncode != 0:
             self.unreadable += 1
-            if check.returncode == 0:
-                self.differ.append((instance, plan, "view refuses what check finds valid: " + view.stderr))
+            if (view.returncode, check.returncode) != (2, 2):
+                self.differ.append((instance, plan, "view refuses what check reads: " + view.stderr))
             return
         self.node.stdin.write(f"{page}\n")
         self.node.stdin.flush()
         verdict = json.loads(self.node.stdout.readline())
         is_valid = verdict.get("violations") == []
-        if is_valid != (check.returncode == 0):
+        if "error" in verdict or is_valid != (check.returncode == 0):
             self.differ.append((instance, plan, f"{check.stdout}{check.stderr}{json.dumps(verdict)[:600]}"))
         self.valid += is_valid
         self.invalid += not is_valid
+        self.seen.update(features(instance) + sorted({found["kind"] for found in verdict.get("violations", [])}))
+
+    def compare_both(self, instance, plan):
+        """A plan as it is, and broken; perhaps as another tool would write it."""
+        data = self.solved(instance, plan)
+        if data is None:
+            return
+        if self.rng.random() < 0.05:
+            data = {key: data[key] for key in ("status", "lower_bound", "omega")}
+        self.write(plan, data)
+        self.compare(instance, plan)
+        if "agents" not in data:
+            return
+        for _ in range(self.rng.choice([1, 1, 2])):
+            if len(data["agents"]) > 0 and all(agent["path"] for agent in data["agents"]):
+                self.rng.choice(BREAKS)(self.rng, data)
+        self.write(plan, data)
+        self.compare(instance, plan)
+
+    def write(self, plan, data):
+        kind = self.rng.random()
+        if kind > 0.2 or "agents" not in data or not is_for_others(data):
+            plan.write_text(json.dumps(data))
+            return
+        self.seen["other tools"] += 1
+        plan.write_text(path_lists(data) if kind < 0.1 else visualizer_text(self.rng, data))
+
+    def instance(self, folder, number):
+        if self.rng.random() < 0.1:
+            return generated_instance(self.rng, folder, number, self.run_grove)
+        return random_instance(self.rng, folder, number)
 
     def run(self, plans, folder):
+        for instance in sorted(DATA.glob("*.cts.json")):
+            self.compare_both(instance, folder / f"{instance.name}.plan.json")
         number = 0
         while self.valid + self.invalid < plans and not self.differ:
             number += 1
-            case = self.solved(folder, number)
-            if case is None:
-                continue
-            instance, plan = case
-            text = json.loads(plan.read_text())
-            self.compare(instance, plan)
-            for _ in range(self.rng.choice([1, 1, 2])):
-                self.rng.choice(BREAKS)(self.rng, text)
-            plan.write_text(json.dumps(text))
-            self.compare(instance, plan)
+            self.compare_both(self.instance(folder, number), folder / f"{number}.plan.json")
 
 
 def main():
@@ -218,6 +394,7 @@ def main():
         cases.run(arguments.plans, pathlib.Path(folder))
         for instance, plan, text in cases.differ:
             print(f"differ: {instance.read_text()}\n{plan.read_text()}\n{text}", file=sys.stderr)
+    print(", ".join(f"{name} {count}" for name, count in sorted(cases.seen.items())))
     print(f"{cases.valid} valid, {cases.invalid} not, {cases.unreadable} unreadable, {len(cases.differ)} differ")
     sys.exit(1 if cases.differ else 0)
 

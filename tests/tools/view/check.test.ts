@@ -2,7 +2,7 @@
 // Each kind of thing that can be wrong with a plan, and plans with which nothing is.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { check } from "../../../tools/view/page/check";
+import { check, Checker } from "../../../tools/view/page/check";
 import { kGrid, kRoads, model, type AgentData } from "./models";
 
 type Parts = Parameters<typeof model>;
@@ -31,6 +31,15 @@ test("collisions", () => {
   // Following and rotating are none.
   assert.deepEqual(found(kGrid, [{ id: "a", start: 1, goal: 2 }, { id: "b", start: 0, goal: 1 }], [],
     [{ path: "@1;E" }, { path: "@0;E" }]), []);
+});
+
+test("a collision is told once, however long it lasts", () => {
+  const both: AgentData[] = [{ id: "a", start: 0 }, { id: "b", start: 3 }];
+  assert.deepEqual(found(kGrid, both, [], [{ path: "@0;2E9." }, { path: "@3;2W8.E" }]), ["swap 2", "vertex 11"]);
+  assert.deepEqual(found(kGrid, both, [], [{ path: "@0;2E9." }, { path: "@3;W4.E3.W" }]), ["vertex 2", "vertex 10"]);
+  const three = [...both, { id: "c", start: 2 }];
+  assert.deepEqual(found(kGrid, three, [], [{ path: "@0;2E" }, { path: "@3;.W" }, { path: "@2;5." }]),
+    ["vertex 2", "vertex 2"]);
 });
 
 test("starts, jumps and blocked cells", () => {
@@ -66,7 +75,22 @@ test("costs and claims", () => {
   assert.deepEqual(claim({ cost: 3, status: "bounded", lower_bound: 2, omega: "0.5" }), []);
   assert.deepEqual(claim({ cost: 3, status: "bounded", lower_bound: 2, omega: "0.499999999" }), ["claim 3"]);
   assert.deepEqual(claim({ cost: 3, status: "feasible", lower_bound: 2, omega: "inf" }), []);
+  assert.deepEqual(claim({ cost: 3, status: "bounded", lower_bound: 2, omega: "1e+06" }), []);
+  assert.deepEqual(claim({ cost: 3, status: "feasible", lower_bound: 0, omega: "1000000" }), []);
+  assert.deepEqual(claim({ cost: 2 ** 60, status: "feasible", lower_bound: 2, omega: "0" }), ["cost 3"]);
+  assert.deepEqual(claim({ cost: 3, status: "feasible", lower_bound: -1, omega: "0" }), ["claim 3"]);
   assert.deepEqual(claim({ cost: 3, status: "optimal", lower_bound: 4, omega: "0" }), ["claim 3"]);
+});
+
+test("omega is exact, however it is written", () => {
+  const cost = 100_001; // above a bound of 100,000 by a hundred-thousandth of it
+  const claim = (status: string, omega: string) => found(kGrid, [kOne], [],
+    [{ path: `@0;${cost - 3}.3E`, cost }], { cost, status, lower_bound: cost - 1, omega });
+  assert.deepEqual(claim("bounded", "1e-05"), []);
+  assert.deepEqual(claim("bounded", "0.00001"), []);
+  assert.deepEqual(claim("bounded", "1.5e-05"), []);
+  assert.deepEqual(claim("feasible", "9.999e-06"), []);
+  assert.deepEqual(claim("bounded", "9.999e-06"), [`claim ${cost}`]);
 });
 
 test("roads and their directions", () => {
@@ -111,4 +135,28 @@ test("work", () => {
 
 test("agents without a path", () => {
   assert.deepEqual(one(""), ["path 0"]);
+});
+
+test("a long path with many tasks does not hold the page up", () => {
+  const tasks = Array.from({ length: 64 }, (_, k) => ({ id: `t${k}`, place: k % 4, agents: [0] }));
+  const m = model(kGrid, [kOne], tasks, [{ path: `@0;${"EW".repeat(200_000)}3E` }]);
+  const checker = new Checker(m, m.plans[0]);
+  let slowest = 0;
+  for (let done = false; !done; ) {
+    const begin = performance.now();
+    done = checker.step(5);
+    slowest = Math.max(slowest, performance.now() - begin);
+  }
+  assert.deepEqual(checker.violations, []);
+  assert.ok(slowest < 500, `${slowest} ms at once`); // in a quiet minute 20
+});
+
+test("many robots for long are checked soon", () => {
+  const wide = { kind: "grid", width: 50, height: 10_000, free: "500000" };
+  const agents = Array.from({ length: 10_000 }, (_, y) => ({ id: `a${y}`, start: 50 * y, goal: 50 * y }));
+  const m = model(wide, agents, [], agents.map(({ start }) => ({ path: `@${start};${"20E5.20W5.".repeat(20)}` })));
+  const begin = performance.now();
+  assert.deepEqual(check(m, m.plans[0]), []);
+  const time = performance.now() - begin;
+  assert.ok(time < 10_000, `${time} ms`); // in a quiet minute 300
 });

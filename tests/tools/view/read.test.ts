@@ -78,6 +78,17 @@ const breaks: Break[] = [
   ["plans[0].agents[0].work[0]", (d) => (d.plans[0].agents[0].work = [[0, 1]])],
   ["plans[0].agents[0].work[0][2]", (d) => (d.plans[0].agents[0].work = [[0, 1, null]])],
   ["instance", (d) => (d.instance = 3)],
+  ["the data", (d) => (d.plan = [])],
+  ["world", (d) => (d.world.blocked = "")],
+  ["agents[0]", (d) => (d.agents[0].gaol = 3)],
+  ["agents[0]", (d) => delete d.agents[0].turn],
+  ["tasks[0]", (d) => (d.tasks[0].durations = 3)],
+  ["plans[0]", (d) => (d.plans[0].paths = [])],
+  ["plans[0].claims", (d) => (d.plans[0].claims.bound = 3)],
+  ["plans[0].claims.cost", (d) => (d.plans[0].claims.cost = 7.5)],
+  ["plans[0].agents[0]", (d) => (d.plans[0].agents[0].order = [0])],
+  ["plans[0].agents[0].path", (d) => (d.plans[0].agents[0].path = "@0;0E7.")],
+  ["plans[0].agents[0].work[0][1]", (d) => (d.plans[0].agents[0].work = [[0, -(2 ** 31), 2]])],
 ];
 
 test("what is not as expected is refused with its place", () => {
@@ -88,6 +99,14 @@ test("what is not as expected is refused with its place", () => {
       `${place}: ${spoil.toString()}`);
   }
   assert.ok(breaks.length >= 40);
+});
+
+test("claims may be as large as plan files can say", () => {
+  const huge = good();
+  huge.plans[0].claims = { status: "optimal", cost: 2 ** 60, lower_bound: -(2 ** 63), omega: "inf" };
+  huge.plans[0].agents[0].cost = 2 ** 30;
+  huge.plans[0].agents[0].work = [[0, -(2 ** 30), 2 ** 30]];
+  assert.equal(readModel(JSON.stringify(huge)).plans[0].claims.cost, 2 ** 60);
 });
 
 test("what is no JSON is refused", () => {

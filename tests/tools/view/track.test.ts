@@ -51,13 +51,26 @@ test("a track is at each time where its text says", () => {
   }
 });
 
+test("a track knows when it first is on a place", () => {
+  for (let seed = 0; seed < 300; ++seed) {
+    const { text, places } = randomPath(seed);
+    const track = readTrack(text, steps, kPlaces);
+    for (const place of [...places, 17])
+      for (const begin of [0, 1, places.length >> 1, places.length - 1, places.length, places.length + 5]) {
+        let expected = places.findIndex((p, time) => p === place && time >= begin);
+        if (expected < 0) expected = places[places.length - 1] === place ? begin : Infinity;
+        assert.equal(track.firstTimeOn(place, begin), expected, `${text}: ${place} from ${begin} on`);
+      }
+  }
+});
+
 test("an empty text is no path", () => {
   assert.equal(readTrack("", steps, kPlaces).isEmpty, true);
 });
 
 test("what is no path is refused", () => {
   for (const text of ["E", "@1", "@;", "@-1;", "@10000;", "@1;X", "@1;3", "@1;2@2;", "@0;N", "@1.5;",
-    "@1;99999999999E", "@1;20000000.", "@1;e", "@1; E", "@9999;E"])
+    "@1;99999999999E", "@1;20000000.", "@1;e", "@1; E", "@9999;E", "@1;0E", "@1;00."])
     assert.throws(() => readTrack(text, steps, kPlaces), Error, text);
 });
 

@@ -3,8 +3,9 @@
 // data alone: each robot by itself, then all of them through time on one map of who is where, then
 // what the file claims. The page believes no verdict but its own.
 
-import { finish, visitTime } from "./facts";
+import { finish } from "./facts";
 import type { Agent, AgentPlan, Angle, Model, Plan, WorkTime } from "./model";
+import type { Track, TurnTrack } from "./track";
 
 export type Kind =
   | "path" | "start" | "jump" | "turn" | "work" | "end" | "visit" | "order" | "vertex" | "swap"
@@ -19,6 +20,7 @@ export interface Violation {
 }
 
 const kMost = 1000; // violations; who has so many needs no more
+const kStepsAtOnce = 2048; // of one robot, before the page may do something else
 
 // All of them, in order of time.
 export function check(model: Model, plan: Plan): Violation[] {
@@ -31,36 +33,22 @@ export function check(model: Model, plan: Plan): Violation[] {
 export class Checker {
   readonly violations: Violation[] = [];
   done = false;
-  private agent = 0; // the next one to be checked
-  private time = 0; // the next moment
+  private readonly parts: Generator<void>;
   private readonly end: number;
-  private readonly here: Int32Array; // by agent
-  private readonly before: Int32Array;
-  private readonly runs: Int32Array;
-  private readonly occupant: Int32Array; // by place, valid where its stamp is that of a time
-  private readonly stamp: Int32Array;
 
   constructor(
     private readonly model: Model,
     private readonly plan: Plan,
   ) {
-    const count = plan.agents.length;
     this.end = plan.agents.reduce((end, agent) => Math.max(end, agent.track.end), 0);
-    this.here = new Int32Array(count);
-    this.before = new Int32Array(count);
-    this.runs = new Int32Array(count);
-    this.occupant = new Int32Array(model.world.places);
-    this.stamp = new Int32Array(model.world.places).fill(-1);
+    this.parts = this.checkAll();
   }
 
   // Works for about so long; true when all is known.
   step(milliseconds: number): boolean {
     const until = performance.now() + milliseconds;
     while (!this.done) {
-      if (this.violations.length >= kMost) this.close();
-      else if (this.agent < this.plan.agents.length) this.checkAgent(this.agent++);
-      else if (this.time <= this.end && this.plan.agents.length > 0) this.checkMoment(this.time++);
-      else this.close();
+      if (this.violations.length >= kMost || this.parts.next().done) this.close();
       if (performance.now() > until) break;
     }
     return this.done;
@@ -76,56 +64,47 @@ export class Checker {
     if (this.violations.length < kMost) this.violations.push({ time, kind, agents, place, text });
   }
 
-  private checkAgent(index: number): void {
+  // In small parts: it stops where other things may be done.
+  private *checkAll(): Generator<void> {
+    for (let index = 0; index < this.plan.agents.length; ++index) {
+      yield* this.checkAgent(index);
+      yield;
+    }
+    yield* this.checkMoments();
+  }
+
+  private *checkAgent(index: number): Generator<void> {
     const plan = this.plan.agents[index];
     const agent = this.model.agents[index];
     if (plan.track.isEmpty) {
       this.add("path", 0, [index], -1, `${agent.id} has no path`);
       return;
     }
-    new AgentCheck(this.model, agent, plan, (kind, time, text, place) =>
-      this.add(kind, time, [index], place, `${agent.id} ${text}`),
-    ).run();
+    const check = new AgentCheck(this.model, agent, plan, (kind, time, text, place) =>
+      this.add(kind, time, [index], place, `${agent.id} ${text}`));
+    yield* check.run();
   }
 
-  // Who is where at `time`; who exchanges places in the step before it.
-  private checkMoment(time: number): void {
-    const { agents } = this.plan;
-    this.before.set(this.here);
-    for (let i = 0; i < agents.length; ++i) {
-      const { track } = agents[i];
-      if (track.isEmpty) continue;
-      this.runs[i] = track.run(time, this.runs[i]);
-      this.here[i] = track.place(time, this.runs[i]);
-    }
-    if (time > 0) this.checkSwaps(time);
-    for (let i = 0; i < agents.length; ++i) {
-      if (agents[i].track.isEmpty) continue;
-      const place = this.here[i];
-      if (this.stamp[place] === time) this.report("vertex", time, this.occupant[place], i);
-      this.stamp[place] = time;
-      this.occupant[place] = i;
+  // Who is where at each time; who exchanges places in the step before it.
+  private *checkMoments(): Generator<void> {
+    const crowd = new Crowd(this.plan, this.model.world.places);
+    const report: ReportCollision = (kind, time, a, b) =>
+      this.reportCollision(kind, time, a, b, crowd.here[b]);
+    for (let time = 0; time <= this.end; ++time) {
+      crowd.check(time, report);
+      yield;
     }
   }
 
-  // Before the moment is stamped, occupants are those of the step before.
-  private checkSwaps(time: number): void {
-    for (let i = 0; i < this.here.length; ++i) {
-      const [from, to] = [this.before[i], this.here[i]];
-      if (from === to || this.stamp[to] !== time - 1 || this.plan.agents[i].track.isEmpty) continue;
-      const other = this.occupant[to];
-      if (other < i && this.before[other] === to && this.here[other] === from)
-        this.report("swap", time, other, i);
-    }
-  }
-
-  private report(kind: "vertex" | "swap", time: number, a: number, b: number): void {
+  private reportCollision(
+    kind: "vertex" | "swap", time: number, a: number, b: number, place: number,
+  ): void {
     const [first, second] = [this.model.agents[a].id, this.model.agents[b].id];
-    const where = this.model.world.place(this.here[b]);
+    const where = this.model.world.place(place);
     const text = kind === "vertex"
       ? `${first} and ${second} are both on ${where}`
       : `${first} and ${second} change places at ${where}`;
-    this.add(kind, time, [a, b], this.here[b], text);
+    this.add(kind, time, [a, b], place, text);
   }
 
   private checkClaims(): void {
@@ -136,11 +115,84 @@ export class Checker {
     }
     const cost = agents.reduce((sum, plan) => sum + finish(plan), 0);
     if (claims.cost !== undefined && claims.cost !== cost)
-      this.add("cost", this.end, [], -1, `the costs add up to ${cost}, but the plan says ${claims.cost}`);
+      this.add("cost", this.end, [], -1,
+        `the costs add up to ${cost}, but the plan says ${claims.cost}`);
     const wrong = wrongClaim(this.plan, cost);
     if (wrong) this.add("claim", this.end, [], -1, wrong);
   }
 }
+
+type ReportCollision = (kind: "vertex" | "swap", time: number, a: number, b: number) => void;
+
+// All robots, moved through time together: where each is, and who is on a place. A step of a robot
+// is an addition; only where its run of equal steps ends its track is looked at.
+class Crowd {
+  readonly here: Int32Array; // by agent; -1: it has no path
+  private readonly before: Int32Array;
+  private readonly delta: Int32Array;
+  private readonly until: Int32Array; // when the run ends that delta is of
+  private readonly runs: Int32Array; // the next one
+  private readonly occupant: Int32Array; // by place, valid where its stamp is that of a time
+  private readonly stamp: Int32Array;
+
+  constructor(
+    private readonly plan: Plan,
+    places: number,
+  ) {
+    const { agents } = plan;
+    this.here = Int32Array.from(agents, ({ track }) => (track.isEmpty ? -1 : track.places[0]));
+    this.before = Int32Array.from(this.here);
+    this.delta = new Int32Array(agents.length);
+    this.until = new Int32Array(agents.length);
+    this.runs = new Int32Array(agents.length);
+    this.occupant = new Int32Array(places);
+    this.stamp = new Int32Array(places).fill(-1);
+  }
+
+  // Called for each time, from 0 on.
+  check(time: number, report: ReportCollision): void {
+    const { here, before, occupant, stamp } = this;
+    if (time > 0) this.move(time);
+    // Until this moment is stamped, occupants are those of the moment before.
+    for (let i = 0; i < here.length; ++i) {
+      const to = here[i];
+      if (to === before[i] || stamp[to] !== time - 1) continue;
+      const other = occupant[to];
+      if (other < i && before[other] === to && here[other] === before[i])
+        report("swap", time, other, i);
+    }
+    for (let i = 0; i < here.length; ++i) {
+      const place = here[i];
+      if (place < 0) continue;
+      if (stamp[place] === time) {
+        // Once for each encounter, however long it lasts.
+        const other = occupant[place];
+        if (time === 0 || before[other] !== before[i]) report("vertex", time, other, i);
+      }
+      stamp[place] = time;
+      occupant[place] = i;
+    }
+  }
+
+  private move(time: number): void {
+    const { here, before, delta, until } = this;
+    before.set(here);
+    for (let i = 0; i < here.length; ++i) {
+      if (time > until[i]) this.beginRun(i);
+      here[i] += delta[i];
+    }
+  }
+
+  private beginRun(agent: number): void {
+    const { track } = this.plan.agents[agent];
+    const run = this.runs[agent]++;
+    const isAtRest = run >= track.runs;
+    this.delta[agent] = isAtRest ? 0 : track.deltas[run];
+    this.until[agent] = isAtRest ? kNever : track.times[run + 1];
+  }
+}
+
+const kNever = 0x7fffffff;
 
 // What status, bound and omega deserve.
 function wrongClaim(plan: Plan, cost: number): string | null {
@@ -148,25 +200,31 @@ function wrongClaim(plan: Plan, cost: number): string | null {
   if (status === undefined || bound === undefined || omega === undefined) return null;
   if (bound < 0) return `the lower bound is ${bound}, below 0`;
   if (bound > cost) return `the lower bound ${bound} is above the cost ${cost}`;
-  const deserved = cost === bound ? "optimal" : accepts(omega, cost, bound) ? "bounded" : "feasible";
-  return status === deserved ? null : `the status is ${status}, but cost and bound make it ${deserved}`;
+  const isWithin = accepts(omega, cost, bound);
+  const deserved = cost === bound ? "optimal" : isWithin ? "bounded" : "feasible";
+  if (status === deserved) return null;
+  return `the status is ${status}, but cost and bound make it ${deserved}`;
 }
 
-// cost <= (1 + omega) * bound, exactly: omega is a decimal of at most nine places. (Infinite omega
-// promises nothing.)
+// cost <= (1 + omega) * bound, exactly: omega is a decimal fraction, perhaps with an exponent
+// ("1e-05"). (Infinite omega promises nothing.)
 function accepts(omega: string, cost: number, bound: number): boolean {
-  if (omega === "inf") return false;
-  const match = /^([0-9]+)(?:\.([0-9]{1,9}))?$/.exec(omega);
+  const match = /^([0-9]{1,20})(?:\.([0-9]{1,20}))?(?:e([+-][0-9]{1,2}))?$/.exec(omega);
   if (!match) return false;
-  const unit = BigInt(1_000_000_000);
-  const billionths = BigInt(match[1]) * unit + BigInt((match[2] ?? "").padEnd(9, "0"));
-  return BigInt(cost) * unit <= BigInt(bound) * (unit + billionths);
+  const [, whole, fraction = "", exponent = "0"] = match;
+  const shift = Number(exponent) - fraction.length;
+  const ten = BigInt(10);
+  const unit = ten ** BigInt(Math.max(0, -shift));
+  const parts = BigInt(whole + fraction) * ten ** BigInt(Math.max(0, shift)); // of a unit
+  return BigInt(cost) * unit <= BigInt(bound) * (unit + parts);
 }
 
 type Report = (kind: Kind, time: number, text: string, place: number) => void;
 
 // One robot, as if it were alone.
 class AgentCheck {
+  private steps = 0;
+
   constructor(
     private readonly model: Model,
     private readonly agent: Agent,
@@ -174,18 +232,23 @@ class AgentCheck {
     private readonly report: Report,
   ) {}
 
-  run(): void {
+  *run(): Generator<void> {
     this.checkStart();
-    this.checkSteps();
-    this.checkWork();
+    yield* this.checkMoves();
+    yield* this.checkTurns();
+    yield* this.checkWork();
     this.checkEnd();
-    this.checkVisits();
-    this.checkOrder();
+    yield* this.checkVisits();
+    yield* this.checkOrder();
     const rest = finish(this.plan);
     if (this.plan.cost !== null && this.plan.cost !== rest)
-      this.report("cost", rest, `comes to rest at ${rest}, but the plan says ${this.plan.cost}`, -1);
+      this.report("cost", rest,
+        `comes to rest at ${rest}, but the plan says ${this.plan.cost}`, -1);
   }
 
+  private hasDoneEnough(): boolean {
+    return ++this.steps % kStepsAtOnce === 0;
+  }
   private name(place: number): string {
     return this.model.world.place(place);
   }
@@ -201,32 +264,46 @@ class AgentCheck {
     const at = this.place(0);
     const angle = this.angle(0);
     if (at !== start)
-      this.report("start", 0, `begins on ${this.name(at)}, not on its start ${this.name(start)}`, at);
+      this.report("start", 0,
+        `begins on ${this.name(at)}, not on its start ${this.name(start)}`, at);
     else if (this.plan.turns && !sameAngle(angle, startAngle))
       this.report("start", 0, "does not look at the start where it should", at);
-    if (!this.model.world.free[at]) this.report("jump", 0, `is on ${this.name(at)}, which is blocked`, at);
+    if (!this.model.world.free[at])
+      this.report("jump", 0, `is on ${this.name(at)}, which is blocked`, at);
   }
 
-  private checkSteps(): void {
-    const { track, turns } = this.plan;
+  private *checkMoves(): Generator<void> {
+    const { track } = this.plan;
     for (let run = 0; run < track.runs; ++run) {
+      if (this.hasDoneEnough()) yield;
       const delta = track.deltas[run];
       if (delta === 0) continue;
-      for (let time = track.times[run]; time < track.times[run + 1]; ++time) this.checkMove(time);
-    }
-    if (!turns) return;
-    for (let run = 0; run < turns.runs; ++run) {
-      if (turns.jumps[run])
-        this.report("turn", turns.times[run + 1], "turns in a way that is no step of a turn", this.place(turns.times[run]));
-      if (turns.deltas[run] === 0) continue;
-      for (let time = turns.times[run]; time < turns.times[run + 1]; ++time)
-        this.checkTurn(time, turns.deltas[run]);
+      let from = track.places[run];
+      for (let time = track.times[run]; time < track.times[run + 1]; ++time, from += delta) {
+        this.checkMove(time, from, from + delta);
+        if (this.hasDoneEnough()) yield;
+      }
     }
   }
 
-  private checkMove(time: number): void {
+  private *checkTurns(): Generator<void> {
+    const { turns } = this.plan;
+    if (!turns) return;
+    for (let run = 0; run < turns.runs; ++run) {
+      if (this.hasDoneEnough()) yield;
+      if (turns.jumps[run])
+        this.report("turn", turns.times[run + 1], "turns in a way that is no step of a turn",
+          this.place(turns.times[run]));
+      if (turns.deltas[run] === 0) continue;
+      for (let time = turns.times[run]; time < turns.times[run + 1]; ++time) {
+        this.checkTurn(time, turns.deltas[run]);
+        if (this.hasDoneEnough()) yield;
+      }
+    }
+  }
+
+  private checkMove(time: number, from: number, to: number): void {
     const { world } = this.model;
-    const [from, to] = [this.place(time), this.place(time + 1)];
     if (!world.mayMove(from, to)) {
       const why = world.free[to] ? "which is no step" : "which is blocked";
       this.report("jump", time + 1, `goes from ${this.name(from)} to ${this.name(to)}, ${why}`, to);
@@ -236,7 +313,8 @@ class AgentCheck {
     const [before, after] = [this.angle(time), this.angle(time + 1)];
     const ahead = before.direction === 0 && sameAngle(before, after) &&
       to - from === this.stepAhead(before.steps / this.agent.turnSteps);
-    if (!ahead) this.report("turn", time + 1, `goes to ${this.name(to)}, which is not ahead of it`, to);
+    if (!ahead)
+      this.report("turn", time + 1, `goes to ${this.name(to)}, which is not ahead of it`, to);
   }
 
   private stepAhead(heading: number): number {
@@ -251,20 +329,33 @@ class AgentCheck {
       this.report("turn", time + 1, "turns back within a turn", this.place(time));
   }
 
-  private checkWork(): void {
-    const { work } = this.plan;
-    work.forEach((piece, k) => {
+  private *checkWork(): Generator<void> {
+    const done = new Set<number>();
+    for (const piece of this.plan.work) {
       this.checkPiece(piece);
-      for (const other of work.slice(0, k)) {
-        if (other.task === piece.task)
-          this.report("work", piece.begin, `does ${this.taskName(piece)} twice`, -1);
-        else if (other.begin < piece.end && piece.begin < other.end)
-          this.report("work", piece.begin, `works on ${this.taskName(other)} and ${this.taskName(piece)} at once`, -1);
-      }
-    });
+      if (done.has(piece.task))
+        this.report("work", piece.begin, `does ${this.taskName(piece)} twice`, -1);
+      done.add(piece.task);
+      yield;
+    }
+    this.checkOverlaps();
     const { working } = this.agent;
-    if (working && !work.some((w) => w.task === working.task && w.begin === -working.done))
-      this.report("work", 0, `does not go on with ${this.model.tasks[working.task].id}, at which it starts`, -1);
+    const goesOn = (w: WorkTime) =>
+      working !== null && w.task === working.task && w.begin === -working.done;
+    if (working && !this.plan.work.some(goesOn))
+      this.report("work", 0,
+        `does not go on with ${this.model.tasks[working.task].id}, at which it starts`, -1);
+  }
+
+  // In order of begin each piece need only be compared with the one that has lasted longest.
+  private checkOverlaps(): void {
+    let longest: WorkTime | null = null;
+    for (const piece of [...this.plan.work].sort((a, b) => a.begin - b.begin || a.end - b.end)) {
+      if (longest && piece.begin < longest.end && piece.task !== longest.task)
+        this.report("work", piece.begin,
+          `works on ${this.taskName(longest)} and ${this.taskName(piece)} at once`, -1);
+      if (!longest || piece.end > longest.end) longest = piece;
+    }
   }
 
   private taskName(piece: WorkTime): string {
@@ -278,7 +369,9 @@ class AgentCheck {
       return;
     }
     if (piece.end - piece.begin !== task.duration)
-      this.report("work", piece.begin, `works on ${task.id} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`, task.place);
+      this.report("work", piece.begin,
+        `works on ${task.id} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`,
+        task.place);
     const { working } = this.agent;
     const begun = working !== null && working.task === piece.task && working.done === -piece.begin;
     if (piece.begin < 0 && !begun)
@@ -286,20 +379,18 @@ class AgentCheck {
     if (piece.end < 0) return;
     const first = Math.max(0, piece.begin);
     if (this.place(first) !== task.place)
-      this.report("work", first, `works on ${task.id} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`, this.place(first));
+      this.report("work", first,
+        `works on ${task.id} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`,
+        this.place(first));
     this.checkStill(first, piece);
   }
 
   // No step of any kind at work.
   private checkStill(first: number, piece: WorkTime): void {
     const { track, turns } = this.plan;
-    const last = Math.min(piece.end, track.end);
-    const angle = this.angle(first);
-    for (let time = first + 1; time <= last; ++time) {
-      if (this.place(time) === this.place(first) && (!turns || sameAngle(this.angle(time), angle))) continue;
-      this.report("work", time, `moves at work on ${this.taskName(piece)}`, this.place(time));
-      return;
-    }
+    const step = Math.min(nextChange(track, first), turns ? nextChange(turns, first) : Infinity);
+    if (step <= piece.end)
+      this.report("work", step, `moves at work on ${this.taskName(piece)}`, this.place(step));
   }
 
   private checkEnd(): void {
@@ -308,18 +399,22 @@ class AgentCheck {
     const at = this.place(end);
     const angle = this.angle(end);
     if (goal >= 0 && at !== goal)
-      this.report("end", end, `ends on ${this.name(at)}, not on its destination ${this.name(goal)}`, at);
+      this.report("end", end,
+        `ends on ${this.name(at)}, not on its destination ${this.name(goal)}`, at);
     else if (goalAngle >= 0 && (angle.direction !== 0 || angle.steps !== goalAngle))
       this.report("end", end, "does not look at the end where it should", at);
     if (goal < 0 && tasks.length > 0 && !tasks.some((task) => this.model.tasks[task].place === at))
       this.report("end", end, `ends on ${this.name(at)}, where it has no task`, at);
   }
 
-  private checkVisits(): void {
+  private *checkVisits(): Generator<void> {
     for (const index of this.agent.tasks) {
       const task = this.model.tasks[index];
-      if (visitTime(this.model, this.plan, index) === Infinity || this.visit(index, 0) === Infinity)
-        this.report("visit", this.plan.track.end, `never ${task.duration > 0 ? "does" : "visits"} ${task.id} on ${this.name(task.place)}`, task.place);
+      if (this.visit(index, 0) === Infinity)
+        this.report("visit", this.plan.track.end,
+          `never ${task.duration > 0 ? "does" : "visits"} ${task.id} on ${this.name(task.place)}`,
+          task.place);
+      yield;
     }
   }
 
@@ -327,16 +422,12 @@ class AgentCheck {
   private visit(index: number, begin: number): number {
     const task = this.model.tasks[index];
     const { track, work } = this.plan;
-    if (task.duration > 0) {
-      const piece = work.find((w) => w.task === index);
-      return piece && piece.end >= begin ? piece.end : Infinity;
-    }
-    for (let time = begin; time <= track.end; ++time)
-      if (track.place(time) === task.place) return time;
-    return begin > track.end && track.place(track.end) === task.place ? begin : Infinity;
+    if (task.duration === 0) return track.firstTimeOn(task.place, begin);
+    const piece = work.find((w) => w.task === index);
+    return piece && piece.end >= begin ? piece.end : Infinity;
   }
 
-  private checkOrder(): void {
+  private *checkOrder(): Generator<void> {
     const order = this.plan.tasks;
     if (!order) return;
     const sorted = (tasks: number[]) => [...tasks].sort((a, b) => a - b).join();
@@ -346,9 +437,11 @@ class AgentCheck {
     }
     let now = 0;
     for (const task of order) {
+      yield;
       now = this.visit(task, now);
       if (now !== Infinity) continue;
-      this.report("order", this.plan.track.end, `does not visit ${this.model.tasks[task].id} in this order`, -1);
+      this.report("order", this.plan.track.end,
+        `does not visit ${this.model.tasks[task].id} in this order`, -1);
       return;
     }
     this.checkLastOfOrder(order);
@@ -362,8 +455,17 @@ class AgentCheck {
     const end = this.plan.track.end;
     const last = this.model.tasks[order[order.length - 1]];
     if (this.place(end) !== last.place)
-      this.report("order", end, `ends on ${this.name(this.place(end))}, not on ${last.id}, the last of its order`, this.place(end));
+      this.report("order", end,
+        `ends on ${this.name(this.place(end))}, not on ${last.id}, the last of its order`,
+        this.place(end));
   }
+}
+
+// The first time after `begin` at which place or angle are not what they were a step before.
+function nextChange(track: Track | TurnTrack, begin: number): number {
+  for (let run = track.run(begin); run < track.runs; ++run)
+    if (track.deltas[run] !== 0 || track.jumps[run]) return Math.max(begin, track.times[run]) + 1;
+  return Infinity;
 }
 
 function sameAngle(a: Angle, b: Angle): boolean {

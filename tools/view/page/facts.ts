@@ -108,17 +108,7 @@ export function visitTime(model: Model, plan: AgentPlan, task: number): number {
     const work = plan.work.find((w) => w.task === task);
     return work ? work.end : Infinity;
   }
-  const { track } = plan;
-  if (track.isEmpty) return Infinity;
-  if (track.places[0] === place) return 0;
-  for (let run = 0; run < track.runs; ++run) {
-    const delta = track.deltas[run];
-    if (delta === 0) continue;
-    const steps = (place - track.places[run]) / delta;
-    const most = track.times[run + 1] - track.times[run];
-    if (Number.isInteger(steps) && steps >= 1 && steps <= most) return track.times[run] + steps;
-  }
-  return Infinity;
+  return plan.track.firstTimeOn(place, 0);
 }
 
 export interface TaskFacts {

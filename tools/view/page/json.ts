@@ -24,6 +24,12 @@ export class Value {
     return new Value(value, this.path === "" ? name : `${this.path}.${name}`);
   }
 
+  // Nothing but these: a key that means nothing here may mean that something else is missing.
+  only(...names: string[]): void {
+    for (const name of Object.keys(this.value as object))
+      if (!names.includes(name)) this.fail(`no '${name.slice(0, 40)}', but ${names.join(", ")}`);
+  }
+
   list(length = -1): Value[] {
     if (!Array.isArray(this.value)) this.fail("a list");
     const all = this.value as unknown[];
@@ -44,8 +50,16 @@ export class Value {
   // least <= it < bound
   integer(least: number, bound: number): number {
     const value = this.value;
-    if (typeof value !== "number" || !Number.isSafeInteger(value) || value < least || value >= bound)
+    if (typeof value !== "number" || !Number.isSafeInteger(value) ||
+        value < least || value >= bound)
       this.fail(`a whole number from ${least} to ${bound - 1}`);
+    return value as number;
+  }
+
+  // However large: beyond 2^53 it is near to what the file says, which nothing true can be.
+  wholeNumber(): number {
+    const value = this.value;
+    if (typeof value !== "number" || !Number.isInteger(value)) this.fail("a whole number");
     return value as number;
   }
 
@@ -63,6 +77,7 @@ export function parse(text: string): Value {
   try {
     return new Value(JSON.parse(text), "");
   } catch (error) {
-    throw new Error(`the data is no JSON: ${error instanceof Error ? error.message : String(error)}`);
+    const why = error instanceof Error ? error.message : String(error);
+    throw new Error(`the data is no JSON: ${why}`);
   }
 }

@@ -6,12 +6,13 @@ import type { Agent, AgentPlan, Claims, Model, Plan, Task, World } from "./model
 import { readAngle, readTrack, readTurns, stepsOnGrid, stepsOnRoads } from "./track";
 import { readWorld } from "./world";
 
-const kMostTime = 1 << 30;
+const kMostTime = (1 << 30) + 1; // as in plan files
 const kMostTurn = (1 << 16) + 1;
 
 export function readModel(text: string): Model {
   const data = parse(text);
   if (data.key("format").text() !== "grove view 1") data.key("format").fail("'grove view 1'");
+  data.only("format", "instance", "world", "agents", "tasks", "plans");
   const world = readWorld(data.key("world"));
   const taskCount = data.key("tasks").list().length;
   const agents = data.key("agents").list().map((agent) => readAgent(agent, world, taskCount));
@@ -38,6 +39,8 @@ function readAgent(data: Value, world: World, taskCount: number): Agent {
     working: null,
     tasks: [],
   };
+  const ofTurning = turnSteps > 0 ? ["turn", "angle", "goalAngle"] : [];
+  data.only("id", "start", "goal", "working", ...ofTurning);
   if (working.isThere) {
     const [task, done] = working.list(2);
     agent.working = { task: task.integer(0, taskCount), done: done.integer(0, kMostTime) };
@@ -53,12 +56,14 @@ function readTask(data: Value, index: number, world: World, agents: Agent[]): Ta
     agents: data.key("agents").list().map((agent) => agent.integer(0, agents.length)),
     duration: duration.isThere ? duration.integer(0, kMostTime) : 0,
   };
+  data.only("id", "place", "agents", "duration");
   for (const agent of task.agents) agents[agent].tasks.push(index);
   return task;
 }
 
 function readPlan(data: Value, world: World, agents: Agent[], tasks: Task[]): Plan {
   const list = data.key("agents");
+  data.only("name", "claims", "agents");
   const plans = list.isThere
     ? list.list(agents.length).map((plan, i) => readAgentPlan(plan, world, agents[i], tasks)) : [];
   return {
@@ -80,10 +85,10 @@ function readClaims(data: Value): Claims {
   const cost = data.key("cost");
   const bound = data.key("lower_bound");
   const omega = data.key("omega");
+  data.only("status", "cost", "lower_bound", "omega");
   if (status.isThere) claims.status = status.text();
-  if (cost.isThere) claims.cost = cost.integer(-Number.MAX_SAFE_INTEGER, Number.MAX_SAFE_INTEGER);
-  if (bound.isThere)
-    claims.lower_bound = bound.integer(-Number.MAX_SAFE_INTEGER, Number.MAX_SAFE_INTEGER);
+  if (cost.isThere) claims.cost = cost.wholeNumber();
+  if (bound.isThere) claims.lower_bound = bound.wholeNumber();
   if (omega.isThere) claims.omega = omega.text();
   return claims;
 }
@@ -96,7 +101,7 @@ function readAgentPlan(data: Value, world: World, agent: Agent, tasks: Task[]): 
   const turns = data.key("turns");
   if (turns.isThere && agent.turnSteps === 0) turns.fail("no turns of a robot that turns freely");
   const plan: AgentPlan = {
-    cost: cost.isThere ? cost.integer(-kMostTime, kMostTime) : null,
+    cost: cost.isThere ? cost.integer(1 - kMostTime, kMostTime) : null,
     track: data.key("path").as((text) => readTrack(text, steps, world.places)),
     turns: agent.turnSteps > 0
       ? turns.as((text) => readTurns(text, agent.turnSteps)) : null,
@@ -107,12 +112,13 @@ function readAgentPlan(data: Value, world: World, agent: Agent, tasks: Task[]): 
           const [task, begin, end] = piece.list(3);
           return {
             task: task.integer(0, tasks.length),
-            begin: begin.integer(-kMostTime, kMostTime),
-            end: end.integer(-kMostTime, kMostTime),
+            begin: begin.integer(1 - kMostTime, kMostTime),
+            end: end.integer(1 - kMostTime, kMostTime),
           };
         })
       : [],
   };
+  data.only("cost", "path", "turns", "tasks", "work");
   if (plan.turns && plan.turns.end !== plan.track.end) turns.fail("as many times as the path has");
   return plan;
 }

@@ -51,6 +51,19 @@ export class Track {
     return all;
   }
 
+  // The first time from `begin` on at which it is on this place; Infinity: never.
+  firstTimeOn(place: number, begin: number): number {
+    if (this.isEmpty) return Infinity;
+    for (let run = this.run(begin); run < this.runs; ++run) {
+      const least = Math.max(begin, this.times[run]);
+      const [ahead, delta] = [place - this.places[run], this.deltas[run]];
+      if (delta === 0 ? ahead !== 0 : ahead % delta !== 0) continue;
+      const time = delta === 0 ? least : this.times[run] + ahead / delta;
+      if (time >= least && time <= this.times[run + 1]) return time;
+    }
+    return place === this.places[this.runs] ? Math.max(begin, this.end) : Infinity;
+  }
+
   place(time: number, near = 0): number {
     if (time >= this.end) return this.places[this.runs];
     if (time <= 0) return this.places[0];
@@ -130,6 +143,7 @@ function* stepsOf(text: string, letters: string): Generator<Step> {
       yield { letter: "@", count: 1, jump: text.slice(i + 1, end) };
       i = end;
     } else if (letters.includes(c)) {
+      if (count === 0 && text[i - 1] === "0") throw new Error(`a path takes '${c}' no times`);
       yield { letter: c, count: count === 0 ? 1 : count, jump: "" };
       count = 0;
     } else {
@@ -172,7 +186,8 @@ class Runs {
 
 function number(text: string, least: number, bound: number): number {
   const value = /^[0-9]{1,10}$/.test(text) ? Number(text) : NaN;
-  if (!(value >= least && value < bound)) throw new Error(`a path is on '${text}', which is no place`);
+  if (!(value >= least && value < bound))
+    throw new Error(`a path is on '${text}', which is no place`);
   return value;
 }
 
@@ -182,7 +197,7 @@ export function readTrack(text: string, steps: Map<string, number>, places: numb
   for (const step of stepsOf(text, [...steps.keys()].join(""))) {
     if (step.letter === "@") {
       const to = number(step.jump, 0, places);
-      if (begun) runs.add(to - runs.value, 1, true);
+      if (begun) runs.add(to - runs.value, 1, to !== runs.value);
       else runs.value = to;
     } else {
       if (!begun) throw new Error("a path does not say where it begins");

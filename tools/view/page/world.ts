@@ -17,6 +17,7 @@ export function readWorld(data: Value): World {
 }
 
 function readGrid(data: Value): World {
+  data.only("kind", "width", "height", "free");
   const width = data.key("width").integer(1, kMostPlaces);
   const height = data.key("height").integer(1, Math.floor(kMostPlaces / width) + 1);
   const places = width * height;
@@ -63,6 +64,7 @@ interface Vertex {
 }
 
 function readRoadmap(data: Value): World {
+  data.only("kind", "vertices", "roads");
   const vertices = data.key("vertices").list().map((vertex): Vertex => {
     const [name, x, y] = vertex.list(3);
     return { name: name.text(), x: x.number(), y: -y.number() };
