@@ -11,10 +11,11 @@
 #include "grove/engine/run_observer.h"
 #include "grove/io/instance_file.h"
 #include "grove/model/plan.h"
+#include "tools/solve/tree_log.h"
 
 namespace grove {
 
-// Before the search: who solves what, and how.
+// Before the search: who solves what, and how. The instance outlives the log.
 struct LogHead {
   const LoadedInstance& loaded;
   std::string instance;  // as the user named it
@@ -28,6 +29,7 @@ struct LogHead {
 struct LogRow {
   RunEvent event = RunEvent::kProgress;   // the most telling one
   PlanSource source = PlanSource::kTree;  // of a kIncumbent
+  std::string_view raised_by;             // of a kBound: what raised it last; see the README
   Progress progress;
   double seconds = 0;            // since the program began
   std::size_t memory_bytes = 0;  // held now
@@ -51,6 +53,10 @@ class LogFormat {
   virtual void row(const LogRow& row) = 0;
   // The same between rows; overwritten by what comes next, if it is shown at all.
   virtual void progress(const LogRow& /*row*/) {}
+  // What was done so far; the trees: for programs alone.
+  virtual void survey(const Survey& /*survey*/, double /*seconds*/) {}
+  virtual void root(const RootRow& /*row*/, double /*seconds*/) {}
+  virtual void node(const NodeRow& /*row*/, double /*seconds*/) {}
   // As RunObserver has them.
   virtual void infeasible(std::string_view reason) = 0;
   virtual void note(std::string_view text, double seconds) = 0;
