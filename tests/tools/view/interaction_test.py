@@ -26,13 +26,13 @@ ALL_SIZES = (*SIZES, (100, 50, 300, 30), (10_000, 1000, 500, 5))
 SKIPPED = 77
 
 FRAMES = """new Promise((done) => {
-  groveFrames.length = 0;
+  grove.frames.length = 0;
   let count = 0, begin = 0;
   const go = (now) => {
     begin ||= now;
     ++count;
     if (now - begin < SECONDS * 1000) return requestAnimationFrame(go);
-    const sorted = [...groveFrames].sort((a, b) => a - b);
+    const sorted = [...grove.frames].sort((a, b) => a - b);
     done({fps: 1000 * count / (now - begin), median: sorted[sorted.length >> 1],
           p95: sorted[Math.floor(0.95 * sorted.length)]});
   };

@@ -23,6 +23,7 @@ export interface Colors {
   taskOpen: string;
   taskBegun: string;
   taskDone: string;
+  onTask: string;
   heat: string;
 }
 
@@ -47,6 +48,7 @@ export const kLight: Colors = {
   taskOpen: "#fff3c4",
   taskBegun: "#f0e442",
   taskDone: "#d7dbe0",
+  onTask: "#1c2128",
   heat: "#d55e00",
 };
 
@@ -71,5 +73,6 @@ export const kDark: Colors = {
   taskOpen: "#4a4020",
   taskBegun: "#b8ac2e",
   taskDone: "#2f353e",
+  onTask: "#ffffff",
   heat: "#ff8c42",
 };
