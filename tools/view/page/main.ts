@@ -16,7 +16,7 @@ import { Strip } from "./panels/strip";
 import { readModel } from "./read";
 import { Stage } from "./stage";
 
-const kWorkBudget = 6; // milliseconds of a frame
+const kWorkBudget = 6; // milliseconds of a frame, while it plays
 const kLong = 300_000; // characters of data that are not read at once
 
 function begin(): void {
@@ -24,7 +24,7 @@ function begin(): void {
   if (data === null) fail("this page holds no data");
   else if (data.length < kLong) start(data);
   else {
-    say("Reading the plan …", document.title);
+    say("Reading the plan …", document.title, "failure reading");
     // Once that is seen.
     requestAnimationFrame(() => setTimeout(() => start(data)));
   }
@@ -42,8 +42,8 @@ function fail(why: string): void {
   say("This plan cannot be shown", why);
 }
 
-function say(title: string, text: string): void {
-  document.body.replaceChildren(el("main", { class: "failure" }, el("h1", {}, title), el("p", {}, text)));
+function say(title: string, text: string, kind = "failure"): void {
+  document.body.replaceChildren(el("main", { class: kind }, el("h1", {}, title), el("p", {}, text)));
 }
 
 function run(app: App): void {
@@ -99,7 +99,7 @@ function run(app: App): void {
     strip.update();
     frames.push(performance.now() - before);
     if (frames.length > 600) frames.shift();
-    app.work(kWorkBudget);
+    app.work(app.player.playing ? kWorkBudget : 2 * kWorkBudget);
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);

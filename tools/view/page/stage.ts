@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One plan in its place on the page: three canvases, one over the other (scenery, robots, labels),
-// with their camera and, where not all of the world is seen, a map of it.
+// One plan in its place on the page: canvases one over the other (scenery, robots, labels), with
+// their camera and, where not all of the world is seen, a map of it.
 
 import type { App, Viewed } from "./app";
 import { Camera } from "./camera";
@@ -10,20 +10,10 @@ import { Frame } from "./frame";
 import { listen } from "./gestures";
 import { heatMap } from "./heat";
 import { Minimap } from "./minimap";
-import type { World } from "./model";
 import { Paths } from "./paths";
 import { Labels, type RobotPainter } from "./robots";
-import { CanvasRobots } from "./robots_canvas";
-import { GlRobots } from "./robots_gl";
+import { EitherRobots } from "./robots_either";
 import { Scenery, type Shown } from "./scenery";
-
-// A 2D canvas serves so many as well, and is everywhere.
-const kFew = 1500;
-
-function robotPainter(canvas: HTMLCanvasElement, world: World, count: number): RobotPainter {
-  const fast = count > kFew && GlRobots.isFast() ? GlRobots.on(canvas, world, count) : null;
-  return fast ?? new CanvasRobots(canvas, world);
-}
 
 export class Stage {
   readonly element: HTMLElement;
@@ -47,10 +37,10 @@ export class Stage {
       ? new Frame(model, viewed.plan, viewed.facts, viewed.checker.violations) : null;
     const other = app.viewed.find((v) => v !== viewed) ?? null;
     this.paths = viewed ? new Paths(model, viewed, other) : null;
-    const [ground, middle, top] = [el("canvas"), el("canvas"), el("canvas", { tabindex: 0 })];
-    this.canvases = [ground, middle, top];
+    const [ground, plain, fast, top] = [el("canvas"), el("canvas"), el("canvas"), el("canvas", { tabindex: 0 })];
+    this.canvases = [ground, plain, fast, top];
     this.scenery = new Scenery(ground, model, viewed ? viewed.facts : null);
-    this.robots = this.frame ? robotPainter(middle, world, this.frame.count) : null;
+    this.robots = this.frame ? new EitherRobots(plain, fast, world) : null;
     this.labels = new Labels(top, model, viewed ? other : null);
     this.minimap = new Minimap(model, this.camera, () => this.cameraMoved());
     top.setAttribute("aria-label", viewed ? `The plan ${viewed.plan.name}` : "The instance");

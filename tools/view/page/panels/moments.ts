@@ -10,16 +10,16 @@ const kMost = 200;
 export interface Moment {
   time: number; // Infinity: never
   text: string;
-  go?: number; // where to jump to, if not to `time`
 }
 
-export function moments(app: App, rows: Moment[]): HTMLElement {
-  const items = rows.slice(0, kMost).map(({ time, text, go }) =>
+// Of very many things only those shown are told.
+export function moments<T>(app: App, things: T[], tell: (thing: T) => Moment): HTMLElement {
+  const items = things.slice(0, kMost).map(tell).map(({ time, text }) =>
     el("li", {},
       Number.isFinite(time)
-        ? momentButton(time, () => app.go(Math.max(0, go ?? time))) : el("span", { class: "moment bad" }, "never"),
+        ? momentButton(time, () => app.go(Math.max(0, time))) : el("span", { class: "moment bad" }, "never"),
       " ", el("span", { dir: "auto" }, text)));
-  const rest = rows.length - kMost;
+  const rest = things.length - kMost;
   if (rest > 0) items.push(el("li", { class: "faint" }, `and ${plural(rest, "more")}`));
   return el("ul", { class: "moments" }, ...items);
 }

@@ -9,7 +9,7 @@ import { waitText } from "../events";
 import { Doing, visitsOf, type Span, type Visit } from "../facts";
 import { signed } from "./differences";
 import { head } from "./head";
-import { moments } from "./moments";
+import { moments, type Moment } from "./moments";
 import { momentButton } from "./rows";
 
 export class RobotDetails {
@@ -79,10 +79,10 @@ export class RobotDetails {
       ...title,
       now,
       el("p", {}, `Costs ${rest}: at rest from that step on.`),
-      ...this.list("Wrong", violationsOf(viewed, this.agent).map(({ time, text }) => ({ time, text })), "bad"),
-      ...(this.app.viewed.length > 1 ? [] : this.list("Visits", this.visits(viewed).map((v) => this.visit(v)))),
-      ...this.list("Waits", waits.byAgent[this.agent].map((wait) =>
-        ({ time: wait.begin, text: waits.done ? waitText(model, wait) : plural(wait.end - wait.begin, "step") }))),
+      ...this.list("Wrong", violationsOf(viewed, this.agent), (wrong) => wrong, "bad"),
+      ...(this.app.viewed.length > 1 ? [] : this.list("Visits", this.visits(viewed), (visit) => this.visit(visit))),
+      ...this.list("Waits", waits.byAgent[this.agent], (wait) =>
+        ({ time: wait.begin, text: waits.done ? waitText(model, wait) : plural(wait.end - wait.begin, "step") })),
     ];
   }
 
@@ -91,12 +91,12 @@ export class RobotDetails {
     return visitsOf(model, plan.agents[this.agent], model.agents[this.agent]);
   }
 
-  private list(title: string, rows: { time: number; text: string }[], kind = ""): HTMLElement[] {
-    return rows.length > 0 ? [el("h4", { class: kind }, title), moments(this.app, rows)] : [];
+  private list<T>(title: string, things: T[], tell: (thing: T) => Moment, kind = ""): HTMLElement[] {
+    return things.length > 0 ? [el("h4", { class: kind }, title), moments(this.app, things, tell)] : [];
   }
 
   // When it passes, or begins to work.
-  private visit({ task, begin, time }: Visit): { time: number; text: string } {
+  private visit({ task, begin, time }: Visit): Moment {
     const { duration, name } = this.app.model.tasks[task];
     const what = `${task + 1}: ${name}`;
     if (time === Infinity) return { time, text: what };
