@@ -60,6 +60,11 @@ function contrast(a: string, b: string): number {
 test("what is to be told apart has contrast", () => {
   for (const colors of [kLight, kDark]) {
     assert.ok(contrast(colors.text, colors.floor) > 7, `${colors.name}: text`);
+    for (const color of [colors.doing[0], colors.collision])
+      assert.ok(contrast(color, colors.onRobot) > 4.5, `${colors.name}: ids on ${color}`);
+    for (const color of colors.doing.slice(1))
+      assert.ok(contrast(color, colors.onPale) > 4.5, `${colors.name}: ids on ${color}`);
+    assert.ok(contrast(colors.faint, colors.floor) > 4.5, `${colors.name}: faint text`);
     for (const color of [...colors.doing.slice(0, 1), colors.collision, colors.chosen, colors.wall, colors.task])
       if (!(colors.name === "dark" && color === colors.wall))
         assert.ok(contrast(color, colors.floor) > 3, `${colors.name}: ${color} on the floor`);

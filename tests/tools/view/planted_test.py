@@ -133,6 +133,30 @@ class Planted(PageTest):
         self.go(2)
         self.assertEqual((self.red(0), self.red(1)), ("", "ab"))
 
+    # As other programs write their plans.
+
+    def other(self, text):
+        (self.folder / "other.txt").write_text(text, encoding="utf-8")
+        return self.folder / "other.txt"
+
+    def crossing(self):
+        return self.grid(6, 4, [{"id": "a", "start": [0, 1], "goal": [4, 1]}, {"id": "b", "start": [3, 1], "goal": [0, 1]}])
+
+    def test_of_a_path_list_of_eecbs(self):
+        plan = self.other("Agent 0: (1,0)->(1,1)->(1,2)->(1,3)->(1,4)->\nAgent 1: (1,3)->(1,2)->(1,1)->(1,0)->\n")
+        self.check(self.crossing(), plan, {0: "", 1: "", 1.5: "ab", 2: "ab", 3: ""}, (2, "a and b change places at [1, 1]"))
+
+    def test_of_the_text_of_lacam3(self):
+        plan = self.other("agents=2\nmap_file=m.map\nsolver=planner\nsolved=1\nsoc=8\nsoc_lb=7\nmakespan=4\nmakespan_lb=4\n"
+                          "sum_of_loss=8\nsum_of_loss_lb=7\ncomp_time=1\nseed=0\n\nstarts=(0,1),(3,1),\ngoals=(4,1),(0,1),\n"
+                          "solution=\n0:(0,1),(3,1),\n1:(1,1),(2,1),\n2:(2,1),(2,1),\n3:(3,1),(1,1),\n4:(4,1),(0,1),\n")
+        self.check(self.crossing(), plan, {0: "", 1: "", 2: "ab", 3: "", 4: ""}, (2, "a and b are both on [2, 1]"))
+
+    def test_of_what_mapf_visualizer_reads(self):
+        plan = self.other("solution=\n0:(0,1),(3,1),\n1:(1,1),(3,2),\n2:(2,1),(2,2),\n3:(2,2),(1,2),\n4:(4,1),(0,2),\n5:(4,1),(0,1),\n")
+        self.check(self.crossing(), plan, {2: "", 3: "", 3.5: "a", 4: "a", 5: ""},
+                   (4, "a goes from [2, 2] to [4, 1], which is no step"))
+
     def test_this_test_sees_robots(self):
         instance = self.grid_of({"id": "a", "start": [0, 1]})
         self.open(self.page(instance, self.with_c(a=cells((0, 1), (1, 1)))), "#t=0")

@@ -21,12 +21,23 @@ const kMostNames = 3;
 
 // In order of time, what is wrong first.
 export function eventsOf(app: App): PlanEvent[] {
-  const all = app.viewed.flatMap((viewed) => {
-    const plan = app.viewed.length > 1 ? `${viewed.plan.name}: ` : "";
-    return eventsOfPlan(app.model, viewed).map((event) => ({ ...event, text: plan + event.text }));
-  });
+  const [first, second] = app.viewed.map((viewed) => eventsOfPlan(app.model, viewed));
+  const all = second ? merged(app, first, second) : first ?? [];
   const rank = (event: PlanEvent) => (event.kind === "wrong" ? 0 : 1);
   return all.sort((a, b) => rank(a) - rank(b) || a.time - b.time);
+}
+
+// What happens in both plans is told once; else, in which.
+function merged(app: App, first: PlanEvent[], second: PlanEvent[]): PlanEvent[] {
+  const key = ({ kind, text, time }: PlanEvent) => `${kind} ${time} ${text}`;
+  const lists = [first, second];
+  const keys = lists.map((events) => new Set(events.map(key)));
+  return lists.flatMap((events, i) => events.flatMap((event): PlanEvent[] => {
+    const isInBoth = keys[1 - i].has(key(event));
+    if (isInBoth && i === 1) return [];
+    const where = isInBoth ? "both plans" : app.viewed[i].plan.name;
+    return [{ ...event, text: `${event.text} (${where})` }];
+  }));
 }
 
 function eventsOfPlan(model: Model, { checker, facts, plan, waits }: Viewed): PlanEvent[] {

@@ -5,6 +5,7 @@
 import type { Viewed } from "./app";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
+import { Doing } from "./facts";
 import type { Frame } from "./frame";
 import type { Model, Point } from "./model";
 import { shortened } from "./names";
@@ -64,12 +65,13 @@ export class Labels {
     c: CanvasRenderingContext2D, camera: Camera, frame: Frame, seen: number[], step: number,
     radius: number, colors: Colors,
   ): void {
-    c.fillStyle = colors.onRobot;
     c.font = `600 ${Math.min(15, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
     c.textAlign = "center";
     c.textBaseline = "middle";
     for (const i of seen) {
       const p = camera.toView(frame.xs[i], frame.ys[i]);
+      const isDark = frame.colliding[i] || frame.doing[i] === Doing.kMoving;
+      c.fillStyle = isDark ? colors.onRobot : colors.onPale;
       c.fillText(shortened(this.model.agents[i].name, kLongestLabel), p.x, p.y + 0.5, 1.8 * radius);
     }
   }

@@ -65,7 +65,7 @@ export class Stage {
     this.onCamera();
   }
 
-  // The nearest robot, else the task there, else nothing.
+  // The nearest robot, else the task there, else whose destination it is, else nothing.
   private click(x: number, y: number): void {
     const { model } = this.app;
     const { world } = model;
@@ -73,11 +73,11 @@ export class Stage {
     const reach = Math.max(0.5 * world.unit, 10 / this.camera.scale);
     const robot = this.frame ? this.frame.nearest(p.x, p.y, reach) : -1;
     if (robot >= 0) return this.app.choose(robot);
-    const task = model.tasks.findIndex(
-      ({ place }) => Math.hypot(world.xs[place] - p.x, world.ys[place] - p.y) < reach,
-    );
+    const isHere = (place: number) =>
+      place >= 0 && Math.hypot(world.xs[place] - p.x, world.ys[place] - p.y) < reach;
+    const task = model.tasks.findIndex(({ place }) => isHere(place));
     if (task >= 0) this.app.chooseTask(task);
-    else this.app.choose(-1);
+    else this.app.choose(model.agents.findIndex(({ goal }) => isHere(goal)));
   }
 
   resize(): void {

@@ -41,7 +41,8 @@ constexpr int kWorking = 2;
 constexpr int kResting = 3;
 constexpr std::array kDoing{hex(0x0072b2), hex(0xe69f00), hex(0x009e73), hex(0x8a929c)};
 
-constexpr Color kFaint = hex(0x7d8590);
+constexpr Color kFaint = hex(0x656d76);
+constexpr Color kOnPale = hex(0x1c2128);
 
 // The page's measures (page/world.ts, robots.ts, scenery.ts, tasks_canvas.ts), in steps.
 constexpr double kBend = 0.35;    // between roads that join the same vertices
@@ -493,7 +494,7 @@ void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
 void Drawing::draw_name(cairo_t* cairo, const Robot& robot, const std::string& id) const {
   const double r = kRadius * unit_;
   if (unit_ >= kLeastLabeled * pixel(cairo)) {
-    set(cairo, kOnRobot);
+    set(cairo, robot.collides || robot.doing == kMoving ? kOnRobot : kOnPale);
     center_text(cairo, shortened(id, 14), robot.at, 0.34 * unit_, 1.5 * r);
     return;
   }

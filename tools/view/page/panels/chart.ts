@@ -93,7 +93,6 @@ export class Chart {
     const { player, chosen, viewed } = this.app;
     const width = this.element.clientWidth;
     const height = this.element.clientHeight;
-    if (chosen !== this.shownChoice) this.bringIntoSight(chosen);
     const wrong = viewed.map(({ checker }) => checker.violations.length);
     const key = [width, height, ratio, chosen, colors.name, this.first, ...wrong].join();
     if (key !== this.key) {
@@ -105,11 +104,12 @@ export class Chart {
     this.cursor.style.transform = `translateX(${at.toFixed(1)}px)`;
   }
 
-  private bringIntoSight(robot: number): void {
+  // Who has just been chosen.
+  private bringIntoSight(robot: number, rows: number): void {
+    if (robot === this.shownChoice) return;
     this.shownChoice = robot;
-    const { first, rows } = this.layout;
-    if (robot < 0 || (robot >= first && robot < first + rows)) return;
-    this.first = Math.max(0, robot - (rows >> 1));
+    if (robot < 0 || (robot >= this.first && robot < this.first + rows)) return;
+    this.first = robot - (rows >> 1);
   }
 
   private paint(colors: Colors, width: number, height: number, ratio: number): void {
@@ -138,6 +138,7 @@ export class Chart {
     const count = this.app.model.agents.length;
     const rows = Math.min(count, Math.max(1, Math.floor(height / (kLeastLane * lanes))));
     const row = Math.min(kMostLane * lanes, height / rows);
+    this.bringIntoSight(this.app.chosen, rows);
     const first = Math.min(count - rows, Math.max(0, this.first));
     c.font = kFont;
     const names = row >= kLeastNamed ? this.app.model.agents.slice(first, first + rows) : [];

@@ -33,7 +33,9 @@ export class Lists {
       "aria-label": "Search robots and tasks by id", input: () => this.fill(),
       keydown: (event) => this.key(event as KeyboardEvent),
     });
-    const tabs: Tab[] = ["tasks", "robots", "events"];
+    const tabs: Tab[] = ["robots"];
+    if (app.viewed.length > 0) tabs.push("events");
+    if (model.tasks.length > 0) tabs.unshift("tasks");
     if (this.differences) tabs.unshift("differences");
     for (const tab of tabs)
       this.buttons.set(tab, el("button", { type: "button", click: () => this.turnTo(tab) },
@@ -49,7 +51,8 @@ export class Lists {
     const shown = [wrong, known, this.tab === "events" ? this.app.chosen : ""].join();
     if (shown !== this.shown) {
       this.shown = shown;
-      setText(this.buttons.get("events")!, wrong > 0 ? `Events ⚠ ${wrong.toLocaleString("en")}` : "Events");
+      const button = this.buttons.get("events");
+      if (button) setText(button, wrong > 0 ? `Events ⚠ ${wrong.toLocaleString("en")}` : "Events");
       this.events.forget();
       if (this.tab === "events") this.fill();
     }
