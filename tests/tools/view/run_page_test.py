@@ -107,9 +107,9 @@ class Pages(unittest.TestCase):
         self.show(lines(HEADER, row(1), row(2, "incumbent", incumbent=36, source="tree"),
                         row(3, lower_bound=33, incumbent=33), SUMMARY))
         self.browser.evaluate("document.querySelector('.picture').focus()")
-        self.assertIn("gap 0 %", self.text(".reading"))
+        self.assertIn("gap 0 %", self.text(".readout"))
         self.browser.key("ArrowLeft")
-        self.assertIn("2 s: best plan 36, no plan costs less than 30, gap 20 %", self.text(".reading"))
+        self.assertIn("2 s: best plan 36, no plan costs less than 30, gap 20 %", self.text(".readout"))
 
     def test_many_rows_and_ranks(self):
         ranks = {"nodes": list(range(1000)), "open": [1] * 1000, "lower_bound": [30, None] * 500,

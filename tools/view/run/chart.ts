@@ -50,7 +50,7 @@ const kRight = 12;
 export class Chart {
   readonly element: HTMLElement;
   private readonly picture = el("div", { class: "picture", tabindex: 0, role: "img" });
-  private readonly reading = el("p", { class: "reading", "aria-live": "polite" });
+  private readonly reading = el("p", { class: "readout", "aria-live": "polite" });
   private readonly cursor = svg("line", { class: "cursor", y1: kTop });
   private contents: Contents | null = null;
   private time: number | null = null;
