@@ -8,7 +8,7 @@ import type { Colors } from "./colors";
 import { Doing } from "./facts";
 import type { Frame } from "./frame";
 import type { Model, Point } from "./model";
-import { shortened } from "./names";
+import { labelsOf, shortened } from "./names";
 import { isOutside, type Shown } from "./scenery";
 import { outlined } from "./text";
 
@@ -25,12 +25,15 @@ export interface RobotPainter {
 
 export class Labels {
   private isClear = true;
+  private readonly ids: string[]; // short
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly model: Model,
     private readonly other: Viewed | null, // the plan beside this one
-  ) {}
+  ) {
+    this.ids = labelsOf(model.agents.map(({ name }) => name), kLongestLabel);
+  }
 
   paint(camera: Camera, frame: Frame, shown: Shown, colors: Colors, ratio: number): void {
     const step = this.model.world.unit * camera.scale;
@@ -72,7 +75,7 @@ export class Labels {
       const p = camera.toView(frame.xs[i], frame.ys[i]);
       const isDark = frame.colliding[i] || frame.doing[i] === Doing.kMoving;
       c.fillStyle = isDark ? colors.onRobot : colors.onPale;
-      c.fillText(shortened(this.model.agents[i].name, kLongestLabel), p.x, p.y + 0.5, 1.8 * radius);
+      c.fillText(this.ids[i], p.x, p.y + 0.5, 1.8 * radius);
     }
   }
 

@@ -187,7 +187,8 @@ export class Chart {
     const at = this.app.chosen - first;
     if (this.app.chosen < 0 || at < 0 || at >= rows) return;
     c.strokeStyle = colors.chosen;
-    c.lineWidth = 2;
-    c.strokeRect(left + 1, at * row, width - 2, Math.max(2, row - gap));
+    const line = row < 8 ? 1 : 2; // what it surrounds is to be seen
+    c.lineWidth = line;
+    c.strokeRect(left + line / 2, at * row - line / 2, width - line, row - gap + line);
   }
 }
