@@ -141,8 +141,8 @@ class PageTest(unittest.TestCase):
         self.fail(f"waited in vain for {script}")
 
     def wait_until_known(self):
-        """What is wrong, and who waits for whom."""
-        self.wait_for("grove.app.viewed.every((v) => v.checker.done && v.waits.done)")
+        """What is wrong, and who waits for whom: without the pauses for frames."""
+        self.wait_for("grove.app.work(500), grove.app.viewed.every((v) => v.checker.done && v.waits.done)")
         self.browser.settle()
 
     def colours(self):
