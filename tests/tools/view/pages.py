@@ -52,7 +52,8 @@ class PageTest(unittest.TestCase):
 
     def solved(self, name):
         plan = self.folder / f"{name}.plan.json"
-        subprocess.run([self.grove, "solve", DATA / f"{name}.cts.json", "--quiet", "--output", plan], check=True)
+        subprocess.run([self.grove, "solve", DATA / f"{name}.cts.json", "--threads", "1", "--quiet", "--output", plan],
+                       check=True)
         return plan
 
     def page_of(self, data):
