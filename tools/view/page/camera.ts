@@ -86,5 +86,5 @@ export class Camera {
   }
 }
 
-const kLargestStep = 120; // pixels
+const kLargestStep = 200; // pixels
 const kNear = 28;

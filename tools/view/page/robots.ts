@@ -68,7 +68,7 @@ export class Labels {
     c: CanvasRenderingContext2D, camera: Camera, frame: Frame, seen: number[], step: number,
     radius: number, colors: Colors,
   ): void {
-    c.font = `600 ${Math.min(15, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
+    c.font = `600 ${Math.min(24, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
     c.textAlign = "center";
     c.textBaseline = "middle";
     for (const i of seen) {

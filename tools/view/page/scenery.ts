@@ -146,10 +146,12 @@ export class Scenery {
     c.textAlign = "center";
     c.textBaseline = "top";
     const taken: { x: number; y: number; half: number }[] = [];
+    const isTaken = (x: number, y: number, half: number) => taken.some((other) =>
+      Math.abs(other.x - x) < other.half + half + 3 && Math.abs(other.y - y) < 13);
     for (const { name, v, at } of seen) {
       const half = c.measureText(name).width / 2;
       const y = at.y + this.reachOf(v, step) + 2;
-      if (taken.some((t) => Math.abs(t.x - at.x) < t.half + half + 3 && Math.abs(t.y - y) < 13)) continue;
+      if (isTaken(at.x, y, half)) continue;
       taken.push({ x: at.x, y, half });
       outlined(c, name, at.x, y, colors.faint, colors.floor);
     }

@@ -101,7 +101,8 @@ export class Waits {
     const count = Math.min(steps, kMostGhosts);
     return Array.from({ length: count }, (_, i) => {
       const from = wait.begin + Math.floor((i * steps) / count);
-      const ghost = { wait, from, earlier: wait.end - from, place: wait.place, run: 0, delta: 0, until: 0 };
+      const { end, place } = wait;
+      const ghost = { wait, from, earlier: end - from, place, run: 0, delta: 0, until: 0 };
       this.enter(ghost, track.run(wait.end));
       return ghost;
     });
@@ -119,5 +120,6 @@ function waitsOf(plan: Plan, facts: PlanFacts, agent: number): Wait[] {
   if (track.isEmpty) return [];
   return facts.spans[agent]
     .filter((span) => span.doing === Doing.kWaiting)
-    .map(({ begin, end }) => ({ agent, begin, end, place: track.place(begin), for: [], meets: -1 }));
+    .map(({ begin, end }) =>
+      ({ agent, begin, end, place: track.place(begin), for: [], meets: -1 }));
 }

@@ -111,7 +111,8 @@ std::string shortened(const std::string& id, std::size_t most) {
   return id.substr(0, end) + "…";
 }
 
-void diamond(cairo_t* cairo, Point at, double radius, const Color& color, double line) {
+void diamond(cairo_t* cairo, Point at, double radius, const Color& color, const Color& rim,
+             double line) {
   cairo_move_to(cairo, at.x, at.y - radius);
   cairo_line_to(cairo, at.x + radius, at.y);
   cairo_line_to(cairo, at.x, at.y + radius);
@@ -119,7 +120,7 @@ void diamond(cairo_t* cairo, Point at, double radius, const Color& color, double
   cairo_close_path(cairo);
   set(cairo, color);
   cairo_fill_preserve(cairo);
-  set(cairo, kTask);
+  set(cairo, rim);
   cairo_set_line_width(cairo, line);
   cairo_stroke(cairo);
 }
@@ -414,8 +415,8 @@ void Drawing::draw_goals(cairo_t* cairo) const {
   cairo_stroke(cairo);
 }
 
-// Tasks on one place are a stack of diamonds, with their number: pale, yellow once begun, grey when
-// done.
+// Tasks on one place are a stack of diamonds, with their number: pale, yellow once begun, grey all
+// over when done.
 void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   struct Progress {
     int tasks = 0;
@@ -433,12 +434,11 @@ void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   }
   for (const auto& [place, progress] : places) {
     const Point at = point(place);
-    const Color& color = progress.visits >= progress.total ? kTaskDone
-                         : progress.begun                  ? kTaskBegun
-                                                           : kTaskOpen;
+    const bool done = progress.visits >= progress.total;
+    const Color& color = done ? kTaskDone : progress.begun ? kTaskBegun : kTaskOpen;
     for (int k = std::min(kMostStacked, progress.tasks) - 1; k >= 0; --k)
       diamond(cairo, {at.x + 0.09 * k * unit_, at.y - 0.09 * k * unit_}, kTaskRadius * unit_, color,
-              0.05 * unit_);
+              done ? kGoal : kTask, 0.05 * unit_);
     if (progress.tasks == 1) continue;
     set(cairo, kText);
     center_text(cairo, std::to_string(progress.tasks), at, 0.36 * unit_, 0.6 * unit_);
@@ -532,8 +532,8 @@ void Drawing::draw_legend(cairo_t* cairo) const {
       cairo_fill(cairo);
     };
   };
-  const auto task = [&](const Color& color) {
-    return [cairo, at, color] { diamond(cairo, at, 0.6 * kSize, color, 1); };
+  const auto task = [&](const Color& color, const Color& rim) {
+    return [cairo, at, color, rim] { diamond(cairo, at, 0.6 * kSize, color, rim, 1); };
   };
   const auto square = [&] {
     set(cairo, kGoal);
@@ -550,9 +550,9 @@ void Drawing::draw_legend(cairo_t* cairo) const {
     add("at rest", disc(kDoing[kResting]));
   }
   if (instance_.task_count() > 0) {
-    add("open task", task(kTaskOpen));
-    add("begun", task(kTaskBegun));
-    add("done", task(kTaskDone));
+    add("open task", task(kTaskOpen, kTask));
+    add("begun", task(kTaskBegun, kTask));
+    add("done", task(kTaskDone, kGoal));
   }
   if (std::ranges::any_of(instance_.agents(), [](const Agent& a) { return a.goal.has_value(); }))
     add("destination", square);

@@ -51,7 +51,7 @@ export class Controls {
       this.speed,
       button("+", "Faster (full stop)", () => player.faster(1)),
       this.loop,
-      el("button", { type: "button", title: "All keys (?)", "aria-label": "All keys", click: help }, "?"),
+      button("?", "All keys (?)", help),
     );
   }
 

@@ -103,8 +103,8 @@ export class Lists {
   }
 
   private nothing(): string {
-    return this.tab === "differences" && this.query === "" ? "every robot does the same in both plans"
-      : "nothing of that kind";
+    const isSame = this.tab === "differences" && this.query === "";
+    return isSame ? "every robot does the same in both plans" : "nothing of that kind";
   }
 
   private ofTab(): Row[] {
