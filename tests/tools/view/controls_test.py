@@ -167,6 +167,12 @@ class Controls(PageTest):
         self.go(30)
         self.press("blue waits", ".row")
         self.assertEqual((self.text(".details h2"), f"step {self.state('player.time')}"), ("blue", time))
+        # Who is chosen from the list stays in it.
+        self.keys("Escape")
+        self.evaluate("(row => (row.focus(), row.click()))(document.querySelector('.row'))")
+        self.browser.settle()
+        self.assertEqual(self.text(".details h2"), "blue")
+        self.assertEqual(self.evaluate("document.activeElement.className"), "row")
         self.choose_option("Which events", "all")
         self.evaluate("(s => (s.value = 'dock', s.dispatchEvent(new Event('input'))))(document.querySelector('input[type=search]'))")
         self.assertEqual(self.texts(".row span[dir]"), ["dock is done", "4: dock"])

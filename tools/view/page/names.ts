@@ -14,7 +14,8 @@ export function nameOf(id: string): string {
   return kRightToLeft.test(cut) ? `\u2068${cut}\u2069` : cut;
 }
 
-// What to put on robots, where there is little room: names that all begin alike lose that beginning.
+// What to put on robots, where there is little room: names that all begin alike lose that
+// beginning.
 export function labelsOf(names: string[], most: number): string[] {
   const common = names.every((name) => name.length <= most) ? "" : commonBeginning(names);
   return names.map((name) => shortened(name.slice(common.length), most));

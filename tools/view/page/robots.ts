@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whoever paints robots, and what is painted over them: their ids, a ring around the one chosen, and
-// a dashed one where that robot is in the other plan.
+// Whoever paints robots, and what is painted over them: their ids, a ring around the one chosen,
+// and a dashed one where that robot is in the other plan.
 
 import type { Viewed } from "./app";
 import type { Camera } from "./camera";
@@ -99,7 +99,8 @@ export class Labels {
   ): void {
     const radius = Math.max(7, Math.max(1.5, kRadius * step) + 3);
     const elsewhere = this.inOtherPlan(robot, frame.time);
-    if (elsewhere) paintRing(c, camera.toView(elsewhere.x, elsewhere.y), radius, colors.text, [4, 3]);
+    if (elsewhere)
+      paintRing(c, camera.toView(elsewhere.x, elsewhere.y), radius, colors.text, [4, 3]);
     if (frame.missing[robot]) return;
     const p = camera.toView(frame.xs[robot], frame.ys[robot]);
     paintRing(c, p, radius, colors.chosen, []);

@@ -78,7 +78,9 @@ export class Scenery {
     else paintRoads(c, camera, world, colors);
   }
 
-  private paintGrid(c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors): void {
+  private paintGrid(
+    c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors,
+  ): void {
     if (!this.mapImage || this.mapColors !== colors) {
       this.mapImage = imageOfGrid(world, colors);
       this.mapColors = colors;
@@ -192,7 +194,9 @@ function packed(color: string): number {
   return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-function paintLines(c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors): void {
+function paintLines(
+  c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors,
+): void {
   const from = camera.toWorld(0, 0);
   const to = camera.toWorld(camera.width, camera.height);
   c.strokeStyle = colors.lines;
@@ -213,7 +217,9 @@ function paintLines(c: CanvasRenderingContext2D, camera: Camera, world: World, c
   c.stroke();
 }
 
-function paintRoads(c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors): void {
+function paintRoads(
+  c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors,
+): void {
   const step = world.unit * camera.scale;
   c.lineCap = "round";
   c.strokeStyle = colors.road;

@@ -35,7 +35,8 @@ function visitsInBoth(app: App, agent: number): HTMLElement[] {
   const heads = viewed.map(({ plan }) => el("th", { scope: "col", title: plan.name }, plan.name));
   const rows = first.map((visit, i) => {
     const at = second.findIndex(({ task }) => task === visit.task);
-    const place = at === i ? null : el("b", { title: "Its place in the order" }, ` ${ordinal(at + 1)}`);
+    const place = at === i ? null
+      : el("b", { title: "Its place in the order" }, ` ${ordinal(at + 1)}`);
     return el("tr", {},
       el("th", { scope: "row", dir: "auto" }, `${visit.task + 1}: ${model.tasks[visit.task].name}`),
       el("td", {}, moment(app, visit)), el("td", {}, moment(app, second[at]), place));

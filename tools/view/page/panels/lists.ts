@@ -22,7 +22,6 @@ export class Lists {
   private rows: Row[] = [];
   private notes: { element: HTMLElement; row: Row }[] = [];
   private found = ""; // that events are made of
-  private chosen = -1; // whose events are shown, if only those are
 
   constructor(private readonly app: App) {
     const { comparison, model } = app;
@@ -55,12 +54,9 @@ export class Lists {
       const button = this.buttons.get("events");
       if (button) setText(button, wrong > 0 ? `Events ⚠ ${wrong.toLocaleString("en")}` : "Events");
       this.events.forget();
-      this.chosen = -2; // fill anew
+      if (this.tab === "events") this.fill();
     }
-    if (this.tab === "events" && this.chosen !== this.app.chosen) {
-      this.chosen = this.app.chosen;
-      this.fill();
-    }
+    if (this.tab === "events" && this.events.choose(this.app.chosen)) this.fill();
     for (const { element, row } of this.notes) setText(element, row.note());
   }
 
