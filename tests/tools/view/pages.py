@@ -105,7 +105,7 @@ class PageTest(unittest.TestCase):
         return shares(seen.picture)
 
     def assert_silent(self):
-        self.browser.wait(0.1)
+        self.browser.wait(0.03)
         self.assertEqual(self.browser.console, [])
         self.assertEqual(self.browser.requests, [])
 
