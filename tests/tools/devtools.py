@@ -35,7 +35,8 @@ def is_blank(picture):
     return max(shares(picture).values()) > 0.999
 
 
-SETTLED = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))))"
+# A page paints in its own frames, which were asked for before this one.
+SETTLED = "new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
 
 
 class Chromium:
@@ -143,7 +144,7 @@ class Chromium:
         """What is said, asked of the network and seen when a page is opened."""
         self.open(page, fragment, size)
         self.settle()
-        self.wait(0.1)
+        self.wait(0.03)
         return Visit(list(self.console), list(self.requests), self.look())
 
     def prefer(self, **features):

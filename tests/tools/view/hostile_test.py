@@ -50,7 +50,7 @@ class Hostile(PageTest):
                 self.press(tab, ".tabs button")
             self.press("Robots", ".tabs button")
             self.assertEqual(len(self.texts(".row")), len(IDS))
-            for _ in IDS:
+            for _ in IDS if size[0] > 1000 else IDS[:3]:
                 self.browser.key("n")
                 self.browser.settle()
                 self.assertIn("Now:", self.text(".now"))

@@ -75,7 +75,8 @@ class Interaction(PageTest):
 
     def play(self, count):
         """It plays, and stands still again; frames, and what they take."""
-        self.wait_until_known()
+        self.wait_for("grove.app.viewed.every((v) => v.checker.done && v.waits.done)")
+        self.browser.settle()
         self.assertIn("valid", self.text(".verdict"))
         self.picture(f"{count}-opened")
         self.browser.key(" ")

@@ -2,7 +2,7 @@
 // Ids as they are shown.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { nameOf } from "../../../tools/view/page/names";
+import { labelsOf, nameOf } from "../../../tools/view/page/names";
 
 test("most ids are shown as they are", () => {
   for (const id of ["a4", "<b>x</b>", "Ünïcödé 机器人 🤖", "a b", "&amp;"]) assert.equal(nameOf(id), id);
@@ -25,4 +25,14 @@ test("from right to left, by itself", () => {
 
 test("none at all", () => {
   assert.equal(nameOf(""), "(no name)");
+});
+
+test("labels keep what tells robots apart", () => {
+  assert.deepEqual(labelsOf(["a1", "a10", "b"], 6), ["a1", "a10", "b"]);
+  assert.deepEqual(labelsOf(["robot-17", "robot-170"], 6), ["17", "170"]);
+  assert.deepEqual(labelsOf(["agent12", "agent130"], 6), ["12", "130"]);
+  assert.deepEqual(labelsOf(["lift left", "lift lower"], 6), ["left", "lower"]);
+  assert.deepEqual(labelsOf(["robot", "robot-2"], 6), ["robot", "robot…"]);
+  assert.deepEqual(labelsOf(["forklift"], 6), ["forkl…"]);
+  assert.deepEqual(labelsOf([], 6), []);
 });

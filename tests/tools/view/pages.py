@@ -52,7 +52,8 @@ class PageTest(unittest.TestCase):
 
     def solved(self, name):
         plan = self.folder / f"{name}.plan.json"
-        subprocess.run([self.grove, "solve", DATA / f"{name}.cts.json", "--quiet", "--output", plan], check=True)
+        subprocess.run([self.grove, "solve", DATA / f"{name}.cts.json", "--threads", "1", "--quiet", "--output", plan],
+                       check=True)
         return plan
 
     def page_of(self, data):
@@ -104,7 +105,7 @@ class PageTest(unittest.TestCase):
         return shares(seen.picture)
 
     def assert_silent(self):
-        self.browser.wait(0.1)
+        self.browser.wait(0.03)
         self.assertEqual(self.browser.console, [])
         self.assertEqual(self.browser.requests, [])
 
@@ -141,8 +142,8 @@ class PageTest(unittest.TestCase):
         self.fail(f"waited in vain for {script}")
 
     def wait_until_known(self):
-        """What is wrong, and who waits for whom."""
-        self.wait_for("grove.app.viewed.every((v) => v.checker.done && v.waits.done)")
+        """What is wrong, and who waits for whom: without the pauses for frames."""
+        self.wait_for("grove.app.work(500), grove.app.viewed.every((v) => v.checker.done && v.waits.done)")
         self.browser.settle()
 
     def colours(self):

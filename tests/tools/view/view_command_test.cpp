@@ -120,6 +120,44 @@ TEST_F(ViewCommand, DrawsPictures) {
   EXPECT_EQ(read("shop.html"), "");
 }
 
+TEST_F(ViewCommand, PicturesSayWhenAndWhatIsWhat) {
+  const auto height_with = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"view", data("shop.cts.json"), "--svg",
+                                       directory_ / "s.svg"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProcessResult done = run_grove(arguments);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    const std::string svg = read("s.svg");
+    const auto at = svg.find("height=\"") + 8;
+    return std::stoi(svg.substr(at));
+  };
+  const std::string plan = plan_of("shop");
+  EXPECT_EQ(height_with({"--width", "360"}), 200);             // 9 x 5 cells
+  EXPECT_EQ(height_with({"--width", "720"}), 400 + 26);        // a legend
+  EXPECT_EQ(height_with({plan, "--width", "360"}), 200 + 20);  // a caption
+  EXPECT_EQ(height_with({plan, "--width", "720"}), 400 + 46);  // both
+  EXPECT_EQ(height_with({plan, "--width", "360", "--at", "0,1,2,3,4"}), 2 * 220 + 12 + 26);
+}
+
+TEST_F(ViewCommand, PicturesShowAnExchangeAtItsEnd) {
+  directory_.write("m.map", "type octile\nheight 1\nwidth 4\nmap\n....\n");
+  directory_.write("i.json", R"({"map": "m.map", "tasks": [],
+      "agents": [{"id": "a", "start": [0, 0]}, {"id": "b", "start": [3, 0]}]})");
+  directory_.write(
+      "paths.txt",
+      "Agent 0: (0,0)->(0,1)->(0,2)->(0,3)->\nAgent 1: (0,3)->(0,2)->(0,1)->(0,0)->\n");
+  const auto is_red_at = [&](const std::string& time) {
+    const ProcessResult done = run_grove({"view", directory_ / "i.json", directory_ / "paths.txt",
+                                          "--svg", directory_ / "s.svg", "--at", time});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return read("s.svg").find("rgb(81.568627%") != std::string::npos;
+  };
+  EXPECT_FALSE(is_red_at("1"));
+  EXPECT_TRUE(is_red_at("1.5"));
+  EXPECT_TRUE(is_red_at("2"));
+  EXPECT_FALSE(is_red_at("3"));
+}
+
 TEST_F(ViewCommand, OpensThePageByTheDesktopsOpener) {
   directory_.write("xdg-open", "#!/bin/sh\necho \"$1\" > opened\n");
   std::filesystem::permissions(directory_ / "xdg-open", std::filesystem::perms::owner_all);

@@ -55,7 +55,8 @@ export class Camera {
 
   // By pixels.
   pan(dx: number, dy: number): void {
-    this.set({ x: this.center.x - dx / this.scale, y: this.center.y - dy / this.scale }, this.scale);
+    const { center, scale } = this;
+    this.set({ x: center.x - dx / scale, y: center.y - dy / scale }, scale);
   }
 
   // What is under this point of the view stays under it.
@@ -86,5 +87,5 @@ export class Camera {
   }
 }
 
-const kLargestStep = 120; // pixels
+const kLargestStep = 200; // pixels
 const kNear = 28;

@@ -55,7 +55,8 @@ function parting<T extends Track | TurnTrack>(
   for (let time = 0; ; ) {
     if (value(a, time) !== value(b, time)) return time;
     if (stepOf(a, i) !== stepOf(b, j)) return time + 1;
-    const [endA, endB] = [i < a.runs ? a.times[i + 1] : Infinity, j < b.runs ? b.times[j + 1] : Infinity];
+    const endA = i < a.runs ? a.times[i + 1] : Infinity;
+    const endB = j < b.runs ? b.times[j + 1] : Infinity;
     time = Math.min(endA, endB);
     if (time === Infinity) return Infinity;
     if (endA === time) ++i;

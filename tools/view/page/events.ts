@@ -44,7 +44,8 @@ function eventsOfPlan(model: Model, { checker, facts, plan, waits }: Viewed): Pl
   const { agents, tasks } = model;
   const wrong = checker.violations.map(({ time, text, agents }): PlanEvent =>
     ({ kind: "wrong", time, text, agents }));
-  const long = waits.all.filter((wait) => wait.end - wait.begin >= kLongWait).map((wait): PlanEvent =>
+  const isLong = (wait: Wait) => wait.end - wait.begin >= kLongWait;
+  const long = waits.all.filter(isLong).map((wait): PlanEvent =>
     ({ kind: "wait", time: wait.begin, agents: [wait.agent],
       text: `${agents[wait.agent].name} waits ${waitText(model, wait)}` }));
   const done = facts.tasks.map(({ times, agents }, task): PlanEvent =>

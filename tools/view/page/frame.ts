@@ -84,12 +84,14 @@ export class Frame {
   }
 
   private enter(step: number): void {
+    const isNext = step === this.step + 1 && step > 0;
+    if (isNext) this.before.set(this.here);
     this.step = step;
     for (let i = 0; i < this.count; ++i) {
       const { track } = this.plan.agents[i];
       if (track.isEmpty) continue;
       this.runs[i] = track.run(step, this.runs[i]);
-      this.before[i] = track.place(Math.max(0, step - 1));
+      if (!isNext) this.before[i] = track.place(Math.max(0, step - 1));
       this.here[i] = track.place(step, this.runs[i]);
       this.next[i] = track.place(step + 1, this.runs[i]);
       this.doing[i] = this.doingAt(i, step);

@@ -17,6 +17,7 @@ export function listenToKeys({ app, cameras, search, help }: Keys): void {
     for (const camera of cameras) camera.zoom(factor, camera.width / 2, camera.height / 2);
   };
   const pan = (dx: number, dy: number) => {
+    app.following = false;
     for (const camera of cameras) camera.pan(dx * 80, dy * 80);
   };
   const { player } = app;

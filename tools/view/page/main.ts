@@ -43,7 +43,8 @@ function fail(why: string): void {
 }
 
 function say(title: string, text: string, kind = "failure"): void {
-  document.body.replaceChildren(el("main", { class: kind }, el("h1", {}, title), el("p", {}, text)));
+  document.body.replaceChildren(
+    el("main", { class: kind }, el("h1", {}, title), el("p", {}, text)));
 }
 
 function run(app: App): void {
@@ -113,7 +114,8 @@ function joinCameras(stages: Stage[]): void {
     stage.onCamera = () => {
       const other = stages[1 - i];
       if (!other) return;
-      Object.assign(other.camera, { center: { ...stage.camera.center }, scale: stage.camera.scale });
+      const { center, scale } = stage.camera;
+      Object.assign(other.camera, { center: { ...center }, scale });
       other.touch();
     };
   });

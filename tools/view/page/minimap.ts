@@ -10,6 +10,7 @@ import { CanvasRobots } from "./robots_canvas";
 import { Scenery, type Shown } from "./scenery";
 
 const kLonger = 140; // pixels, the longer side
+const kLeastRobot = 0.6; // pixels, its radius
 
 export class Minimap {
   readonly element: HTMLElement;
@@ -27,7 +28,7 @@ export class Minimap {
     const { world } = model;
     this.camera = new Camera(world.width, world.height, world.unit);
     this.scenery = new Scenery(this.ground, model, null);
-    this.robots = new CanvasRobots(this.top, world);
+    this.robots = new CanvasRobots(this.top, world, kLeastRobot);
     this.element = el("div", { class: "minimap", "aria-hidden": true }, this.ground, this.top);
     this.element.addEventListener("pointerdown", (event) => this.go(event));
     this.element.addEventListener("pointermove", (event) => {
@@ -61,7 +62,8 @@ export class Minimap {
       if (canvas.width !== width) canvas.width = width;
       if (canvas.height !== height) canvas.height = height;
     }
-    this.scenery.paint(this.camera, frame.time, { ...shown, heat: null, paths: null, labels: false }, colors, ratio);
+    const few = { ...shown, heat: null, paths: null, labels: false };
+    this.scenery.paint(this.camera, frame.time, few, colors, ratio);
     this.robots.paint(this.camera, frame, colors, ratio);
     const c = this.top.getContext("2d")!;
     const a = this.seen.toWorld(0, 0);

@@ -14,6 +14,24 @@ export function nameOf(id: string): string {
   return kRightToLeft.test(cut) ? `\u2068${cut}\u2069` : cut;
 }
 
+// What to put on robots, where there is little room: names that all begin alike lose that
+// beginning.
+export function labelsOf(names: string[], most: number): string[] {
+  const common = names.every((name) => name.length <= most) ? "" : commonBeginning(names);
+  return names.map((name) => shortened(name.slice(common.length), most));
+}
+
+// Whole words of it: up to a number, or to what parts words. "robot-" of robot-17 and robot-170.
+function commonBeginning(names: string[]): string {
+  if (names.length < 2) return "";
+  let common = names[0];
+  for (const name of names)
+    while (!name.startsWith(common) || name === common) common = common.slice(0, -1);
+  common = common.replace(/[0-9]+$/, "");
+  if (names.every((name) => /^[0-9]/.test(name.slice(common.length)))) return common;
+  return common.replace(/[\p{L}\p{N}]+$/u, "");
+}
+
 // By characters, not by their halves.
 export function shortened(text: string, most: number): string {
   if (text.length <= most) return text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whoever paints robots, and what is painted over them: their ids, a ring around the one chosen, and
-// a dashed one where that robot is in the other plan.
+// Whoever paints robots, and what is painted over them: their ids, a ring around the one chosen,
+// and a dashed one where that robot is in the other plan.
 
 import type { Viewed } from "./app";
 import type { Camera } from "./camera";
@@ -8,7 +8,7 @@ import type { Colors } from "./colors";
 import { Doing } from "./facts";
 import type { Frame } from "./frame";
 import type { Model, Point } from "./model";
-import { shortened } from "./names";
+import { labelsOf, shortened } from "./names";
 import { isOutside, type Shown } from "./scenery";
 import { outlined } from "./text";
 
@@ -25,12 +25,15 @@ export interface RobotPainter {
 
 export class Labels {
   private isClear = true;
+  private readonly ids: string[]; // short
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly model: Model,
     private readonly other: Viewed | null, // the plan beside this one
-  ) {}
+  ) {
+    this.ids = labelsOf(model.agents.map(({ name }) => name), kLongestLabel);
+  }
 
   paint(camera: Camera, frame: Frame, shown: Shown, colors: Colors, ratio: number): void {
     const step = this.model.world.unit * camera.scale;
@@ -65,14 +68,14 @@ export class Labels {
     c: CanvasRenderingContext2D, camera: Camera, frame: Frame, seen: number[], step: number,
     radius: number, colors: Colors,
   ): void {
-    c.font = `600 ${Math.min(15, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
+    c.font = `600 ${Math.min(24, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
     c.textAlign = "center";
     c.textBaseline = "middle";
     for (const i of seen) {
       const p = camera.toView(frame.xs[i], frame.ys[i]);
       const isDark = frame.colliding[i] || frame.doing[i] === Doing.kMoving;
       c.fillStyle = isDark ? colors.onRobot : colors.onPale;
-      c.fillText(shortened(this.model.agents[i].name, kLongestLabel), p.x, p.y + 0.5, 1.8 * radius);
+      c.fillText(this.ids[i], p.x, p.y + 0.5, 1.8 * radius);
     }
   }
 
@@ -96,7 +99,8 @@ export class Labels {
   ): void {
     const radius = Math.max(7, Math.max(1.5, kRadius * step) + 3);
     const elsewhere = this.inOtherPlan(robot, frame.time);
-    if (elsewhere) paintRing(c, camera.toView(elsewhere.x, elsewhere.y), radius, colors.text, [4, 3]);
+    if (elsewhere)
+      paintRing(c, camera.toView(elsewhere.x, elsewhere.y), radius, colors.text, [4, 3]);
     if (frame.missing[robot]) return;
     const p = camera.toView(frame.xs[robot], frame.ys[robot]);
     paintRing(c, p, radius, colors.chosen, []);

@@ -13,6 +13,7 @@ export class CanvasRobots implements RobotPainter {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly world: World,
+    private readonly least = 1.5, // radius, in pixels
   ) {}
 
   paint(camera: Camera, frame: Frame, colors: Colors, ratio: number): void {
@@ -21,7 +22,7 @@ export class CanvasRobots implements RobotPainter {
     c.clearRect(0, 0, this.canvas.width, this.canvas.height);
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     const step = this.world.unit * camera.scale;
-    const radius = Math.max(1.5, kRadius * step);
+    const radius = Math.max(this.least, kRadius * step);
     // A path for all that do the same: a fill for each robot would take far longer.
     for (let doing = Doing.kMoving; doing <= Doing.kResting; ++doing) {
       c.fillStyle = colors.doing[doing];

@@ -142,7 +142,10 @@ function rgb(color: string): number[] {
 
 function link(gl: WebGL2RenderingContext): WebGLProgram {
   const program = gl.createProgram()!;
-  for (const [kind, source] of [[gl.VERTEX_SHADER, kVertexShader], [gl.FRAGMENT_SHADER, kFragmentShader]] as const) {
+  const shaders = [
+    [gl.VERTEX_SHADER, kVertexShader], [gl.FRAGMENT_SHADER, kFragmentShader],
+  ] as const;
+  for (const [kind, source] of shaders) {
     const shader = gl.createShader(kind)!;
     gl.shaderSource(shader, source);
     gl.compileShader(shader);

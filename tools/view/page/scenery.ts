@@ -78,7 +78,9 @@ export class Scenery {
     else paintRoads(c, camera, world, colors);
   }
 
-  private paintGrid(c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors): void {
+  private paintGrid(
+    c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors,
+  ): void {
     if (!this.mapImage || this.mapColors !== colors) {
       this.mapImage = imageOfGrid(world, colors);
       this.mapColors = colors;
@@ -146,10 +148,12 @@ export class Scenery {
     c.textAlign = "center";
     c.textBaseline = "top";
     const taken: { x: number; y: number; half: number }[] = [];
+    const isTaken = (x: number, y: number, half: number) => taken.some((other) =>
+      Math.abs(other.x - x) < other.half + half + 3 && Math.abs(other.y - y) < 13);
     for (const { name, v, at } of seen) {
       const half = c.measureText(name).width / 2;
       const y = at.y + this.reachOf(v, step) + 2;
-      if (taken.some((t) => Math.abs(t.x - at.x) < t.half + half + 3 && Math.abs(t.y - y) < 13)) continue;
+      if (isTaken(at.x, y, half)) continue;
       taken.push({ x: at.x, y, half });
       outlined(c, name, at.x, y, colors.faint, colors.floor);
     }
@@ -190,7 +194,9 @@ function packed(color: string): number {
   return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-function paintLines(c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors): void {
+function paintLines(
+  c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors,
+): void {
   const from = camera.toWorld(0, 0);
   const to = camera.toWorld(camera.width, camera.height);
   c.strokeStyle = colors.lines;
@@ -211,7 +217,9 @@ function paintLines(c: CanvasRenderingContext2D, camera: Camera, world: World, c
   c.stroke();
 }
 
-function paintRoads(c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors): void {
+function paintRoads(
+  c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors,
+): void {
   const step = world.unit * camera.scale;
   c.lineCap = "round";
   c.strokeStyle = colors.road;

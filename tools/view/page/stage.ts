@@ -37,7 +37,8 @@ export class Stage {
       ? new Frame(model, viewed.plan, viewed.facts, viewed.checker.violations) : null;
     const other = app.viewed.find((v) => v !== viewed) ?? null;
     this.paths = viewed ? new Paths(model, viewed, other) : null;
-    const [ground, plain, fast, top] = [el("canvas"), el("canvas"), el("canvas"), el("canvas", { tabindex: 0 })];
+    const [ground, plain, fast] = [el("canvas"), el("canvas"), el("canvas")];
+    const top = el("canvas", { tabindex: 0 });
     this.canvases = [ground, plain, fast, top];
     this.scenery = new Scenery(ground, model, viewed ? viewed.facts : null);
     this.robots = this.frame ? new EitherRobots(plain, fast, world) : null;
@@ -45,7 +46,7 @@ export class Stage {
     this.minimap = new Minimap(model, this.camera, () => this.cameraMoved());
     top.setAttribute("aria-label", viewed ? `The plan ${viewed.plan.name}` : "The instance");
     top.setAttribute("role", "img");
-    const caption = app.viewed.length > 1 ? el("div", { class: "caption" }, viewed?.plan.name ?? "") : null;
+    const caption = viewed && other ? el("div", { class: "caption" }, viewed.plan.name) : null;
     this.element = el("div", { class: "stage" }, ...this.canvases, caption, this.minimap.element);
     listen(top, this.camera, {
       moved: () => this.cameraMoved(),

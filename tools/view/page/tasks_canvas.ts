@@ -18,7 +18,7 @@ export interface TaskState {
   total: number;
 }
 
-// Pale while open, yellow once begun, grey when done.
+// Pale while open, yellow once begun, grey all over when done.
 export function paintTasks(
   c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
   isChosen: boolean, colors: Colors,
@@ -27,7 +27,7 @@ export function paintTasks(
   const begun = tasks.some((task) => task.begun);
   const r = Math.max(2.5, kTaskRadius * step);
   c.fillStyle = done ? colors.taskDone : begun ? colors.taskBegun : colors.taskOpen;
-  c.strokeStyle = isChosen ? colors.chosen : colors.task;
+  c.strokeStyle = isChosen ? colors.chosen : done ? colors.goal : colors.task;
   c.lineWidth = isChosen ? 3 : 1.25;
   const apart = Math.max(1.5, 0.09 * step);
   for (let k = Math.min(kMostStacked, tasks.length) - 1; k >= 0; --k)
@@ -59,7 +59,7 @@ function tellTasks(
   c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
   color: string, colors: Colors,
 ): void {
-  const size = Math.min(13, Math.max(9, 0.24 * step));
+  const size = Math.min(18, Math.max(9, 0.16 * step));
   const texts = tasks.slice(0, kMostTold).map(({ index, visits, total }) =>
     `${index + 1}${total > 1 ? `: ${visits} of ${total}` : ""}`);
   if (tasks.length > kMostTold) texts.push(`+ ${(tasks.length - kMostTold).toLocaleString("en")}`);

@@ -30,6 +30,8 @@ export class Track {
     const times = this.times;
     let low = near < this.runs && times[near] <= time ? near : 0;
     if (low + 1 <= this.runs && time < times[low + 1]) return low;
+    // Who goes on from run to run is in the next one.
+    if (low + 2 <= this.runs && time < times[low + 2]) return low + 1;
     let high = this.runs;
     while (low < high) {
       const middle = (low + high + 1) >> 1;

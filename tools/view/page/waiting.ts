@@ -17,13 +17,17 @@ export interface Wait {
 
 const kMostGhosts = 8; // of one wait
 const kAhead = 40; // steps that a ghost is followed
+const kGhostsAtOnce = 8192; // before the page may do something else
 
+// It takes the robot's steps, so many moments earlier. A run of equal steps is looked at once.
 interface Ghost {
   wait: Wait;
-  left: number; // how many steps earlier than the robot itself
-  from: number; // the step at which it leaves
+  earlier: number;
+  from: number; // the moment at which it leaves
   place: number;
-  run: number; // of the robot's track, for the next look
+  run: number; // of the robot's track
+  delta: number; // of its steps in this run
+  until: number; // the robot's own moment at which the run ends
 }
 
 export class Waits {
@@ -51,12 +55,17 @@ export class Waits {
 
   private *find(): Generator<void> {
     const crowd = new Crowd(this.plan, this.model.world.places);
-    const waiting = this.all.flatMap(ghostsOf).sort((a, b) => a.from - b.from);
+    const waiting = this.all.flatMap((wait) => this.ghostsOf(wait)).sort((a, b) => a.from - b.from);
     let next = 0;
-    let ghosts: Ghost[] = [];
+    const ghosts: Ghost[] = [];
     for (let time = 0; next < waiting.length || ghosts.length > 0; ++time) {
       crowd.advance(() => {});
-      ghosts = ghosts.filter((ghost) => this.goesOn(ghost, time, crowd));
+      let left = 0;
+      for (let i = 0; i < ghosts.length; ++i) {
+        if (this.goesOn(ghosts[i], time, crowd)) ghosts[left++] = ghosts[i];
+        if (i % kGhostsAtOnce === kGhostsAtOnce - 1) yield;
+      }
+      ghosts.length = left;
       while (next < waiting.length && waiting[next].from === time) ghosts.push(waiting[next++]);
       yield;
     }
@@ -65,10 +74,9 @@ export class Waits {
   // A ghost takes its step to `time`; false: it has met somebody, or has gone far enough.
   private goesOn(ghost: Ghost, time: number, crowd: Crowd): boolean {
     const { wait } = ghost;
-    const { track } = this.plan.agents[wait.agent];
     const before = ghost.place;
-    ghost.run = track.run(time + ghost.left, ghost.run);
-    ghost.place = track.place(time + ghost.left, ghost.run);
+    if (time + ghost.earlier > ghost.until) this.enter(ghost, ghost.run + 1);
+    ghost.place += ghost.delta;
     const other = crowd.on(ghost.place);
     const swapped = ghost.place === before ? -1 : comingFrom(crowd, ghost.place, before);
     const met = other >= 0 && other !== wait.agent ? other : swapped;
@@ -76,6 +84,28 @@ export class Waits {
     if (wait.meets < 0) wait.meets = ghost.place;
     if (!wait.for.includes(met)) wait.for.push(met);
     return false;
+  }
+
+  private enter(ghost: Ghost, run: number): void {
+    const { track } = this.plan.agents[ghost.wait.agent];
+    const isAtRest = run >= track.runs;
+    ghost.run = run;
+    ghost.delta = isAtRest ? 0 : track.deltas[run];
+    ghost.until = isAtRest ? Infinity : track.times[run + 1];
+  }
+
+  // They leave at moments spread evenly over the wait.
+  private ghostsOf(wait: Wait): Ghost[] {
+    const { track } = this.plan.agents[wait.agent];
+    const steps = wait.end - wait.begin;
+    const count = Math.min(steps, kMostGhosts);
+    return Array.from({ length: count }, (_, i) => {
+      const from = wait.begin + Math.floor((i * steps) / count);
+      const { end, place } = wait;
+      const ghost = { wait, from, earlier: end - from, place, run: 0, delta: 0, until: 0 };
+      this.enter(ghost, track.run(wait.end));
+      return ghost;
+    });
   }
 }
 
@@ -90,15 +120,6 @@ function waitsOf(plan: Plan, facts: PlanFacts, agent: number): Wait[] {
   if (track.isEmpty) return [];
   return facts.spans[agent]
     .filter((span) => span.doing === Doing.kWaiting)
-    .map(({ begin, end }) => ({ agent, begin, end, place: track.place(begin), for: [], meets: -1 }));
-}
-
-// They leave at moments spread evenly over the wait.
-function ghostsOf(wait: Wait): Ghost[] {
-  const steps = wait.end - wait.begin;
-  const count = Math.min(steps, kMostGhosts);
-  return Array.from({ length: count }, (_, i) => {
-    const from = wait.begin + Math.floor((i * steps) / count);
-    return { wait, from, left: wait.end - from, place: wait.place, run: 0 };
-  });
+    .map(({ begin, end }) =>
+      ({ agent, begin, end, place: track.place(begin), for: [], meets: -1 }));
 }

@@ -132,7 +132,10 @@ function layRoads(roads: Road[], xs: Float64Array, ys: Float64Array, unit: numbe
     else beside.set(key, [road]);
   }
   for (const row of beside.values())
-    row.forEach((road, i) => layRoad(road, (i - (row.length - 1) / 2) * 2 * kBend * unit, xs, ys, unit));
+    row.forEach((road, i) => {
+      const rank = i - (row.length - 1) / 2;
+      layRoad(road, rank * 2 * kBend * unit, xs, ys, unit);
+    });
 }
 
 function layRoad(road: Road, bend: number, xs: Float64Array, ys: Float64Array, unit: number): void {

@@ -84,20 +84,23 @@ void center_text(cairo_t* cairo, const std::string& text, Point at, double size,
   cairo_show_text(cairo, text.c_str());
 }
 
-// Below or above `at`, on a rim in the colour of the floor.
+// Its baseline at `at`; on a rim in the colour of the floor, which is the text itself a little
+// aside: outlines of letters would make an SVG file large.
 void outlined_text(cairo_t* cairo, const std::string& text, Point at, double size,
                    const Color& color) {
   cairo_set_font_size(cairo, size);
   cairo_text_extents_t extents;
   cairo_text_extents(cairo, text.c_str(), &extents);
-  cairo_move_to(cairo, at.x - extents.width / 2 - extents.x_bearing, at.y);
-  cairo_text_path(cairo, text.c_str());
+  const double x = at.x - extents.width / 2 - extents.x_bearing;
+  const auto show = [&](double right, double down) {
+    cairo_move_to(cairo, x + 0.12 * size * right, at.y + 0.12 * size * down);
+    cairo_show_text(cairo, text.c_str());
+  };
   set(cairo, kFloor);
-  cairo_set_line_width(cairo, 0.25 * size);
-  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-  cairo_stroke_preserve(cairo);
+  for (const double right : {-1.0, 1.0})
+    for (const double down : {-1.0, 1.0}) show(right, down);
   set(cairo, color);
-  cairo_fill(cairo);
+  show(0, 0);
 }
 
 // An id of bytes, cut between characters.
@@ -108,7 +111,8 @@ std::string shortened(const std::string& id, std::size_t most) {
   return id.substr(0, end) + "…";
 }
 
-void diamond(cairo_t* cairo, Point at, double radius, const Color& color, double line) {
+void diamond(cairo_t* cairo, Point at, double radius, const Color& color, const Color& rim,
+             double line) {
   cairo_move_to(cairo, at.x, at.y - radius);
   cairo_line_to(cairo, at.x + radius, at.y);
   cairo_line_to(cairo, at.x, at.y + radius);
@@ -116,7 +120,7 @@ void diamond(cairo_t* cairo, Point at, double radius, const Color& color, double
   cairo_close_path(cairo);
   set(cairo, color);
   cairo_fill_preserve(cairo);
-  set(cairo, kTask);
+  set(cairo, rim);
   cairo_set_line_width(cairo, line);
   cairo_stroke(cairo);
 }
@@ -411,8 +415,8 @@ void Drawing::draw_goals(cairo_t* cairo) const {
   cairo_stroke(cairo);
 }
 
-// Tasks on one place are a stack of diamonds, with their number: pale, yellow once begun, grey when
-// done.
+// Tasks on one place are a stack of diamonds, with their number: pale, yellow once begun, grey all
+// over when done.
 void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   struct Progress {
     int tasks = 0;
@@ -430,12 +434,11 @@ void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   }
   for (const auto& [place, progress] : places) {
     const Point at = point(place);
-    const Color& color = progress.visits >= progress.total ? kTaskDone
-                         : progress.begun                  ? kTaskBegun
-                                                           : kTaskOpen;
+    const bool done = progress.visits >= progress.total;
+    const Color& color = done ? kTaskDone : progress.begun ? kTaskBegun : kTaskOpen;
     for (int k = std::min(kMostStacked, progress.tasks) - 1; k >= 0; --k)
       diamond(cairo, {at.x + 0.09 * k * unit_, at.y - 0.09 * k * unit_}, kTaskRadius * unit_, color,
-              0.05 * unit_);
+              done ? kGoal : kTask, 0.05 * unit_);
     if (progress.tasks == 1) continue;
     set(cairo, kText);
     center_text(cairo, std::to_string(progress.tasks), at, 0.36 * unit_, 0.6 * unit_);
@@ -529,8 +532,8 @@ void Drawing::draw_legend(cairo_t* cairo) const {
       cairo_fill(cairo);
     };
   };
-  const auto task = [&](const Color& color) {
-    return [cairo, at, color] { diamond(cairo, at, 0.6 * kSize, color, 1); };
+  const auto task = [&](const Color& color, const Color& rim) {
+    return [cairo, at, color, rim] { diamond(cairo, at, 0.6 * kSize, color, rim, 1); };
   };
   const auto square = [&] {
     set(cairo, kGoal);
@@ -547,9 +550,9 @@ void Drawing::draw_legend(cairo_t* cairo) const {
     add("at rest", disc(kDoing[kResting]));
   }
   if (instance_.task_count() > 0) {
-    add("open task", task(kTaskOpen));
-    add("begun", task(kTaskBegun));
-    add("done", task(kTaskDone));
+    add("open task", task(kTaskOpen, kTask));
+    add("begun", task(kTaskBegun, kTask));
+    add("done", task(kTaskDone, kGoal));
   }
   if (std::ranges::any_of(instance_.agents(), [](const Agent& a) { return a.goal.has_value(); }))
     add("destination", square);

@@ -11,7 +11,6 @@ const kLeastLane = 3; // pixels of a robot in one plan
 const kMostLane = 22;
 const kLeastNamed = 9; // pixels of a row that has a name
 const kWidestName = 110;
-const kFont = "10px system-ui, sans-serif";
 const kWords = ["moves", "waits", "works", "rests"]; // by Doing
 
 // Where rows and times are.
@@ -129,7 +128,8 @@ export class Chart {
     if (this.layout.left > 0) this.paintNames(c, colors);
     this.paintChosen(c, colors, gap);
     const count = this.app.model.agents.length;
-    setText(this.note, rows < count ? `${first + 1}–${first + rows} of ${count.toLocaleString("en")} robots` : "");
+    const seen = `${first + 1}–${first + rows} of ${count.toLocaleString("en")} robots`;
+    setText(this.note, rows < count ? seen : "");
   }
 
   // All robots if each has a few pixels, else some of them.
@@ -140,7 +140,7 @@ export class Chart {
     const row = Math.min(kMostLane * lanes, height / rows);
     this.bringIntoSight(this.app.chosen, rows);
     const first = Math.min(count - rows, Math.max(0, this.first));
-    c.font = kFont;
+    c.font = fontOf(row);
     const names = row >= kLeastNamed ? this.app.model.agents.slice(first, first + rows) : [];
     const widest = names.reduce((most, { name }) => Math.max(most, c.measureText(name).width), 0);
     const left = names.length > 0 ? Math.ceil(Math.min(widest, kWidestName, width / 5)) + 6 : 0;
@@ -174,7 +174,7 @@ export class Chart {
   private paintNames(c: CanvasRenderingContext2D, colors: Colors): void {
     const { first, left, row, rows } = this.layout;
     const { model, chosen } = this.app;
-    c.font = kFont;
+    c.font = fontOf(row);
     c.textBaseline = "middle";
     for (let i = 0; i < rows; ++i) {
       c.fillStyle = first + i === chosen ? colors.chosen : colors.text;
@@ -187,7 +187,12 @@ export class Chart {
     const at = this.app.chosen - first;
     if (this.app.chosen < 0 || at < 0 || at >= rows) return;
     c.strokeStyle = colors.chosen;
-    c.lineWidth = 2;
-    c.strokeRect(left + 1, at * row, width - 2, Math.max(2, row - gap));
+    const line = row < 8 ? 1 : 2; // what it surrounds is to be seen
+    c.lineWidth = line;
+    c.strokeRect(left + line / 2, at * row - line / 2, width - line, row - gap + line);
   }
+}
+
+function fontOf(row: number): string {
+  return `${Math.min(14, Math.max(9, 0.6 * row))}px system-ui, sans-serif`;
 }

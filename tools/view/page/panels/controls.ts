@@ -25,11 +25,14 @@ export class Controls {
 
   constructor(private readonly app: App, help: () => void) {
     const { player } = app;
-    const button = (face: SVGElement | string, title: string, act: () => void) =>
-      el("button", { type: "button", title, "aria-label": title, click: () => this.act(act) }, face);
+    const button = (face: SVGElement | string, title: string, act: () => void) => {
+      const click = () => this.act(act);
+      return el("button", { type: "button", title, "aria-label": title, click }, face);
+    };
     this.playButton = button(icon(kIcons.play), "Play or pause (space)", () => player.toggle());
     this.playFace = this.playButton.querySelector("path")!;
-    this.loop = button(icon(kIcons.loop), "Begin again at the end (L)", () => (player.loop = !player.loop));
+    this.loop = button(icon(kIcons.loop), "Begin again at the end (L)",
+      () => (player.loop = !player.loop));
     this.slider = el("input", {
       type: "range", min: 0, max: player.end, step: "any", value: 0, class: "time",
       "aria-label": "Time in steps",
@@ -51,7 +54,7 @@ export class Controls {
       this.speed,
       button("+", "Faster (full stop)", () => player.faster(1)),
       this.loop,
-      el("button", { type: "button", title: "All keys (?)", "aria-label": "All keys", click: help }, "?"),
+      button("?", "All keys (?)", help),
     );
   }
 
@@ -64,7 +67,8 @@ export class Controls {
     const { player } = this.app;
     this.playFace.setAttribute("d", player.playing ? kIcons.pause : kIcons.play);
     const whole = player.playing || Number.isInteger(player.time);
-    setText(this.clock, `${whole ? Math.floor(player.time) : player.time.toFixed(1)} / ${player.end}`);
+    const time = whole ? Math.floor(player.time) : player.time.toFixed(1);
+    setText(this.clock, `${time} / ${player.end}`);
     setText(this.speed, `${player.speed} /s`);
     this.loop.setAttribute("aria-pressed", String(player.loop));
     if (document.activeElement !== this.slider || player.playing)

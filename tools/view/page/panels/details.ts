@@ -27,9 +27,10 @@ export class Details {
   }
 
   private others(task: number): HTMLElement[] {
-    if (task >= 0) return [head(this.app, taskTitle(this.app, task)), ...taskDetails(this.app, task)];
-    const hint = "Choose a robot or a task: click it, or search for its name. Press ? for all keys.";
-    return [el("p", { class: "faint" }, hint)];
+    if (task >= 0)
+      return [head(this.app, taskTitle(this.app, task)), ...taskDetails(this.app, task)];
+    return [el("p", { class: "faint" },
+      "Choose a robot or a task: click it, or search for its name. Press ? for all keys.")];
   }
 }
 

@@ -17,7 +17,11 @@ export class Differences {
   readonly filters: HTMLElement;
   private readonly order: HTMLSelectElement;
 
-  constructor(private readonly app: App, private readonly comparison: Comparison, changed: () => void) {
+  constructor(
+    private readonly app: App,
+    private readonly comparison: Comparison,
+    changed: () => void,
+  ) {
     this.order = el("select", { "aria-label": "In which order", change: () => changed() },
       ...kOrders.map(([value, text]) => el("option", { value }, text)));
     this.filters = el("div", {}, el("p", {}, this.summary()),
@@ -26,12 +30,14 @@ export class Differences {
 
   private summary(): string {
     const { all, by } = this.comparison;
-    const robots = `${all.length.toLocaleString("en")} of ${plural(this.app.model.agents.length, "robot")} ` +
-      `${all.length === 1 ? "differs" : "differ"}.`;
+    const total = plural(this.app.model.agents.length, "robot");
+    const verb = all.length === 1 ? "differs" : "differ";
+    const robots = `${all.length.toLocaleString("en")} of ${total} ${verb}.`;
     const [first, second] = this.app.viewed.map(({ plan }) => plan.name);
     if (Number.isNaN(by)) return `${robots} Their costs cannot be compared: paths are missing.`;
     if (by === 0) return `${robots} Both plans cost the same.`;
-    return `${robots} ${second} costs ${Math.abs(by).toLocaleString("en")} ${by > 0 ? "more" : "less"} than ${first}.`;
+    const more = `${Math.abs(by).toLocaleString("en")} ${by > 0 ? "more" : "less"}`;
+    return `${robots} ${second} costs ${more} than ${first}.`;
   }
 
   rows(): Row[] {
@@ -55,7 +61,8 @@ export class Differences {
 function sorted(all: Difference[], order: Order): Difference[] {
   const size = ({ by }: Difference) => (Number.isNaN(by) ? Infinity : Math.abs(by));
   switch (order) {
-    case "cost": return [...all].sort((a, b) => compareNumbers(size(b), size(a)) || a.parts - b.parts);
+    case "cost":
+      return [...all].sort((a, b) => compareNumbers(size(b), size(a)) || a.parts - b.parts);
     case "moment": return [...all].sort((a, b) => compareNumbers(a.parts, b.parts));
     case "name": return all;
   }

@@ -18,6 +18,7 @@ export class Events {
   readonly filters: HTMLElement;
   private readonly kind: HTMLSelectElement;
   private readonly only: HTMLButtonElement;
+  private chosen = -1;
   private onlyChosen = false;
   private known: PlanEvent[] | null = null;
 
@@ -25,7 +26,17 @@ export class Events {
     this.kind = el("select", { "aria-label": "Which events", change: () => changed() },
       ...kKinds.map(([value, text]) => el("option", { value }, text)));
     this.only = el("button", { type: "button", click: () => this.toggle() });
+    this.only.hidden = true;
     this.filters = el("div", { class: "filter" }, this.kind, this.only);
+  }
+
+  // Another robot; does that change the list? (If not it is left alone, with what has the focus.)
+  choose(robot: number): boolean {
+    if (robot === this.chosen) return false;
+    this.chosen = robot;
+    this.only.hidden = robot < 0;
+    if (robot >= 0) setText(this.only, `only of ${this.app.model.agents[robot].name}`);
+    return this.onlyChosen;
   }
 
   // More has been found out.
@@ -39,12 +50,9 @@ export class Events {
   }
 
   rows(query: string): Row[] {
-    const { app } = this;
-    const { chosen } = app;
-    this.only.hidden = chosen < 0;
-    if (chosen >= 0) setText(this.only, `only of ${app.model.agents[chosen].name}`);
+    const { chosen } = this;
     this.only.setAttribute("aria-pressed", String(this.onlyChosen));
-    this.known ??= eventsOf(app);
+    this.known ??= eventsOf(this.app);
     const kind = this.kind.value;
     return this.known
       .filter((event) => kind === "all" || event.kind === kind)

@@ -6,7 +6,8 @@ import { el, setText } from "../dom";
 
 export function head(app: App, title: string, ...buttons: HTMLElement[]): HTMLElement {
   const close = el("button", {
-    type: "button", "aria-label": "Choose nothing", title: "Choose nothing (Esc)", click: () => app.choose(-1),
+    type: "button", "aria-label": "Choose nothing", title: "Choose nothing (Esc)",
+    click: () => app.choose(-1),
   }, "✕");
   const heading = el("h2", { dir: "auto" });
   setText(heading, title);

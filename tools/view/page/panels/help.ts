@@ -24,11 +24,14 @@ export class Help {
   readonly element: HTMLDialogElement;
 
   constructor() {
-    const rows = kKeys.map(([keys, what]) => el("tr", {}, el("th", { scope: "row" }, keys), el("td", {}, what)));
+    const rows = kKeys.map(([keys, what]) =>
+      el("tr", {}, el("th", { scope: "row" }, keys), el("td", {}, what)));
     const close = el("button", { type: "button", click: () => this.element.close() }, "Close");
     this.element = el("dialog", { "aria-label": "Keys" }, el("h2", {}, "Keys"),
       el("table", {}, el("tbody", {}, ...rows)),
-      el("p", { class: "faint" }, "Wheel or two fingers zoom, dragging moves the map; a click chooses."), close);
+      el("p", { class: "faint" },
+        "Wheel or two fingers zoom, dragging moves the map; a click chooses."),
+      close);
   }
 
   toggle(): void {

@@ -18,6 +18,7 @@ const kHeats: [Heat, string][] = [
   ["waits", "heat: waits"],
   ["yields", "heat: conflicts avoided"],
 ];
+const kGoals: [string, string][] = [["goal", "destination"]];
 
 // Of what there is nothing of, nothing is said.
 function entriesOf({ model, viewed }: App): [string, string][] {
@@ -25,7 +26,7 @@ function entriesOf({ model, viewed }: App): [string, string][] {
   return [
     ...(viewed.length > 0 ? kRobots.filter(([kind]) => kind !== "working" || hasWork) : []),
     ...(model.tasks.length > 0 ? kTasks : []),
-    ...(model.agents.some(({ goal }) => goal >= 0) ? [["goal", "destination"] as [string, string]] : []),
+    ...(model.agents.some(({ goal }) => goal >= 0) ? kGoals : []),
   ];
 }
 
@@ -34,6 +35,7 @@ export function legend(app: App): HTMLElement {
     "aria-label": "Heat map", change: () => app.set({ heat: heat.value as Heat }),
   }, ...kHeats.map(([value, text]) => el("option", { value }, text)));
   return el("section", { class: "legend", "aria-label": "Legend" },
-    ...entriesOf(app).map(([kind, text]) => el("span", { class: "entry" }, el("i", { class: kind }), text)),
+    ...entriesOf(app).map(([kind, text]) =>
+      el("span", { class: "entry" }, el("i", { class: kind }), text)),
     ...(app.viewed.length > 0 ? [heat] : []));
 }

@@ -21,7 +21,7 @@ export class Lists {
   private tab: Tab;
   private rows: Row[] = [];
   private notes: { element: HTMLElement; row: Row }[] = [];
-  private shown = "";
+  private found = ""; // that events are made of
 
   constructor(private readonly app: App) {
     const { comparison, model } = app;
@@ -48,14 +48,15 @@ export class Lists {
   update(): void {
     const wrong = this.app.viewed.reduce((sum, v) => sum + v.checker.violations.length, 0);
     const known = this.app.viewed.every((v) => v.waits.done);
-    const shown = [wrong, known, this.tab === "events" ? this.app.chosen : ""].join();
-    if (shown !== this.shown) {
-      this.shown = shown;
+    const found = [wrong, known].join();
+    if (found !== this.found) {
+      this.found = found;
       const button = this.buttons.get("events");
       if (button) setText(button, wrong > 0 ? `Events ⚠ ${wrong.toLocaleString("en")}` : "Events");
       this.events.forget();
       if (this.tab === "events") this.fill();
     }
+    if (this.tab === "events" && this.events.choose(this.app.chosen)) this.fill();
     for (const { element, row } of this.notes) setText(element, row.note());
   }
 
@@ -86,7 +87,7 @@ export class Lists {
       : this.tab === "differences" ? this.differences!.filters : null;
     if (filters === null) this.top.replaceChildren();
     else if (!this.top.contains(filters)) this.top.replaceChildren(filters);
-    this.rows = this.query === "" ? this.ofTab() : this.found(this.query);
+    this.rows = this.query === "" ? this.ofTab() : this.matching(this.query);
     const shown = this.rows.slice(0, kMostRows).map((row) => ({ row, ...rowElement(row) }));
     this.notes = shown.map(({ row, note }) => ({ element: note, row }));
     this.body.replaceChildren(...shown.map(({ element }) => element));
@@ -98,8 +99,8 @@ export class Lists {
   }
 
   private nothing(): string {
-    return this.tab === "differences" && this.query === "" ? "every robot does the same in both plans"
-      : "nothing of that kind";
+    const isSame = this.tab === "differences" && this.query === "";
+    return isSame ? "every robot does the same in both plans" : "nothing of that kind";
   }
 
   private ofTab(): Row[] {
@@ -112,7 +113,7 @@ export class Lists {
   }
 
   // Shorter ids first: they are nearer to what was typed.
-  private found(query: string): Row[] {
+  private matching(query: string): Row[] {
     const things = [...this.robots(), ...this.tasks()].filter((row) => row.key.includes(query));
     things.sort((a, b) => a.key.length - b.key.length);
     if (this.tab === "events") return [...this.events.rows(query), ...things];

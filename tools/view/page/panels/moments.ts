@@ -17,7 +17,8 @@ export function moments<T>(app: App, things: T[], tell: (thing: T) => Moment): H
   const items = things.slice(0, kMost).map(tell).map(({ time, text }) =>
     el("li", {},
       Number.isFinite(time)
-        ? momentButton(time, () => app.go(Math.max(0, time))) : el("span", { class: "moment bad" }, "never"),
+        ? momentButton(time, () => app.go(Math.max(0, time)))
+        : el("span", { class: "moment bad" }, "never"),
       " ", el("span", { dir: "auto" }, text)));
   const rest = things.length - kMost;
   if (rest > 0) items.push(el("li", { class: "faint" }, `and ${plural(rest, "more")}`));

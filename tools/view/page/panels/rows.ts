@@ -16,13 +16,16 @@ export interface Row {
 
 export function rowElement(row: Row): { element: HTMLElement; note: HTMLElement } {
   const note = el("span", { class: "faint note" });
-  const button = el("button", { type: "button", class: row.bad ? "row bad" : "row", click: row.act },
+  const kind = row.bad ? "row bad" : "row";
+  const button = el("button", { type: "button", class: kind, click: row.act },
     el("span", { dir: "auto" }, row.text), note);
   const element = row.more ? el("div", { class: "pair" }, button, row.more) : button;
   return { element, note };
 }
 
 // A moment to jump to.
-export function momentButton(time: number, act: () => void, title = `Go to step ${time}`): HTMLElement {
+export function momentButton(
+  time: number, act: () => void, title = `Go to step ${time}`,
+): HTMLElement {
   return el("button", { type: "button", class: "moment", title, click: act }, String(time));
 }

@@ -45,8 +45,8 @@ export class Strip {
     if (!comparison || viewed !== this.app.viewed[1]) return "";
     const { by, costs } = comparison;
     if (Number.isNaN(by)) return "";
-    const part = costs[0] > 0 && by !== 0 ? `, ${signed(Number(((100 * by) / costs[0]).toFixed(2)))} %` : "";
-    return ` (${signed(by)}${part})`;
+    if (costs[0] === 0 || by === 0) return ` (${signed(by)})`;
+    return ` (${signed(by)}, ${signed(Number(((100 * by) / costs[0]).toFixed(2)))} %)`;
   }
 
   private verdict(plan: Plan, viewed: Viewed | undefined): HTMLElement {
@@ -66,7 +66,8 @@ function foundCost(viewed: Viewed | undefined): number | undefined {
 
 function costText(cost: number | undefined, found: number | undefined): string | undefined {
   const text = cost?.toLocaleString("en");
-  return found === undefined || found === cost ? text : `${text} claimed, ${found.toLocaleString("en")} found`;
+  if (found === undefined || found === cost) return text;
+  return `${text} claimed, ${found.toLocaleString("en")} found`;
 }
 
 // Empty where nothing is claimed.
