@@ -11,10 +11,10 @@ namespace {
 
 struct Stay {
   AgentIndex agent;
-  double enters_begin;  // of the move onto the place; of a start below all times
-  double enters_end;
-  double leaves_begin = kNeverDone;
-  double leaves_end = kNeverDone;
+  Time enters_begin;  // of the move onto the place; of a start below all times
+  Time enters_end;
+  Time leaves_begin = kNever;
+  Time leaves_end = kNever;
   Place came_from = kNoPlace;
   Place goes_to = kNoPlace;
 };
@@ -27,7 +27,7 @@ std::map<Place, std::vector<Stay>> stays_of(const World& world, const PassingOrd
     Place at = world.place(starts[agent]);
     for (ActionIndex a = order.begin_of(agent); a < order.end_of(agent); ++a) {
       const Action& action = order.actions()[a];
-      if (action.kind != Action::Kind::kMove || drive.begin[a] == kNeverDone) continue;
+      if (action.kind != Action::Kind::kMove || drive.begin[a] == kNever) continue;
       stay.leaves_begin = drive.begin[a];
       stay.leaves_end = drive.end[a];
       stay.goes_to = world.place(action.to);

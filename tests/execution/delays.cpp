@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/execution/delays.h"
 
+#include <cmath>
+
 namespace grove::testing {
 namespace {
 
@@ -26,13 +28,13 @@ Delays::Delays(const PassingOrder& order, std::uint64_t seed, bool may_die)
   }
 }
 
-double Delays::operator()(ActionIndex action, double) {
+Time Delays::operator()(ActionIndex action, Time) {
   const Action& a = order_.actions()[action];
-  if (last_[a.agent] == action) return kNeverDone;
+  if (last_[a.agent] == action) return kNever;
   double duration = a.steps * slowness_[a.agent];
   if (part(dice_) < delayed_) duration += 5 * part(dice_);
   if (part(dice_) < stops_) duration += 200 * part(dice_);
-  return duration;
+  return static_cast<Time>(std::ceil(duration));
 }
 
 }  // namespace grove::testing

@@ -16,7 +16,7 @@ class Delays {
  public:
   Delays(const PassingOrder& order, std::uint64_t seed, bool may_die = false);
 
-  double operator()(ActionIndex action, double begin);
+  Time operator()(ActionIndex action, Time begin);
   bool anybody_dies() const { return dies_; }
 
  private:

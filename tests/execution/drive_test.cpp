@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "grove/engine/solve.h"
+#include "grove/model/check.h"
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
@@ -41,6 +42,13 @@ TEST(Drive, NobodyCollidesAndEverybodyArrives) {
       const Drive driven = drive(order, Delays(order, schedule));
       ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
       ASSERT_TRUE(stuck(order, driven).empty()) << seed << ", " << schedule;
+      Solution solution;
+      solution.plan = driven_plan(instance, *plan, order, driven);
+      solution.status = Status::kFeasible;
+      solution.omega = Omega::infinite();
+      const auto wrong = check(instance, solution);
+      ASSERT_TRUE(wrong.empty()) << seed << ", " << schedule << ": " << wrong[0].place << " "
+                                 << wrong[0].message;
     }
   }
   EXPECT_GT(drives, 3000);

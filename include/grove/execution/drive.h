@@ -3,35 +3,37 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "grove/execution/passing_order.h"
 
 namespace grove {
 
-// Times in steps, no longer whole ones.
-inline constexpr double kNeverDone = std::numeric_limits<double>::infinity();
-
-// When each action was begun and completed, by ActionIndex; kNeverDone: it was not.
+// When each action was begun and completed, by ActionIndex; kNever: it was not.
 struct Drive {
-  std::vector<double> begin;
-  std::vector<double> end;
+  std::vector<Time> begin;
+  std::vector<Time> end;
 
-  // When the robot had done everything; kNeverDone: it never has.
-  double finish(const PassingOrder& order, AgentIndex agent) const {
+  // When the robot had done everything; kNever: it never has.
+  Time finish(const PassingOrder& order, AgentIndex agent) const {
     return order.begin_of(agent) == order.end_of(agent) ? 0 : end[order.end_of(agent) - 1];
   }
 };
 
-// How long an action takes from its begin on, in steps; kNeverDone: the robot does not move again.
-// Called once for each action that begins, in the order of steps.
-using Duration = std::function<double(ActionIndex action, double begin)>;
+// How long an action takes from its begin on, at least as long as the plan has it; kNever: the
+// robot does not move again. Called once for each action that begins, in the order of steps.
+using Duration = std::function<Time(ActionIndex action, Time begin)>;
 
-// O(actions). The moves of a ring take as long as the slowest of them.
+// O(actions). The moves of a ring take as long as the slowest of them. Throws std::overflow_error
+// for times that no plan can mention.
 Drive drive(const PassingOrder& order, const Duration& duration);
 // As long as the plan has it.
 Drive drive_undisturbed(const PassingOrder& order);
+
+// The plan that was driven: an action that takes longer than it must is a wait before it. If
+// everybody has done everything a valid plan of `instance`; else of what was done.
+Plan driven_plan(const Instance& instance, const Plan& plan, const PassingOrder& order,
+                 const Drive& drive);
 
 // A robot that waits for ever, and for whom; for itself if it does not move again.
 struct Stuck {
