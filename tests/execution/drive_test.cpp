@@ -44,8 +44,7 @@ TEST(Drive, NobodyCollidesAndEverybodyArrives) {
       ASSERT_TRUE(stuck(order, driven).empty()) << seed << ", " << schedule;
       Solution solution;
       solution.plan = driven_plan(instance, *plan, order, driven);
-      solution.status = Status::kFeasible;
-      solution.omega = Omega::infinite();
+      solution.status = status_of(solution.plan->cost, 0, solution.omega);
       const auto wrong = check(instance, solution);
       ASSERT_TRUE(wrong.empty()) << seed << ", " << schedule << ": " << wrong[0].place << " "
                                  << wrong[0].message;
