@@ -5,15 +5,37 @@ Chromium speaks the DevTools protocol over a pair of pipes, in JSON, each messag
 """
 
 import base64
+import io
 import json
 import os
 import select
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
+from typing import NamedTuple
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium"))), None)
+
+
+class Visit(NamedTuple):
+    console: list     # what the browser said of the page
+    requests: list    # URLs that went to the network, or would have
+    picture: object   # what is seen
+
+
+def shares(picture):
+    """{colour: share of the picture}"""
+    return {colour: count / (picture.width * picture.height)
+            for count, colour in picture.getcolors(1 << 24)}
+
+
+def is_blank(picture):
+    return max(shares(picture).values()) > 0.999
+
+
+SETTLED = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))))"
 
 
 class Chromium:
@@ -31,7 +53,9 @@ class Chromium:
                    f"--user-data-dir={self.folder.name}", "--host-resolver-rules=MAP * ~NOTFOUND",
                    *(["--no-sandbox"] if os.getuid() == 0 else []), *(options or ["--disable-gpu"]), "about:blank"]
         # Both ends keep clear of 3 and 4, which connect() puts in their place.
-        self.process = subprocess.Popen(command, preexec_fn=connect, close_fds=False, stderr=subprocess.DEVNULL)
+        # A session of its own: with it end the browser's own children, who would keep our output open.
+        self.process = subprocess.Popen(command, preexec_fn=connect, close_fds=False, start_new_session=True,
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_it[0])
         os.close(to_us[1])
         self.write, self.read = to_it[1], to_us[0]
@@ -48,7 +72,7 @@ class Chromium:
         return self
 
     def __exit__(self, *_):
-        self.process.kill()
+        os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
         os.close(self.write)
         os.close(self.read)
@@ -100,13 +124,32 @@ class Chromium:
             return found["result"]
 
     def open(self, page, fragment="", size=(1280, 800)):
-        """Opens a file and waits until it is loaded; seconds that took."""
+        """Opens a file and waits until it is loaded and at work; seconds that took."""
+        self.call("Page.navigate", url="about:blank")  # or another fragment would not load it anew
+        self.console.clear()
+        self.requests.clear()
         self.resize(*size)
         before = time.monotonic()
         self.call("Page.navigate", url=page.resolve().as_uri() + fragment)
-        while self.evaluate("document.readyState") != "complete":
-            time.sleep(0.02)
+        while not self.evaluate("document.readyState === 'complete' && !document.querySelector('.reading')"):
+            time.sleep(0.01)
         return time.monotonic() - before
+
+    def settle(self):
+        """Until what has changed is painted."""
+        self.evaluate(SETTLED)
+
+    def visit(self, page, fragment="", size=(1280, 800)):
+        """What is said, asked of the network and seen when a page is opened."""
+        self.open(page, fragment, size)
+        self.settle()
+        self.wait(0.1)
+        return Visit(list(self.console), list(self.requests), self.look())
+
+    def prefer(self, **features):
+        """Media features: prefers_color_scheme="dark"."""
+        self.call("Emulation.setEmulatedMedia", features=[{"name": name.replace("_", "-"), "value": value}
+                                                          for name, value in features.items()])
 
     def resize(self, width, height):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
@@ -140,4 +183,12 @@ class Chromium:
             self.mouse(kind, x, y, button="left", clickCount=1, buttons=1)
 
     def picture(self, file):
-        file.write_bytes(base64.b64decode(self.call("Page.captureScreenshot")["data"]))
+        file.write_bytes(self.shot())
+
+    def shot(self):
+        return base64.b64decode(self.call("Page.captureScreenshot")["data"])
+
+    def look(self):
+        """What is seen, as an image."""
+        from PIL import Image  # Debian's Python has it
+        return Image.open(io.BytesIO(self.shot())).convert("RGB")

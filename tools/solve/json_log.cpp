@@ -170,7 +170,7 @@ void JsonLog::row(const LogRow& row) {
             {"gap", gap_json(p.incumbent, p.lower_bound)},
             {"memory_mb", rounded(static_cast<double>(row.memory_bytes) / 1e6, 10)}};
   if (row.event == RunEvent::kIncumbent) json["source"] = name_of(row.source);
-  if (row.event == RunEvent::kBound) json["source"] = row.raised_by;
+  if (!row.raised_by.empty()) json["raised_by"] = row.raised_by;
   sink_.line(line_of(json));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,10 +30,11 @@ struct LogHead {
 struct LogRow {
   RunEvent event = RunEvent::kProgress;   // the most telling one
   PlanSource source = PlanSource::kTree;  // of a kIncumbent
-  std::string_view raised_by;             // of a kBound: what raised it last; see the README
   Progress progress;
-  double seconds = 0;            // since the program began
-  std::size_t memory_bytes = 0;  // held now
+  double seconds = 0;                               // since the program began
+  std::size_t memory_bytes = 0;                     // held now
+  std::map<std::string_view, Cost> raised_by = {};  // the bound, since the row before: by what, and
+                                                    // how far; see the README
 };
 
 struct LogEnd {

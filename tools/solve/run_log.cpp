@@ -44,7 +44,7 @@ void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
 
 void RunLog::on_event(RunEvent event, const Progress& progress) {
   if (telling(event) > telling(event_)) event_ = event;
-  if (event == RunEvent::kBound) raised_by_ = raises(progress);
+  note_bound(progress);
   const bool news = event_ != RunEvent::kProgress || progress.nodes_expanded != last_row_nodes_;
   const bool is_due = row_is_due(progress);
   survey_is_due_ = is_due || event == RunEvent::kEnd;
@@ -54,8 +54,11 @@ void RunLog::on_event(RunEvent event, const Progress& progress) {
 }
 
 // Of ranks one hears how many nodes they expanded, not what came of them.
-std::string_view RunLog::raises(const Progress& progress) const {
-  return hears_expansions_ || progress.nodes_expanded == 0 ? last_work_ : "tree";
+void RunLog::note_bound(const Progress& progress) {
+  if (progress.lower_bound <= bound_) return;
+  const bool is_known = hears_expansions_ || progress.nodes_expanded == 0;
+  raised_by_[is_known ? last_work_ : "tree"] += progress.lower_bound - bound_;
+  bound_ = progress.lower_bound;
 }
 
 bool RunLog::row_is_due(const Progress& progress) const {
@@ -68,11 +71,12 @@ bool RunLog::row_is_due(const Progress& progress) const {
 }
 
 LogRow RunLog::row_of(const Progress& progress) const {
-  return {event_, source_, raised_by_, progress, seconds(), resident_bytes()};
+  return {event_, source_, progress, seconds(), resident_bytes(), raised_by_};
 }
 
 void RunLog::row(const Progress& progress) {
   format_.row(row_of(progress));
+  raised_by_.clear();
   has_rows_ = true;
   event_ = RunEvent::kProgress;
   last_row_s_ = seconds();

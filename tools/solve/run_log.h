@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -38,7 +39,7 @@ class RunLog : public RunObserver {
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
 
  private:
-  std::string_view raises(const Progress& progress) const;
+  void note_bound(const Progress& progress);
   bool row_is_due(const Progress& progress) const;
   void row(const Progress& progress);
   void show_progress(const Progress& progress);
@@ -54,8 +55,9 @@ class RunLog : public RunObserver {
   bool hears_expansions_ = false;
   RunEvent event_ = RunEvent::kProgress;  // the most telling one since the last row
   PlanSource source_ = PlanSource::kTree;
-  std::string_view last_work_ = "sequences";  // what a bound that rises now rises by
-  std::string_view raised_by_;                // what it last rose by
+  std::string_view last_work_ = "sequences";    // what a bound that rises now rises by
+  std::map<std::string_view, Cost> raised_by_;  // what it rose by since the last row, and how far
+  Cost bound_ = 0;
   double last_row_s_ = 0;
   std::int64_t last_row_nodes_ = 0;
   double last_progress_s_ = 0;

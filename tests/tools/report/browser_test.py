@@ -15,7 +15,7 @@ from pathlib import Path
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parent.parent)]
 
 import synthetic  # noqa: E402
-from browser import CHROMIUM, is_blank, shares, visit  # noqa: E402
+from devtools import CHROMIUM, Chromium, is_blank, shares  # noqa: E402
 
 GROVE = Path("build/release/bin/grove")
 SKIPPED = 77
@@ -29,10 +29,17 @@ def rows():
 
 
 class Browser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = cls.enterClassContext(Chromium())
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
+
+    def visit(self, page):
+        return self.browser.visit(page, size=(1280, 2400))
 
     def page(self, text):
         path = self.folder / "page.html"
@@ -48,9 +55,9 @@ class Browser(unittest.TestCase):
         def red(picture):
             return shares(picture).get((0xC0, 0, 0), 0)
         found = rows()
-        seen = visit(self.report(found))
+        seen = self.visit(self.report(found))
         self.assertEqual(seen.console, [])
-        self.assertEqual(seen.requests, set())
+        self.assertEqual(seen.requests, [])
         self.assertFalse(is_blank(seen.picture))
         self.assertGreater(shares(seen.picture).get(LINE_COLOUR, 0), 2e-4, "no figure is seen")
         # Dark on light.
@@ -59,21 +66,21 @@ class Browser(unittest.TestCase):
         # A contradiction is seen at once.
         found = [row for row in found if row["problem"] == "mg" and row["solved"]]
         found += [row | {"method": "x", "status": "optimal", "cost": 1} for row in found]
-        self.assertGreater(red(visit(self.report(found)).picture), 0.05)
+        self.assertGreater(red(self.visit(self.report(found)).picture), 0.05)
 
     def test_this_test_hears_the_console(self):
         for script in ("console.error('boo')", "noSuchFunction()"):
-            self.assertEqual(len(visit(self.page(f"<p>x</p><script>{script}</script>")).console), 1)
+            self.assertEqual(len(self.visit(self.page(f"<p>x</p><script>{script}</script>")).console), 1)
         refused = "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'\">"
-        self.assertTrue(visit(self.page(refused + "<img src='http://example.invalid/x.png'>")).console)
+        self.assertTrue(self.visit(self.page(refused + "<img src='http://example.invalid/x.png'>")).console)
 
     def test_this_test_sees_requests(self):
-        self.assertEqual(visit(self.page("<img src='http://example.invalid/x.png'>")).requests,
-                         {"http://example.invalid/x.png"})
+        self.assertEqual(self.visit(self.page("<img src='http://example.invalid/x.png'>")).requests,
+                         ["http://example.invalid/x.png"])
 
     def test_this_test_sees_that_nothing_is_there(self):
-        self.assertTrue(is_blank(visit(self.page("")).picture))
-        self.assertFalse(is_blank(visit(self.page("<p>Some words are not nothing.</p>" * 9)).picture))
+        self.assertTrue(is_blank(self.visit(self.page("")).picture))
+        self.assertFalse(is_blank(self.visit(self.page("<p>Some words are not nothing.</p>" * 9)).picture))
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ namespace solve_command_test {
 
 using nlohmann::json;
 using ::testing::EndsWith;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -433,12 +434,19 @@ TEST_F(SolveCommand, LogsForPrograms) {
   EXPECT_EQ(log.back()["status"], "optimal");
   EXPECT_EQ(log.back()["stats"], plan("p.json")["stats"]);
   std::int64_t incumbents = 0;
+  std::int64_t bound = 0;
   for (const json& row : log) {
     if (&row == &log.front() || &row == &log.back() || row["event"] == "counts") continue;
     for (const char* key :
          {"time_s", "nodes", "open", "trees", "lower_bound", "incumbent", "gap", "memory_mb"})
       EXPECT_TRUE(row.contains(key)) << key;
-    EXPECT_EQ(row["event"] == "incumbent" || row["event"] == "bound", row.contains("source"));
+    EXPECT_EQ(row["event"] == "incumbent", row.contains("source"));
+    const json raised_by = row.value("raised_by", json::object());
+    for (const auto& [what, gain] : raised_by.items()) {
+      EXPECT_THAT(what, AnyOf("sequences", "groups", "splits"));
+      bound += std::int64_t(gain);
+    }
+    EXPECT_EQ(bound, row["lower_bound"]);  // it rises by nothing that is not told
     incumbents += row["event"] == "incumbent" ? 1 : 0;
     EXPECT_EQ(row["gap"].is_null(), row["incumbent"].is_null());
   }

@@ -2,64 +2,21 @@
 # SPDX-License-Identifier: MIT
 """Opens pages of grove view in a real browser: they ask for nothing, complain of nothing, and show the plan.
 
-    browser_test.py GROVE GL_PAGE      GL_PAGE: gl_page.ts, bundled
+    browser_test.py GROVE      GROVE_GL_PAGE of the environment: gl_page.ts, bundled
 
 Exit codes: 0 passed, 1 failed, 77 there is no Chromium here.
 """
-import html
 import json
 import os
-import re
-import subprocess
-import sys
-import tempfile
-import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from pages import CHOSEN, COLLISION, DATA, MOVING, Chromium, PageTest, main
 
-from browser import CHROMIUM, is_blank, shares, visit  # noqa: E402
-
-GROVE = Path("build/release/bin/grove")
-GL_PAGE = Path("build/release/tests/tools/view/gl_page.js")
-SKIPPED = 77
-DATA = Path(__file__).resolve().parents[3] / "benchmarks/data"
-MOVING = (0x00, 0x72, 0xB2)
-COLLISION = (0xD0, 0x02, 0x1B)
-CHOSEN = (0xB4, 0x00, 0x9E)
+GL_PAGE = Path(os.environ.get("GROVE_GL_PAGE", "build/release/tests/tools/view/gl_page.js"))
+DARK_MOVING = (0x56, 0xB4, 0xE9)
 
 
-def dump(page, *options):
-    """The page's document after its scripts have run."""
-    with tempfile.TemporaryDirectory() as folder:
-        command = [CHROMIUM, "--headless", *options, f"--user-data-dir={folder}", *(["--no-sandbox"] if os.getuid() == 0 else []),
-                   "--dump-dom", page.as_uri()]
-        return subprocess.run(command, capture_output=True, text=True, check=True, timeout=120).stdout
-
-
-class Browser(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def page(self, instance, *plans):
-        subprocess.run([GROVE, "view", instance, *plans, "-o", self.folder / "page.html"], check=True,
-                       stdout=subprocess.DEVNULL)
-        return self.folder / "page.html"
-
-    def solved(self, name):
-        plan = self.folder / f"{name}.plan.json"
-        subprocess.run([GROVE, "solve", DATA / f"{name}.cts.json", "--quiet", "--output", plan], check=True)
-        return plan
-
-    def see(self, page, **how):
-        seen = visit(page, **how)
-        self.assertEqual(seen.console, [])
-        self.assertEqual(seen.requests, set())
-        self.assertFalse(is_blank(seen.picture))
-        return shares(seen.picture)
-
+class Browser(PageTest):
     def test_plans_of_all_kinds_of_worlds(self):
         for name in ("first", "shop", "yard", "empty-32x32_n5_m10"):
             with self.subTest(name):
@@ -69,45 +26,30 @@ class Browser(unittest.TestCase):
                     self.assertGreater(seen.get(MOVING, 0), 0)
                     self.assertLess(seen.get(COLLISION, 0), 0.01)
 
-    def test_two_plans_and_none(self):
-        plan = self.solved("shop")
-        self.see(self.page(DATA / "shop.cts.json", plan, plan), size=(1280, 800))
-        self.see(self.page(DATA / "shop.cts.json"), size=(1280, 800))
+    def test_dark_and_light(self):
+        page = self.page(DATA / "first.cts.json", self.solved("first"))
+        for scheme, floor, moving in (("light", (255, 255, 255), MOVING), ("dark", (0x1B, 0x20, 0x28), DARK_MOVING)):
+            self.browser.prefer(prefers_color_scheme=scheme)
+            seen = self.see(page)
+            self.assertGreater(seen.get(floor, 0), 0.3)
+            self.assertGreater(seen.get(moving, 0), 0.001)
+        self.browser.prefer(prefers_color_scheme="light")
+
+    def test_none(self):
+        self.see(self.page(DATA / "shop.cts.json"))
+        self.assertEqual(self.text(".controls"), "")
 
     def test_a_link_names_a_moment_and_a_robot(self):
         page = self.page(DATA / "shop.cts.json", self.solved("shop"))
-        self.assertLess(self.see(page, size=(1280, 800)).get(CHOSEN, 0), 0.001)
-        self.assertGreater(self.see(page, size=(1280, 800), fragment="#t=8&agent=blue").get(CHOSEN, 0), 0.003)
-
-    def test_a_collision_is_red_at_its_moment(self):
-        instance = self.folder / "meet.cts.json"
-        (self.folder / "m.map").write_text("type octile\nheight 1\nwidth 5\nmap\n.....\n", encoding="utf-8")
-        instance.write_text(json.dumps({"map": "m.map", "tasks": [], "agents": [
-            {"id": "a", "start": [0, 0], "goal": [4, 0]}, {"id": "b", "start": [4, 0], "goal": [0, 0]}]}),
-            encoding="utf-8")
-        plan = self.folder / "meet.txt"
-        plan.write_text("Agent 0: (0,0)->(0,1)->(0,2)->(0,3)->(0,4)->\nAgent 1: (0,4)->(0,3)->(0,2)->(0,1)->(0,0)->\n",
-                        encoding="utf-8")
-        page = self.page(instance, plan)
-        red = {t: self.see(page, size=(1280, 800), fragment=f"#t={t}").get(COLLISION, 0) for t in (0, 1, 2, 3, 4)}
-        self.assertGreater(red[2], 10 * max(red[0], red[1], red[3], red[4]))
-
-    def test_ids_are_no_markup(self):
-        instance = self.folder / "bad.cts.json"
-        (self.folder / "m.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n", encoding="utf-8")
-        evil = "</script><script>console.error('run')</script><img src=x onerror=console.error('run')>"
-        instance.write_text(json.dumps({"map": "m.map",
-            "agents": [{"id": evil, "start": [0, 0], "goal": [2, 0]}],
-            "tasks": [{"id": evil + "t", "cell": [1, 0], "agents": [evil]}]}), encoding="utf-8")
-        plan = self.folder / "p.json"
-        subprocess.run([GROVE, "solve", instance, "--quiet", "--output", plan], check=True)
-        self.see(self.page(instance, plan), size=(1280, 800), fragment="#t=1&agent=" + "%3Cscript%3E")
+        self.assertLess(self.see(page).get(CHOSEN, 0), 0.001)
+        self.assertGreater(self.see(page, fragment="#t=8&agent=blue").get(CHOSEN, 0), 0.002)
 
     def test_robots_by_webgl(self):
         page = self.folder / "gl.html"
         page.write_text(f"<body><script>{GL_PAGE.read_text(encoding='utf-8')}</script></body>", encoding="utf-8")
-        text = dump(page, "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-        found = json.loads(html.unescape(re.search(r'<pre id="result">(.*?)</pre>', text, re.S).group(1)))
+        with Chromium("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader") as browser:
+            browser.open(page)
+            found = json.loads(browser.evaluate("document.querySelector('#result').textContent"))
         opaque = {name: f"{r},{g},{b},255" for name, (r, g, b) in
                   {"moving": MOVING, "resting": (0x8A, 0x92, 0x9C), "collision": COLLISION, "heading": (0x1C, 0x21, 0x28)}.items()}
         self.assertEqual(found["pixels"], {
@@ -117,17 +59,123 @@ class Browser(unittest.TestCase):
             "a rests": opaque["resting"]})
         print(f"10,000 robots by WebGL: {found['milliseconds']:.1f} ms a frame (no graphics card here)")
 
-    def test_data_that_is_spoilt_is_told(self):
-        page = self.page(DATA / "first.cts.json", self.solved("first"))
-        page.write_text(page.read_text(encoding="utf-8").replace('"grove view 1"', '"grove view 2"', 1), encoding="utf-8")
-        self.assertLess(self.see(page, size=(1280, 800)).get(MOVING, 0), 0.0001)
+    def test_the_keyboard_alone_is_enough(self):
+        self.open(self.page(DATA / "shop.cts.json", self.solved("shop")))
+        self.browser.key("?")
+        self.assertTrue(self.evaluate("document.querySelector('dialog').open"))
+        self.browser.key("n")
+        self.assertEqual(self.text(".details h2"), "", "keys act on the list of keys only")
+        self.browser.key("?")
+        self.assertFalse(self.evaluate("document.querySelector('dialog').open"))
+        self.browser.key("n")
+        self.browser.key("f")
+        self.browser.settle()
+        self.assertEqual(self.text(".details h2"), "red")
+        self.assertTrue(self.evaluate("grove.app.following"))
+        # Every control is come to by the tab key, and each is seen to be.
+        reached = set()
+        for _ in range(60):
+            self.browser.key("Tab")
+            reached.add(self.evaluate("(e => e.tagName + ' ' + (e.title || e.ariaLabel || e.textContent))(document.activeElement)"))
+            outlined = self.evaluate("document.activeElement === document.body || getComputedStyle(document.activeElement).outlineStyle !== 'none'")
+            self.assertTrue(outlined)
+        controls = self.evaluate("[...document.querySelectorAll('button, select, input')].filter((e) => e.checkVisibility())"
+                                 ".map((e) => e.tagName + ' ' + (e.title || e.ariaLabel || e.textContent))")
+        self.assertGreater(len(controls), 15)
+        self.assertEqual(set(controls) - reached, set())
+        # Keys in a list of choices are for it.
+        before = self.evaluate("grove.app.player.time")
+        self.evaluate("document.querySelector('select').focus()")
+        self.browser.key("ArrowRight")
+        self.assertEqual(self.evaluate("grove.app.player.time"), before)
+        self.assert_silent()
+
+
+class TwoPlans(PageTest):
+    """Side by side, with what differs."""
+
+    def both(self, one, other):
+        """Robots a, b and c, in two plans; b differs. None: a file without a plan."""
+        instance = self.grid(8, 3, [{"id": name, "start": [0, y]} for y, name in enumerate("abc")],
+                             [{"id": "t", "cell": [1, 1], "agents": ["b"]}, {"id": "u", "cell": [2, 1], "agents": ["b"]}])
+        sequence = {"b": ["t", "u"]}
+        files = []
+        for name, paths in (("one", one), ("two", other)):
+            file = self.plan(paths or {}, name=f"{name}.json", sequence=sequence)
+            if paths is None:
+                file.write_text(json.dumps({"status": "unknown", "lower_bound": 3, "omega": 0}), encoding="utf-8")
+            files.append(file)
+        return self.page(instance, *files)
+
+    @staticmethod
+    def row(y, *xs):
+        return [[x, y] for x in xs]
+
+    def good(self, **changes):
+        return {"a": self.row(0, 0, 1, 2), "b": self.row(1, 0, 1, 2), "c": self.row(2, 0, 1), **changes}
+
+    def open_both(self, one, other):
+        self.open(self.both(one, other))
+        self.wait_until_known()
+        self.assert_silent()
+
+    def test_who_differs_by_how_much_and_from_when_on(self):
+        self.open_both(self.good(), self.good(b=self.row(1, 0, 0, 0, 1, 2), c=self.row(2, 0, 0, 1)))
+        self.assertIn("2 of 3 robots differ. two.json costs 3 more than one.json.", self.text(".filters"))
+        self.assertEqual(self.texts(".row"), ["b2 → 4 (+2)", "c1 → 2 (+1)"])
+        self.assertEqual(self.texts(".pair .moment"), ["1", "1"])
+        self.assertIn("cost 8 (+3, +60 %)", self.texts(".plan .claim"))
+        self.choose_option("In which order", "name")
+        self.assertEqual(self.texts(".row")[0], "b2 → 4 (+2)")
+
+    def test_a_row_chooses_in_both_and_its_moment_leads_to_the_parting(self):
+        self.open_both(self.good(), self.good(b=self.row(1, 0, 1, 1, 2)))
+        self.press("b", ".pair .row")
+        self.assertEqual(self.text(".details h2"), "b")
+        self.assertEqual(self.evaluate("grove.app.player.time"), 0)
+        self.assertIn("It costs +1 in the second plan.", self.text(".details"))
+        self.assertEqual(self.texts(".visits .moment"), ["1", "1", "2", "3"])
+        self.press("2", ".pair .moment")
+        self.assertEqual(self.evaluate("grove.app.player.time"), 2)
+        # Its path of both, in both: in its colour and dashed, in that of text.
+        for stage in self.evaluate("grove.stages.map(({element}) => (({x, y, width, height}) => [x, y, width, height])"
+                                   "(element.getBoundingClientRect()))"):
+            x, y, width, height = map(round, stage)
+            seen = self.browser.look().crop((x, y, x + width, y + height)).getcolors(1 << 24)
+            self.assertGreater(dict((colour, count) for count, colour in seen).get(CHOSEN, 0), 100)
+        self.assertNotEqual(*(self.evaluate(f"JSON.stringify([...grove.stages[{i}].frame.xs])") for i in (0, 1)))
+
+    def test_another_order(self):
+        self.open_both(self.good(), self.good(b=[[0, 1], [0, 2], [1, 2], [2, 2], [2, 1], [1, 1]], c=[[0, 2], [0, 2]]))
+        self.assertIn("other order", self.texts(".row")[0])
+
+    def test_the_same_twice(self):
+        self.open_both(self.good(), self.good())
+        self.assertIn("0 of 3 robots differ. Both plans cost the same.", self.text(".filters"))
+        self.assertIn("every robot does the same", self.text(".rows"))
+        self.browser.key("n")
+        self.browser.settle()
+        self.assertIn("the same in both", self.text(".details"))
+
+    def test_a_robot_without_a_path(self):
+        self.open_both(self.good(), self.good(a=[]))
+        self.assertIn("cannot be compared", self.text(".filters"))
+        self.assertEqual(self.texts(".row"), ["a2 → no path"])
+        self.press("a", ".pair .row")
+        self.assertIn("It has no path.", self.text(".details"))
+
+    def test_a_file_without_a_plan(self):
+        self.open_both(self.good(), None)
+        self.assertEqual(self.evaluate("grove.stages.length"), 1)
+        self.assertIn("no plan in this file", self.text(".strip"))
+
+    def test_plans_of_other_lengths_play_in_step(self):
+        self.open_both(self.good(), self.good(c=self.row(2, 0, *[0] * 20, 1)))
+        self.assertTrue(self.text(".clock").endswith("/ 21"))
+        self.browser.key("End")
+        self.browser.settle()
+        self.assertEqual(self.evaluate("grove.stages.map((s) => s.frame.time)"), [21, 21])
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
-        GROVE = Path(sys.argv.pop(1)).resolve()
-        GL_PAGE = Path(sys.argv.pop(1)).resolve()
-    if CHROMIUM is None:
-        print("skipped: there is no chromium-headless-shell and no chromium")
-        sys.exit(SKIPPED)
-    unittest.main()
+    main()

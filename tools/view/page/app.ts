@@ -2,34 +2,45 @@
 // What is shown: which plans, which moment, which robot. Panels read it, change it by its methods,
 // and are told when something other than time has changed.
 
+import { Checker, type Violation } from "./check";
+import { compare, type Comparison } from "./compare";
 import { planFacts, type PlanFacts } from "./facts";
+import type { Heat } from "./heat";
 import type { Model, Plan } from "./model";
 import { Player } from "./player";
-import { Checker, type Violation } from "./check";
+import { Waits } from "./waiting";
 
 export interface Viewed {
   plan: Plan;
   facts: PlanFacts;
   checker: Checker;
+  waits: Waits;
 }
-
-export type Heat = "none" | "traffic" | "waits" | "yields";
 
 export class App {
   readonly player: Player;
-  readonly viewed: Viewed[]; // those with paths, each with its own facts
+  readonly viewed: Viewed[]; // those with paths, each with its own facts; two at most
   chosen = -1; // a robot
   chosenTask = -1;
   following = false;
   heat: Heat = "none";
   labels = true;
   private readonly listeners: (() => void)[] = [];
+  private compared: Comparison | null = null;
 
   constructor(readonly model: Model) {
     this.viewed = model.plans
       .filter((plan) => plan.agents.length > 0)
-      .map((plan) => ({ plan, facts: planFacts(model, plan), checker: new Checker(model, plan) }));
+      .slice(0, 2)
+      .map((plan) => view(model, plan));
     this.player = new Player(Math.max(0, ...this.viewed.map((v) => v.plan.end)));
+  }
+
+  // Of two plans; null: there are no two.
+  get comparison(): Comparison | null {
+    if (this.viewed.length < 2) return null;
+    this.compared ??= compare(this.model, this.viewed[0], this.viewed[1]);
+    return this.compared;
   }
 
   onChange(listener: () => void): void {
@@ -38,6 +49,15 @@ export class App {
 
   changed(): void {
     for (const listener of this.listeners) listener();
+  }
+
+  // What takes longer than a frame, for about so long: what is wrong, then who waits for whom.
+  work(milliseconds: number): void {
+    const task = this.viewed.find(({ checker }) => !checker.done)?.checker ??
+      this.viewed.find(({ waits }) => !waits.done)?.waits;
+    if (!task) return;
+    // Who waits for whom is painted (heat) and told.
+    if (task.step(milliseconds)) this.changed();
   }
 
   choose(agent: number): void {
@@ -59,10 +79,22 @@ export class App {
     this.changed();
   }
 
+  // To something that happens: the moment, and the robot it happens to.
+  show(time: number, agent: number): void {
+    this.player.playing = false;
+    this.player.go(time);
+    this.choose(agent);
+  }
+
   set(change: Partial<Pick<App, "following" | "heat" | "labels">>): void {
     Object.assign(this, change);
     this.changed();
   }
+}
+
+function view(model: Model, plan: Plan): Viewed {
+  const facts = planFacts(model, plan);
+  return { plan, facts, checker: new Checker(model, plan), waits: new Waits(model, plan, facts) };
 }
 
 // The violations that concern a robot; all for none.

@@ -3,6 +3,7 @@
 // data alone: each robot by itself, then all of them through time on one map of who is where, then
 // what the file claims. The page believes no verdict but its own.
 
+import { Crowd, type ReportCollision } from "./crowd";
 import { finish } from "./facts";
 import type { Agent, AgentPlan, Angle, Model, Plan, WorkTime } from "./model";
 import type { Track, TurnTrack } from "./track";
@@ -77,11 +78,11 @@ export class Checker {
     const plan = this.plan.agents[index];
     const agent = this.model.agents[index];
     if (plan.track.isEmpty) {
-      this.add("path", 0, [index], -1, `${agent.id} has no path`);
+      this.add("path", 0, [index], -1, `${agent.name} has no path`);
       return;
     }
     const check = new AgentCheck(this.model, agent, plan, (kind, time, text, place) =>
-      this.add(kind, time, [index], place, `${agent.id} ${text}`));
+      this.add(kind, time, [index], place, `${agent.name} ${text}`));
     yield* check.run();
   }
 
@@ -91,7 +92,7 @@ export class Checker {
     const report: ReportCollision = (kind, time, a, b) =>
       this.reportCollision(kind, time, a, b, crowd.here[b]);
     for (let time = 0; time <= this.end; ++time) {
-      crowd.check(time, report);
+      crowd.advance(report);
       yield;
     }
   }
@@ -99,7 +100,7 @@ export class Checker {
   private reportCollision(
     kind: "vertex" | "swap", time: number, a: number, b: number, place: number,
   ): void {
-    const [first, second] = [this.model.agents[a].id, this.model.agents[b].id];
+    const [first, second] = [this.model.agents[a].name, this.model.agents[b].name];
     const where = this.model.world.place(place);
     const text = kind === "vertex"
       ? `${first} and ${second} are both on ${where}`
@@ -121,78 +122,6 @@ export class Checker {
     if (wrong) this.add("claim", this.end, [], -1, wrong);
   }
 }
-
-type ReportCollision = (kind: "vertex" | "swap", time: number, a: number, b: number) => void;
-
-// All robots, moved through time together: where each is, and who is on a place. A step of a robot
-// is an addition; only where its run of equal steps ends its track is looked at.
-class Crowd {
-  readonly here: Int32Array; // by agent; -1: it has no path
-  private readonly before: Int32Array;
-  private readonly delta: Int32Array;
-  private readonly until: Int32Array; // when the run ends that delta is of
-  private readonly runs: Int32Array; // the next one
-  private readonly occupant: Int32Array; // by place, valid where its stamp is that of a time
-  private readonly stamp: Int32Array;
-
-  constructor(
-    private readonly plan: Plan,
-    places: number,
-  ) {
-    const { agents } = plan;
-    this.here = Int32Array.from(agents, ({ track }) => (track.isEmpty ? -1 : track.places[0]));
-    this.before = Int32Array.from(this.here);
-    this.delta = new Int32Array(agents.length);
-    this.until = new Int32Array(agents.length);
-    this.runs = new Int32Array(agents.length);
-    this.occupant = new Int32Array(places);
-    this.stamp = new Int32Array(places).fill(-1);
-  }
-
-  // Called for each time, from 0 on.
-  check(time: number, report: ReportCollision): void {
-    const { here, before, occupant, stamp } = this;
-    if (time > 0) this.move(time);
-    // Until this moment is stamped, occupants are those of the moment before.
-    for (let i = 0; i < here.length; ++i) {
-      const to = here[i];
-      if (to === before[i] || stamp[to] !== time - 1) continue;
-      const other = occupant[to];
-      if (other < i && before[other] === to && here[other] === before[i])
-        report("swap", time, other, i);
-    }
-    for (let i = 0; i < here.length; ++i) {
-      const place = here[i];
-      if (place < 0) continue;
-      if (stamp[place] === time) {
-        // Once for each encounter, however long it lasts.
-        const other = occupant[place];
-        if (time === 0 || before[other] !== before[i]) report("vertex", time, other, i);
-      }
-      stamp[place] = time;
-      occupant[place] = i;
-    }
-  }
-
-  private move(time: number): void {
-    const { here, before, delta, until } = this;
-    before.set(here);
-    for (let i = 0; i < here.length; ++i) {
-      if (time > until[i]) this.beginRun(i);
-      here[i] += delta[i];
-    }
-  }
-
-  private beginRun(agent: number): void {
-    const { track } = this.plan.agents[agent];
-    const run = this.runs[agent]++;
-    const isAtRest = run >= track.runs;
-    this.delta[agent] = isAtRest ? 0 : track.deltas[run];
-    this.until[agent] = isAtRest ? kNever : track.times[run + 1];
-  }
-}
-
-const kNever = 0x7fffffff;
 
 // What status, bound and omega deserve.
 function wrongClaim(plan: Plan, cost: number): string | null {
@@ -344,7 +273,7 @@ class AgentCheck {
       working !== null && w.task === working.task && w.begin === -working.done;
     if (working && !this.plan.work.some(goesOn))
       this.report("work", 0,
-        `does not go on with ${this.model.tasks[working.task].id}, at which it starts`, -1);
+        `does not go on with ${this.model.tasks[working.task].name}, at which it starts`, -1);
   }
 
   // In order of begin each piece need only be compared with the one that has lasted longest.
@@ -359,28 +288,28 @@ class AgentCheck {
   }
 
   private taskName(piece: WorkTime): string {
-    return this.model.tasks[piece.task].id;
+    return this.model.tasks[piece.task].name;
   }
 
   private checkPiece(piece: WorkTime): void {
     const task = this.model.tasks[piece.task];
     if (!this.agent.tasks.includes(piece.task) || task.duration === 0) {
-      this.report("work", piece.begin, `works on ${task.id}, which is no work of its own`, -1);
+      this.report("work", piece.begin, `works on ${task.name}, which is no work of its own`, -1);
       return;
     }
     if (piece.end - piece.begin !== task.duration)
       this.report("work", piece.begin,
-        `works on ${task.id} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`,
+        `works on ${task.name} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`,
         task.place);
     const { working } = this.agent;
     const begun = working !== null && working.task === piece.task && working.done === -piece.begin;
     if (piece.begin < 0 && !begun)
-      this.report("work", 0, `begins ${task.id} before the start`, task.place);
+      this.report("work", 0, `begins ${task.name} before the start`, task.place);
     if (piece.end < 0) return;
     const first = Math.max(0, piece.begin);
     if (this.place(first) !== task.place)
       this.report("work", first,
-        `works on ${task.id} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`,
+        `works on ${task.name} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`,
         this.place(first));
     this.checkStill(first, piece);
   }
@@ -412,7 +341,7 @@ class AgentCheck {
       const task = this.model.tasks[index];
       if (this.visit(index, 0) === Infinity)
         this.report("visit", this.plan.track.end,
-          `never ${task.duration > 0 ? "does" : "visits"} ${task.id} on ${this.name(task.place)}`,
+          `never ${task.duration > 0 ? "does" : "visits"} ${task.name} on ${this.name(task.place)}`,
           task.place);
       yield;
     }
@@ -441,7 +370,7 @@ class AgentCheck {
       now = this.visit(task, now);
       if (now !== Infinity) continue;
       this.report("order", this.plan.track.end,
-        `does not visit ${this.model.tasks[task].id} in this order`, -1);
+        `does not visit ${this.model.tasks[task].name} in this order`, -1);
       return;
     }
     this.checkLastOfOrder(order);
@@ -456,7 +385,7 @@ class AgentCheck {
     const last = this.model.tasks[order[order.length - 1]];
     if (this.place(end) !== last.place)
       this.report("order", end,
-        `ends on ${this.name(this.place(end))}, not on ${last.id}, the last of its order`,
+        `ends on ${this.name(this.place(end))}, not on ${last.name}, the last of its order`,
         this.place(end));
   }
 }

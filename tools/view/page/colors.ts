@@ -14,7 +14,8 @@ export interface Colors {
   text: string;
   faint: string;
   doing: string[]; // by Doing
-  onRobot: string;
+  onRobot: string; // text on robots that move or collide
+  onPale: string; // and on all others, which are brighter
   heading: string;
   collision: string;
   chosen: string;
@@ -23,6 +24,7 @@ export interface Colors {
   taskOpen: string;
   taskBegun: string;
   taskDone: string;
+  onTask: string;
   heat: string;
 }
 
@@ -36,9 +38,10 @@ export const kLight: Colors = {
   vertex: "#8b949e",
   arrow: "#6b7480",
   text: "#1c2128",
-  faint: "#7d8590",
+  faint: "#656d76",
   doing: ["#0072b2", "#e69f00", "#009e73", "#8a929c"],
   onRobot: "#ffffff",
+  onPale: "#1c2128",
   heading: "#1c2128",
   collision: "#d0021b",
   chosen: "#b4009e",
@@ -47,6 +50,7 @@ export const kLight: Colors = {
   taskOpen: "#fff3c4",
   taskBegun: "#f0e442",
   taskDone: "#d7dbe0",
+  onTask: "#1c2128",
   heat: "#d55e00",
 };
 
@@ -63,6 +67,7 @@ export const kDark: Colors = {
   faint: "#8b949e",
   doing: ["#56b4e9", "#e69f00", "#2fc79a", "#7d8590"],
   onRobot: "#0b0e13",
+  onPale: "#0b0e13",
   heading: "#ffffff",
   collision: "#ff5c5c",
   chosen: "#ff7ad9",
@@ -71,5 +76,6 @@ export const kDark: Colors = {
   taskOpen: "#4a4020",
   taskBegun: "#b8ac2e",
   taskDone: "#2f353e",
+  onTask: "#ffffff",
   heat: "#ff8c42",
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What one wants to know of a plan, worked out from its paths: who does what when, which visits are
-// made by when, and who waits for whom.
+// What one wants to know of a plan, worked out from its paths: who does what when, and which visits
+// are made by when.
 
 import type { Agent, AgentPlan, Model, Plan } from "./model";
 
@@ -114,6 +114,7 @@ export function visitTime(model: Model, plan: AgentPlan, task: number): number {
 export interface TaskFacts {
   agents: number[]; // in the order of their visits
   times: number[]; // of the visits, ascending; Infinity: never
+  begin: number; // when the first of them is there, or begins to work; Infinity: never
 }
 
 export interface PlanFacts {
@@ -132,7 +133,10 @@ export function planFacts(model: Model, plan: Plan): PlanFacts {
       const visits = task.agents
         .map((agent) => ({ agent, time: visitTime(model, plan.agents[agent], index) }))
         .sort((a, b) => a.time - b.time || a.agent - b.agent);
-      return { agents: visits.map((v) => v.agent), times: visits.map((v) => v.time) };
+      const works = task.agents.flatMap((agent) => plan.agents[agent].work)
+        .filter((work) => work.task === index).map((work) => work.begin);
+      const begin = [...works, visits[0]?.time ?? Infinity].reduce((a, b) => Math.min(a, b));
+      return { agents: visits.map((v) => v.agent), times: visits.map((v) => v.time), begin };
     }),
     cost: finishes.reduce((sum, time) => sum + time, 0),
   };
@@ -145,38 +149,19 @@ export function visitsBy(facts: TaskFacts, time: number): number {
   return count;
 }
 
-export interface Wait {
-  begin: number;
-  end: number;
-  place: number;
-  for: number[]; // who was where it went next, meanwhile
+export interface Visit {
+  task: number;
+  begin: number; // at work from then on; where there is no work, the moment it passes
+  time: number; // when the task is visited; Infinity: never
 }
 
-// The waits of an agent, and whom it lets pass: who is on the place that it goes to next at some
-// time when it could have come there, or comes from there to its own.
-export function waits(plan: Plan, agent: number, all: Span[]): Wait[] {
-  const { track } = plan.agents[agent];
-  return all
-    .filter((span) => span.doing === Doing.kWaiting)
-    .map((span) => {
-      const place = track.place(span.begin);
-      const next = track.place(span.end + 1);
-      const passing: number[] = [];
-      plan.agents.forEach((other, index) => {
-        if (index === agent || other.track.isEmpty) return;
-        for (let t = span.begin + 1; t <= span.end; ++t)
-          if (other.track.place(t) === next && next !== place) {
-            passing.push(index);
-            return;
-          }
-      });
-      return { begin: span.begin, end: span.end, place, for: passing };
-    });
-}
-
-// In which order the agent's tasks are visited.
-export function visitsOf(model: Model, plan: AgentPlan, agent: Agent): { task: number; time: number }[] {
+// The agent's visits in their order.
+export function visitsOf(model: Model, plan: AgentPlan, agent: Agent): Visit[] {
   return agent.tasks
-    .map((task) => ({ task, time: visitTime(model, plan, task) }))
+    .map((task) => {
+      const time = visitTime(model, plan, task);
+      const work = plan.work.find((w) => w.task === task);
+      return { task, time, begin: work ? Math.max(0, work.begin) : time };
+    })
     .sort((a, b) => a.time - b.time || a.task - b.task);
 }

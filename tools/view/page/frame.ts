@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Everything that moves, at a moment: where each robot is, which way it looks, what it does, and
-// whether it collides. O(robots), whatever the length of the plan.
+// whether it collides or does what it may not. O(robots), whatever the length of the plan.
 
+import type { Violation } from "./check";
 import { Doing, type PlanFacts } from "./facts";
+import { Faults } from "./faults";
 import type { Model, Plan } from "./model";
 
 export class Frame {
@@ -12,22 +14,25 @@ export class Frame {
   readonly ys: Float32Array;
   readonly angles: Float32Array; // clockwise from up, in radians; NaN: turns freely
   readonly doing: Uint8Array;
-  readonly colliding: Uint8Array;
+  readonly colliding: Uint8Array; // or else at fault
   readonly missing: Uint8Array; // no path: not drawn
 
   private readonly runs: Int32Array; // by agent: where it was last
   private readonly spanAt: Int32Array;
-  private readonly here: Int32Array; // places at the step before, and after
+  private readonly before: Int32Array; // places a step ago, at the step, and after it
+  private readonly here: Int32Array;
   private readonly next: Int32Array;
   private readonly occupant: Int32Array; // by place
   private readonly stamp: Int32Array;
   private stamps = 0;
   private step = -1; // of which here and next are
+  private readonly faults: Faults;
 
   constructor(
     private readonly model: Model,
     readonly plan: Plan,
     private readonly facts: PlanFacts,
+    private readonly violations: Violation[] = [],
   ) {
     const count = plan.agents.length;
     this.count = count;
@@ -39,10 +44,12 @@ export class Frame {
     this.missing = Uint8Array.from(plan.agents, (agent) => (agent.track.isEmpty ? 1 : 0));
     this.runs = new Int32Array(count);
     this.spanAt = new Int32Array(count);
+    this.before = new Int32Array(count);
     this.here = new Int32Array(count);
     this.next = new Int32Array(count);
     this.occupant = new Int32Array(model.world.places);
     this.stamp = new Int32Array(model.world.places);
+    this.faults = new Faults(count);
   }
 
   update(time: number): void {
@@ -61,6 +68,7 @@ export class Frame {
       this.angles[i] = turns ? (turns.angle(time) * Math.PI) / (2 * turns.turnSteps) : NaN;
     }
     this.findCollisions(part);
+    this.faults.mark(this.violations, time, this.colliding);
   }
 
   // The robot nearest to a point of the world, closer than `reach`; -1: none.
@@ -81,6 +89,7 @@ export class Frame {
       const { track } = this.plan.agents[i];
       if (track.isEmpty) continue;
       this.runs[i] = track.run(step, this.runs[i]);
+      this.before[i] = track.place(Math.max(0, step - 1));
       this.here[i] = track.place(step, this.runs[i]);
       this.next[i] = track.place(step + 1, this.runs[i]);
       this.doing[i] = this.doingAt(i, step);
@@ -97,12 +106,13 @@ export class Frame {
   }
 
   // On one place at this step, or, on the way to the next one, exchanging places or coming to one
-  // place: so a collision is seen coming and stays until it is over.
+  // place: so a collision is seen coming and stays until it is over. Who steps from moment to
+  // moment sees an exchange at its end.
   private findCollisions(part: number): void {
     this.colliding.fill(0);
     this.meet(this.here);
-    if (part === 0) return;
-    this.findSwaps();
+    if (part === 0) this.findSwaps(this.before, this.here);
+    else this.findSwaps(this.here, this.next);
     if (part >= 0.5) this.meet(this.next);
   }
 
@@ -120,17 +130,17 @@ export class Frame {
     }
   }
 
-  private findSwaps(): void {
+  private findSwaps(from: Int32Array, to: Int32Array): void {
     const mark = ++this.stamps;
     for (let i = 0; i < this.count; ++i) {
       if (this.missing[i]) continue;
-      this.stamp[this.here[i]] = mark;
-      this.occupant[this.here[i]] = i;
+      this.stamp[from[i]] = mark;
+      this.occupant[from[i]] = i;
     }
     for (let i = 0; i < this.count; ++i) {
-      if (this.missing[i] || this.here[i] === this.next[i]) continue;
-      const other = this.stamp[this.next[i]] === mark ? this.occupant[this.next[i]] : -1;
-      if (other >= 0 && other !== i && this.next[other] === this.here[i])
+      if (this.missing[i] || from[i] === to[i]) continue;
+      const other = this.stamp[to[i]] === mark ? this.occupant[to[i]] : -1;
+      if (other >= 0 && other !== i && to[other] === from[i])
         this.colliding[i] = this.colliding[other] = 1;
     }
   }

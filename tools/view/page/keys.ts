@@ -3,14 +3,16 @@
 
 import type { App } from "./app";
 import type { Camera } from "./camera";
+import type { Help } from "./panels/help";
 
 export interface Keys {
   app: App;
   cameras: Camera[];
   search: HTMLElement;
+  help: Help;
 }
 
-export function listenToKeys({ app, cameras, search }: Keys): void {
+export function listenToKeys({ app, cameras, search, help }: Keys): void {
   const zoom = (factor: number) => {
     for (const camera of cameras) camera.zoom(factor, camera.width / 2, camera.height / 2);
   };
@@ -18,6 +20,10 @@ export function listenToKeys({ app, cameras, search }: Keys): void {
     for (const camera of cameras) camera.pan(dx * 80, dy * 80);
   };
   const { player } = app;
+  const next = (by: number) => {
+    const count = app.model.agents.length;
+    if (count > 0) app.choose((Math.max(app.chosen, by > 0 ? -1 : 0) + by + count) % count);
+  };
   const acts: Record<string, () => void> = {
     " ": () => player.toggle(),
     ArrowRight: () => player.step(1),
@@ -41,15 +47,18 @@ export function listenToKeys({ app, cameras, search }: Keys): void {
       for (const camera of cameras) camera.fit();
     },
     f: () => (app.following = app.chosen >= 0 && !app.following),
-    n: () => app.choose((app.chosen + 1) % app.model.agents.length),
-    p: () => app.choose((app.chosen + app.model.agents.length - 1) % app.model.agents.length),
+    n: () => next(1),
+    p: () => next(-1),
     Escape: () => app.choose(-1),
     "/": () => search.focus(),
+    "?": () => help.toggle(),
   };
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target as HTMLElement;
+    if (help.element.open && event.key !== "?") return;
     if (target instanceof HTMLInputElement && target.type === "search") return;
+    if (target instanceof HTMLSelectElement) return;
     if (target instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter")) return;
     const act = acts[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act) return;

@@ -61,7 +61,7 @@ export class Minimap {
       if (canvas.width !== width) canvas.width = width;
       if (canvas.height !== height) canvas.height = height;
     }
-    this.scenery.paint(this.camera, frame.time, { ...shown, heat: null, path: null }, colors, ratio);
+    this.scenery.paint(this.camera, frame.time, { ...shown, heat: null, paths: null, labels: false }, colors, ratio);
     this.robots.paint(this.camera, frame, colors, ratio);
     const c = this.top.getContext("2d")!;
     const a = this.seen.toWorld(0, 0);

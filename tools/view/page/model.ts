@@ -35,6 +35,7 @@ export interface World {
 
 export interface Agent {
   id: string;
+  name: string; // the id as it is shown
   start: number;
   goal: number; // -1: none
   turnSteps: number; // 0: turns freely
@@ -46,6 +47,7 @@ export interface Agent {
 
 export interface Task {
   id: string;
+  name: string;
   place: number;
   agents: number[];
   duration: number;

@@ -3,6 +3,7 @@
 
 import { parse, type Value } from "./json";
 import type { Agent, AgentPlan, Claims, Model, Plan, Task, World } from "./model";
+import { nameOf } from "./names";
 import { readAngle, readTrack, readTurns, stepsOnGrid, stepsOnRoads } from "./track";
 import { readWorld } from "./world";
 
@@ -18,7 +19,7 @@ export function readModel(text: string): Model {
   const agents = data.key("agents").list().map((agent) => readAgent(agent, world, taskCount));
   const tasks = data.key("tasks").list().map((task, index) => readTask(task, index, world, agents));
   const plans = data.key("plans").list().map((plan) => readPlan(plan, world, agents, tasks));
-  return { instance: data.key("instance").text(), world, agents, tasks, plans };
+  return { instance: nameOf(data.key("instance").text()), world, agents, tasks, plans };
 }
 
 function readAgent(data: Value, world: World, taskCount: number): Agent {
@@ -30,6 +31,7 @@ function readAgent(data: Value, world: World, taskCount: number): Agent {
   if (turnSteps > 0 && world.kind !== "grid") turn.fail("no robot that turns on a roadmap");
   const agent: Agent = {
     id: data.key("id").text(),
+    name: nameOf(data.key("id").text()),
     start: data.key("start").integer(0, world.places),
     goal: goal.isThere ? goal.integer(0, world.places) : -1,
     turnSteps,
@@ -52,6 +54,7 @@ function readTask(data: Value, index: number, world: World, agents: Agent[]): Ta
   const duration = data.key("duration");
   const task: Task = {
     id: data.key("id").text(),
+    name: nameOf(data.key("id").text()),
     place: data.key("place").integer(0, world.places),
     agents: data.key("agents").list().map((agent) => agent.integer(0, agents.length)),
     duration: duration.isThere ? duration.integer(0, kMostTime) : 0,
@@ -67,7 +70,7 @@ function readPlan(data: Value, world: World, agents: Agent[], tasks: Task[]): Pl
   const plans = list.isThere
     ? list.list(agents.length).map((plan, i) => readAgentPlan(plan, world, agents[i], tasks)) : [];
   return {
-    name: data.key("name").text(),
+    name: nameOf(data.key("name").text()),
     claims: readClaims(data.key("claims")),
     agents: plans,
     end: plans.reduce((end, plan) => Math.max(end, endOf(plan)), 0),

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Whoever paints robots, and what is painted over them: their ids, and a ring around the one chosen.
+// Whoever paints robots, and what is painted over them: their ids, a ring around the one chosen, and
+// a dashed one where that robot is in the other plan.
 
+import type { Viewed } from "./app";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
+import { Doing } from "./facts";
 import type { Frame } from "./frame";
-import type { Model } from "./model";
+import type { Model, Point } from "./model";
+import { shortened } from "./names";
 import { isOutside, type Shown } from "./scenery";
+import { outlined } from "./text";
 
 export const kRadius = 0.34; // of a robot, in steps
-const kLeastLabeled = 22; // pixels of a step from which on robots have their ids
+const kLeastLabeled = 22; // pixels of a step from which on robots have their ids on them
+const kMostTags = 40; // robots in sight that have their ids beside them
+const kLongestLabel = 6;
+const kLongestTag = 14;
 
 // Paints all robots of a frame on a canvas of its own, which lies over the scenery.
 export interface RobotPainter {
@@ -21,12 +29,13 @@ export class Labels {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly model: Model,
+    private readonly other: Viewed | null, // the plan beside this one
   ) {}
 
   paint(camera: Camera, frame: Frame, shown: Shown, colors: Colors, ratio: number): void {
     const step = this.model.world.unit * camera.scale;
-    const labeled = shown.labels && step >= kLeastLabeled;
-    const nothing = !labeled && shown.chosen < 0;
+    const seen = shown.labels ? this.inSight(camera, frame, step) : [];
+    const nothing = seen.length === 0 && shown.chosen < 0;
     if (nothing && this.isClear) return;
     const c = this.canvas.getContext("2d")!;
     c.setTransform(1, 0, 0, 1, 0, 0);
@@ -34,37 +43,85 @@ export class Labels {
     this.isClear = nothing;
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     const radius = Math.max(1.5, kRadius * step);
-    if (labeled) this.paintIds(c, camera, frame, step, radius, colors);
-    if (shown.chosen >= 0 && !frame.missing[shown.chosen]) {
-      const p = camera.toView(frame.xs[shown.chosen], frame.ys[shown.chosen]);
-      paintRing(c, p.x, p.y, radius, colors);
-    }
+    if (step >= kLeastLabeled) this.paintIds(c, camera, frame, seen, step, radius, colors);
+    else for (const robot of seen) this.paintTag(c, camera, frame, robot, radius, colors);
+    if (shown.chosen >= 0) this.paintChosen(c, camera, frame, shown.chosen, step, colors);
   }
 
-  private paintIds(
-    c: CanvasRenderingContext2D, camera: Camera, frame: Frame, step: number, radius: number,
-    colors: Colors,
-  ): void {
-    c.fillStyle = colors.onRobot;
-    c.font = `600 ${Math.min(15, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
-    c.textAlign = "center";
-    c.textBaseline = "middle";
+  // Those that have their ids: none if there are too many for so little room.
+  private inSight(camera: Camera, frame: Frame, step: number): number[] {
+    const most = step >= kLeastLabeled ? Infinity : kMostTags;
+    const seen: number[] = [];
     for (let i = 0; i < frame.count; ++i) {
       if (frame.missing[i]) continue;
       const p = camera.toView(frame.xs[i], frame.ys[i]);
-      if (isOutside(p.x, p.y, radius, camera)) continue;
-      const { id } = this.model.agents[i];
-      c.fillText(id.length > 6 ? id.slice(0, 5) + "…" : id, p.x, p.y + 0.5, 2.4 * radius);
+      if (isOutside(p.x, p.y, step, camera)) continue;
+      if (seen.push(i) > most) return [];
     }
+    return seen;
+  }
+
+  private paintIds(
+    c: CanvasRenderingContext2D, camera: Camera, frame: Frame, seen: number[], step: number,
+    radius: number, colors: Colors,
+  ): void {
+    c.font = `600 ${Math.min(15, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
+    c.textAlign = "center";
+    c.textBaseline = "middle";
+    for (const i of seen) {
+      const p = camera.toView(frame.xs[i], frame.ys[i]);
+      const isDark = frame.colliding[i] || frame.doing[i] === Doing.kMoving;
+      c.fillStyle = isDark ? colors.onRobot : colors.onPale;
+      c.fillText(shortened(this.model.agents[i].name, kLongestLabel), p.x, p.y + 0.5, 1.8 * radius);
+    }
+  }
+
+  private paintTag(
+    c: CanvasRenderingContext2D, camera: Camera, frame: Frame, robot: number, radius: number,
+    colors: Colors, color = colors.text,
+  ): void {
+    const p = camera.toView(frame.xs[robot], frame.ys[robot]);
+    const name = shortened(this.model.agents[robot].name, kLongestTag);
+    c.font = `${color === colors.text ? "" : "700 "}10px system-ui, sans-serif`;
+    c.textAlign = "center";
+    c.textBaseline = "bottom";
+    const half = c.measureText(name).width / 2 + 2;
+    const x = Math.min(camera.width - half, Math.max(half, p.x));
+    outlined(c, name, x, Math.max(12, p.y - radius - 2), color, colors.floor);
+  }
+
+  private paintChosen(
+    c: CanvasRenderingContext2D, camera: Camera, frame: Frame, robot: number, step: number,
+    colors: Colors,
+  ): void {
+    const radius = Math.max(7, Math.max(1.5, kRadius * step) + 3);
+    const elsewhere = this.inOtherPlan(robot, frame.time);
+    if (elsewhere) paintRing(c, camera.toView(elsewhere.x, elsewhere.y), radius, colors.text, [4, 3]);
+    if (frame.missing[robot]) return;
+    const p = camera.toView(frame.xs[robot], frame.ys[robot]);
+    paintRing(c, p, radius, colors.chosen, []);
+    if (step < kLeastLabeled) this.paintTag(c, camera, frame, robot, radius, colors, colors.chosen);
+  }
+
+  private inOtherPlan(robot: number, time: number): Point | null {
+    const track = this.other?.plan.agents[robot].track;
+    if (!track || track.isEmpty) return null;
+    const { xs, ys } = this.model.world;
+    const step = Math.floor(time);
+    const [a, b] = [track.place(step), track.place(step + 1)];
+    const part = time - step;
+    return { x: xs[a] + (xs[b] - xs[a]) * part, y: ys[a] + (ys[b] - ys[a]) * part };
   }
 }
 
 function paintRing(
-  c: CanvasRenderingContext2D, x: number, y: number, radius: number, colors: Colors,
+  c: CanvasRenderingContext2D, at: Point, radius: number, color: string, dashes: number[],
 ): void {
-  c.strokeStyle = colors.chosen;
+  c.strokeStyle = color;
   c.lineWidth = 3;
+  c.setLineDash(dashes);
   c.beginPath();
-  c.arc(x, y, Math.max(7, radius + 3), 0, 2 * Math.PI);
+  c.arc(at.x, at.y, radius, 0, 2 * Math.PI);
   c.stroke();
+  c.setLineDash([]);
 }

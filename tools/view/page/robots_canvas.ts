@@ -57,7 +57,7 @@ function addRobot(c: CanvasRenderingContext2D, x: number, y: number, radius: num
 function paintCollision(
   c: CanvasRenderingContext2D, x: number, y: number, radius: number, colors: Colors,
 ): void {
-  const r = Math.max(5, 1.15 * radius);
+  const r = Math.max(7, 1.15 * radius);
   c.fillStyle = colors.collision;
   c.beginPath();
   for (let k = 0; k < 16; ++k) {

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Paints all that stands still for a while on a 2D canvas: the world (once for each view), heat,
-// destinations, tasks, and the path of the robot chosen.
+// destinations, tasks, names of vertices, and the path of the robot chosen.
 
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { visitsBy, type PlanFacts } from "./facts";
 import type { Model, World } from "./model";
+import type { Paths } from "./paths";
+import { kTaskRadius, paintTasks } from "./tasks_canvas";
+import { outlined } from "./text";
+
+const kGoalRadius = 0.4; // of a destination's square, in steps
+const kRoomOfName = 5000; // square pixels, on the mean, if vertices are to have their names
 
 export interface Shown {
   chosen: number; // a robot; -1: none
   chosenTask: number;
   heat: Float32Array | null; // by place, 0 .. 1
-  path: number[] | null; // places of the robot chosen, in order
+  paths: Paths | null; // of the robot chosen
   labels: boolean;
 }
 
@@ -22,12 +28,14 @@ export class Scenery {
   private mapColors: Colors | null = null;
 
   private readonly tasksByPlace = new Map<number, number[]>();
+  private readonly goals: Set<number>;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly model: Model,
     private readonly facts: PlanFacts | null,
   ) {
+    this.goals = new Set(model.agents.map(({ goal }) => goal));
     model.tasks.forEach(({ place }, index) => {
       const others = this.tasksByPlace.get(place);
       if (others) others.push(index);
@@ -47,7 +55,8 @@ export class Scenery {
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     if (shown.heat) this.paintHeat(c, camera, shown.heat, colors);
     this.paintPlaces(c, camera, time, shown, colors);
-    if (shown.path) this.paintPath(c, camera, shown.path, colors);
+    if (this.model.world.kind === "roadmap" && shown.labels) this.paintNames(c, camera, colors);
+    if (shown.paths && shown.chosen >= 0) shown.paths.paint(c, camera, shown.chosen, time, colors);
   }
 
   // The world does not change while the camera stands still.
@@ -109,34 +118,48 @@ export class Scenery {
       if (isOutside(p.x, p.y, step, camera)) return;
       c.strokeStyle = index === shown.chosen ? colors.chosen : colors.goal;
       c.lineWidth = index === shown.chosen ? 2.5 : 1.25;
-      const r = Math.max(2, 0.4 * step);
+      const r = Math.max(2, kGoalRadius * step);
       c.strokeRect(p.x - r, p.y - r, 2 * r, 2 * r);
     });
     for (const [place, indices] of this.tasksByPlace) {
       const p = camera.toView(world.xs[place], world.ys[place]);
       if (isOutside(p.x, p.y, step, camera)) continue;
-      const visits = indices.map((index) => (this.facts ? visitsBy(this.facts.tasks[index], time) : 0));
-      const totals = indices.map((index) => tasks[index].agents.length);
-      paintTasks(c, p.x, p.y, step, indices, visits, totals, indices.includes(shown.chosenTask), colors);
+      const states = indices.map((index) => ({
+        index,
+        begun: this.facts !== null && this.facts.tasks[index].begin <= time,
+        visits: this.facts ? visitsBy(this.facts.tasks[index], time) : 0,
+        total: tasks[index].agents.length,
+      }));
+      paintTasks(c, p.x, p.y, step, states, indices.includes(shown.chosenTask), colors);
     }
   }
 
-  private paintPath(
-    c: CanvasRenderingContext2D, camera: Camera, path: number[], colors: Colors,
-  ): void {
+  // Under what stands on the vertex; of those that would cover each other, the first.
+  private paintNames(c: CanvasRenderingContext2D, camera: Camera, colors: Colors): void {
     const { world } = this.model;
-    c.strokeStyle = colors.chosen;
-    c.globalAlpha = 0.75;
-    c.lineWidth = Math.max(1.5, Math.min(5, 0.12 * world.unit * camera.scale));
-    c.lineJoin = "round";
-    c.beginPath();
-    path.forEach((place, i) => {
-      const p = camera.toView(world.xs[place], world.ys[place]);
-      if (i === 0) c.moveTo(p.x, p.y);
-      else c.lineTo(p.x, p.y);
-    });
-    c.stroke();
-    c.globalAlpha = 1;
+    const step = world.unit * camera.scale;
+    const seen = world.vertexNames
+      .map((name, v) => ({ name, v, at: camera.toView(world.xs[v], world.ys[v]) }))
+      .filter(({ at }) => !isOutside(at.x, at.y, 20, camera));
+    if (seen.length * kRoomOfName > camera.width * camera.height) return;
+    c.font = "11px system-ui, sans-serif";
+    c.textAlign = "center";
+    c.textBaseline = "top";
+    const taken: { x: number; y: number; half: number }[] = [];
+    for (const { name, v, at } of seen) {
+      const half = c.measureText(name).width / 2;
+      const y = at.y + this.reachOf(v, step) + 2;
+      if (taken.some((t) => Math.abs(t.x - at.x) < t.half + half + 3 && Math.abs(t.y - y) < 13)) continue;
+      taken.push({ x: at.x, y, half });
+      outlined(c, name, at.x, y, colors.faint, colors.floor);
+    }
+  }
+
+  // How far what is painted on a vertex reaches down.
+  private reachOf(vertex: number, step: number): number {
+    if (this.tasksByPlace.has(vertex)) return Math.max(2.5, kTaskRadius * step);
+    if (this.goals.has(vertex)) return Math.max(2, kGoalRadius * step);
+    return vertexRadius(step);
   }
 }
 
@@ -208,27 +231,17 @@ function paintRoads(c: CanvasRenderingContext2D, camera: Camera, world: World, c
   if (step >= 4) paintArrows(c, camera, world, step, colors);
   c.fillStyle = colors.vertex;
   c.beginPath();
-  const r = Math.max(1, Math.min(7, 0.2 * step));
+  const r = vertexRadius(step);
   for (let v = 0; v < world.vertexNames.length; ++v) {
     const p = camera.toView(world.xs[v], world.ys[v]);
     c.moveTo(p.x + r, p.y);
     c.arc(p.x, p.y, r, 0, 2 * Math.PI);
   }
   c.fill();
-  if (step >= 26) paintVertexNames(c, camera, world, colors);
 }
 
-function paintVertexNames(
-  c: CanvasRenderingContext2D, camera: Camera, world: World, colors: Colors,
-): void {
-  c.fillStyle = colors.faint;
-  c.font = "11px system-ui, sans-serif";
-  c.textAlign = "left";
-  c.textBaseline = "top";
-  world.vertexNames.forEach((name, v) => {
-    const p = camera.toView(world.xs[v], world.ys[v]);
-    if (!isOutside(p.x, p.y, 60, camera)) c.fillText(name, p.x + 6, p.y + 5);
-  });
+function vertexRadius(step: number): number {
+  return Math.max(1, Math.min(7, 0.2 * step));
 }
 
 // In the middle of each one-way road.
@@ -256,37 +269,4 @@ function paintArrows(
     c.closePath();
   }
   c.fill();
-}
-
-// A diamond for all tasks of a place: pale while open, yellow once begun, grey when done.
-function paintTasks(
-  c: CanvasRenderingContext2D, x: number, y: number, step: number, indices: number[],
-  visits: number[], totals: number[], chosen: boolean, colors: Colors,
-): void {
-  const r = Math.max(2.5, 0.42 * step);
-  const diamond = () => {
-    c.beginPath();
-    c.moveTo(x, y - r);
-    c.lineTo(x + r, y);
-    c.lineTo(x, y + r);
-    c.lineTo(x - r, y);
-    c.closePath();
-  };
-  const done = visits.every((count, i) => count >= totals[i]);
-  const begun = visits.some((count) => count > 0);
-  diamond();
-  c.fillStyle = done ? colors.taskDone : begun ? colors.taskBegun : colors.taskOpen;
-  c.fill();
-  c.strokeStyle = chosen ? colors.chosen : colors.task;
-  c.lineWidth = chosen ? 3 : 1.25;
-  c.stroke();
-  if (step < 26) return;
-  c.fillStyle = done ? colors.faint : colors.text;
-  c.font = `${Math.min(12, 0.24 * step)}px system-ui, sans-serif`;
-  c.textAlign = "left";
-  c.textBaseline = "bottom";
-  indices.slice(0, 3).forEach((index, i) => {
-    const count = totals[i] > 1 ? `: ${visits[i]} of ${totals[i]}` : "";
-    c.fillText(`${index + 1}${count}`, x + 0.5 * r, y - 0.5 * r - 0.26 * step * i);
-  });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// One plan in its place on the page: three canvases, one over the other (scenery, robots, labels),
-// with their camera and, where not all of the world is seen, a map of it.
+// One plan in its place on the page: canvases one over the other (scenery, robots, labels), with
+// their camera and, where not all of the world is seen, a map of it.
 
-import type { App, Heat, Viewed } from "./app";
+import type { App, Viewed } from "./app";
 import { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { el } from "./dom";
@@ -10,19 +10,10 @@ import { Frame } from "./frame";
 import { listen } from "./gestures";
 import { heatMap } from "./heat";
 import { Minimap } from "./minimap";
-import type { World } from "./model";
+import { Paths } from "./paths";
 import { Labels, type RobotPainter } from "./robots";
-import { CanvasRobots } from "./robots_canvas";
-import { GlRobots } from "./robots_gl";
+import { EitherRobots } from "./robots_either";
 import { Scenery, type Shown } from "./scenery";
-
-// A 2D canvas serves so many as well, and is everywhere.
-const kFew = 1500;
-
-function robotPainter(canvas: HTMLCanvasElement, world: World, count: number): RobotPainter {
-  const fast = count > kFew && GlRobots.isFast() ? GlRobots.on(canvas, world, count) : null;
-  return fast ?? new CanvasRobots(canvas, world);
-}
 
 export class Stage {
   readonly element: HTMLElement;
@@ -33,8 +24,8 @@ export class Stage {
   private readonly robots: RobotPainter | null;
   private readonly labels: Labels;
   private readonly minimap: Minimap;
-  private heat: { kind: Heat; map: Float32Array } | null = null;
-  private path: { agent: number; places: number[] } | null = null;
+  private readonly paths: Paths | null;
+  private heat: { key: string; map: Float32Array } | null = null;
   private dirty = true; // something other than time has changed
   private step = -1; // the last one that the scenery shows
 
@@ -42,16 +33,20 @@ export class Stage {
     const { model } = app;
     const { world } = model;
     this.camera = new Camera(world.width, world.height, world.unit);
-    this.frame = viewed ? new Frame(model, viewed.plan, viewed.facts) : null;
-    const [ground, middle, top] = [el("canvas"), el("canvas"), el("canvas", { tabindex: 0 })];
-    this.canvases = [ground, middle, top];
+    this.frame = viewed
+      ? new Frame(model, viewed.plan, viewed.facts, viewed.checker.violations) : null;
+    const other = app.viewed.find((v) => v !== viewed) ?? null;
+    this.paths = viewed ? new Paths(model, viewed, other) : null;
+    const [ground, plain, fast, top] = [el("canvas"), el("canvas"), el("canvas"), el("canvas", { tabindex: 0 })];
+    this.canvases = [ground, plain, fast, top];
     this.scenery = new Scenery(ground, model, viewed ? viewed.facts : null);
-    this.robots = this.frame ? robotPainter(middle, world, this.frame.count) : null;
-    this.labels = new Labels(top, model);
+    this.robots = this.frame ? new EitherRobots(plain, fast, world) : null;
+    this.labels = new Labels(top, model, viewed ? other : null);
     this.minimap = new Minimap(model, this.camera, () => this.cameraMoved());
     top.setAttribute("aria-label", viewed ? `The plan ${viewed.plan.name}` : "The instance");
     top.setAttribute("role", "img");
-    this.element = el("div", { class: "stage" }, ...this.canvases, this.minimap.element);
+    const caption = app.viewed.length > 1 ? el("div", { class: "caption" }, viewed?.plan.name ?? "") : null;
+    this.element = el("div", { class: "stage" }, ...this.canvases, caption, this.minimap.element);
     listen(top, this.camera, {
       moved: () => this.cameraMoved(),
       clicked: (x, y) => this.click(x, y),
@@ -70,7 +65,7 @@ export class Stage {
     this.onCamera();
   }
 
-  // The nearest robot, else the task there, else nothing.
+  // The nearest robot, else the task there, else whose destination it is, else nothing.
   private click(x: number, y: number): void {
     const { model } = this.app;
     const { world } = model;
@@ -78,11 +73,11 @@ export class Stage {
     const reach = Math.max(0.5 * world.unit, 10 / this.camera.scale);
     const robot = this.frame ? this.frame.nearest(p.x, p.y, reach) : -1;
     if (robot >= 0) return this.app.choose(robot);
-    const task = model.tasks.findIndex(
-      ({ place }) => Math.hypot(world.xs[place] - p.x, world.ys[place] - p.y) < reach,
-    );
+    const isHere = (place: number) =>
+      place >= 0 && Math.hypot(world.xs[place] - p.x, world.ys[place] - p.y) < reach;
+    const task = model.tasks.findIndex(({ place }) => isHere(place));
     if (task >= 0) this.app.chooseTask(task);
-    else this.app.choose(-1);
+    else this.app.choose(model.agents.findIndex(({ goal }) => isHere(goal)));
   }
 
   resize(): void {
@@ -127,21 +122,15 @@ export class Stage {
 
   private shown(): Shown {
     const { chosen, chosenTask, labels } = this.app;
-    return { chosen, chosenTask, labels, heat: this.heatNow(), path: this.pathOf(chosen) };
+    return { chosen, chosenTask, labels, heat: this.heatNow(), paths: this.paths };
   }
 
   private heatNow(): Float32Array | null {
-    const kind = this.app.heat;
-    if (kind === "none" || !this.viewed) return null;
-    if (this.heat?.kind !== kind)
-      this.heat = { kind, map: heatMap(this.app.model, this.viewed.plan, this.viewed.facts, kind) };
+    const { heat } = this.app;
+    if (heat === "none" || !this.viewed) return null;
+    const key = `${heat} ${this.viewed.waits.done}`;
+    if (this.heat?.key !== key)
+      this.heat = { key, map: heatMap(this.app.model, this.viewed, heat) };
     return this.heat.map;
-  }
-
-  private pathOf(agent: number): number[] | null {
-    if (agent < 0 || !this.viewed) return null;
-    if (this.path?.agent !== agent)
-      this.path = { agent, places: this.viewed.plan.agents[agent].track.visited() };
-    return this.path.places;
   }
 }

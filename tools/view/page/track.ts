@@ -109,11 +109,15 @@ export class TurnTrack {
     return this.angles[run] + this.deltas[run] * (time - this.times[run]);
   }
 
+  // 0 .. 4 turnSteps - 1, at a whole step.
+  heading(time: number): number {
+    const around = 4 * this.turnSteps;
+    return ((this.angle(time) % around) + around) % around;
+  }
+
   at(moment: number): Angle {
     const time = Math.min(moment, this.end);
-    const around = 4 * this.turnSteps;
-    const raw = this.angle(time);
-    const steps = ((raw % around) + around) % around;
+    const steps = this.heading(time);
     if (steps % this.turnSteps === 0) return { steps, direction: 0 };
     const run = this.run(time);
     const within = time > this.times[run] && this.deltas[run] !== 0;

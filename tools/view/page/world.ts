@@ -3,6 +3,7 @@
 
 import type { Value } from "./json";
 import type { Road, World } from "./model";
+import { nameOf } from "./names";
 
 const kMostPlaces = 1 << 26;
 const kMargin = 1.5; // around a roadmap, in steps
@@ -67,7 +68,7 @@ function readRoadmap(data: Value): World {
   data.only("kind", "vertices", "roads");
   const vertices = data.key("vertices").list().map((vertex): Vertex => {
     const [name, x, y] = vertex.list(3);
-    return { name: name.text(), x: x.number(), y: -y.number() };
+    return { name: nameOf(name.text()), x: x.number(), y: -y.number() };
   });
   if (vertices.length === 0) data.key("vertices").fail("a vertex at least");
   let places = vertices.length;
@@ -82,27 +83,31 @@ function readRoadmap(data: Value): World {
     };
   });
   const unit = lengthOfStep(vertices, roads);
-  const margin = kMargin * unit;
-  const least = (of: (v: Vertex) => number) => vertices.reduce((m, v) => Math.min(m, of(v)), Infinity);
-  const most = (of: (v: Vertex) => number) => vertices.reduce((m, v) => Math.max(m, of(v)), -Infinity);
-  const left = least((v) => v.x) - margin;
-  const top = least((v) => v.y) - margin;
   const xs = new Float64Array(places);
   const ys = new Float64Array(places);
   vertices.forEach((vertex, i) => {
-    xs[i] = vertex.x - left;
-    ys[i] = vertex.y - top;
+    xs[i] = vertex.x;
+    ys[i] = vertex.y;
   });
   layRoads(roads, xs, ys, unit);
+  const margin = kMargin * unit;
   return {
     kind: "roadmap", places, unit, xs, ys, columns: 0, roads,
-    width: most((v) => v.x) - left + margin,
-    height: most((v) => v.y) - top + margin,
+    width: shiftToZero(xs, margin),
+    height: shiftToZero(ys, margin),
     free: new Uint8Array(places).fill(1),
     vertexNames: vertices.map((vertex) => vertex.name),
     mayMove: movesOnRoads(roads, vertices.length),
     place: (place) => nameOnRoads(place, vertices, roads),
   };
+}
+
+// So that the least is a margin away from 0; what all of them take, with a margin on both sides.
+function shiftToZero(values: Float64Array, margin: number): number {
+  const least = values.reduce((a, b) => Math.min(a, b), Infinity) - margin;
+  const most = values.reduce((a, b) => Math.max(a, b), -Infinity) + margin;
+  for (let i = 0; i < values.length; ++i) values[i] -= least;
+  return most - least;
 }
 
 // In metres, on the mean; of roads that have a length.

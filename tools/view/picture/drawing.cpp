@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
@@ -40,9 +41,21 @@ constexpr int kWorking = 2;
 constexpr int kResting = 3;
 constexpr std::array kDoing{hex(0x0072b2), hex(0xe69f00), hex(0x009e73), hex(0x8a929c)};
 
-constexpr double kBend = 0.35;          // between roads that join the same vertices, in steps
-constexpr double kMargin = 1.5;         // of a roadmap, in steps
+constexpr Color kFaint = hex(0x656d76);
+constexpr Color kOnPale = hex(0x1c2128);
+
+// The page's measures (page/world.ts, robots.ts, scenery.ts, tasks_canvas.ts), in steps.
+constexpr double kBend = 0.35;    // between roads that join the same vertices
+constexpr double kMargin = 1.5;   // of a roadmap
+constexpr double kRadius = 0.34;  // of a robot
+constexpr double kGoalRadius = 0.4;
+constexpr double kTaskRadius = 0.42;
+
 constexpr double kLeastLabeled = 16.0;  // pixels of a step from which on robots have their ids
+constexpr std::size_t kMostTags = 40;   // robots that have them beside, if steps are smaller
+constexpr double kTagSize = 9.0;        // pixels
+constexpr double kRoomOfName = 5000.0;  // square pixels of a vertex that has its name
+constexpr int kMostStacked = 3;         // diamonds seen of several tasks on one place
 
 void set(cairo_t* cairo, const Color& color) {
   cairo_set_source_rgb(cairo, color.red, color.green, color.blue);
@@ -71,53 +84,104 @@ void center_text(cairo_t* cairo, const std::string& text, Point at, double size,
   cairo_show_text(cairo, text.c_str());
 }
 
+// Below or above `at`, on a rim in the colour of the floor.
+void outlined_text(cairo_t* cairo, const std::string& text, Point at, double size,
+                   const Color& color) {
+  cairo_set_font_size(cairo, size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo, text.c_str(), &extents);
+  cairo_move_to(cairo, at.x - extents.width / 2 - extents.x_bearing, at.y);
+  cairo_text_path(cairo, text.c_str());
+  set(cairo, kFloor);
+  cairo_set_line_width(cairo, 0.25 * size);
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+  cairo_stroke_preserve(cairo);
+  set(cairo, color);
+  cairo_fill(cairo);
+}
+
+// An id of bytes, cut between characters.
+std::string shortened(const std::string& id, std::size_t most) {
+  if (id.size() <= most) return id;
+  std::size_t end = most - 1;
+  while (end > 0 && (static_cast<unsigned char>(id[end]) & 0xc0) == 0x80) --end;
+  return id.substr(0, end) + "…";
+}
+
+void diamond(cairo_t* cairo, Point at, double radius, const Color& color, double line) {
+  cairo_move_to(cairo, at.x, at.y - radius);
+  cairo_line_to(cairo, at.x + radius, at.y);
+  cairo_line_to(cairo, at.x, at.y + radius);
+  cairo_line_to(cairo, at.x - radius, at.y);
+  cairo_close_path(cairo);
+  set(cairo, color);
+  cairo_fill_preserve(cairo);
+  set(cairo, kTask);
+  cairo_set_line_width(cairo, line);
+  cairo_stroke(cairo);
+}
+
 }  // namespace
 
 Drawing::Drawing(const Instance& instance, const Plan* plan) : instance_(instance), plan_(plan) {
   if (const Roadmap* roadmap = instance.roadmap()) {
-    double length = 0;
-    double steps = 0;
-    for (const Road& road : roadmap->roads()) {
-      const Point a = roadmap->vertices()[static_cast<std::size_t>(road.from)].at;
-      const Point b = roadmap->vertices()[static_cast<std::size_t>(road.to)].at;
-      length += std::hypot(a.x - b.x, a.y - b.y);
-      steps += road.steps;
-    }
-    unit_ = length > 0 ? length / steps : 1;
-    Point least = roadmap->vertices().front().at;
-    Point most = least;
-    for (const Vertex& vertex : roadmap->vertices()) {
-      least = {std::min(least.x, vertex.at.x), std::min(least.y, vertex.at.y)};
-      most = {std::max(most.x, vertex.at.x), std::max(most.y, vertex.at.y)};
-    }
-    const double margin = kMargin * unit_;
-    origin_ = {least.x - margin, most.y + margin};
-    width_ = most.x - least.x + 2 * margin;
-    height_ = most.y - least.y + 2 * margin;
+    measure_roadmap(*roadmap);
   } else {
     width_ = instance.grid().width();
     height_ = instance.grid().height();
   }
   visits_.resize(static_cast<std::size_t>(instance.task_count()));
+  begins_.resize(visits_.size(), std::numeric_limits<Time>::max());
   if (plan_ == nullptr) return;
   for (std::size_t i = 0; i < plan_->agents.size(); ++i) {
-    const AgentPlan& agent = plan_->agents[i];
-    rests_.push_back(rest_of(agent));
+    rests_.push_back(rest_of(plan_->agents[i]));
     end_ = std::max(end_, rests_.back());
-    for (const TaskIndex task : instance.agent(static_cast<AgentIndex>(i)).tasks) {
-      auto& visits = visits_[static_cast<std::size_t>(task)];
-      if (instance.task(task).duration > 0) {
-        const auto work = std::ranges::find(agent.work, task, &WorkTime::task);
-        if (work != agent.work.end()) visits.push_back(work->end);
-        continue;
-      }
-      const auto is_there = [&](State s) {
-        return instance.world().place(s) == instance.task(task).cell;
-      };
-      const auto first = std::ranges::find_if(agent.path, is_there);
-      if (first != agent.path.end())
-        visits.push_back(static_cast<Time>(first - agent.path.begin()));
+    note_visits(static_cast<AgentIndex>(i), plan_->agents[i]);
+  }
+}
+
+// As far as its places reach: roads may lie outside of all vertices.
+void Drawing::measure_roadmap(const Roadmap& roadmap) {
+  double length = 0;
+  double steps = 0;
+  for (const Road& road : roadmap.roads()) {
+    const Point a = roadmap.vertices()[static_cast<std::size_t>(road.from)].at;
+    const Point b = roadmap.vertices()[static_cast<std::size_t>(road.to)].at;
+    length += std::hypot(a.x - b.x, a.y - b.y);
+    steps += road.steps;
+  }
+  unit_ = length > 0 ? length / steps : 1;
+  Point least = point(0);
+  Point most = least;
+  for (Place place = 1; place < roadmap.place_count(); ++place) {
+    const Point at = point(place);
+    least = {std::min(least.x, at.x), std::min(least.y, at.y)};
+    most = {std::max(most.x, at.x), std::max(most.y, at.y)};
+  }
+  const double margin = kMargin * unit_;
+  origin_ = {least.x - margin, -(least.y - margin)};
+  width_ = most.x - least.x + 2 * margin;
+  height_ = most.y - least.y + 2 * margin;
+}
+
+void Drawing::note_visits(AgentIndex agent, const AgentPlan& plan) {
+  for (const TaskIndex task : instance_.agent(agent).tasks) {
+    auto& visits = visits_[static_cast<std::size_t>(task)];
+    Time& begin = begins_[static_cast<std::size_t>(task)];
+    if (instance_.task(task).duration > 0) {
+      const auto work = std::ranges::find(plan.work, task, &WorkTime::task);
+      if (work == plan.work.end()) continue;
+      visits.push_back(work->end);
+      begin = std::min(begin, work->begin);
+      continue;
     }
+    const auto is_there = [&](State s) {
+      return instance_.world().place(s) == instance_.task(task).cell;
+    };
+    const auto first = std::ranges::find_if(plan.path, is_there);
+    if (first == plan.path.end()) continue;
+    visits.push_back(static_cast<Time>(first - plan.path.begin()));
+    begin = std::min(begin, visits.back());
   }
 }
 
@@ -203,7 +267,8 @@ std::vector<Drawing::Robot> Drawing::robots(double time) const {
   return all;
 }
 
-// On one place at this step, or, between two steps, exchanging places or coming to one.
+// On one place at this step, or, between two steps, exchanging places or coming to one. At a whole
+// step, who has exchanged places in the step before it.
 void Drawing::mark_collisions(std::vector<Robot>& robots, double time) const {
   const auto step = static_cast<Time>(std::floor(time));
   const double part = time - step;
@@ -221,11 +286,14 @@ void Drawing::mark_collisions(std::vector<Robot>& robots, double time) const {
     meet(here, i, step);
     if (part >= 0.5) meet(next, i, step + 1);
   }
-  if (part == 0) return;
+  const Time from = part == 0 ? std::max(0, step - 1) : step;
+  std::map<Place, std::size_t> before;
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    if (!plan_->agents[i].path.empty()) before.emplace(place(i, from), i);
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (plan_->agents[i].path.empty() || place(i, step) == place(i, step + 1)) continue;
-    const auto other = here.find(place(i, step + 1));
-    if (other != here.end() && place(other->second, step + 1) == place(i, step))
+    if (plan_->agents[i].path.empty() || place(i, from) == place(i, from + 1)) continue;
+    const auto other = before.find(place(i, from + 1));
+    if (other != before.end() && place(other->second, from + 1) == place(i, from))
       robots[i].collides = robots[other->second].collides = true;
   }
 }
@@ -244,12 +312,23 @@ void Drawing::draw(cairo_t* cairo, double width, double time) const {
     draw_roads(cairo);
   draw_goals(cairo);
   draw_tasks(cairo, time);
+  if (!instance_.is_on_grid()) draw_vertex_names(cairo);
   if (plan_ != nullptr) {
     const auto all = robots(time);
-    for (std::size_t i = 0; i < all.size(); ++i)
-      draw_robot(cairo, all[i], instance_.agent(static_cast<AgentIndex>(i)).id);
+    for (const Robot& robot : all) draw_robot(cairo, robot);
+    const bool named = unit_ >= kLeastLabeled * pixel(cairo) || all.size() <= kMostTags;
+    for (std::size_t i = 0; named && i < all.size(); ++i)
+      draw_name(cairo, all[i], instance_.agent(static_cast<AgentIndex>(i)).id);
   }
   cairo_restore(cairo);
+}
+
+// How long it is, in the world's units.
+double Drawing::pixel(cairo_t* cairo) const {
+  double length = 1;
+  double none = 0;
+  cairo_device_to_user_distance(cairo, &length, &none);
+  return length;
 }
 
 void Drawing::draw_grid(cairo_t* cairo) const {
@@ -326,44 +405,64 @@ void Drawing::draw_goals(cairo_t* cairo) const {
   for (const Agent& agent : instance_.agents()) {
     if (!agent.goal) continue;
     const Point at = point(*agent.goal);
-    const double r = 0.4 * unit_;
+    const double r = kGoalRadius * unit_;
     cairo_rectangle(cairo, at.x - r, at.y - r, 2 * r, 2 * r);
   }
   cairo_stroke(cairo);
 }
 
-// All tasks on a place are one diamond: pale, yellow once begun, grey when done.
+// Tasks on one place are a stack of diamonds, with their number: pale, yellow once begun, grey when
+// done.
 void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   struct Progress {
+    int tasks = 0;
     int visits = 0;
     int total = 0;
+    bool begun = false;
   };
   std::map<Place, Progress> places;
   for (TaskIndex task = 0; task < instance_.task_count(); ++task) {
     Progress& progress = places[instance_.task(task).cell];
+    ++progress.tasks;
     progress.visits += visits_by(task, time);
     progress.total += static_cast<int>(instance_.task(task).agents.size());
+    progress.begun = progress.begun || begins_[static_cast<std::size_t>(task)] <= time;
   }
-  cairo_set_line_width(cairo, 0.05 * unit_);
   for (const auto& [place, progress] : places) {
     const Point at = point(place);
-    const double r = 0.42 * unit_;
-    cairo_move_to(cairo, at.x, at.y - r);
-    cairo_line_to(cairo, at.x + r, at.y);
-    cairo_line_to(cairo, at.x, at.y + r);
-    cairo_line_to(cairo, at.x - r, at.y);
-    cairo_close_path(cairo);
-    set(cairo, progress.visits >= progress.total ? kTaskDone
-               : progress.visits > 0             ? kTaskBegun
-                                                 : kTaskOpen);
-    cairo_fill_preserve(cairo);
-    set(cairo, kTask);
-    cairo_stroke(cairo);
+    const Color& color = progress.visits >= progress.total ? kTaskDone
+                         : progress.begun                  ? kTaskBegun
+                                                           : kTaskOpen;
+    for (int k = std::min(kMostStacked, progress.tasks) - 1; k >= 0; --k)
+      diamond(cairo, {at.x + 0.09 * k * unit_, at.y - 0.09 * k * unit_}, kTaskRadius * unit_, color,
+              0.05 * unit_);
+    if (progress.tasks == 1) continue;
+    set(cairo, kText);
+    center_text(cairo, std::to_string(progress.tasks), at, 0.36 * unit_, 0.6 * unit_);
   }
 }
 
-void Drawing::draw_robot(cairo_t* cairo, const Robot& robot, const std::string& id) const {
-  const double r = 0.34 * unit_;
+// Below what stands there; of those that would cover each other, the first.
+void Drawing::draw_vertex_names(cairo_t* cairo) const {
+  const double size = kTagSize * pixel(cairo);
+  const auto& vertices = instance_.roadmap()->vertices();
+  const double room = width_ * height_ / (pixel(cairo) * pixel(cairo));
+  if (static_cast<double>(vertices.size()) * kRoomOfName > room) return;
+  std::vector<Point> taken;
+  for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
+    const Point on = point(instance_.roadmap()->place_of_vertex(v));
+    const Point at{on.x, on.y + kTaskRadius * unit_ + 1.1 * size};
+    const auto is_near = [&](Point other) {
+      return std::abs(other.x - at.x) < 4 * size && std::abs(other.y - at.y) < 1.2 * size;
+    };
+    if (std::ranges::any_of(taken, is_near)) continue;
+    taken.push_back(at);
+    outlined_text(cairo, shortened(vertices[static_cast<std::size_t>(v)].id, 14), at, size, kFaint);
+  }
+}
+
+void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
+  const double r = kRadius * unit_;
   const Point at = robot.at;
   if (robot.collides) {
     set(cairo, kCollision);
@@ -389,12 +488,71 @@ void Drawing::draw_robot(cairo_t* cairo, const Robot& robot, const std::string& 
     cairo_close_path(cairo);
     cairo_fill(cairo);
   }
-  double pixel = 1;
-  double none = 0;
-  cairo_device_to_user_distance(cairo, &pixel, &none);
-  if (unit_ < kLeastLabeled * pixel) return;
-  set(cairo, kOnRobot);
-  center_text(cairo, id, at, 0.34 * unit_, 1.5 * r);
+}
+
+// On it, or beside it where it is small.
+void Drawing::draw_name(cairo_t* cairo, const Robot& robot, const std::string& id) const {
+  const double r = kRadius * unit_;
+  if (unit_ >= kLeastLabeled * pixel(cairo)) {
+    set(cairo, robot.collides || robot.doing == kMoving ? kOnRobot : kOnPale);
+    center_text(cairo, shortened(id, 14), robot.at, 0.34 * unit_, 1.5 * r);
+    return;
+  }
+  const double size = kTagSize * pixel(cairo);
+  outlined_text(cairo, shortened(id, 14), {robot.at.x, robot.at.y - r - 0.2 * size}, size, kText);
+}
+
+void Drawing::draw_legend(cairo_t* cairo) const {
+  constexpr double kSize = 10;
+  constexpr double kRow = 18;
+  const Point at{kSize / 2, kRow / 2};
+  double x = 0;
+  const auto add = [&](const char* text, const auto& shape) {
+    cairo_save(cairo);
+    cairo_translate(cairo, x, 0);
+    shape();
+    set(cairo, kText);
+    cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cairo, 11);
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo, text, &extents);
+    cairo_move_to(cairo, 1.5 * kSize, at.y + 4);
+    cairo_show_text(cairo, text);
+    cairo_restore(cairo);
+    x += 1.5 * kSize + extents.x_advance + 14;
+  };
+  const auto disc = [&](const Color& color) {
+    return [cairo, at, color] {
+      set(cairo, color);
+      cairo_new_sub_path(cairo);
+      cairo_arc(cairo, at.x, at.y, kSize / 2, 0, 2 * std::numbers::pi);
+      cairo_fill(cairo);
+    };
+  };
+  const auto task = [&](const Color& color) {
+    return [cairo, at, color] { diamond(cairo, at, 0.6 * kSize, color, 1); };
+  };
+  const auto square = [&] {
+    set(cairo, kGoal);
+    cairo_set_line_width(cairo, 1);
+    cairo_rectangle(cairo, 0.5, at.y - 0.5 * kSize, kSize, kSize);
+    cairo_stroke(cairo);
+  };
+  const bool has_work =
+      std::ranges::any_of(instance_.tasks(), [](const Task& t) { return t.duration > 0; });
+  if (plan_ != nullptr) {
+    add("moving", disc(kDoing[kMoving]));
+    add("waiting", disc(kDoing[kWaiting]));
+    if (has_work) add("at work", disc(kDoing[kWorking]));
+    add("at rest", disc(kDoing[kResting]));
+  }
+  if (instance_.task_count() > 0) {
+    add("open task", task(kTaskOpen));
+    add("begun", task(kTaskBegun));
+    add("done", task(kTaskDone));
+  }
+  if (std::ranges::any_of(instance_.agents(), [](const Agent& a) { return a.goal.has_value(); }))
+    add("destination", square);
 }
 
 }  // namespace grove

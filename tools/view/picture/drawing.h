@@ -20,12 +20,16 @@ class Drawing {
 
   // Height for a width of 1.
   double shape() const { return height_ / width_; }
+  bool has_plan() const { return plan_ != nullptr; }
   // The last time at which anything changes, in steps.
   Time end() const { return end_; }
 
   // Fills `width` x (`width` * shape()) units of `cairo` from its origin on. `time` may lie between
   // two steps.
   void draw(cairo_t* cairo, double width, double time) const;
+  // One line that says what shapes and colours mean, from the origin on. Of what this instance has
+  // nothing of, nothing is said.
+  void draw_legend(cairo_t* cairo) const;
 
  private:
   struct Robot {
@@ -36,6 +40,8 @@ class Drawing {
     bool collides;
   };
 
+  void measure_roadmap(const Roadmap& roadmap);
+  void note_visits(AgentIndex agent, const AgentPlan& plan);
   Point point(Place place) const;
   Point beside(Point at, const Roadmap::Spot& spot) const;
   Robot robot(AgentIndex agent, double time) const;
@@ -48,7 +54,10 @@ class Drawing {
   void draw_arrow(cairo_t* cairo, int road) const;
   void draw_goals(cairo_t* cairo) const;
   void draw_tasks(cairo_t* cairo, double time) const;
-  void draw_robot(cairo_t* cairo, const Robot& robot, const std::string& id) const;
+  void draw_vertex_names(cairo_t* cairo) const;
+  void draw_robot(cairo_t* cairo, const Robot& robot) const;
+  void draw_name(cairo_t* cairo, const Robot& robot, const std::string& id) const;
+  double pixel(cairo_t* cairo) const;
 
   const Instance& instance_;
   const Plan* plan_;
@@ -59,6 +68,7 @@ class Drawing {
   Time end_ = 0;
   std::vector<Time> rests_;                // by agent: from when on it rests
   std::vector<std::vector<Time>> visits_;  // by task: when each of its agents has been there
+  std::vector<Time> begins_;               // by task: when the first is there, or begins to work
 };
 
 }  // namespace grove

@@ -27,6 +27,9 @@ using Context = std::unique_ptr<cairo_t, Free>;
 
 constexpr int kGap = 12;            // pixels between two moments
 constexpr int kMostPixels = 30000;  // on a side: cairo's own limit
+constexpr int kCaption = 20;        // below each moment
+constexpr int kLegend = 26;         // below all
+constexpr int kLeastWithLegend = 640;
 
 cairo_status_t append(void* text, const unsigned char* bytes, unsigned length) {
   static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), length);
@@ -38,26 +41,43 @@ void require(cairo_status_t status) {
     throw std::runtime_error(fmt::format("cairo: {}", cairo_status_to_string(status)));
 }
 
-// Where the moments of a strip go.
+// Where the moments of a strip go: each with its caption below, then a legend.
 struct Strip {
-  Strip(const Drawing& drawing, std::size_t count, int width)
+  Strip(const Drawing& drawing, std::size_t count, int width, bool captioned)
       : panel_width(width),
         panel_height(std::max(1, static_cast<int>(std::lround(width * drawing.shape())))),
+        caption(captioned && drawing.has_plan() ? kCaption : 0),
         columns(std::min<int>(static_cast<int>(count), 4)),
-        rows((static_cast<int>(count) + columns - 1) / columns) {
+        rows((static_cast<int>(count) + columns - 1) / columns),
+        legend(captioned && whole_width() >= kLeastWithLegend ? kLegend : 0) {
     if (whole_width() > kMostPixels || whole_height() > kMostPixels)
       throw std::invalid_argument(
           fmt::format("a picture of {} x {} pixels is too large; expected at most {} on a side",
                       whole_width(), whole_height(), kMostPixels));
   }
   int whole_width() const { return columns * (panel_width + kGap) - kGap; }
-  int whole_height() const { return rows * (panel_height + kGap) - kGap; }
+  int row_height() const { return panel_height + caption + kGap; }
+  int whole_height() const { return rows * row_height() - kGap + legend; }
 
   int panel_width;
   int panel_height;
+  int caption;
   int columns;
   int rows;
+  int legend;
 };
+
+// "t = 12" below a moment, in its middle.
+void draw_caption(cairo_t* cairo, const Strip& strip, double moment) {
+  const std::string text = fmt::format("t = {}", moment);
+  cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, 12);
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo, text.c_str(), &extents);
+  cairo_set_source_rgb(cairo, 0.11, 0.13, 0.16);
+  cairo_move_to(cairo, (strip.panel_width - extents.x_advance) / 2, strip.panel_height + 14);
+  cairo_show_text(cairo, text.c_str());
+}
 
 void draw_strip(cairo_t* cairo, const Drawing& drawing, std::span<const double> moments,
                 const Strip& strip) {
@@ -67,10 +87,16 @@ void draw_strip(cairo_t* cairo, const Drawing& drawing, std::span<const double> 
     const int column = static_cast<int>(i) % strip.columns;
     const int row = static_cast<int>(i) / strip.columns;
     cairo_save(cairo);
-    cairo_translate(cairo, column * (strip.panel_width + kGap), row * (strip.panel_height + kGap));
+    cairo_translate(cairo, column * (strip.panel_width + kGap), row * strip.row_height());
     drawing.draw(cairo, strip.panel_width, moments[i]);
+    if (strip.caption > 0) draw_caption(cairo, strip, moments[i]);
     cairo_restore(cairo);
   }
+  if (strip.legend == 0) return;
+  cairo_save(cairo);
+  cairo_translate(cairo, 4, strip.whole_height() - kLegend + 4);
+  drawing.draw_legend(cairo);
+  cairo_restore(cairo);
 }
 
 Surface image(int width, int height) {
@@ -260,7 +286,7 @@ int frames_per_step(Time end, double steps_per_second) {
 }  // namespace
 
 std::string svg_picture(const Drawing& drawing, std::span<const double> moments, int width) {
-  const Strip strip(drawing, moments.size(), width);
+  const Strip strip(drawing, moments.size(), width, true);
   std::string svg;
   const Surface surface(
       cairo_svg_surface_create_for_stream(append, &svg, strip.whole_width(), strip.whole_height()));
@@ -274,7 +300,7 @@ std::string svg_picture(const Drawing& drawing, std::span<const double> moments,
 }
 
 std::string png_picture(const Drawing& drawing, std::span<const double> moments, int width) {
-  const Strip strip(drawing, moments.size(), width);
+  const Strip strip(drawing, moments.size(), width, true);
   const Surface surface = image(strip.whole_width(), strip.whole_height());
   const Context cairo(cairo_create(surface.get()));
   draw_strip(cairo.get(), drawing, moments, strip);
@@ -285,7 +311,7 @@ std::string png_picture(const Drawing& drawing, std::span<const double> moments,
 }
 
 std::string gif_picture(const Drawing& drawing, int width, double steps_per_second) {
-  const Strip strip(drawing, 1, width);
+  const Strip strip(drawing, 1, width, false);
   const Surface surface = image(strip.panel_width, strip.panel_height);
   const Context cairo(cairo_create(surface.get()));
   const auto frame = [&](double time) {

@@ -1,87 +1,193 @@
 // SPDX-License-Identifier: MIT
-// Who does what when: a row for each robot, time from left to right. It is a slider as well.
+// Who does what when: a row for each robot (of two plans one below the other), time from left to
+// right. It is a slider as well, and names choose their robots.
 
 import type { App, Viewed } from "../app";
 import type { Colors } from "../colors";
-import { el } from "../dom";
+import { el, setText } from "../dom";
+import { Doing } from "../facts";
 
-const kLeastRow = 3; // pixels
+const kLeastLane = 3; // pixels of a robot in one plan
+const kMostLane = 22;
+const kLeastNamed = 9; // pixels of a row that has a name
+const kWidestName = 110;
+const kFont = "10px system-ui, sans-serif";
+const kWords = ["moves", "waits", "works", "rests"]; // by Doing
+
+// Where rows and times are.
+interface Layout {
+  first: number; // robot
+  rows: number;
+  row: number; // pixels
+  left: number; // where time begins
+  width: number; // of time
+}
 
 export class Chart {
   readonly element: HTMLElement;
   private readonly canvas = el("canvas", { "aria-hidden": true });
   private readonly cursor = el("div", { class: "cursor" });
+  private readonly note = el("div", { class: "chart-note faint" });
+  private layout: Layout = { first: 0, rows: 0, row: 1, left: 0, width: 1 };
+  private first = 0; // wanted
+  private shownChoice = -1;
   private key = "";
 
   constructor(private readonly app: App) {
-    this.element = el("div", { class: "chart", title: "Who does what when: moving, waiting, at work, at rest" },
-      this.canvas, this.cursor);
-    const go = (event: PointerEvent) => this.goTo(event);
-    this.element.addEventListener("pointerdown", (event) => {
-      this.element.setPointerCapture(event.pointerId);
-      go(event);
-    });
-    this.element.addEventListener("pointermove", (event) => {
-      if (event.buttons & 1) go(event);
-    });
+    this.element = el("div", { class: "chart" }, this.canvas, this.cursor, this.note);
+    this.element.addEventListener("pointerdown", (event) => this.press(event));
+    this.element.addEventListener("pointermove", (event) => this.hover(event));
+    this.element.addEventListener("wheel", (event) => this.scroll(event), { passive: false });
   }
 
-  private goTo(event: PointerEvent): void {
+  private press(event: PointerEvent): void {
+    const { robot, time } = this.at(event);
+    if (time === null) {
+      if (robot >= 0) this.app.choose(robot);
+      return;
+    }
+    this.element.setPointerCapture(event.pointerId);
+    this.app.go(time);
+  }
+
+  private hover(event: PointerEvent): void {
+    const { robot, time } = this.at(event);
+    if (event.buttons & 1 && this.element.hasPointerCapture(event.pointerId) && time !== null)
+      this.app.go(time);
+    this.element.title = robot < 0 ? "" : this.tellOf(robot, time);
+  }
+
+  private scroll(event: WheelEvent): void {
+    const count = this.app.model.agents.length;
+    if (this.layout.rows >= count) return;
+    event.preventDefault();
+    this.first += Math.sign(event.deltaY) * Math.max(1, this.layout.rows >> 2);
+    this.first = Math.min(count - this.layout.rows, Math.max(0, this.first));
+  }
+
+  // Time: null on the names.
+  private at(event: PointerEvent): { robot: number; time: number | null } {
     const box = this.canvas.getBoundingClientRect();
-    const part = (event.clientX - box.left) / box.width;
-    this.app.go(Math.round(part * this.app.player.end));
+    const { first, left, row, rows, width } = this.layout;
+    const index = Math.floor((event.clientY - box.top) / row);
+    const robot = index >= 0 && index < rows ? first + index : -1;
+    const x = event.clientX - box.left - left;
+    if (x < 0 && !this.element.hasPointerCapture(event.pointerId)) return { robot, time: null };
+    const part = Math.min(1, Math.max(0, x / width));
+    return { robot, time: Math.round(part * this.app.player.end) };
+  }
+
+  private tellOf(robot: number, time: number | null): string {
+    const { name } = this.app.model.agents[robot];
+    if (time === null) return name;
+    const what = this.app.viewed.map(({ facts }) => {
+      const span = facts.spans[robot].find((s) => s.end > time);
+      if (!span) return "";
+      const until = span.end === Infinity ? "" : ` until ${span.end}`;
+      return `${kWords[span.doing]} from ${span.begin}${until}`;
+    });
+    return `${name} ${what.join(" / ")}`;
   }
 
   update(colors: Colors, ratio: number): void {
-    const { player, chosen } = this.app;
+    const { player, chosen, viewed } = this.app;
     const width = this.element.clientWidth;
     const height = this.element.clientHeight;
-    const key = [width, height, ratio, chosen, colors.name].join();
+    const wrong = viewed.map(({ checker }) => checker.violations.length);
+    const key = [width, height, ratio, chosen, colors.name, this.first, ...wrong].join();
     if (key !== this.key) {
       this.key = key;
       this.paint(colors, width, height, ratio);
     }
-    const at = player.end > 0 ? (player.time / player.end) * width : 0;
+    const { left, width: span } = this.layout;
+    const at = left + (player.end > 0 ? (player.time / player.end) * span : 0);
     this.cursor.style.transform = `translateX(${at.toFixed(1)}px)`;
   }
 
-  // All robots if each row has a few pixels, else those around the one chosen, or the first.
+  // Who has just been chosen.
+  private bringIntoSight(robot: number, rows: number): void {
+    if (robot === this.shownChoice) return;
+    this.shownChoice = robot;
+    if (robot < 0 || (robot >= this.first && robot < this.first + rows)) return;
+    this.first = robot - (rows >> 1);
+  }
+
   private paint(colors: Colors, width: number, height: number, ratio: number): void {
     this.canvas.width = Math.round(width * ratio);
     this.canvas.height = Math.round(height * ratio);
     const c = this.canvas.getContext("2d")!;
     c.scale(ratio, ratio);
-    const plans = this.app.viewed;
-    plans.forEach((viewed, i) => {
-      const top = (i * height) / plans.length;
-      this.paintPlan(c, viewed, top, height / plans.length - (i + 1 < plans.length ? 3 : 0), width, colors);
-    });
+    this.lay(c, width, height);
+    const { first, row, rows } = this.layout;
+    const lanes = this.app.viewed;
+    const gap = row >= 5 ? 1 : 0;
+    for (let i = 0; i < rows; ++i)
+      lanes.forEach((viewed, lane) => {
+        const lines = (row - gap) / lanes.length;
+        this.paintLane(c, viewed, first + i, i * row + lane * lines, lines, colors);
+      });
+    if (this.layout.left > 0) this.paintNames(c, colors);
+    this.paintChosen(c, colors, gap);
+    const count = this.app.model.agents.length;
+    setText(this.note, rows < count ? `${first + 1}–${first + rows} of ${count.toLocaleString("en")} robots` : "");
   }
 
-  private paintPlan(
-    c: CanvasRenderingContext2D, viewed: Viewed, top: number, height: number, width: number, colors: Colors,
+  // All robots if each has a few pixels, else some of them.
+  private lay(c: CanvasRenderingContext2D, width: number, height: number): void {
+    const lanes = this.app.viewed.length;
+    const count = this.app.model.agents.length;
+    const rows = Math.min(count, Math.max(1, Math.floor(height / (kLeastLane * lanes))));
+    const row = Math.min(kMostLane * lanes, height / rows);
+    this.bringIntoSight(this.app.chosen, rows);
+    const first = Math.min(count - rows, Math.max(0, this.first));
+    c.font = kFont;
+    const names = row >= kLeastNamed ? this.app.model.agents.slice(first, first + rows) : [];
+    const widest = names.reduce((most, { name }) => Math.max(most, c.measureText(name).width), 0);
+    const left = names.length > 0 ? Math.ceil(Math.min(widest, kWidestName, width / 5)) + 6 : 0;
+    this.layout = { first, rows, row, left, width: Math.max(1, width - left) };
+  }
+
+  private paintLane(
+    c: CanvasRenderingContext2D, { checker, facts, plan }: Viewed, robot: number, y: number,
+    height: number, colors: Colors,
   ): void {
-    const count = viewed.plan.agents.length;
-    const rows = Math.min(count, Math.max(1, Math.floor(height / kLeastRow)));
-    const first = Math.min(count - rows, Math.max(0, this.app.chosen - (rows >> 1)));
-    const row = Math.min(14, height / rows);
-    const scale = this.app.player.end > 0 ? width / this.app.player.end : 0;
-    const gap = row >= 5 ? 1 : 0;
-    for (let i = 0; i < rows; ++i) {
-      const y = top + i * row;
-      for (const span of viewed.facts.spans[first + i]) {
-        const end = Math.min(span.end, this.app.player.end);
-        if (end <= span.begin) continue;
-        c.fillStyle = colors.doing[span.doing];
-        c.globalAlpha = span.doing === 3 ? 0.35 : 1;
-        c.fillRect(span.begin * scale, y, Math.max(0.5, (end - span.begin) * scale), row - gap);
-      }
-      c.globalAlpha = 1;
-      if (first + i === this.app.chosen) {
-        c.strokeStyle = colors.chosen;
-        c.lineWidth = 2;
-        c.strokeRect(1, y, width - 2, Math.max(2, row - gap));
-      }
+    if (plan.agents[robot].track.isEmpty) return;
+    const { left, width } = this.layout;
+    const { end } = this.app.player;
+    const scale = end > 0 ? width / end : 0;
+    let painted = -1; // half pixels: of many short spans few are seen
+    for (const span of facts.spans[robot]) {
+      const until = Math.min(span.end, end);
+      const last = Math.floor(2 * until * scale);
+      if (until <= span.begin || last === painted) continue;
+      painted = last;
+      c.fillStyle = colors.doing[span.doing];
+      c.globalAlpha = span.doing === Doing.kResting ? 0.35 : 1;
+      c.fillRect(left + span.begin * scale, y, Math.max(0.5, (until - span.begin) * scale), height);
     }
+    c.globalAlpha = 1;
+    c.fillStyle = colors.collision;
+    for (const { agents, time } of checker.violations)
+      if (agents.includes(robot)) c.fillRect(left + Math.min(end, time) * scale - 2, y, 4, height);
+  }
+
+  private paintNames(c: CanvasRenderingContext2D, colors: Colors): void {
+    const { first, left, row, rows } = this.layout;
+    const { model, chosen } = this.app;
+    c.font = kFont;
+    c.textBaseline = "middle";
+    for (let i = 0; i < rows; ++i) {
+      c.fillStyle = first + i === chosen ? colors.chosen : colors.text;
+      c.fillText(model.agents[first + i].name, 0, (i + 0.5) * row, left - 4);
+    }
+  }
+
+  private paintChosen(c: CanvasRenderingContext2D, colors: Colors, gap: number): void {
+    const { first, left, row, rows, width } = this.layout;
+    const at = this.app.chosen - first;
+    if (this.app.chosen < 0 || at < 0 || at >= rows) return;
+    c.strokeStyle = colors.chosen;
+    c.lineWidth = 2;
+    c.strokeRect(left + 1, at * row, width - 2, Math.max(2, row - gap));
   }
 }

@@ -23,7 +23,7 @@ export class Controls {
   private readonly speed: HTMLElement;
   private readonly loop: HTMLButtonElement;
 
-  constructor(private readonly app: App) {
+  constructor(private readonly app: App, help: () => void) {
     const { player } = app;
     const button = (face: SVGElement | string, title: string, act: () => void) =>
       el("button", { type: "button", title, "aria-label": title, click: () => this.act(act) }, face);
@@ -51,6 +51,7 @@ export class Controls {
       this.speed,
       button("+", "Faster (full stop)", () => player.faster(1)),
       this.loop,
+      el("button", { type: "button", title: "All keys (?)", "aria-label": "All keys", click: help }, "?"),
     );
   }
 

@@ -1,51 +1,59 @@
 // SPDX-License-Identifier: MIT
-// Robots, tasks and events, with one field to search them all by id.
+// Tasks, robots, events and differences, with one field to search them all.
 
 import type { App } from "../app";
 import { el, plural, setText } from "../dom";
-import { progressText } from "./robot";
+import { Differences } from "./differences";
+import { Events } from "./events";
+import { progressText } from "./task";
+import { kMostRows, rowElement, type Row } from "./rows";
 
-type Tab = "events" | "tasks" | "robots";
-const kTabs: Tab[] = ["events", "tasks", "robots"];
-const kMostRows = 300;
-
-interface Row {
-  key: number;
-  text: string;
-  note: () => string;
-  act: () => void;
-  bad?: boolean;
-}
+type Tab = "tasks" | "robots" | "events" | "differences";
 
 export class Lists {
   readonly element: HTMLElement;
   readonly search: HTMLInputElement;
+  private readonly top = el("div", { class: "filters" });
   private readonly body = el("div", { class: "rows" });
   private readonly buttons = new Map<Tab, HTMLButtonElement>();
+  private readonly events: Events;
+  private readonly differences: Differences | null;
   private tab: Tab;
+  private rows: Row[] = [];
   private notes: { element: HTMLElement; row: Row }[] = [];
-  private eventCount = -1;
+  private shown = "";
 
   constructor(private readonly app: App) {
-    this.tab = app.model.tasks.length > 0 ? "tasks" : "robots";
+    const { comparison, model } = app;
+    this.events = new Events(app, () => this.fill());
+    this.differences = comparison ? new Differences(app, comparison, () => this.fill()) : null;
+    this.tab = this.differences ? "differences" : model.tasks.length > 0 ? "tasks" : "robots";
     this.search = el("input", {
       type: "search", placeholder: "Search robots and tasks ( / )",
       "aria-label": "Search robots and tasks by id", input: () => this.fill(),
       keydown: (event) => this.key(event as KeyboardEvent),
     });
-    for (const tab of kTabs)
-      this.buttons.set(tab, el("button", { type: "button", role: "tab", click: () => this.turnTo(tab) },
+    const tabs: Tab[] = ["robots"];
+    if (app.viewed.length > 0) tabs.push("events");
+    if (model.tasks.length > 0) tabs.unshift("tasks");
+    if (this.differences) tabs.unshift("differences");
+    for (const tab of tabs)
+      this.buttons.set(tab, el("button", { type: "button", click: () => this.turnTo(tab) },
         tab[0].toUpperCase() + tab.slice(1)));
-    this.element = el("section", { class: "lists" }, this.search,
-      el("div", { class: "tabs", role: "tablist" }, ...this.buttons.values()), this.body);
+    this.element = el("section", { class: "lists", "aria-label": "Lists" }, this.search,
+      el("div", { class: "tabs" }, ...this.buttons.values()), this.top, this.body);
     this.fill();
   }
 
   update(): void {
-    const count = this.app.viewed.reduce((sum, v) => sum + v.checker.violations.length, 0);
-    if (count !== this.eventCount) {
-      this.eventCount = count;
-      setText(this.buttons.get("events")!, count > 0 ? `Events ⚠ ${count.toLocaleString("en")}` : "Events");
+    const wrong = this.app.viewed.reduce((sum, v) => sum + v.checker.violations.length, 0);
+    const known = this.app.viewed.every((v) => v.waits.done);
+    const shown = [wrong, known, this.tab === "events" ? this.app.chosen : ""].join();
+    if (shown !== this.shown) {
+      this.shown = shown;
+      const button = this.buttons.get("events");
+      if (button) setText(button, wrong > 0 ? `Events ⚠ ${wrong.toLocaleString("en")}` : "Events");
+      this.events.forget();
       if (this.tab === "events") this.fill();
     }
     for (const { element, row } of this.notes) setText(element, row.note());
@@ -53,95 +61,89 @@ export class Lists {
 
   private turnTo(tab: Tab): void {
     this.tab = tab;
+    this.search.value = "";
     this.fill();
   }
 
-  // The first of what was found.
   private key(event: KeyboardEvent): void {
     if (event.key === "Escape") {
       this.search.value = "";
       this.search.blur();
       this.fill();
     }
-    if (event.key === "Enter") this.rows()[0]?.act();
+    if (event.key === "Enter") this.rows[0]?.act();
     event.stopPropagation();
+  }
+
+  private get query(): string {
+    return this.search.value.trim().toLowerCase();
   }
 
   private fill(): void {
     for (const [tab, button] of this.buttons)
-      button.setAttribute("aria-selected", String(tab === this.tab && this.search.value === ""));
-    const rows = this.rows();
-    this.notes = [];
-    this.body.replaceChildren(...rows.slice(0, kMostRows).map((row) => this.rowElement(row)));
-    if (rows.length > kMostRows)
-      this.body.append(el("p", { class: "faint" }, `and ${plural(rows.length - kMostRows, "more")}: search for them`));
-    if (rows.length === 0) this.body.append(el("p", { class: "faint" }, "nothing of that kind"));
-    this.update();
+      button.setAttribute("aria-pressed", String(tab === this.tab));
+    const filters = this.tab === "events" ? this.events.filters
+      : this.tab === "differences" ? this.differences!.filters : null;
+    if (filters === null) this.top.replaceChildren();
+    else if (!this.top.contains(filters)) this.top.replaceChildren(filters);
+    this.rows = this.query === "" ? this.ofTab() : this.found(this.query);
+    const shown = this.rows.slice(0, kMostRows).map((row) => ({ row, ...rowElement(row) }));
+    this.notes = shown.map(({ row, note }) => ({ element: note, row }));
+    this.body.replaceChildren(...shown.map(({ element }) => element));
+    const rest = this.rows.length - kMostRows;
+    if (rest > 0)
+      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: search for them`));
+    if (this.rows.length === 0) this.body.append(el("p", { class: "faint" }, this.nothing()));
+    for (const { element, row } of this.notes) setText(element, row.note());
   }
 
-  private rowElement(row: Row): HTMLElement {
-    const note = el("span", { class: "faint note" });
-    this.notes.push({ element: note, row });
-    return el("button", { type: "button", class: row.bad ? "row bad" : "row", click: row.act },
-      el("span", {}, row.text), note);
+  private nothing(): string {
+    return this.tab === "differences" && this.query === "" ? "every robot does the same in both plans"
+      : "nothing of that kind";
   }
 
-  private rows(): Row[] {
-    const query = this.search.value.trim().toLowerCase();
-    if (query !== "") {
-      const found = (text: string) => text.toLowerCase().includes(query);
-      const rows = [...this.robots(), ...this.tasks()].filter((row) => found(row.text));
-      return rows.sort((a, b) => a.text.length - b.text.length);
+  private ofTab(): Row[] {
+    switch (this.tab) {
+      case "tasks": return this.tasks();
+      case "robots": return this.robots();
+      case "events": return this.events.rows("");
+      case "differences": return this.differences!.rows();
     }
-    return this.tab === "events" ? this.events() : this.tab === "tasks" ? this.tasks() : this.robots();
+  }
+
+  // Shorter ids first: they are nearer to what was typed.
+  private found(query: string): Row[] {
+    const things = [...this.robots(), ...this.tasks()].filter((row) => row.key.includes(query));
+    things.sort((a, b) => a.key.length - b.key.length);
+    if (this.tab === "events") return [...this.events.rows(query), ...things];
+    if (this.tab !== "differences") return things;
+    const different = this.differences!.rows().filter((row) => row.key.includes(query));
+    return different.length > 0 ? different : things;
   }
 
   private robots(): Row[] {
     const { app } = this;
-    return app.model.agents.map((agent, index) => ({
-      key: index,
-      text: agent.id,
-      note: () => app.viewed.map((v) => `rests from ${v.facts.finish[index]}`).join("; "),
+    return app.model.agents.map(({ id, name }, index) => ({
+      key: id.toLowerCase(),
+      text: name,
+      note: () => restText(app, index),
       act: () => app.choose(index),
     }));
   }
 
   private tasks(): Row[] {
     const { app } = this;
-    return app.model.tasks.map((task, index) => ({
-      key: index,
-      text: `${index + 1}: ${task.id}`,
+    return app.model.tasks.map(({ id, name }, index) => ({
+      key: `${index + 1}: ${id.toLowerCase()}`,
+      text: `${index + 1}: ${name}`,
       note: () => progressText(app, index),
       act: () => app.chooseTask(index),
     }));
   }
+}
 
-  private events(): Row[] {
-    const { app } = this;
-    const rows: Row[] = [];
-    app.viewed.forEach((viewed) => {
-      const name = app.viewed.length > 1 ? `${viewed.plan.name}: ` : "";
-      for (const wrong of viewed.checker.violations)
-        rows.push({
-          key: wrong.time, text: name + wrong.text, note: () => `step ${wrong.time}`, bad: true,
-          act: () => {
-            app.go(wrong.time);
-            if (wrong.agents.length > 0) app.choose(wrong.agents[0]);
-          },
-        });
-      viewed.facts.tasks.forEach((task, index) => {
-        const time = task.times[task.times.length - 1];
-        if (!Number.isFinite(time)) return;
-        rows.push({
-          key: time, text: `${name}${app.model.tasks[index].id} is done`, note: () => `step ${time}`,
-          act: () => app.go(time),
-        });
-      });
-      viewed.facts.finish.forEach((time, agent) => rows.push({
-        key: time, text: `${name}${app.model.agents[agent].id} comes to rest`, note: () => `step ${time}`,
-        act: () => app.go(time),
-      }));
-    });
-    return rows.sort((a, b) => Number(b.bad ?? false) - Number(a.bad ?? false) || a.key - b.key);
-  }
+function restText({ viewed }: App, agent: number): string {
+  const times = viewed.map(({ facts, plan }) =>
+    plan.agents[agent].track.isEmpty ? "no path" : String(facts.finish[agent]));
+  return viewed.length > 0 ? `rests from ${times.join(" / ")}` : "";
 }

@@ -1,87 +1,112 @@
 // SPDX-License-Identifier: MIT
-// The robot or task chosen: what it does now, its visits in order, its waits and whom it lets pass.
+// The robot chosen: what it does now, its visits in order, its waits and whom it lets pass; of two
+// plans, how they differ.
 
 import { violationsOf, type App, type Viewed } from "../app";
+import type { Difference } from "../compare";
 import { el, plural, setText } from "../dom";
-import { Doing, visitsBy, visitsOf, waits, type Span } from "../facts";
+import { waitText } from "../events";
+import { Doing, visitsOf, type Span, type Visit } from "../facts";
+import { signed } from "./differences";
+import { head } from "./head";
+import { moments, type Moment } from "./moments";
+import { momentButton } from "./rows";
 
-const kMostRows = 200;
+export class RobotDetails {
+  readonly elements: HTMLElement[];
+  private readonly follow: HTMLElement;
+  private readonly now: { viewed: Viewed; element: HTMLElement }[] = [];
 
-export class Details {
-  readonly element = el("section", { class: "details", "aria-live": "off" });
-  private shown = "";
-  private now: { viewed: Viewed; element: HTMLElement }[] = [];
-
-  constructor(private readonly app: App) {}
+  constructor(private readonly app: App, private readonly agent: number) {
+    const { name, turnSteps } = app.model.agents[agent];
+    this.follow = el("button", {
+      type: "button", title: "Keep it in the middle (F)", click: () => app.set({ following: !app.following }),
+    }, "Follow");
+    const turning = turnSteps > 0
+      ? [el("p", { class: "faint" }, `A quarter turn takes it ${plural(turnSteps, "step")}.`)] : [];
+    this.elements = [head(app, name, this.follow), ...turning, ...this.compared(),
+      ...app.viewed.flatMap((viewed) => this.plan(viewed))];
+  }
 
   update(): void {
-    const { chosen, chosenTask, following } = this.app;
-    const key = [chosen, chosenTask, following].join();
-    if (key !== this.shown) {
-      this.shown = key;
-      this.now = [];
-      this.element.replaceChildren(
-        ...(chosen >= 0 ? this.robot(chosen) : chosenTask >= 0 ? this.task(chosenTask) : this.hint()),
-      );
-    }
+    this.follow.setAttribute("aria-pressed", String(this.app.following));
     for (const { viewed, element } of this.now) setText(element, this.doingNow(viewed));
   }
 
-  private hint(): HTMLElement[] {
-    return [
-      el("p", { class: "faint" }, "Choose a robot or a task: click it, or search for its name."),
-      el("p", { class: "faint" },
-        "Space plays, arrows step, + and − zoom, F follows the robot, 0 shows everything."),
-    ];
+  private compared(): HTMLElement[] {
+    const { comparison } = this.app;
+    if (!comparison) return [];
+    const difference = comparison.all.find(({ agent }) => agent === this.agent);
+    return [difference ? this.difference(difference)
+      : el("p", { class: "faint" }, "It does the same in both plans."), ...this.bothVisits()];
   }
 
-  private robot(agent: number): HTMLElement[] {
-    const { model } = this.app;
-    const { id, turnSteps } = model.agents[agent];
-    const follow = el("button", {
-      type: "button", "aria-pressed": this.app.following,
-      click: () => this.app.set({ following: !this.app.following }),
-    }, "Follow");
-    const close = el("button", {
-      type: "button", "aria-label": "Choose nothing", click: () => this.app.choose(-1),
-    }, "✕");
-    const head = el("div", { class: "head" }, el("h2", {}, id), follow, close);
-    const turning = turnSteps > 0
-      ? [el("p", { class: "faint" }, `A quarter turn takes it ${plural(turnSteps, "step")}.`)] : [];
-    return [head, ...turning, ...this.app.viewed.flatMap((viewed) => this.plan(viewed, agent))];
+  // In the order of the first plan; when, in each.
+  private bothVisits(): HTMLElement[] {
+    const [first, second] = this.app.viewed.map((viewed) => this.visits(viewed));
+    if (first.length === 0) return [];
+    const rows = first.map((visit) => {
+      const other = second.find(({ task }) => task === visit.task)!;
+      const { name } = this.app.model.tasks[visit.task];
+      return el("tr", {}, el("th", { scope: "row", dir: "auto" }, `${visit.task + 1}: ${name}`),
+        ...[visit, other].map(({ begin, time }, i) => el("td", {},
+          time === Infinity ? el("span", { class: "bad" }, "never") : momentButton(begin, () => this.app.go(begin)),
+          first.indexOf(visit) !== second.indexOf(other) && i === 1
+            ? el("b", { title: "Its place in the order" }, ` ${ordinal(second.indexOf(other) + 1)}`) : null)));
+    });
+    const names = this.app.viewed.map(({ plan }) => el("th", { scope: "col", title: plan.name }, plan.name));
+    return [el("table", { class: "visits" }, el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "Visits"), ...names)),
+      el("tbody", {}, ...rows))];
   }
 
-  private plan(viewed: Viewed, agent: number): HTMLElement[] {
+  private difference({ by, orders, parts }: Difference): HTMLElement {
+    if (Number.isNaN(by)) return el("p", {}, "One of the plans has no path for it.");
+    const order = orders ? " It visits its tasks in another order." : "";
+    const more = by === 0 ? "It costs the same in both plans." : `It costs ${signed(by)} in the second plan.`;
+    return el("p", {}, `${more}${order} They differ from step `,
+      momentButton(parts, () => this.app.go(parts)), " on. Dashed: its path in the other plan.");
+  }
+
+  private plan(viewed: Viewed): HTMLElement[] {
     const { model } = this.app;
-    const { plan, facts } = viewed;
+    const { plan, facts, waits } = viewed;
+    const title = this.app.viewed.length > 1 ? [el("h3", {}, plan.name)] : [];
+    if (plan.agents[this.agent].track.isEmpty) return [...title, el("p", { class: "bad" }, "It has no path.")];
     const now = el("p", { class: "now" });
     this.now.push({ viewed, element: now });
-    const several = this.app.viewed.length > 1;
-    const visits = visitsOf(model, plan.agents[agent], model.agents[agent]);
-    const waited = waits(plan, agent, facts.spans[agent]);
-    const wrong = violationsOf(viewed, agent);
+    const rest = facts.finish[this.agent];
     return [
-      ...(several ? [el("h3", {}, plan.name)] : []),
+      ...title,
       now,
-      el("p", {}, `Rests from step ${facts.finish[agent]} on: that is its cost.`),
-      ...(wrong.length > 0 ? [el("h4", { class: "bad" }, "Wrong"), this.list(wrong.map((w) => [w.time, w.text]))] : []),
-      ...(visits.length > 0 ? [el("h4", {}, "Visits"),
-        this.list(visits.map((v) => [v.time, `${v.task + 1}: ${model.tasks[v.task].id}`]))] : []),
-      ...(waited.length > 0 ? [el("h4", {}, "Waits"), this.list(waited.map((w) => [w.begin, this.waitText(w)]))] : []),
+      el("p", {}, `Costs ${rest}: at rest from that step on.`),
+      ...this.list("Wrong", violationsOf(viewed, this.agent), (wrong) => wrong, "bad"),
+      ...(this.app.viewed.length > 1 ? [] : this.list("Visits", this.visits(viewed), (visit) => this.visit(visit))),
+      ...this.list("Waits", waits.byAgent[this.agent], (wait) =>
+        ({ time: wait.begin, text: waits.done ? waitText(model, wait) : plural(wait.end - wait.begin, "step") })),
     ];
   }
 
-  private waitText(wait: { begin: number; end: number; for: number[] }): string {
-    const names = wait.for.slice(0, 5).map((other) => this.app.model.agents[other].id);
-    const more = wait.for.length > 5 ? " and others" : "";
-    const whom = names.length > 0 ? `lets ${names.join(", ")}${more} pass` : "its way is free";
-    return `${plural(wait.end - wait.begin, "step")}: ${whom}`;
+  private visits({ plan }: Viewed): Visit[] {
+    const { model } = this.app;
+    return visitsOf(model, plan.agents[this.agent], model.agents[this.agent]);
+  }
+
+  private list<T>(title: string, things: T[], tell: (thing: T) => Moment, kind = ""): HTMLElement[] {
+    return things.length > 0 ? [el("h4", { class: kind }, title), moments(this.app, things, tell)] : [];
+  }
+
+  // When it passes, or begins to work.
+  private visit({ task, begin, time }: Visit): Moment {
+    const { duration, name } = this.app.model.tasks[task];
+    const what = `${task + 1}: ${name}`;
+    if (time === Infinity) return { time, text: what };
+    return { time: begin, text: duration > 0 ? `${what}, at work until ${time}` : what };
   }
 
   private doingNow(viewed: Viewed): string {
     const step = Math.floor(this.app.player.time);
-    const span = viewed.facts.spans[this.app.chosen].find((s) => s.end > step);
-    const where = this.app.model.world.place(viewed.plan.agents[this.app.chosen].track.place(step));
+    const span = viewed.facts.spans[this.agent].find((s) => s.end > step);
+    const where = this.app.model.world.place(viewed.plan.agents[this.agent].track.place(step));
     return span ? `Now: ${this.doingText(span)} on ${where}` : "";
   }
 
@@ -89,48 +114,15 @@ export class Details {
     switch (span.doing) {
       case Doing.kMoving: return "moving";
       case Doing.kWaiting: return "waiting";
-      case Doing.kWorking: return `at work on ${this.app.model.tasks[span.task].id}`;
+      case Doing.kWorking: return `at work on ${this.app.model.tasks[span.task].name}`;
       default: return "at rest";
     }
   }
-
-  private task(index: number): HTMLElement[] {
-    const { model } = this.app;
-    const task = model.tasks[index];
-    const close = el("button", {
-      type: "button", "aria-label": "Choose nothing", click: () => this.app.chooseTask(-1),
-    }, "✕");
-    const rows = this.app.viewed.flatMap((viewed) => {
-      const facts = viewed.facts.tasks[index];
-      const several = this.app.viewed.length > 1 ? [el("h3", {}, viewed.plan.name)] : [];
-      return [...several, this.list(facts.times.map((time, i) => [time, model.agents[facts.agents[i]].id]))];
-    });
-    return [
-      el("div", { class: "head" }, el("h2", {}, `${index + 1}: ${task.id}`), close),
-      el("p", { class: "faint" }, `On ${model.world.place(task.place)}` +
-        (task.duration > 0 ? `; takes ${plural(task.duration, "step")}` : "")),
-      el("h4", {}, task.agents.length > 1 ? "Visited by, in this order" : "Visited by"),
-      ...rows,
-    ];
-  }
-
-  // Moments to jump to.
-  private list(rows: [number, string][]): HTMLElement {
-    const items = rows.slice(0, kMostRows).map(([time, text]) =>
-      el("li", {},
-        Number.isFinite(time)
-          ? el("button", { type: "button", class: "moment", click: () => this.app.go(Math.max(0, time)) }, String(time))
-          : el("span", { class: "moment bad" }, "never"),
-        " ", text));
-    const rest = rows.length - kMostRows;
-    if (rest > 0) items.push(el("li", { class: "faint" }, `and ${plural(rest, "more")}`));
-    return el("ul", { class: "moments" }, ...items);
-  }
 }
 
-export function progressText(app: App, task: number): string {
-  const viewed = app.viewed[0];
-  const total = app.model.tasks[task].agents.length;
-  const visits = viewed ? visitsBy(viewed.facts.tasks[task], app.player.time) : 0;
-  return `${visits} of ${total}`;
+// "2nd"
+function ordinal(place: number): string {
+  const ends = ["th", "st", "nd", "rd"];
+  const last = place % 100 > 10 && place % 100 < 14 ? 0 : place % 10;
+  return `${place}${ends[last] ?? "th"}`;
 }

@@ -1,71 +1,89 @@
 // SPDX-License-Identifier: MIT
-// The line at the top: what is shown, what each plan claims, and what the page found.
+// The line at the top: what is shown, what each plan costs and claims, and what the page found.
 
 import type { App, Viewed } from "../app";
 import { el, plural, setText } from "../dom";
 import type { Plan } from "../model";
+import { signed } from "./differences";
 
 export class Strip {
   readonly element: HTMLElement;
-  private readonly verdicts: HTMLElement[] = [];
+  private readonly verdicts: { viewed: Viewed; element: HTMLElement }[] = [];
 
   constructor(private readonly app: App) {
     const { model } = app;
     const counts = `${plural(model.agents.length, "robot")}, ${plural(model.tasks.length, "task")}`;
-    this.element = el(
-      "header",
-      { class: "strip" },
+    const many = model.plans.length > 1 ? "plans several" : "plans";
+    this.element = el("header", { class: "strip" },
       el("h1", {}, model.instance),
       el("span", { class: "faint" }, counts),
-      ...model.plans.map((plan) => this.planCard(plan)),
-    );
-  }
-
-  private planCard(plan: Plan): HTMLElement {
-    const verdict = el("span", { class: "verdict" }, "checking …");
-    this.verdicts.push(verdict);
-    return el(
-      "div",
-      { class: "plan" },
-      el("strong", {}, plan.name),
-      ...claimsOf(plan).map(([name, value]) =>
-        el("span", { class: "claim" }, el("span", { class: "faint" }, name), " ", value),
-      ),
-      plan.agents.length > 0 ? verdict : el("span", { class: "verdict" }, "no plan in this file"),
-    );
+      el("div", { class: many }, ...model.plans.map((plan) => this.row(plan))));
   }
 
   update(): void {
-    this.app.model.plans.forEach((plan, index) => {
-      const viewed = this.app.viewed.find((v) => v.plan === plan);
-      if (viewed) this.showVerdict(this.verdicts[index], viewed);
-    });
+    for (const { viewed, element } of this.verdicts) showVerdict(element, viewed);
   }
 
-  private showVerdict(element: HTMLElement, viewed: Viewed): void {
-    const { checker } = viewed;
-    const found = checker.violations.length;
-    const text = found > 0
-      ? `✗ ${plural(found, "problem")}${checker.done ? "" : " so far"}`
-      : checker.done ? "✓ valid, checked by this page" : "checking …";
-    setText(element, text);
-    element.classList.toggle("bad", found > 0);
-    element.classList.toggle("good", found === 0 && checker.done);
+  // The same cells for each plan, so that they stand below each other.
+  private row(plan: Plan): HTMLElement {
+    const viewed = this.app.viewed.find((v) => v.plan === plan);
+    const { status, lower_bound: bound, omega } = plan.claims;
+    const cost = plan.claims.cost ?? foundCost(viewed);
+    const isBounded = bound !== undefined && bound > 0;
+    return el("div", { class: "plan" },
+      el("strong", { title: plan.name }, plan.name),
+      cell("status", status === "bounded" ? `${status}, omega ${omega}` : status),
+      cell("cost", costText(cost, foundCost(viewed)), this.difference(viewed)),
+      cell("bound", isBounded ? bound.toLocaleString("en") : undefined),
+      cell("gap", isBounded && cost !== undefined ? gapText(cost, bound) : undefined),
+      this.verdict(plan, viewed));
+  }
+
+  // To the first plan's cost; as the page adds them up.
+  private difference(viewed: Viewed | undefined): string {
+    const { comparison } = this.app;
+    if (!comparison || viewed !== this.app.viewed[1]) return "";
+    const { by, costs } = comparison;
+    if (Number.isNaN(by)) return "";
+    const part = costs[0] > 0 && by !== 0 ? `, ${signed(Number(((100 * by) / costs[0]).toFixed(2)))} %` : "";
+    return ` (${signed(by)}${part})`;
+  }
+
+  private verdict(plan: Plan, viewed: Viewed | undefined): HTMLElement {
+    if (plan.agents.length === 0) return el("span", { class: "verdict" }, "no plan in this file");
+    if (!viewed) return el("span", { class: "faint" }, "not shown: two at most are");
+    const element = el("span", { class: "verdict", role: "status" }, "checking …");
+    this.verdicts.push({ viewed, element });
+    return element;
   }
 }
 
-// What the file says of the plan, for people.
-function claimsOf(plan: Plan): [string, string][] {
-  const { status, cost, lower_bound, omega } = plan.claims;
-  const claims: [string, string][] = [];
-  if (status !== undefined) claims.push(["status", status]);
-  if (cost !== undefined) claims.push(["cost", cost.toLocaleString("en")]);
-  if (lower_bound !== undefined && lower_bound > 0) {
-    claims.push(["bound", lower_bound.toLocaleString("en")]);
-    if (cost !== undefined) claims.push(["gap", gapText(cost, lower_bound)]);
-  }
-  if (omega !== undefined && status === "bounded") claims.push(["omega", omega]);
-  return claims;
+// What the page adds up; nothing where paths are missing.
+function foundCost(viewed: Viewed | undefined): number | undefined {
+  if (!viewed || viewed.plan.agents.some(({ track }) => track.isEmpty)) return undefined;
+  return viewed.facts.cost;
+}
+
+function costText(cost: number | undefined, found: number | undefined): string | undefined {
+  const text = cost?.toLocaleString("en");
+  return found === undefined || found === cost ? text : `${text} claimed, ${found.toLocaleString("en")} found`;
+}
+
+// Empty where nothing is claimed.
+function cell(name: string, value: string | undefined, more = ""): HTMLElement {
+  if (value === undefined) return el("span", { class: "claim" });
+  return el("span", { class: "claim" }, el("span", { class: "faint" }, name), ` ${value}`,
+    more === "" ? null : el("b", {}, more));
+}
+
+function showVerdict(element: HTMLElement, { checker }: Viewed): void {
+  const found = checker.violations.length;
+  const text = found > 0
+    ? `✗ ${plural(found, "problem")}${checker.done ? "" : " so far"}`
+    : checker.done ? "✓ valid, checked by this page" : "checking …";
+  setText(element, text);
+  element.classList.toggle("bad", found > 0);
+  element.classList.toggle("good", found === 0 && checker.done);
 }
 
 function gapText(cost: number, bound: number): string {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What differs between two plans for one instance, robot by robot.
+
+import type { Viewed } from "./app";
+import { visitsOf } from "./facts";
+import type { AgentPlan, Model } from "./model";
+import type { Track, TurnTrack } from "./track";
+
+export interface Difference {
+  agent: number;
+  costs: [number, number]; // NaN: there is no path
+  by: number; // the second cost less the first; NaN: one has no path
+  parts: number; // the first moment at which they are not the same; Infinity: there is none
+  orders: boolean; // the tasks are visited in another order
+}
+
+export interface Comparison {
+  all: Difference[]; // of those that differ, by number
+  costs: [number, number];
+  by: number; // NaN: not every robot has a path in both
+}
+
+export function compare(model: Model, one: Viewed, other: Viewed): Comparison {
+  const all: Difference[] = [];
+  const costs: [number, number] = [one.facts.cost, other.facts.cost];
+  let complete = true;
+  model.agents.forEach((agent, index) => {
+    const [a, b] = [one.plan.agents[index], other.plan.agents[index]];
+    if (a.track.isEmpty || b.track.isEmpty) complete = false;
+    const cost = (viewed: Viewed) =>
+      viewed.plan.agents[index].track.isEmpty ? NaN : viewed.facts.finish[index];
+    const both: [number, number] = [cost(one), cost(other)];
+    const by = both[1] - both[0];
+    const parts = partingTime(a, b);
+    if (parts === Infinity && a.track.isEmpty === b.track.isEmpty) return;
+    const order = (plan: AgentPlan) => visitsOf(model, plan, agent).map((v) => v.task).join();
+    all.push({ agent: index, costs: both, by, parts, orders: order(a) !== order(b) });
+  });
+  return { all, costs, by: complete ? costs[1] - costs[0] : NaN };
+}
+
+// The first moment at which place, heading or work are not the same; Infinity: they always are.
+export function partingTime(a: AgentPlan, b: AgentPlan): number {
+  if (a.track.isEmpty || b.track.isEmpty) return a.track.isEmpty && b.track.isEmpty ? Infinity : 0;
+  const turns = a.turns && b.turns ? parting(a.turns, b.turns, (t, at) => t.heading(at)) : Infinity;
+  const places = parting(a.track, b.track, (t, at) => t.place(at));
+  return Math.min(places, turns, partingOfWork(a, b));
+}
+
+// Within a run of equal steps nothing changes that did not change at its beginning.
+function parting<T extends Track | TurnTrack>(
+  a: T, b: T, value: (track: T, time: number) => number,
+): number {
+  let [i, j] = [0, 0];
+  for (let time = 0; ; ) {
+    if (value(a, time) !== value(b, time)) return time;
+    if (stepOf(a, i) !== stepOf(b, j)) return time + 1;
+    const [endA, endB] = [i < a.runs ? a.times[i + 1] : Infinity, j < b.runs ? b.times[j + 1] : Infinity];
+    time = Math.min(endA, endB);
+    if (time === Infinity) return Infinity;
+    if (endA === time) ++i;
+    if (endB === time) ++j;
+  }
+}
+
+// At rest it takes none.
+function stepOf(track: Track | TurnTrack, run: number): number {
+  return run < track.runs && !(track.jumps[run] && !track.deltas[run]) ? track.deltas[run] : 0;
+}
+
+function partingOfWork(a: AgentPlan, b: AgentPlan): number {
+  const key = (work: { task: number; begin: number; end: number }) =>
+    `${work.task} ${work.begin} ${work.end}`;
+  const begins = (of: AgentPlan, without: AgentPlan) => {
+    const known = new Set(without.work.map(key));
+    return of.work.filter((work) => !known.has(key(work))).map((work) => Math.max(0, work.begin));
+  };
+  return [...begins(a, b), ...begins(b, a)].reduce((x, y) => Math.min(x, y), Infinity);
+}

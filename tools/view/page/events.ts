@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What happens in a plan, as a list to jump to: what is wrong, long waits and for whom, tasks done,
+// robots that come to rest.
+
+import type { App, Viewed } from "./app";
+import { plural } from "./dom";
+import type { Model } from "./model";
+import type { Wait } from "./waiting";
+
+export type EventKind = "wrong" | "wait" | "task" | "rest";
+
+export interface PlanEvent {
+  kind: EventKind;
+  time: number;
+  text: string;
+  agents: number[];
+}
+
+const kLongWait = 3; // steps; shorter ones are told of the robot chosen
+const kMostNames = 3;
+
+// In order of time, what is wrong first.
+export function eventsOf(app: App): PlanEvent[] {
+  const [first, second] = app.viewed.map((viewed) => eventsOfPlan(app.model, viewed));
+  const all = second ? merged(app, first, second) : first ?? [];
+  const rank = (event: PlanEvent) => (event.kind === "wrong" ? 0 : 1);
+  return all.sort((a, b) => rank(a) - rank(b) || a.time - b.time);
+}
+
+// What happens in both plans is told once; else, in which.
+function merged(app: App, first: PlanEvent[], second: PlanEvent[]): PlanEvent[] {
+  const key = ({ kind, text, time }: PlanEvent) => `${kind} ${time} ${text}`;
+  const lists = [first, second];
+  const keys = lists.map((events) => new Set(events.map(key)));
+  return lists.flatMap((events, i) => events.flatMap((event): PlanEvent[] => {
+    const isInBoth = keys[1 - i].has(key(event));
+    if (isInBoth && i === 1) return [];
+    const where = isInBoth ? "both plans" : app.viewed[i].plan.name;
+    return [{ ...event, text: `${event.text} (${where})` }];
+  }));
+}
+
+function eventsOfPlan(model: Model, { checker, facts, plan, waits }: Viewed): PlanEvent[] {
+  const { agents, tasks } = model;
+  const wrong = checker.violations.map(({ time, text, agents }): PlanEvent =>
+    ({ kind: "wrong", time, text, agents }));
+  const long = waits.all.filter((wait) => wait.end - wait.begin >= kLongWait).map((wait): PlanEvent =>
+    ({ kind: "wait", time: wait.begin, agents: [wait.agent],
+      text: `${agents[wait.agent].name} waits ${waitText(model, wait)}` }));
+  const done = facts.tasks.map(({ times, agents }, task): PlanEvent =>
+    ({ kind: "task", time: times[times.length - 1] ?? Infinity, agents: agents.slice(-1),
+      text: `${tasks[task].name} is done` }));
+  const rest = facts.finish.map((time, agent): PlanEvent =>
+    ({ kind: "rest", time: plan.agents[agent].track.isEmpty ? Infinity : time, agents: [agent],
+      text: `${agents[agent].name} comes to rest` }));
+  return [...wrong, ...long, ...done, ...rest].filter((event) => Number.isFinite(event.time));
+}
+
+// "6 steps for a7 to pass"
+export function waitText(model: Model, wait: Wait): string {
+  const steps = plural(wait.end - wait.begin, "step");
+  const names = wait.for.slice(0, kMostNames).map((other) => model.agents[other].name);
+  if (names.length === 0) return `${steps}, though it meets nobody if it goes on`;
+  if (wait.for.length > kMostNames) return `${steps} for ${names.join(", ")} and others to pass`;
+  const last = names.pop()!;
+  return `${steps} for ${names.length > 0 ? `${names.join(", ")} and ${last}` : last} to pass`;
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Which robots are red at a moment for what they do alone: a step that is none, work elsewhere, an
+// end on the wrong place. (Who meets whom, the frame sees by itself and at once.)
+
+import type { Kind, Violation } from "./check";
+
+const kOfAMoment: Kind[] = ["start", "jump", "turn", "work"];
+const kForEver: Kind[] = ["end", "visit"]; // from their moment on
+
+export class Faults {
+  private known = -1; // violations; more are found while the page is looked at
+  private readonly moments = new Map<number, number[]>(); // robots by the end of their step
+  private readonly since: Float64Array; // by robot
+
+  constructor(robots: number) {
+    this.since = new Float64Array(robots).fill(Infinity);
+  }
+
+  // A step is at fault from its beginning to its end.
+  mark(violations: Violation[], time: number, red: Uint8Array): void {
+    if (violations.length !== this.known) this.learn(violations);
+    if (this.known === 0) return;
+    for (const robot of this.moments.get(Math.ceil(time)) ?? []) red[robot] = 1;
+    for (let i = 0; i < red.length; ++i) if (time >= this.since[i]) red[i] = 1;
+  }
+
+  private learn(violations: Violation[]): void {
+    this.known = violations.length;
+    this.moments.clear();
+    for (const { kind, time, agents } of violations) {
+      if (kForEver.includes(kind))
+        for (const robot of agents) this.since[robot] = Math.min(this.since[robot], time);
+      if (!kOfAMoment.includes(kind)) continue;
+      const others = this.moments.get(time);
+      if (others) others.push(...agents);
+      else this.moments.set(time, [...agents]);
+    }
+  }
+}

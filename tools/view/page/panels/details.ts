@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The robot or the task chosen; or how to choose one.
+
+import type { App } from "../app";
+import { el } from "../dom";
+import { head } from "./head";
+import { RobotDetails } from "./robot";
+import { taskDetails } from "./task";
+
+export class Details {
+  readonly element = el("section", { class: "details", "aria-label": "What is chosen" });
+  private shown = "";
+  private robot: RobotDetails | null = null;
+
+  constructor(private readonly app: App) {}
+
+  update(): void {
+    const { chosen, chosenTask, viewed } = this.app;
+    const known = viewed.map(({ checker, waits }) => `${checker.done} ${waits.done}`);
+    const key = [chosen, chosenTask, ...known].join();
+    if (key !== this.shown) {
+      this.shown = key;
+      this.robot = chosen >= 0 ? new RobotDetails(this.app, chosen) : null;
+      this.element.replaceChildren(...this.robot?.elements ?? this.others(chosenTask));
+    }
+    this.robot?.update();
+  }
+
+  private others(task: number): HTMLElement[] {
+    if (task >= 0) return [head(this.app, taskTitle(this.app, task)), ...taskDetails(this.app, task)];
+    const hint = "Choose a robot or a task: click it, or search for its name. Press ? for all keys.";
+    return [el("p", { class: "faint" }, hint)];
+  }
+}
+
+function taskTitle(app: App, task: number): string {
+  return `${task + 1}: ${app.model.tasks[task].name}`;
+}

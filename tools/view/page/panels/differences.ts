@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Which robots do not do the same in both plans: what each costs, how much more, and from when on.
+
+import type { App } from "../app";
+import type { Comparison, Difference } from "../compare";
+import { el, plural } from "../dom";
+import { momentButton, type Row } from "./rows";
+
+type Order = "cost" | "moment" | "name";
+const kOrders: [Order, string][] = [
+  ["cost", "largest difference first"],
+  ["moment", "first to part first"],
+  ["name", "as they are numbered"],
+];
+
+export class Differences {
+  readonly filters: HTMLElement;
+  private readonly order: HTMLSelectElement;
+
+  constructor(private readonly app: App, private readonly comparison: Comparison, changed: () => void) {
+    this.order = el("select", { "aria-label": "In which order", change: () => changed() },
+      ...kOrders.map(([value, text]) => el("option", { value }, text)));
+    this.filters = el("div", {}, el("p", {}, this.summary()),
+      ...(comparison.all.length > 0 ? [el("div", { class: "filter" }, this.order)] : []));
+  }
+
+  private summary(): string {
+    const { all, by } = this.comparison;
+    const robots = `${all.length.toLocaleString("en")} of ${plural(this.app.model.agents.length, "robot")} ` +
+      `${all.length === 1 ? "differs" : "differ"}.`;
+    const [first, second] = this.app.viewed.map(({ plan }) => plan.name);
+    if (Number.isNaN(by)) return `${robots} Their costs cannot be compared: paths are missing.`;
+    if (by === 0) return `${robots} Both plans cost the same.`;
+    return `${robots} ${second} costs ${Math.abs(by).toLocaleString("en")} ${by > 0 ? "more" : "less"} than ${first}.`;
+  }
+
+  rows(): Row[] {
+    const { app } = this;
+    return sorted(this.comparison.all, this.order.value as Order).map((difference) => {
+      const { agent, parts } = difference;
+      const { id, name } = app.model.agents[agent];
+      const go = () => app.show(parts, agent);
+      return {
+        key: id.toLowerCase(),
+        text: name,
+        note: () => costsText(difference),
+        act: () => app.choose(agent),
+        more: Number.isFinite(parts)
+          ? momentButton(parts, go, `Go to step ${parts}, from which on they differ`) : undefined,
+      };
+    });
+  }
+}
+
+function sorted(all: Difference[], order: Order): Difference[] {
+  const size = ({ by }: Difference) => (Number.isNaN(by) ? Infinity : Math.abs(by));
+  switch (order) {
+    case "cost": return [...all].sort((a, b) => compareNumbers(size(b), size(a)) || a.parts - b.parts);
+    case "moment": return [...all].sort((a, b) => compareNumbers(a.parts, b.parts));
+    case "name": return all;
+  }
+}
+
+// Infinities are equal, not unknown.
+function compareNumbers(a: number, b: number): number {
+  return a < b ? -1 : a > b ? 1 : 0;
+}
+
+// "96 → 97 (+1), other order"
+export function costsText({ costs, by, orders }: Difference): string {
+  const [a, b] = costs.map((cost) => (Number.isNaN(cost) ? "no path" : String(cost)));
+  return `${a} → ${b}${Number.isNaN(by) ? "" : ` (${signed(by)})`}${orders ? ", other order" : ""}`;
+}
+
+export function signed(by: number): string {
+  return by > 0 ? `+${by.toLocaleString("en")}` : by < 0 ? `−${(-by).toLocaleString("en")}` : "±0";
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The head of what is chosen: its name, and how to have done with it.
+
+import type { App } from "../app";
+import { el, setText } from "../dom";
+
+export function head(app: App, title: string, ...buttons: HTMLElement[]): HTMLElement {
+  const close = el("button", {
+    type: "button", "aria-label": "Choose nothing", title: "Choose nothing (Esc)", click: () => app.choose(-1),
+  }, "✕");
+  const heading = el("h2", { dir: "auto" });
+  setText(heading, title);
+  return el("div", { class: "head" }, heading, ...buttons, close);
+}

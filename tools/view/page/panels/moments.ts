@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// A list of moments to jump to, each with what happens then.
+
+import type { App } from "../app";
+import { el, plural } from "../dom";
+import { momentButton } from "./rows";
+
+const kMost = 200;
+
+export interface Moment {
+  time: number; // Infinity: never
+  text: string;
+}
+
+// Of very many things only those shown are told.
+export function moments<T>(app: App, things: T[], tell: (thing: T) => Moment): HTMLElement {
+  const items = things.slice(0, kMost).map(tell).map(({ time, text }) =>
+    el("li", {},
+      Number.isFinite(time)
+        ? momentButton(time, () => app.go(Math.max(0, time))) : el("span", { class: "moment bad" }, "never"),
+      " ", el("span", { dir: "auto" }, text)));
+  const rest = things.length - kMost;
+  if (rest > 0) items.push(el("li", { class: "faint" }, `and ${plural(rest, "more")}`));
+  return el("ul", { class: "moments" }, ...items);
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// A row of a list: a button with a text and, at its end, a note that follows the time.
+
+import { el } from "../dom";
+
+export const kMostRows = 300;
+
+export interface Row {
+  key: string; // what a search looks at
+  text: string;
+  note: () => string;
+  act: () => void;
+  bad?: boolean;
+  more?: HTMLElement; // beside the button
+}
+
+export function rowElement(row: Row): { element: HTMLElement; note: HTMLElement } {
+  const note = el("span", { class: "faint note" });
+  const button = el("button", { type: "button", class: row.bad ? "row bad" : "row", click: row.act },
+    el("span", { dir: "auto" }, row.text), note);
+  const element = row.more ? el("div", { class: "pair" }, button, row.more) : button;
+  return { element, note };
+}
+
+// A moment to jump to.
+export function momentButton(time: number, act: () => void, title = `Go to step ${time}`): HTMLElement {
+  return el("button", { type: "button", class: "moment", title, click: act }, String(time));
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Robots by a 2D canvas, which is everywhere; by WebGL where that takes too long and there is a
+// graphics card. WebGL is asked for then and not before: where it is mere software, browsers
+// complain of the question.
+
+import type { Camera } from "./camera";
+import type { Colors } from "./colors";
+import type { Frame } from "./frame";
+import type { World } from "./model";
+import type { RobotPainter } from "./robots";
+import { CanvasRobots } from "./robots_canvas";
+import { GlRobots } from "./robots_gl";
+
+const kSlow = 6; // milliseconds of a frame
+const kFrames = 30; // that are slow, on the mean, before anything is changed
+
+export class EitherRobots implements RobotPainter {
+  private painter: RobotPainter;
+  private isSettled = false;
+  private frames = 0;
+  private spent = 0;
+
+  // Of the two canvases one stays empty: a canvas is for one of both.
+  constructor(
+    private readonly plain: HTMLCanvasElement,
+    private readonly fast: HTMLCanvasElement,
+    private readonly world: World,
+  ) {
+    this.painter = new CanvasRobots(plain, world);
+  }
+
+  paint(camera: Camera, frame: Frame, colors: Colors, ratio: number): void {
+    const begin = performance.now();
+    this.painter.paint(camera, frame, colors, ratio);
+    if (this.isSettled) return;
+    this.spent += performance.now() - begin;
+    if (++this.frames < kFrames) return;
+    if (this.spent > kSlow * kFrames) this.change(frame.count);
+    this.frames = this.spent = 0;
+  }
+
+  private change(count: number): void {
+    this.isSettled = true;
+    const gl = GlRobots.isFast() ? GlRobots.on(this.fast, this.world, count) : null;
+    if (!gl) return;
+    this.painter = gl;
+    this.plain.getContext("2d")!.resetTransform();
+    this.plain.getContext("2d")!.clearRect(0, 0, this.plain.width, this.plain.height);
+  }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Tasks on a 2D canvas: a diamond for each place that has any, with how many there are, and which
+// and how far they have come where there is room.
+
+import type { Colors } from "./colors";
+import { outlined } from "./text";
+
+export const kTaskRadius = 0.42; // of a diamond, in steps
+const kMostStacked = 3; // diamonds seen of several on one place
+const kLeastCounted = 12; // pixels of a step from which on their number stands on them
+const kLeastTold = 30; // and from which on each is told of
+const kMostTold = 3;
+
+export interface TaskState {
+  index: number;
+  begun: boolean; // somebody was there, or is at work
+  visits: number;
+  total: number;
+}
+
+// Pale while open, yellow once begun, grey when done.
+export function paintTasks(
+  c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
+  isChosen: boolean, colors: Colors,
+): void {
+  const done = tasks.every(({ visits, total }) => visits >= total);
+  const begun = tasks.some((task) => task.begun);
+  const r = Math.max(2.5, kTaskRadius * step);
+  c.fillStyle = done ? colors.taskDone : begun ? colors.taskBegun : colors.taskOpen;
+  c.strokeStyle = isChosen ? colors.chosen : colors.task;
+  c.lineWidth = isChosen ? 3 : 1.25;
+  const apart = Math.max(1.5, 0.09 * step);
+  for (let k = Math.min(kMostStacked, tasks.length) - 1; k >= 0; --k)
+    paintDiamond(c, x + k * apart, y - k * apart, r);
+  const color = done ? colors.faint : colors.text;
+  if (tasks.length > 1 && step >= kLeastCounted) {
+    c.font = `600 ${Math.min(16, 0.36 * step)}px system-ui, sans-serif`;
+    c.textAlign = "center";
+    c.textBaseline = "middle";
+    c.fillStyle = done ? colors.faint : colors.onTask;
+    c.fillText(String(tasks.length), x, y + 0.5, 1.3 * r);
+  }
+  if (step >= kLeastTold) tellTasks(c, x, y, step, tasks, color, colors);
+}
+
+function paintDiamond(c: CanvasRenderingContext2D, x: number, y: number, r: number): void {
+  c.beginPath();
+  c.moveTo(x, y - r);
+  c.lineTo(x + r, y);
+  c.lineTo(x, y + r);
+  c.lineTo(x - r, y);
+  c.closePath();
+  c.fill();
+  c.stroke();
+}
+
+// "2: 1 of 3", one above the other.
+function tellTasks(
+  c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
+  color: string, colors: Colors,
+): void {
+  const size = Math.min(13, Math.max(9, 0.24 * step));
+  const texts = tasks.slice(0, kMostTold).map(({ index, visits, total }) =>
+    `${index + 1}${total > 1 ? `: ${visits} of ${total}` : ""}`);
+  if (tasks.length > kMostTold) texts.push(`+ ${(tasks.length - kMostTold).toLocaleString("en")}`);
+  c.font = `${size}px system-ui, sans-serif`;
+  c.textAlign = "left";
+  c.textBaseline = "bottom";
+  const r = 0.6 * kTaskRadius * step;
+  texts.forEach((text, i) => outlined(c, text, x + r, y - r - 1.1 * size * i, color, colors.floor));
+}
