@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "grove/execution/advance.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "grove/model/assert.h"
+
+namespace grove {
+namespace {
+
+// One agent after `time` steps.
+class AgentLater {
+ public:
+  AgentLater(const Instance& instance, AgentIndex agent, const AgentPlan& plan, Time time)
+      : instance_(instance), agent_(instance.agent(agent)), plan_(plan), time_(time) {
+    for (const TaskIndex task : agent_.tasks)
+      if (!is_visited(task)) left_.push_back(task);
+  }
+
+  const std::vector<TaskIndex>& left() const { return left_; }
+
+  AgentSpec spec() const {
+    AgentSpec spec{agent_.id,           instance_.pose_of(state_at(plan_.path, time_)),
+                   destination(),       agent_.motion,
+                   agent_.goal_heading, {}};
+    if (const WorkTime* work = work_under_way())
+      spec.working = WorkBegun{instance_.task(work->task).id, time_ - work->begin};
+    return spec;
+  }
+
+  // `later`: the tasks' indices then.
+  AgentPlan plan(const std::vector<TaskIndex>& later) const {
+    AgentPlan rest;
+    for (const TaskIndex task : plan_.sequence)
+      if (std::ranges::count(left_, task) > 0) rest.sequence.push_back(later[task]);
+    for (const WorkTime& work : plan_.work)
+      if (goes_on(work))
+        rest.work.push_back({later[work.task], work.begin - time_, work.end - time_});
+    rest.path.assign(plan_.path.begin() + std::min(time_, end()), plan_.path.end());
+    rest.cost = finish(rest);
+    rest.path.resize(static_cast<std::size_t>(rest.cost) + 1);
+    return rest;
+  }
+
+ private:
+  Time end() const { return static_cast<Time>(plan_.path.size()) - 1; }
+
+  // What the agent starts with goes on even before the first step.
+  bool goes_on(const WorkTime& work) const { return work.end > time_; }
+
+  const WorkTime* work_under_way() const {
+    const bool is_at_work = instance_.world().is_working(agent_.start);
+    for (const WorkTime& work : plan_.work)
+      if (goes_on(work) && (work.begin < time_ || (time_ == 0 && is_at_work))) return &work;
+    return nullptr;
+  }
+
+  bool is_visited(TaskIndex index) const {
+    const Task& task = instance_.task(index);
+    if (task.duration > 0)
+      return std::ranges::any_of(plan_.work,
+                                 [&](const WorkTime& w) { return w.task == index && !goes_on(w); });
+    const auto last = plan_.path.begin() + std::min(time_, end()) + 1;
+    return std::any_of(plan_.path.begin(), last,
+                       [&](State state) { return instance_.world().place(state) == task.cell; });
+  }
+
+  Place place_of_rest() const { return instance_.world().place(plan_.path.back()); }
+
+  // Of an agent without one: where it rests, if that is not on a task that is left.
+  std::optional<Place> destination() const {
+    const auto rests_on = [&](TaskIndex task) {
+      return instance_.task(task).cell == place_of_rest();
+    };
+    if (agent_.goal || left_.empty() || std::ranges::any_of(left_, rests_on)) return agent_.goal;
+    return place_of_rest();
+  }
+
+  // From when on nothing changes and nothing is left to do.
+  static Time finish(const AgentPlan& plan) {
+    Time last = static_cast<Time>(plan.path.size()) - 1;
+    while (last > 0 && plan.path[last - 1] == plan.path.back()) --last;
+    for (const WorkTime& work : plan.work) last = std::max(last, work.end);
+    return last;
+  }
+
+  const Instance& instance_;
+  const Agent& agent_;
+  const AgentPlan& plan_;
+  const Time time_;
+  std::vector<TaskIndex> left_;
+};
+
+}  // namespace
+
+Remainder advance(const Instance& instance, const Plan& plan, Time time) {
+  GROVE_ASSERT(time >= 0, "plans begin at time 0");
+  std::vector<AgentLater> agents;
+  InstanceBuilder builder(instance.map());
+  std::vector<std::vector<std::string>> visitors(instance.tasks().size());
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    agents.emplace_back(instance, i, plan.agents[i], time);
+    builder.add_agent(agents.back().spec());
+    for (const TaskIndex task : agents.back().left())
+      visitors[task].push_back(instance.agent(i).id);
+  }
+  std::vector<TaskIndex> later(instance.tasks().size(), -1);
+  for (TaskIndex i = 0; i < instance.task_count(); ++i) {
+    const Task& task = instance.task(i);
+    if (!visitors[i].empty())
+      later[i] = builder.add_task(task.id, task.cell, visitors[i], task.duration);
+  }
+  Remainder rest{std::move(builder).build(), {}};
+  for (const AgentLater& agent : agents) {
+    rest.plan.agents.push_back(agent.plan(later));
+    rest.plan.cost += rest.plan.agents.back().cost;
+  }
+  return rest;
+}
+
+}  // namespace grove

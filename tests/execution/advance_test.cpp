@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "grove/execution/advance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "grove/engine/solve.h"
+#include "grove/model/check.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace advance_test {
+
+using testing::AgentSpec;
+using testing::instance_of;
+
+std::string wrong_with(const Instance& instance, const Plan& plan) {
+  Solution solution;
+  solution.plan = plan;
+  solution.status = status_of(plan.cost, 0, solution.omega);
+  const auto wrong = check(instance, solution, 1);
+  return wrong.empty() ? "" : wrong.front().place + ": " + wrong.front().message;
+}
+
+TEST(Advance, WhatIsVisitedIsGone) {
+  const Instance instance =
+      instance_of({"....."}, {AgentSpec{{0, 0}, Position{4, 0}, {Position{1, 0}, Position{3, 0}}}});
+  const Solution solution = solve(instance, {}, Limits());
+  const Remainder rest = advance(instance, *solution.plan, 2);
+  ASSERT_EQ(rest.instance.task_count(), 1);
+  EXPECT_EQ(rest.instance.task(0).id, instance.task(1).id);
+  EXPECT_EQ(rest.instance.agent(0).start, instance.grid().cell({2, 0}));
+  EXPECT_EQ(rest.plan.cost, 2);
+  EXPECT_EQ(wrong_with(rest.instance, rest.plan), "");
+}
+
+TEST(Advance, WhatIsLeftIsAPlanOfWhatIsLeft) {
+  int moments = 0;
+  for (std::uint64_t seed = 5000; seed < 5400; ++seed) {
+    const Instance instance = fuzz::random_world(seed).build();
+    SolveOptions options;
+    options.omega = Omega::infinite();
+    Limits limits;
+    limits.set_deadline(std::chrono::steady_clock::now() + std::chrono::milliseconds(100));
+    const auto plan = solve(instance, options, limits).plan;
+    if (!plan) continue;
+    const Time end = std::ranges::max(plan->agents, {}, &AgentPlan::cost).cost;
+    for (Time time = 0; time <= end + 1; ++time, ++moments) {
+      const Remainder rest = advance(instance, *plan, time);
+      ASSERT_EQ(wrong_with(rest.instance, rest.plan), "") << seed << " after " << time;
+      EXPECT_LE(rest.plan.cost, plan->cost);
+      // A step later it is what it would have been.
+      const Remainder next = advance(rest.instance, rest.plan, 1);
+      const Remainder both = advance(instance, *plan, time + 1);
+      EXPECT_EQ(next.plan.cost, both.plan.cost) << seed << " after " << time;
+      EXPECT_EQ(next.instance.task_count(), both.instance.task_count()) << seed;
+      for (AgentIndex a = 0; a < instance.agent_count(); ++a)
+        EXPECT_EQ(next.instance.pose_of(next.instance.agent(a).start),
+                  both.instance.pose_of(both.instance.agent(a).start))
+            << seed;
+    }
+    const Remainder last = advance(instance, *plan, end);
+    EXPECT_EQ(last.plan.cost, 0);
+  }
+  EXPECT_GT(moments, 1500);
+}
+
+}  // namespace advance_test
+}  // namespace grove
