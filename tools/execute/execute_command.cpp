@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -130,7 +131,7 @@ class Execution {
     if (a_.view.empty()) return;
     const std::vector<NamedPlan> plans{{"planned", claimed_},
                                        {"driven", {driven, {"lower bound", "order of tasks"}}}};
-    const std::string name = a_.instance.name();
+    const std::string name = std::filesystem::path(a_.instance.name()).filename().string();
     write(a_.view, plan_page(name, page_data(name, loaded_.instance, plans)));
   }
 
