@@ -13,6 +13,7 @@ find_package(cereal 1.3 REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(CBC REQUIRED IMPORTED_TARGET cbc)
+pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 # Of CBC and what it brings the archives, where there are any: to look up the symbols of six shared
 # libraries takes some 40 % of the time in which a program starts.
 foreach(library IN LISTS CBC_LINK_LIBRARIES)

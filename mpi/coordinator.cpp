@@ -53,12 +53,15 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       run_(problem, options, limits, announcer_, pool_, nodes_),
       broker_(transport.ranks(), options.tuning),
       timer_(options.checkpoints),
-      batches_to_(static_cast<std::size_t>(transport.ranks())) {}
+      batches_to_(static_cast<std::size_t>(transport.ranks())),
+      accounts_(static_cast<std::size_t>(transport.ranks())) {
+  run_.announcements().survey_by([this] { return survey(); });
+}
 
 // An observer may have it written to disk: that comes first.
 void Coordinator::Announcer::on_incumbent(const Plan& plan, PlanSource source,
                                           const Progress& progress) {
-  observer_.on_incumbent(plan, source, progress);
+  ForwardingObserver::on_incumbent(plan, source, progress);
   tell_all(transport_, message::Incumbent{plan});
 }
 
@@ -97,6 +100,7 @@ bool Coordinator::is_for_coordinator(const message::Message& message) {
          std::holds_alternative<message::Found>(message) ||
          std::holds_alternative<message::Gathered>(message) ||
          std::holds_alternative<message::Part>(message) ||
+         std::holds_alternative<message::Account>(message) ||
          std::holds_alternative<message::Farewell>(message);
 }
 
@@ -109,8 +113,10 @@ void Coordinator::handle(int from, message::Message&& message) {
     gathering_.value().handle(*gathered);
   else if (auto* part = std::get_if<message::Part>(&message))
     gathering_.value().handle(std::move(*part));
+  else if (auto* account = std::get_if<message::Account>(&message))
+    accounts_.at(static_cast<std::size_t>(from)) = std::move(account->account);
   else if (auto* farewell = std::get_if<message::Farewell>(&message))
-    leave(*farewell);
+    leave(from, std::move(*farewell));
   else
     throw std::invalid_argument("a message for a rank came to the coordinator");
 }
@@ -155,10 +161,10 @@ void Coordinator::step() {
   }
 }
 
-void Coordinator::leave(const message::Farewell& farewell) {
+void Coordinator::leave(int from, message::Farewell&& farewell) {
   for (const auto& [to, batches] : farewell.batches)
     batches_to_.at(static_cast<std::size_t>(to)) += batches;
-  for (const auto& [key, count] : farewell.counts) counts_[key] += count;
+  accounts_.at(static_cast<std::size_t>(from)) = std::move(farewell.account);
   if (++farewells_ < transport_.ranks()) return;
   for (int rank = 0; rank < transport_.ranks(); ++rank)
     transport_.send(rank, bytes_of(message::Goodbye{batches_to_[static_cast<std::size_t>(rank)]}));
@@ -167,8 +173,23 @@ void Coordinator::leave(const message::Farewell& farewell) {
 Solution Coordinator::conclude() {
   run_.end();
   Solution solution = run_.conclude();
-  for (const auto& [key, count] : counts_) solution.stats.counts[key] += count;
+  for (const auto& account : accounts_)
+    for (const auto& [key, count] : account.value().counts) solution.stats.counts[key] += count;
   return solution;
+}
+
+Survey Coordinator::survey() const {
+  Survey survey;
+  Stats of_plans;
+  run_.ledger().add_counts(of_plans);
+  survey.whole.counts = std::move(of_plans.counts);
+  for (int rank = 0; rank < transport_.ranks(); ++rank) {
+    survey.ranks.push_back(nodes_.survey(rank));
+    auto& account = survey.ranks.back().account;
+    account = accounts_[static_cast<std::size_t>(rank)];
+    if (account) add(*account, survey.whole);
+  }
+  return survey;
 }
 
 }  // namespace grove

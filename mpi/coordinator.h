@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -44,26 +43,21 @@ class Coordinator {
 
  private:
   // Passes on better plans to all.
-  class Announcer : public RunObserver {
+  class Announcer : public ForwardingObserver {
    public:
     Announcer(RunObserver& observer, Transport& transport)
-        : observer_(observer), transport_(transport) {}
+        : ForwardingObserver(observer), transport_(transport) {}
     void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
-    void on_event(RunEvent event, const Progress& progress) override {
-      observer_.on_event(event, progress);
-    }
-    void on_checkpoint(const CheckpointReport& report) override { observer_.on_checkpoint(report); }
-    void on_root(const NodePtr& root) override { observer_.on_root(root); }
 
    private:
-    RunObserver& observer_;
     Transport& transport_;
   };
 
   void restore(CheckpointReader& checkpoint);
   void heard(int from, message::Status status);
   void look_after_checkpoints();
-  void leave(const message::Farewell& farewell);
+  void leave(int from, message::Farewell&& farewell);
+  Survey survey() const;
 
   const Instance& instance_;
   const SolveOptions& options_;
@@ -81,8 +75,8 @@ class Coordinator {
   bool gathered_at_end_ = false;
   bool ending_ = false;
   int farewells_ = 0;
-  std::vector<std::int64_t> batches_to_;  // by rank, of those that have said farewell
-  std::map<std::string, std::int64_t> counts_;
+  std::vector<std::int64_t> batches_to_;          // by rank, of those that have said farewell
+  std::vector<std::optional<Account>> accounts_;  // by rank; the last one
 };
 
 }  // namespace grove

@@ -16,6 +16,16 @@ void serialize(Archive& archive, Finding& finding) {
           finding.known.expansions);
 }
 
+template <class Archive>
+void serialize(Archive& archive, MemoryUse& m) {
+  archive(m.process, m.nodes, m.prices, m.path_sets, m.groups);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Account& account) {
+  archive(account.counts, account.memory);
+}
+
 template <class Archive, class Enum>
 void enumerated(Archive& archive, Enum& value, Enum last) {
   auto number = static_cast<std::uint8_t>(value);
@@ -40,8 +50,13 @@ void serialize(Archive& archive, Found& found) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Account& account) {
+  archive(account.account);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Farewell& farewell) {
-  archive(farewell.counts, farewell.batches);
+  archive(farewell.account, farewell.batches);
 }
 
 template <class Archive>

@@ -5,13 +5,13 @@
 
 #include <cereal/types/utility.hpp>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "grove/engine/serialise.h"
+#include "grove/engine/survey.h"
 #include "grove/model/limits.h"
 #include "grove/primal/plan_source.h"
 #include "grove/search/findings.h"
@@ -45,10 +45,15 @@ struct Found {
   PlanSource source{};
 };
 
-// Rank to coordinator, after End: what it counted, and how many batches it has sent to whom. It
-// sends nothing more.
+// Rank to coordinator, now and then: what it has done so far, for who looks on.
+struct Account {
+  grove::Account account;
+};
+
+// Rank to coordinator, after End: what it did, and how many batches it has sent to whom. It sends
+// nothing more.
 struct Farewell {
-  std::map<std::string, std::int64_t> counts;
+  grove::Account account;
   std::vector<std::pair<std::int32_t, std::int64_t>> batches;
 };
 
@@ -120,10 +125,11 @@ struct Goodbye {
   std::int64_t batches = 0;
 };
 
-using Message = std::variant<Status, Found, Gathered, Part, Farewell,  // to the coordinator
-                             Batch,                                    // to another rank
-                             NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More,
-                             End, Goodbye>;
+using Message =
+    std::variant<Status, Found, Gathered, Part, Account, Farewell,  // to the coordinator
+                 Batch,                                             // to another rank
+                 NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More, End,
+                 Goodbye>;
 
 // Throws std::invalid_argument for bytes that are no message.
 std::string bytes_of(const Message& message);

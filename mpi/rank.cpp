@@ -223,21 +223,26 @@ void Rank::send_found() {
     send(0, message::Found{std::move(found->plan), found->source});
 }
 
+Account Rank::account(Stats counts) const {
+  search_.add_counts(counts);
+  counts.counts["messages"] += transport_.messages();
+  counts.counts["message_bytes"] += transport_.bytes();
+  counts.counts["nodes_sent"] += nodes_sent_;
+  std::int64_t& batches = counts.counts["batches"];
+  for (const auto& [rank, peer] : peers_) batches += peer.sent;
+  return {std::move(counts.counts), search_.memory_use()};
+}
+
+void Rank::account_for(Stats counts) {
+  if (!ended_) send(0, message::Account{account(std::move(counts))});
+}
+
 // Limits may strike just when a plan was found.
-void Rank::farewell(const Stats& stats) {
+void Rank::farewell(Stats counts) {
   send_found();
-  Stats all = stats;
-  search_.add_counts(all);
-  all.counts["messages"] += transport_.messages();
-  all.counts["message_bytes"] += transport_.bytes();
-  all.counts["nodes_sent"] += nodes_sent_;
   message::Farewell farewell;
-  std::int64_t& batches = all.counts["batches"];
-  for (const auto& [rank, peer] : peers_) {
-    farewell.batches.emplace_back(rank, peer.sent);
-    batches += peer.sent;
-  }
-  farewell.counts = std::move(all.counts);
+  farewell.account = account(std::move(counts));
+  for (const auto& [rank, peer] : peers_) farewell.batches.emplace_back(rank, peer.sent);
   send(0, farewell);
 }
 

@@ -45,9 +45,11 @@ class Rank {
   // more often than ranks can bear. `now` in seconds of any clock.
   void speak(double now);
 
+  // Tells what has been done so far, workers' counts among it.
+  void account_for(Stats counts);
   // Is it time for workers to end? Then, when they have, say farewell: what they counted.
   bool ended() const { return ended_; }
-  void farewell(const Stats& stats);
+  void farewell(Stats counts);
   // Is nothing more to come?
   bool left() const;
 
@@ -69,6 +71,7 @@ class Rank {
   void push(const std::vector<NodeRecord>& records, const std::vector<Finding>& findings);
   void begin_anew(Cost proven);
   message::Status status() const;
+  Account account(Stats counts) const;
   bool is_wanted(Cost bound) const;
   void send(int to, const message::Message& message);
 

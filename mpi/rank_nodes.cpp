@@ -2,6 +2,7 @@
 #include "mpi/rank_nodes.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -43,6 +44,12 @@ void RankNodes::add(const message::Status& status, int sign) {
   counts_.open += sign * status.open;
   if (status.live > 0) ranks_with_nodes_ += sign;
   if (status.era == era_) ranks_of_this_era_ += sign;
+}
+
+RankSurvey RankNodes::survey(int rank) const {
+  const message::Status& latest = latest_[static_cast<std::size_t>(rank)];
+  const auto bound = latest.live > 0 ? std::optional(latest.bound) : std::nullopt;
+  return {latest.expanded, latest.open, bound, {}};
 }
 
 Cost RankNodes::bound() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grove/engine/live_nodes.h"
+#include "grove/engine/survey.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 
@@ -28,6 +29,8 @@ class RankNodes : public LiveNodes {
   Cost evicted_bound() const override;
   bool any() const override;
   Counts counts() const override { return counts_; }
+  // What the latest status of a rank says of its nodes.
+  RankSurvey survey(int rank) const;
   // To a rank that has little to do; its tree is told to all.
   void push(const NodePtr& root) override;
   void prune(Cost /*cost*/) override {}  // each rank does, when it hears of the incumbent

@@ -12,9 +12,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -45,7 +48,19 @@ class Told {
     const bool is_news = event == RunEvent::kIncumbent ? is_better_
                          : event == RunEvent::kBound   ? last_.lower_bound > bound
                                                        : true;
-    if (event != RunEvent::kEnd) next_.on_event(is_news ? event : RunEvent::kProgress, last_);
+    ends_ = event == RunEvent::kEnd;
+    if (!ends_) next_.on_event(is_news ? event : RunEvent::kProgress, last_);
+  }
+  // The last survey of each search is made: it counts for those to come.
+  bool wants_survey() { return ends_ || next_.wants_survey(); }
+  void survey(Survey survey) {
+    for (const auto& [name, count] : done_) survey.whole.counts[name] += count;
+    if (ends_) done_ = survey.whole.counts;
+    next_.on_survey(survey);
+  }
+  void root(const NodePtr& root) { next_.on_root(root); }
+  void expanded(const NodePtr& node, const Expansion& expansion, int worker) {
+    next_.on_expanded(node, expansion, worker);
   }
   void note(std::string_view note) { next_.on_note(note); }
   void infeasible(std::string_view reason) { next_.on_infeasible(reason); }
@@ -65,8 +80,10 @@ class Told {
   RunObserver& next_;
   Progress before_;  // when the search began
   Progress last_;
+  std::map<std::string, std::int64_t> done_;  // counts of the searches before
   bool is_better_ = false;
   bool searched_ = false;
+  bool ends_ = false;  // a search does
 };
 
 // A search of the instance itself.
@@ -81,6 +98,12 @@ class Stage : public RunObserver {
     told_.event(event, of_whole(progress));
   }
   void on_infeasible(std::string_view reason) override { told_.infeasible(reason); }
+  bool wants_survey() override { return told_.wants_survey(); }
+  void on_survey(const Survey& survey) override { told_.survey(survey); }
+  void on_root(const NodePtr& root) override { told_.root(root); }
+  void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override {
+    told_.expanded(node, expansion, worker);
+  }
 
  private:
   virtual Plan of_whole(const Plan& plan) const { return plan; }

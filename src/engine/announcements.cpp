@@ -3,9 +3,9 @@
 
 namespace grove {
 
-void Announcements::expanded(const NodePtr& node, const Expansion& expansion) {
+void Announcements::expanded(const NodePtr& node, const Expansion& expansion, int worker) {
   const std::lock_guard lock(mutex_);
-  observer_.on_expanded(node, expansion);
+  observer_.on_expanded(node, expansion, worker);
 }
 
 void Announcements::evicted(std::span<const NodePtr> nodes) {
@@ -15,7 +15,12 @@ void Announcements::evicted(std::span<const NodePtr> nodes) {
 
 void Announcements::event(RunEvent event) {
   const std::lock_guard lock(mutex_);
-  observer_.on_event(event, progress_());
+  tell(event, progress_());
+}
+
+void Announcements::tell(RunEvent event, const Progress& progress) {
+  observer_.on_event(event, progress);
+  if (survey_ && observer_.wants_survey()) observer_.on_survey(survey_());
 }
 
 void Announcements::bound(Cost lower_bound) {
@@ -23,7 +28,7 @@ void Announcements::bound(Cost lower_bound) {
   if (lower_bound <= announced_bound_) return;
   const Progress progress = progress_();
   announced_bound_ = progress.lower_bound;
-  observer_.on_event(RunEvent::kBound, progress);
+  tell(RunEvent::kBound, progress);
 }
 
 void Announcements::incumbent(const Plan& plan, PlanSource source) {

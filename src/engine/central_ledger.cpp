@@ -31,12 +31,17 @@ void CentralLedger::post(Plan plan, PlanSource source) {
   const Cost cost = plan.cost;
   const Cost before = gate_.incumbent_cost().value_or(cost);
   if (!gate_.post(std::move(plan))) return;
-  Found& found = found_[static_cast<std::size_t>(source)];
-  ++found.plans;
-  found.gain += before - cost;
+  count(source, before - cost);
   announcements_.incumbent(*gate_.incumbent(), source);
   nodes_.prune(cost);
   announcements_.event(RunEvent::kIncumbent);
+}
+
+void CentralLedger::count(PlanSource source, Cost gain) {
+  const std::lock_guard lock(counting_);
+  Found& found = found_[static_cast<std::size_t>(source)];
+  ++found.plans;
+  found.gain += gain;
 }
 
 void CentralLedger::nodes_changed() {
@@ -46,7 +51,7 @@ void CentralLedger::nodes_changed() {
 }
 
 void CentralLedger::add_counts(Stats& stats) const {
-  const std::lock_guard lock(posting_);
+  const std::lock_guard lock(counting_);
   for (std::size_t source = 0; source < found_.size(); ++source) {
     if (found_[source].plans == 0) continue;
     stats.counts[fmt::format("plans_{}", kPlanSources[source])] += found_[source].plans;

@@ -68,7 +68,7 @@ NodePtr SharedSearch::unfinished() const {
   return unfinished_;
 }
 
-void SharedSearch::finish(const NodePtr& node, Expansion expansion) {
+void SharedSearch::finish(const NodePtr& node, Expansion expansion, int worker) {
   {
     const std::lock_guard lock(helping_);
     if (expansion.unfinished)
@@ -81,7 +81,7 @@ void SharedSearch::finish(const NodePtr& node, Expansion expansion) {
     return;
   }
   ++nodes_.expanded;
-  observer_.expanded(node, expansion);
+  observer_.expanded(node, expansion, worker);
   for (const NodePtr& child : expansion.children) {
     ++nodes_generated_;
     if (child->bound() < ledger_.cutoff()) frontier_.push(child);
@@ -122,6 +122,15 @@ void SharedSearch::add_counts(Stats& stats) const {
   stats.counts["nodes_expanded"] += nodes_.expanded;
   stats.counts["nodes_generated"] += nodes_generated_;
   stats.counts["nodes_evicted"] += nodes_evicted_;
+}
+
+MemoryUse SharedSearch::memory_use() const {
+  const auto known = known_.load();
+  return {.process = static_cast<std::int64_t>(resident_bytes()),
+          .nodes = static_cast<std::int64_t>(pool_.bytes()),
+          .prices = static_cast<std::int64_t>(known->situations.bytes()),
+          .path_sets = static_cast<std::int64_t>(known->path_sets.bytes()),
+          .groups = static_cast<std::int64_t>(known->excesses.bytes())};
 }
 
 }  // namespace grove

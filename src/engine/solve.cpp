@@ -47,6 +47,7 @@ class Workers {
       solve_alone(*workers_.front(), shared_, between_turns);
   }
 
+  // From any thread.
   void add_counts(Stats& stats) const {
     for (const auto& worker : workers_) worker->add_counts(stats);
   }
@@ -64,7 +65,15 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
   SharedSearch shared(options, limits, nodes, run.ledger(), run.trees(), run.announcements());
   LocalCheckpoints checkpoints(options, run, nodes);
+  Stats stats;  // of workers that are gone
   std::optional<Workers> workers;
+  run.announcements().survey_by([&] {
+    Stats so_far = stats;
+    if (workers) workers->add_counts(so_far);
+    shared.add_counts(so_far);
+    run.ledger().add_counts(so_far);
+    return Survey{{std::move(so_far.counts), shared.memory_use()}, {}};
+  });
   bool begun = false;
   try {
     begun = begin(problem, options, run, nodes);
@@ -75,7 +84,6 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   } catch (const std::bad_alloc&) {
     limits.memory_exhausted();
   }
-  Stats stats;
   if (workers) workers->add_counts(stats);
   workers.reset();  // their memory may be needed for the answer
   if (begun) checkpoints.write_last();

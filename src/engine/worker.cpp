@@ -21,6 +21,19 @@ std::string count_of_splits(ConstraintKind kind) {
   return name;
 }
 
+// Lets an expander do its part of a turn, and writes down what that was.
+template <class What>
+void weigh(Worker::Turn& turn, Expander& by, const What& what) {
+  by.turn_to(turn.memory);
+  const std::int64_t work = by.work();
+  const ExpansionCounts counts = by.counts();
+  what();
+  turn.work = by.work() - work;
+  turn.counts = by.counts();
+  turn.counts -= counts;
+  turn.found = by.take_found();
+}
+
 }  // namespace
 
 Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
@@ -91,21 +104,15 @@ void Worker::perform(Turn& turn, Expander& by) {
 }
 
 void Worker::expand(Turn& turn, Expander& by) const {
-  by.turn_to(turn.memory);
-  const std::int64_t before = by.work();
-  turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_);
-  turn.work = by.work() - before;
-  turn.found = by.take_found();
+  weigh(turn, by,
+        [&] { turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_); });
 }
 
 void Worker::help(Turn& turn, Expander& by) {
-  by.turn_to(turn.memory);
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
-  const std::int64_t before = by.work();
-  if (!by.help(turn.node, shared_.ledger().cutoff(), share, limits_)) helped_ = turn.node;
-  turn.work = by.work() - before;
-  turn.found = by.take_found();
-  ++helps_;
+  weigh(turn, by, [&] {
+    if (!by.help(turn.node, shared_.ledger().cutoff(), share, limits_)) helped_ = turn.node;
+  });
 }
 
 void Worker::step_primal(Turn& turn) {
@@ -119,20 +126,30 @@ void Worker::publish(Turn& turn) {
 }
 
 void Worker::commit(Turn& turn) {
+  count(turn);
   if (turn.job == Turn::Job::kPrimal) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
     share_->primal_worked(*primal_, turn.work);
   } else if (turn.job != Turn::Job::kPrepare) {
     turn.memory->trim();
-    if (turn.job == Turn::Job::kExpand) shared_.finish(turn.node, std::move(turn.expansion));
+    if (turn.job == Turn::Job::kExpand)
+      shared_.finish(turn.node, std::move(turn.expansion), number_);
     share_->tree_worked(turn.work);
   }
   shared_.observer().worked();
 }
 
+void Worker::count(const Turn& turn) {
+  const std::lock_guard lock(counting_);
+  of_tree_ += turn.counts;
+  if (turn.job == Turn::Job::kPrimal) of_primal_ = primal_->counts();
+  if (turn.job == Turn::Job::kHelp) ++helps_;
+}
+
 void Worker::add_counts(Stats& stats) const {
-  const auto tree = expander_ ? expander_->counts() : ExpansionCounts();
-  const auto primal = primal_ ? primal_->counts() : PrimalSearch::Counts();
+  const std::lock_guard lock(counting_);
+  const ExpansionCounts& tree = of_tree_;
+  const PrimalSearch::Counts& primal = of_primal_;
   auto& counts = stats.counts;
   counts["low_level_calls"] += tree.low_level_calls;
   counts["low_level_expanded"] += tree.low_level_expanded;

@@ -59,17 +59,20 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
 // that alone does not prove that bypasses end.
 Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff, std::span<const Split> last_resorts,
                                    const Limits& limits, std::vector<NodePtr>& children) {
+  branching_.reset();
   const Task task{view, cutoff - view.node()->cost() - 1, limits};
   if (task.slack < 0) return Outcome::kBranched;
   for (std::int64_t round = 0; !view.conflict_free(); ++round) {
     show_others(view);
-    Split split;
-    if (!choose(task, last_resorts, split)) return Outcome::kStopped;
+    Branching chosen;
+    if (!choose(task, last_resorts, chosen)) return Outcome::kStopped;
+    const Split& split = chosen.split;
     for (int i = 0; i < 2; ++i)
       if (!make_side(task, split[i], sides_[i])) return Outcome::kStopped;
     if (round < options_.tuning.bypasses && (bypass(view, sides_[0]) || bypass(view, sides_[1])))
       continue;
     ++splits_made_[static_cast<std::size_t>(split[1].constraint.kind)];
+    branching_ = chosen;
     const NodePtr parent = view.node_as_routed();
     for (int i = 0; i < 2; ++i)
       if (sides_[i].open) children.push_back(child(view, parent, split[i], sides_[i]));
@@ -91,26 +94,27 @@ void Brancher::show_others(const NodeView& view) {
 }
 
 // The split to make: the one that raises the bounds most, or that of a conflict of least time.
-bool Brancher::choose(const Task& task, std::span<const Split> last_resorts, Split& chosen) {
+bool Brancher::choose(const Task& task, std::span<const Split> last_resorts, Branching& chosen) {
   const Techniques techniques = options_.techniques;
   if (!techniques.has(Technique::kStrongBranching)) {
     chosen = earliest(task.view);
     return true;
   }
-  splits_.clear();
-  for (const Conflict& conflict : task.view.conflicts())
-    splits_of(conflict, task.view.paths(), problem_, techniques, splits_);
   Choice best;
-  for (const Split& split : splits_)
-    if (!improve(best, split, task)) return false;
+  for (const Conflict& conflict : task.view.conflicts()) {
+    splits_.clear();
+    splits_of(conflict, task.view.paths(), problem_, techniques, splits_);
+    for (const Split& split : splits_)
+      if (!improve(best, {conflict, split}, task)) return false;
+  }
   for (const Split& split : last_resorts) {
     if (best.gain.second > 0) break;
-    if (!task.view.in_conflict(split[0].agent, split[1].agent)) continue;
-    if (!improve(best, split, task)) return false;
+    const Conflict* conflict = task.view.conflict_between(split[0].agent, split[1].agent);
+    if (conflict && !improve(best, {*conflict, split}, task)) return false;
   }
   if (techniques.has(Technique::kSequenceSplits) && best.gain.first == 0)
     if (!improve_by_sequences(best, task)) return false;
-  chosen = best.gain.first >= 0 ? best.split : earliest(task.view);
+  chosen = best.gain.first >= 0 ? best.branching : earliest(task.view);
   return true;
 }
 
@@ -127,24 +131,26 @@ bool Brancher::improve_by_sequences(Choice& choice, const Task& task) {
   for (AgentIndex agent : in_conflict_) {
     const auto split = planner_.sequence_split(agent, view.order(agent), view.constraints(agent),
                                                view.path(agent));
-    if (split && !improve(choice, *split, task)) return false;
+    const auto is_in = [&](const Conflict& c) { return c.first == agent || c.second == agent; };
+    if (split && !improve(choice, {*std::ranges::find_if(view.conflicts(), is_in), *split}, task))
+      return false;
   }
   return true;
 }
 
-bool Brancher::improve(Choice& choice, const Split& split, const Task& task) {
+bool Brancher::improve(Choice& choice, const Branching& by, const Task& task) {
   std::array<Cost, 2> increases{};
   for (int i = 0; i < 2; ++i) {
     const auto outcome =
-        prices_.increase(task.view, split[i], task.slack, task.limits, increases[i]);
+        prices_.increase(task.view, by.split[i], task.slack, task.limits, increases[i]);
     if (outcome != Prices::Outcome::kDone) return outcome == Prices::Outcome::kTooHard;
   }
   const std::pair<Cost, Cost> gain = std::minmax(increases[0], increases[1]);
-  if (gain > choice.gain) choice = {gain, split};
+  if (gain > choice.gain) choice = {gain, by};
   return true;
 }
 
-Split Brancher::earliest(const NodeView& view) {
+Branching Brancher::earliest(const NodeView& view) {
   const Conflict* best = &view.conflicts().front();
   for (const Conflict& conflict : view.conflicts()) {
     if (conflict.time > best->time) break;
@@ -152,7 +158,7 @@ Split Brancher::earliest(const NodeView& view) {
   }
   splits_.clear();
   splits_of(*best, view.paths(), problem_, options_.techniques, splits_);
-  return splits_[splits_.size() > 1 ? 1 : 0];
+  return {*best, splits_[splits_.size() > 1 ? 1 : 0]};
 }
 
 // The paths of one side of the split, around those of the others.

@@ -5,11 +5,35 @@
 #include "grove/search/expander.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <functional>
 #include <numeric>
 
 #include "grove/search/work.h"
 
 namespace grove {
+namespace {
+
+// It is made of nothing but counts.
+using Counts = std::array<std::int64_t, sizeof(ExpansionCounts) / sizeof(std::int64_t)>;
+
+template <class Operation>
+ExpansionCounts each_by_each(const ExpansionCounts& a, const ExpansionCounts& b, Operation what) {
+  auto counts = std::bit_cast<Counts>(a);
+  std::ranges::transform(counts, std::bit_cast<Counts>(b), counts.begin(), what);
+  return std::bit_cast<ExpansionCounts>(counts);
+}
+
+}  // namespace
+
+ExpansionCounts& ExpansionCounts::operator+=(const ExpansionCounts& more) {
+  return *this = each_by_each(*this, more, std::plus());
+}
+
+ExpansionCounts& ExpansionCounts::operator-=(const ExpansionCounts& less) {
+  return *this = each_by_each(*this, less, std::minus());
+}
 
 struct Expander::Leaving {
   Expander& expander;
@@ -81,6 +105,7 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
       expansion.plan = plan(*node);
       break;
     case Brancher::Outcome::kBranched:
+      expansion.branching = brancher_.branching();
       break;
   }
   return expansion;

@@ -42,10 +42,11 @@ std::span<const Constraint> NodeView::constraints_with(AgentIndex agent, const C
   return extended_;
 }
 
-bool NodeView::in_conflict(AgentIndex a, AgentIndex b) const {
-  return std::ranges::any_of(conflicts_, [&](const Conflict& c) {
+const Conflict* NodeView::conflict_between(AgentIndex a, AgentIndex b) const {
+  const auto found = std::ranges::find_if(conflicts_, [&](const Conflict& c) {
     return c.first == std::min(a, b) && c.second == std::max(a, b);
   });
+  return found == conflicts_.end() ? nullptr : &*found;
 }
 
 void NodeView::disturbed(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const {

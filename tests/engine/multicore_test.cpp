@@ -143,7 +143,7 @@ TEST(Multicore, LimitsEndEveryThread) {
 
 TEST(Multicore, WhatAnObserverThrowsArrives) {
   class Thrower : public RunObserver {
-    void on_expanded(const NodePtr&, const Expansion&) override {
+    void on_expanded(const NodePtr&, const Expansion&, int) override {
       throw std::runtime_error("disk full");
     }
   };

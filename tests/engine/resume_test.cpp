@@ -31,7 +31,7 @@ class Interrupter : public RunObserver {
  public:
   explicit Interrupter(std::int64_t after) : left_(after) {}
 
-  void on_expanded(const NodePtr&, const Expansion&) override {
+  void on_expanded(const NodePtr&, const Expansion&, int) override {
     if (--left_ == 0) interrupted = true;
   }
   void on_checkpoint(const CheckpointReport& report) override {

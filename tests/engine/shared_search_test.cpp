@@ -51,7 +51,7 @@ TEST_F(SharedSearchTest, AsksForNodesOnlyWhenNoneIsLive) {
   EXPECT_FALSE(shared().take()) << "one is in hand";
   EXPECT_FALSE(shared().may_take());
   EXPECT_EQ(source.nodes_asked, 0);
-  shared().finish(taken, {});
+  shared().finish(taken, {}, 0);
   EXPECT_TRUE(shared().may_take()) << "to find out that there is none";
   source.next = child(9);
   EXPECT_EQ(bound_taken(), 9);
@@ -78,7 +78,7 @@ TEST_F(SharedSearchTest, AnExpandedNodeIsLiveUntilWhatItLedToIsThere) {
   Expansion expansion;
   expansion.children = {child(11), child(12), child(9)};
   expansion.plan = Plan{11, {}};
-  shared().finish(taken, std::move(expansion));
+  shared().finish(taken, std::move(expansion), 0);
   ASSERT_EQ(ledger.posted.size(), 1u);
   EXPECT_EQ(ledger.posted[0].first.cost, 11);
   EXPECT_EQ(ledger.posted[0].second, PlanSource::kTree);
@@ -96,16 +96,16 @@ TEST_F(SharedSearchTest, WhatIsNotFinishedGoesBack) {
   nodes.push(root);
   Expansion stopped;
   stopped.stopped = true;
-  shared().finish(shared().take(), std::move(stopped));
+  shared().finish(shared().take(), std::move(stopped), 0);
   EXPECT_EQ(nodes.frontier.open(), 1u);
   EXPECT_FALSE(shared().unfinished());
   Expansion unfinished;
   unfinished.unfinished = true;
-  shared().finish(shared().take(), std::move(unfinished));
+  shared().finish(shared().take(), std::move(unfinished), 0);
   EXPECT_EQ(nodes.frontier.open(), 1u);
   EXPECT_EQ(shared().unfinished(), root);
   EXPECT_EQ(nodes.expanded, 0);
-  shared().finish(shared().take(), {});
+  shared().finish(shared().take(), {}, 0);
   EXPECT_FALSE(shared().unfinished());
   EXPECT_EQ(nodes.frontier.live(), 0u);
   EXPECT_EQ(nodes.expanded, 1);

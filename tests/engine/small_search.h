@@ -86,7 +86,7 @@ struct CountingSource : TreeSource {
 };
 
 struct CountingObserver : TurnObserver {
-  void expanded(const NodePtr&, const Expansion&) override { ++expansions; }
+  void expanded(const NodePtr&, const Expansion&, int) override { ++expansions; }
   void evicted(std::span<const NodePtr> nodes) override {
     for (const NodePtr& node : nodes) evicted_bounds.push_back(node->bound());
   }

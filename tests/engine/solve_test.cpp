@@ -138,7 +138,7 @@ TEST(Solve, ATinyMemoryLimitEndsCleanly) {
 class Interrupter : public RunObserver {
  public:
   explicit Interrupter(int after) : left_(after) {}
-  void on_expanded(const NodePtr&, const Expansion&) override {
+  void on_expanded(const NodePtr&, const Expansion&, int) override {
     if (--left_ == 0) flag = true;
   }
   std::atomic<bool> flag{false};

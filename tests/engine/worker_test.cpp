@@ -152,7 +152,7 @@ TEST(Worker, HelpsWithANodeThatAnotherHasInHandUntilNothingIsLeft) {
   Search s({Technique::kDependencies, Technique::kStrongBranching});
   Expansion unfinished;
   unfinished.unfinished = true;
-  s.shared.finish(s.shared.take(), std::move(unfinished));
+  s.shared.finish(s.shared.take(), std::move(unfinished), 0);
   const NodePtr in_hand = s.shared.take();
   Worker worker = s.worker(1);
   int helps = 0;

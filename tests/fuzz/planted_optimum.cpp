@@ -109,7 +109,7 @@ void PlantedOptimum::on_root(const NodePtr& root) {
   follow(root);
 }
 
-void PlantedOptimum::on_expanded(const NodePtr& node, const Expansion& expansion) {
+void PlantedOptimum::on_expanded(const NodePtr& node, const Expansion& expansion, int) {
   if (holding_.erase(node.get()) == 0) return;
   bool kept = expansion.plan && expansion.plan->cost <= optimum_.cost;
   for (const NodePtr& child : expansion.children) {

@@ -25,7 +25,7 @@ class PlantedOptimum : public RunObserver {
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
   void on_root(const NodePtr& root) override;
-  void on_expanded(const NodePtr& node, const Expansion& expansion) override;
+  void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
   void on_pruned(Cost bound) override;
   void on_evicted(const NodePtr& node) override;
 

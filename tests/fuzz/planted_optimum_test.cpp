@@ -46,7 +46,7 @@ class PlantedInABay : public ::testing::Test {
 TEST_F(PlantedInABay, IsKeptByTheRealExpander) {
   planted_.on_root(root_);
   const Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
-  planted_.on_expanded(root_, expansion);
+  planted_.on_expanded(root_, expansion, 0);
   EXPECT_THAT(planted_.complaints(), IsEmpty());
   EXPECT_GE(planted_.nodes_followed(), 2u);
   EXPECT_TRUE(holder(expansion));
@@ -56,7 +56,7 @@ TEST_F(PlantedInABay, IsMissedWhenItsChildIsDropped) {
   planted_.on_root(root_);
   Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   std::erase_if(expansion.children, [&](const NodePtr& c) { return planted_.held_by(*c); });
-  planted_.on_expanded(root_, expansion);
+  planted_.on_expanded(root_, expansion, 0);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
 }
 
@@ -69,7 +69,7 @@ TEST_F(PlantedInABay, IsMissedWhenAConstraintForbidsIt) {
     ban.cost = child->cost();
     child = Node::child(child, ban);
   }
-  planted_.on_expanded(root_, expansion);
+  planted_.on_expanded(root_, expansion, 0);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
 }
 
@@ -82,7 +82,7 @@ TEST_F(PlantedInABay, SeesABoundThatIsTooHigh) {
     raise.bound = optimum_.cost + 1;
     child = Node::child(child, raise);
   }
-  planted_.on_expanded(root_, expansion);
+  planted_.on_expanded(root_, expansion, 0);
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("claims the bound")));
 }
 

@@ -82,6 +82,19 @@ class Answers(Program):
         if (os.cpu_count() or 0) < 6:
             self.assertRegex(said, r"Warning: host \S+ has \d+ cores for 6 threads")
 
+    def test_the_log_for_programs_tells_of_each_rank(self):
+        said = self.run_well(mpirun(3, "solve", DATA / "rooms-32x32_n10_m30.cts.json", "--omega", 0,
+                                    "--without", "primal", "--log-format", "jsonl", "--output", "plan.json"))
+        log = [json.loads(line) for line in said.splitlines() if line.startswith("{")]
+        last = [event for event in log if event["event"] == "counts"][-1]
+        stats = log[-1]["stats"]
+        for column, count in (("low_level_calls", "low_level_calls"), ("prices_asked", "prices_asked")):
+            self.assertEqual(sum(last["ranks"][column]), stats[count])
+        for column in last["ranks"].values():
+            self.assertEqual(len(column), 3)
+        self.assertTrue(all(memory > 0 for memory in last["ranks"]["memory_mb"]))
+        self.refuses(mpirun(2, "solve", EASY, "--log-format", "jsonl", "--log-tree", 5), "--log-tree")
+
     def test_nothing_can_be_said(self):
         self.run_well(["sh", "-c", 'exec "$@" >/dev/full 2>/dev/full', "sh", GROVE_MPI, "solve", EASY,
                        "--omega", "0", "-o", "plan.json"])

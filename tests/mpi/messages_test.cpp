@@ -34,6 +34,18 @@ TEST(Messages, ArriveAsTheyWereSent) {
   EXPECT_EQ(order.count, 64);
 }
 
+TEST(Messages, TellWhatARankHasDone) {
+  message::Account sent{{{{"prices_asked", 5}}, {.process = 9, .nodes = 1, .groups = 3}}};
+  const auto told = std::get<message::Account>(message::message_of(bytes_of(sent))).account;
+  EXPECT_EQ(told.counts, sent.account.counts);
+  EXPECT_EQ(told.memory.process, 9);
+  EXPECT_EQ(told.memory.groups, 3);
+  Account sum = told;
+  add(told, sum);
+  EXPECT_EQ(sum.counts.at("prices_asked"), 10);
+  EXPECT_EQ(sum.memory.nodes, 2);
+}
+
 TEST(Messages, AreRefusedWhenCutShort) {
   const std::string whole = bytes_of(some_status());
   for (std::size_t length = 0; length < whole.size(); ++length)

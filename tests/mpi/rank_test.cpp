@@ -53,7 +53,7 @@ class RankWithRoot {
     const NodePtr node = search.take();
     if (!node) return false;
     expander_.turn_to(search.memory());
-    search.finish(node, expander_.expand(node, search.ledger().cutoff(), limits_));
+    search.finish(node, expander_.expand(node, search.ledger().cutoff(), limits_), 0);
     return true;
   }
   Cost bound() const { return bound_; }

@@ -206,7 +206,7 @@ TEST(NodeView, SeesItsScopeAlone) {
     EXPECT_EQ(c.second, 3);
   }
   EXPECT_TRUE(s.view.path(0).empty());
-  EXPECT_TRUE(s.view.in_conflict(3, 2));
+  EXPECT_TRUE(s.view.conflict_between(3, 2));
   EXPECT_EQ(s.view.node_as_routed(), s.root);
 }
 

@@ -1,57 +1,16 @@
 // SPDX-License-Identifier: MIT
 // grove report: hands over to the Python program grove-report, which lies beside this one. Options
 // and help are that one's, so that there is one text of them.
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include "grove/io/input_error.h"
 #include "tools/common/commands.h"
+#include "tools/common/companion.h"
 
 namespace grove {
-namespace {
-
-namespace fs = std::filesystem;
-
-// Where this program itself lies, however it was called.
-fs::path own_folder() {
-  return fs::read_symlink("/proc/self/exe").parent_path();
-}
-
-// Only if it fails does it return.
-void replace_process(const std::string& program, std::vector<std::string> arguments) {
-  std::vector<char*> argv{const_cast<char*>(program.c_str())};
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  ::execv(program.c_str(), argv.data());
-}
-
-[[noreturn]] void hand_over(const std::vector<std::string>& arguments) {
-  const std::string program = (own_folder() / "grove-report").string();
-  if (!fs::exists(program))
-    throw InputError(program, "",
-                     "there is no such file; expected it beside grove (build the target grove)");
-  replace_process(program, arguments);
-  const int error = errno;
-  // It is there, so what is not is its interpreter.
-  if (error == ENOENT)
-    throw InputError(program, "",
-                     "there is no /usr/bin/python3; expected the Debian package python3");
-  throw InputError(program, "", fmt::format("cannot be run: {}", std::strerror(error)));
-}
-
-}  // namespace
 
 void add_report_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("report", "Tables and figures from results, as a page");
   command->set_help_flag();
   command->prefix_command();
-  command->callback([command] { hand_over(command->remaining()); });
+  command->callback([command] { become("grove-report", command->remaining()); });
 }
 
 }  // namespace grove

@@ -45,7 +45,7 @@ bool IncumbentFiles::may_be_file(const std::string& prefix, const std::filesyste
 
 void IncumbentFiles::on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) {
   if (!failed_) write(plan, progress);
-  next_.on_incumbent(plan, source, progress);
+  next().on_incumbent(plan, source, progress);
 }
 
 void IncumbentFiles::write(const Plan& plan, const Progress& progress) {

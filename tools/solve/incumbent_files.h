@@ -19,16 +19,16 @@ namespace grove {
 // its own, since plans come many at a time and the search must not wait: then it outlives the
 // machine. The end of this waits for the disk. A file that cannot be written is told on stderr,
 // once; the run goes on.
-class IncumbentFiles : public RunObserver {
+class IncumbentFiles : public ForwardingObserver {
  public:
   // `prefix` or `best` empty: these are not written. `instance` and `next` must outlive this.
   IncumbentFiles(std::string prefix, std::filesystem::path best, const Instance& instance,
                  Omega omega, RunObserver& next)
-      : prefix_(std::move(prefix)),
+      : ForwardingObserver(next),
+        prefix_(std::move(prefix)),
         best_(std::move(best)),
         instance_(instance),
-        omega_(omega),
-        next_(next) {}
+        omega_(omega) {}
 
   // The file of the k-th plan, from 1.
   static std::filesystem::path file(const std::string& prefix, int k);
@@ -38,12 +38,6 @@ class IncumbentFiles : public RunObserver {
   static bool may_be_file(const std::string& prefix, const std::filesystem::path& path);
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
-  void on_event(RunEvent event, const Progress& progress) override {
-    next_.on_event(event, progress);
-  }
-  void on_infeasible(std::string_view reason) override { next_.on_infeasible(reason); }
-  void on_note(std::string_view note) override { next_.on_note(note); }
-  void on_checkpoint(const CheckpointReport& report) override { next_.on_checkpoint(report); }
 
  private:
   void write(const Plan& plan, const Progress& progress);
@@ -53,7 +47,6 @@ class IncumbentFiles : public RunObserver {
   const std::filesystem::path best_;
   const Instance& instance_;
   const Omega omega_;
-  RunObserver& next_;
   int written_ = 0;
   bool failed_ = false;
   std::optional<DiskFlusher> flusher_;  // from the first plan on

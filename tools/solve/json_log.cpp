@@ -5,10 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "tools/common/machine.h"
 #include "tools/common/version.h"
+#include "tools/solve/demand_text.h"
 
 namespace grove {
 namespace {
@@ -79,10 +81,55 @@ Json stats_json(const Stats& stats) {
   return json;
 }
 
+Json megabytes_json(std::int64_t bytes) {
+  return rounded(static_cast<double>(bytes) / 1e6, 10);
+}
+
+Json memory_json(const MemoryUse& memory) {
+  return {{"process", megabytes_json(memory.process)},
+          {"nodes", megabytes_json(memory.nodes)},
+          {"prices", megabytes_json(memory.prices)},
+          {"path_sets", megabytes_json(memory.path_sets)},
+          {"groups", megabytes_json(memory.groups)}};
+}
+
+// Columns, one entry for each rank; null what is not known.
+Json ranks_json(std::span<const RankSurvey> ranks) {
+  Json json{{"nodes", Json::array()},           {"open", Json::array()},
+            {"lower_bound", Json::array()},     {"memory_mb", Json::array()},
+            {"low_level_calls", Json::array()}, {"prices_asked", Json::array()}};
+  const auto count = [](const RankSurvey& rank, const char* name) {
+    if (!rank.account) return Json();
+    const auto found = rank.account->counts.find(name);
+    return found == rank.account->counts.end() ? Json() : Json(found->second);
+  };
+  for (const RankSurvey& rank : ranks) {
+    json["nodes"].push_back(rank.expanded);
+    json["open"].push_back(rank.open);
+    json["lower_bound"].push_back(cost_json(rank.bound));
+    json["memory_mb"].push_back(rank.account ? megabytes_json(rank.account->memory.process)
+                                             : Json());
+    for (const char* name : {"low_level_calls", "prices_asked"})
+      json[name].push_back(count(rank, name));
+  }
+  return json;
+}
+
+Json standing_json(const Node& node) {
+  return {{"bound", node.bound()}, {"cost", node.cost()}};
+}
+
+const char* outcome_of(const Expansion& expansion) {
+  if (expansion.plan) return "plan";
+  if (expansion.children.empty()) return "closed";
+  return expansion.branching ? "split" : "raise";
+}
+
 }  // namespace
 
 void JsonLog::head(const LogHead& h) {
   const Instance& instance = h.loaded.instance;
+  instance_ = &instance;
   Json header{{"event", "header"},
               {"version", version_text()},
               {"machine", machine_text()},
@@ -123,6 +170,50 @@ void JsonLog::row(const LogRow& row) {
             {"gap", gap_json(p.incumbent, p.lower_bound)},
             {"memory_mb", rounded(static_cast<double>(row.memory_bytes) / 1e6, 10)}};
   if (row.event == RunEvent::kIncumbent) json["source"] = name_of(row.source);
+  if (!row.raised_by.empty()) json["raised_by"] = row.raised_by;
+  sink_.line(line_of(json));
+}
+
+void JsonLog::survey(const Survey& survey, double seconds) {
+  Json json{{"event", "counts"},
+            {"time_s", seconds_json(seconds)},
+            {"counts", survey.whole.counts},
+            {"memory_mb", memory_json(survey.whole.memory)}};
+  if (!survey.ranks.empty()) json["ranks"] = ranks_json(survey.ranks);
+  sink_.line(line_of(json));
+}
+
+void JsonLog::root(const RootRow& row, double seconds) {
+  Json json{{"event", "root"},
+            {"time_s", seconds_json(seconds)},
+            {"node", row.number},
+            {"tree", row.root.tree().number}};
+  json.update(standing_json(row.root));
+  sink_.line(line_of(json));
+}
+
+void JsonLog::node(const NodeRow& row, double seconds) {
+  const Expansion& e = row.expansion;
+  Json json{{"event", "node"},
+            {"time_s", seconds_json(seconds)},
+            {"node", row.number},
+            {"worker", row.worker},
+            {"outcome", outcome_of(e)}};
+  if (e.plan) json["cost"] = e.plan->cost;
+  if (e.branching) {
+    json["conflict"] = text_of(e.branching->conflict, *instance_);
+    json["split"] = name_of(e.branching->split[1].constraint.kind);
+  }
+  Json& children = json["children"] = Json::array();
+  for (std::size_t i = 0; i < e.children.size(); ++i) {
+    Json child{{"node", row.children[i]}};
+    child.update(standing_json(*e.children[i]));
+    if (e.branching) {
+      child["conflicts"] = e.children[i]->conflicts();
+      child["demand"] = text_of(e.children[i]->added(), *instance_);
+    }
+    children.push_back(std::move(child));
+  }
   sink_.line(line_of(json));
 }
 

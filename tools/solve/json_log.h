@@ -16,6 +16,9 @@ class JsonLog : public LogFormat {
   void warning(std::string_view text) override;
   void resumed(const CheckpointHeader& checkpoint) override;
   void row(const LogRow& row) override;
+  void survey(const Survey& survey, double seconds) override;
+  void root(const RootRow& row, double seconds) override;
+  void node(const NodeRow& row, double seconds) override;
   void infeasible(std::string_view reason) override;
   void note(std::string_view text, double seconds) override;
   void checkpoint(const CheckpointReport& report, double seconds) override;
@@ -23,6 +26,7 @@ class JsonLog : public LogFormat {
 
  private:
   LogSink sink_;
+  const Instance* instance_ = nullptr;  // of the head, which outlives the log
 };
 
 }  // namespace grove

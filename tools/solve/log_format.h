@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,10 +12,11 @@
 #include "grove/engine/run_observer.h"
 #include "grove/io/instance_file.h"
 #include "grove/model/plan.h"
+#include "tools/solve/tree_log.h"
 
 namespace grove {
 
-// Before the search: who solves what, and how.
+// Before the search: who solves what, and how. The instance outlives the log.
 struct LogHead {
   const LoadedInstance& loaded;
   std::string instance;  // as the user named it
@@ -29,8 +31,10 @@ struct LogRow {
   RunEvent event = RunEvent::kProgress;   // the most telling one
   PlanSource source = PlanSource::kTree;  // of a kIncumbent
   Progress progress;
-  double seconds = 0;            // since the program began
-  std::size_t memory_bytes = 0;  // held now
+  double seconds = 0;                               // since the program began
+  std::size_t memory_bytes = 0;                     // held now
+  std::map<std::string_view, Cost> raised_by = {};  // the bound, since the row before: by what, and
+                                                    // how far; see the README
 };
 
 struct LogEnd {
@@ -51,6 +55,10 @@ class LogFormat {
   virtual void row(const LogRow& row) = 0;
   // The same between rows; overwritten by what comes next, if it is shown at all.
   virtual void progress(const LogRow& /*row*/) {}
+  // What was done so far; the trees: for programs alone.
+  virtual void survey(const Survey& /*survey*/, double /*seconds*/) {}
+  virtual void root(const RootRow& /*row*/, double /*seconds*/) {}
+  virtual void node(const NodeRow& /*row*/, double /*seconds*/) {}
   // As RunObserver has them.
   virtual void infeasible(std::string_view reason) = 0;
   virtual void note(std::string_view text, double seconds) = 0;

@@ -30,8 +30,8 @@ int telling(RunEvent event) {
 
 }  // namespace
 
-RunLog::RunLog(LogFormat& format, Clock::time_point start, bool by_work, double longest_interval_s)
-    : format_(format), start_(start), by_work_(by_work), longest_interval_s_(longest_interval_s) {}
+RunLog::RunLog(LogFormat& format, Clock::time_point start, const Options& options)
+    : format_(format), start_(start), options_(options), tree_(options.tree_nodes) {}
 
 double RunLog::seconds() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
@@ -44,27 +44,39 @@ void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
 
 void RunLog::on_event(RunEvent event, const Progress& progress) {
   if (telling(event) > telling(event_)) event_ = event;
+  note_bound(progress);
   const bool news = event_ != RunEvent::kProgress || progress.nodes_expanded != last_row_nodes_;
-  if (event == RunEvent::kIncumbent || (event == RunEvent::kEnd && news) || row_is_due(progress))
+  const bool is_due = row_is_due(progress);
+  survey_is_due_ = is_due || event == RunEvent::kEnd;
+  if (event == RunEvent::kIncumbent || (event == RunEvent::kEnd && news) || is_due)
     return row(progress);
   if (event == RunEvent::kProgress) show_progress(progress);
 }
 
+// Of ranks one hears how many nodes they expanded, not what came of them.
+void RunLog::note_bound(const Progress& progress) {
+  if (progress.lower_bound <= bound_) return;
+  const bool is_known = hears_expansions_ || progress.nodes_expanded == 0;
+  raised_by_[is_known ? last_work_ : "tree"] += progress.lower_bound - bound_;
+  bound_ = progress.lower_bound;
+}
+
 bool RunLog::row_is_due(const Progress& progress) const {
   if (!has_rows_) return true;
-  if (by_work_)
+  if (options_.by_work)
     return progress.nodes_expanded - last_row_nodes_ >=
            std::max(kRowInterval_nodes, last_row_nodes_ / 10);
   return seconds() - last_row_s_ >=
-         std::clamp(last_row_s_ / 10, kRowInterval_s, longest_interval_s_);
+         std::clamp(last_row_s_ / 10, kRowInterval_s, options_.longest_interval_s);
 }
 
 LogRow RunLog::row_of(const Progress& progress) const {
-  return {event_, source_, progress, seconds(), resident_bytes()};
+  return {event_, source_, progress, seconds(), resident_bytes(), raised_by_};
 }
 
 void RunLog::row(const Progress& progress) {
   format_.row(row_of(progress));
+  raised_by_.clear();
   has_rows_ = true;
   event_ = RunEvent::kProgress;
   last_row_s_ = seconds();
@@ -76,6 +88,21 @@ void RunLog::show_progress(const Progress& progress) {
   if (now - last_progress_s_ < kProgressInterval_s) return;
   last_progress_s_ = now;
   format_.progress(row_of(progress));
+}
+
+void RunLog::on_survey(const Survey& survey) {
+  format_.survey(survey, seconds());
+}
+
+void RunLog::on_root(const NodePtr& root) {
+  if (const auto row = tree_.root(*root)) format_.root(*row, seconds());
+}
+
+// A bound that rises now does so for this expansion: the last node of the old bound is gone.
+void RunLog::on_expanded(const NodePtr& node, const Expansion& expansion, int worker) {
+  hears_expansions_ = true;
+  last_work_ = expansion.branching ? "splits" : expansion.plan ? last_work_ : "groups";
+  if (const auto row = tree_.expanded(*node, expansion, worker)) format_.node(*row, seconds());
 }
 
 void RunLog::on_infeasible(std::string_view reason) {

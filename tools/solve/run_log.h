@@ -3,28 +3,43 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <limits>
+#include <map>
+#include <string_view>
+#include <utility>
 
 #include "tools/solve/log_format.h"
 
 namespace grove {
 
-// Decides when a row is due: at once for a plan, else throttled by the clock, or, with `by_work`,
-// by the number of nodes expanded, so that two runs of the same search log the same rows.
+// Decides when a row is due: at once for a plan and for nodes that are to be told, else throttled
+// by the clock, or, with `by_work`, by the number of nodes expanded, so that two runs of the same
+// search log the same rows.
 class RunLog : public RunObserver {
  public:
   using Clock = std::chrono::steady_clock;
-  // Rows get rarer with time, but are never further apart than `longest_interval_s`.
-  RunLog(LogFormat& format, Clock::time_point start, bool by_work,
-         double longest_interval_s = std::numeric_limits<double>::infinity());
+  struct Options {
+    bool by_work = false;
+    // Rows get rarer with time, but are never further apart.
+    double longest_interval_s = std::numeric_limits<double>::infinity();
+    std::int64_t tree_nodes = 0;  // so many are told when they have been expanded
+  };
+  RunLog(LogFormat& format, Clock::time_point start, const Options& options);
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
   void on_note(std::string_view note) override;
   void on_checkpoint(const CheckpointReport& report) override;
+  // With rows that time or work made due, and at the end.
+  bool wants_survey() override { return std::exchange(survey_is_due_, false); }
+  void on_survey(const Survey& survey) override;
+  void on_root(const NodePtr& root) override;
+  void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
 
  private:
+  void note_bound(const Progress& progress);
   bool row_is_due(const Progress& progress) const;
   void row(const Progress& progress);
   void show_progress(const Progress& progress);
@@ -33,11 +48,16 @@ class RunLog : public RunObserver {
 
   LogFormat& format_;
   const Clock::time_point start_;
-  const bool by_work_;
-  const double longest_interval_s_;
+  const Options options_;
+  TreeLog tree_;
   bool has_rows_ = false;
+  bool survey_is_due_ = false;
+  bool hears_expansions_ = false;
   RunEvent event_ = RunEvent::kProgress;  // the most telling one since the last row
   PlanSource source_ = PlanSource::kTree;
+  std::string_view last_work_ = "sequences";    // what a bound that rises now rises by
+  std::map<std::string_view, Cost> raised_by_;  // what it rose by since the last row, and how far
+  Cost bound_ = 0;
   double last_row_s_ = 0;
   std::int64_t last_row_nodes_ = 0;
   double last_progress_s_ = 0;

@@ -16,6 +16,7 @@ namespace grove {
 namespace {
 
 constexpr const char* kDefaultOmega = "0.01";
+constexpr IntegerRange kTreeNodes{0, 1'000'000};
 const std::map<std::string, Policy> kPolicies{
     {"auto", Policy::kAuto}, {"fixed", Policy::kFixed}, {"free", Policy::kFree}};
 const std::map<std::string, RtspBackend> kBackends{
@@ -220,6 +221,9 @@ void add_solve_options(CLI::App& app, SolveArguments& a) {
       "threads, of which it has work for four. (Without it only runs on one thread do.)");
   add_checkpoint_options(app, a.checkpoints);
   add_file_options(app, a);
+  add_integer(app, "--log-tree", a.log_tree, kTreeNodes,
+              "tell each of the first N nodes expanded in a log of format jsonl: bound, conflict, "
+              "split, children; 'grove view --run' draws them as a tree");
 }
 
 std::string options_text(const CLI::App& app) {

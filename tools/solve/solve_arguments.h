@@ -40,6 +40,7 @@ struct SolveArguments {
   bool require_plan = false;
   std::filesystem::path log;
   std::string log_format = "text";
+  std::int64_t log_tree = 0;
   bool verbose = false;
   bool quiet = false;
 };

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <CLI/Error.hpp>
 #include <cstdio>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -59,14 +59,17 @@ std::unique_ptr<LogFormat> open_log(const SolveArguments& a, bool may_show_progr
   std::FILE* const screen = a.quiet ? nullptr : a.output == kStandardOutput ? stderr : stdout;
   LogSink sink(screen, a.log, may_show_progress);
   if (a.log_format == kJsonLines) return std::make_unique<JsonLog>(std::move(sink));
+  if (a.log_tree > 0)
+    throw CLI::ValidationError("--log-tree", "expected --log-format jsonl with it");
   return std::make_unique<TextLog>(std::move(sink), a.time_limit_s, a.verbose);
 }
 
 RunLog rows_of(LogFormat& log, const SolveArguments& a,
                std::chrono::steady_clock::time_point start) {
   const bool for_programs = a.log_format == kJsonLines;
-  return RunLog(log, start, a.deterministic,
-                for_programs ? kLongestWait_s : std::numeric_limits<double>::infinity());
+  RunLog::Options options{.by_work = a.deterministic, .tree_nodes = a.log_tree};
+  if (for_programs) options.longest_interval_s = kLongestWait_s;
+  return RunLog(log, start, options);
 }
 
 LogHead head_of(const CLI::App& app, const SolveArguments& a, const LoadedInstance& loaded,

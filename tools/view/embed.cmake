@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Writes OUTPUT, which defines what page_parts.h declares: the texts of the files STYLE and PROGRAM.
+# Writes OUTPUT, which defines what page_parts.h declares of the page NAME: the texts of the files
+# STYLE and PROGRAM.
 file(READ ${STYLE} style)
 file(READ ${PROGRAM} program)
 file(WRITE ${OUTPUT} "// Made by embed.cmake.
@@ -7,12 +8,8 @@ file(WRITE ${OUTPUT} "// Made by embed.cmake.
 
 namespace grove {
 
-std::string_view page_style() {
-  return R\"grove(${style})grove\";
-}
-
-std::string_view page_program() {
-  return R\"grove(${program})grove\";
+PageParts ${NAME}_page_parts() {
+  return {R\"grove(${style})grove\", R\"grove(${program})grove\"};
 }
 
 }  // namespace grove

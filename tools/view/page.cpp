@@ -26,28 +26,55 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-}  // namespace
+// In JSON a '<' is part of a text, where it may be written like this: nothing ends the element.
+std::string without_markup(std::string_view json) {
+  std::string safe;
+  safe.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
 
-// The policy allows what is in the page and nothing else: no requests, no scripts of others.
-std::string page(std::string_view title, std::string_view data) {
+// The policy allows what is in the page and nothing else, but for what `more` says: no requests, no
+// scripts of others.
+std::string html(std::string_view title, const PageParts& parts, std::string_view id,
+                 std::string_view data, std::string_view more = "", std::string_view body = "") {
   return fmt::format(
       R"(<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:{}">
 <title>{}</title>
 <style>{}</style>
 </head>
-<body>
+<body{}>
 <noscript>This page is a program: it needs JavaScript.</noscript>
-<script type="application/json" id="grove-data">{}</script>
+<script type="application/json" id="{}">{}</script>
 <script>{}</script>
 </body>
 </html>
 )",
-      escaped(title), page_style(), data, page_program());
+      more, escaped(title), parts.style, body, id, data, parts.program);
+}
+
+}  // namespace
+
+std::string plan_page(std::string_view title, std::string_view data) {
+  return html(title, plan_page_parts(), "grove-data", data);
+}
+
+std::string run_page(std::string_view title, std::string_view log) {
+  return html(title, run_page_parts(), "grove-log", without_markup(log));
+}
+
+std::string following_page(std::string_view title) {
+  return html(title, run_page_parts(), "grove-log", "", "; connect-src 'self'", " data-follow");
 }
 
 }  // namespace grove

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of `grove view`: one file that needs nothing beside it.
+// The pages of `grove view`: each one file that needs nothing beside it.
 #pragma once
 
 #include <string>
@@ -7,7 +7,12 @@
 
 namespace grove {
 
-// `data`: of page_data.h.
-std::string page(std::string_view title, std::string_view data);
+// Plays plans. `data`: of page_data.h.
+std::string plan_page(std::string_view title, std::string_view data);
+
+// Shows what a run did. `log`: lines of JSON (run_log_file.h).
+std::string run_page(std::string_view title, std::string_view log);
+// The same of a log that grows, which it asks the server that it came from for, and no one else.
+std::string following_page(std::string_view title);
 
 }  // namespace grove

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The page's style and program, as CMake has bundled them into this one.
+// Style and program of the pages, as the build makes them of page/ and run/.
 #pragma once
 
 #include <string_view>
 
 namespace grove {
 
-std::string_view page_style();
-std::string_view page_program();
+// Neither holds an end of its element.
+struct PageParts {
+  std::string_view style;
+  std::string_view program;
+};
+
+PageParts plan_page_parts();
+PageParts run_page_parts();
 
 }  // namespace grove

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 // grove view INSTANCE [PLAN...]
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -17,11 +13,14 @@
 #include "grove/io/input_error.h"
 #include "grove/io/plan_import.h"
 #include "tools/common/commands.h"
+#include "tools/common/companion.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
+#include "tools/view/browser.h"
 #include "tools/view/page.h"
 #include "tools/view/page_data.h"
 #include "tools/view/picture/picture.h"
+#include "tools/view/run_log_file.h"
 
 namespace grove {
 namespace {
@@ -35,21 +34,31 @@ by itself what is wrong with it: collisions, jumps, tasks left out.
 PLAN is a plan file, or what other solvers write: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2
 (--outputPaths) or the text of lacam and pibt. Without any, the page shows the instance.
 
+--run shows what a search did instead, from its log for programs: bound and best plan over time, where
+each came from, splits, memory, ranks, and with --log-tree the trees. With --follow it is shown while
+the run goes on, to browsers on this machine.
+
 --svg, --png and --gif write pictures of the first plan instead, without a browser: SVG and PNG of the
 moments --at, side by side; GIF plays all of it.
 
 Examples:
   grove view benchmarks/data/first.cts.json first.plan.json
   grove view my.cts.json my.plan.json --svg strip.svg --at 0,10,20,30
-  grove view my.cts.json ours.plan.json theirs.txt -o both.html)";
+  grove view my.cts.json ours.plan.json theirs.txt -o both.html
+  grove solve my.cts.json --quiet --log run.jsonl --log-format jsonl --log-tree 1000
+  grove view --run run.jsonl)";
 
 constexpr IntegerRange kWidths{16, 10'000};
+constexpr IntegerRange kPorts{0, 65'535};
 
 struct ViewArguments {
   InstanceArguments instance;
   std::vector<std::string> plans;
   std::string output;
   bool open = false;
+  std::string run;  // a log, in place of an instance
+  bool follow = false;
+  std::int64_t port = 0;
   std::string svg;
   std::string png;
   std::string gif;
@@ -72,28 +81,13 @@ std::string default_output(const ViewArguments& arguments) {
   return name.substr(0, name.find('.')) + ".html";
 }
 
+std::string name_of(const std::string& file) {
+  return fs::path(file).filename().string();
+}
+
 void write(const std::string& file, const std::string& bytes) {
   write_file_atomically(file, bytes);
   fmt::print("wrote {}: {}\n", file, size_text(bytes.size()));
-}
-
-// Hands the page to the desktop's own opener and does not wait for it.
-void open_in_browser(const std::string& file) {
-  const std::string opener = "xdg-open";
-  std::string target = fs::absolute(file).string();
-  std::array<char*, 3> arguments{const_cast<char*>(opener.c_str()), target.data(), nullptr};
-  posix_spawn_file_actions_t silence;
-  ::posix_spawn_file_actions_init(&silence);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    ::posix_spawn_file_actions_addopen(&silence, stream, "/dev/null", O_RDWR, 0);
-  pid_t child = 0;
-  const int failed =
-      ::posix_spawnp(&child, opener.c_str(), &silence, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&silence);
-  if (failed != 0)
-    throw InputError(
-        opener, "",
-        "cannot be run; expected the Debian package xdg-utils, or open the page by hand");
 }
 
 void write_page(const ViewArguments& arguments, const Instance& instance,
@@ -101,8 +95,8 @@ void write_page(const ViewArguments& arguments, const Instance& instance,
   const std::string name = fs::path(arguments.instance.name()).filename().string();
   const std::string output =
       arguments.output.empty() ? default_output(arguments) : arguments.output;
-  write(output, page(name, page_data(name, instance, plans)));
-  if (arguments.open) open_in_browser(output);
+  write(output, plan_page(name, page_data(name, instance, plans)));
+  if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
 
 void write_pictures(const ViewArguments& arguments, const Instance& instance,
@@ -119,7 +113,24 @@ void write_pictures(const ViewArguments& arguments, const Instance& instance,
   if (!arguments.gif.empty()) write(arguments.gif, gif_picture(drawing, width, arguments.speed));
 }
 
+[[noreturn]] void follow(const ViewArguments& arguments) {
+  std::vector<std::string> words{arguments.run, "--port", std::to_string(arguments.port)};
+  if (arguments.open) words.emplace_back("--open");
+  become("grove-follow", words);
+}
+
+void show_run(const ViewArguments& arguments) {
+  if (arguments.follow) follow(arguments);
+  const std::string log = read_run_log(arguments.run);
+  const std::string output = arguments.output.empty()
+                                 ? fs::path(arguments.run).stem().string() + ".html"
+                                 : arguments.output;
+  write(output, run_page(name_of(arguments.run), log));
+  if (arguments.open) open_in_browser(fs::absolute(output).string());
+}
+
 void run(const ViewArguments& arguments) {
+  if (!arguments.run.empty()) return show_run(arguments);
   const LoadedInstance loaded = arguments.instance.load();
   std::vector<std::string> warnings;
   std::vector<NamedPlan> plans;
@@ -130,6 +141,21 @@ void run(const ViewArguments& arguments) {
   if (arguments.wants_pictures()) write_pictures(arguments, loaded.instance, plans);
   if (!arguments.wants_pictures() || !arguments.output.empty())
     write_page(arguments, loaded.instance, plans);
+}
+
+void add_run_options(CLI::App& command, ViewArguments& arguments) {
+  CLI::Option* run =
+      command.add_option("--run", arguments.run, "log of a run to show, in place of an instance")
+          ->type_name("LOG.jsonl");
+  CLI::Option* follow =
+      command.add_flag("--follow", arguments.follow, "with --run: show it while it grows");
+  CLI::Option* port =
+      add_integer(command, "--port", arguments.port, kPorts, "of --follow; 0: one that is free");
+  follow->needs(run);
+  port->needs(follow);
+  for (const char* other :
+       {"--svg", "--png", "--gif", "--at", "--width", "--speed", "INSTANCE", "PLAN"})
+    run->excludes(command.get_option(other));
 }
 
 }  // namespace
@@ -159,7 +185,13 @@ void add_view_command(CLI::App& app) {
       ->check(CLI::Range(0.1, 50.0))
       ->type_name("X")
       ->capture_default_str();
-  command->callback([arguments] { run(*arguments); });
+  add_run_options(*command, *arguments);
+  const CLI::Option* instance = command->get_option("INSTANCE")->required(false);
+  command->callback([arguments, instance] {
+    if (instance->empty() && arguments->run.empty())
+      throw CLI::RequiredError("INSTANCE, or --run LOG.jsonl");
+    run(*arguments);
+  });
 }
 
 }  // namespace grove

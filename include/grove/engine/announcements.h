@@ -18,8 +18,10 @@ class Announcements : public TurnObserver {
   // `observer`, and what `progress` looks at, must outlive this.
   Announcements(RunObserver& observer, std::function<Progress()> progress)
       : observer_(observer), progress_(std::move(progress)) {}
+  // How to make a survey, from any thread, for an observer that wants one. Before the search.
+  void survey_by(std::function<Survey()> survey) { survey_ = std::move(survey); }
 
-  void expanded(const NodePtr& node, const Expansion& expansion) override;
+  void expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
   void evicted(std::span<const NodePtr> nodes) override;
   void worked() override { event(RunEvent::kProgress); }
 
@@ -34,8 +36,11 @@ class Announcements : public TurnObserver {
   void checkpoint(const CheckpointReport& report);
 
  private:
+  void tell(RunEvent event, const Progress& progress);
+
   RunObserver& observer_;
   const std::function<Progress()> progress_;
+  std::function<Survey()> survey_;  // may be empty
   std::mutex mutex_;
   Cost announced_bound_ = 0;  // under mutex_
 };

@@ -36,7 +36,7 @@ class CentralLedger : public Ledger {
   Cost lower_bound() const override { return gate_.lower_bound(); }
   void post(Plan plan, PlanSource source) override;
   void nodes_changed() override;
-  // Where better plans came from, and what each source took off the cost.
+  // Where better plans came from, and what each source took off the cost. From any thread.
   void add_counts(Stats& stats) const;
 
   // For decisions that are the gate's.
@@ -51,6 +51,8 @@ class CentralLedger : public Ledger {
   void end() { out_of_nodes_ = true; }
 
  private:
+  void count(PlanSource source, Cost gain);
+
   const Limits& limits_;
   LiveNodes& nodes_;
   Announcements& announcements_;
@@ -62,8 +64,9 @@ class CentralLedger : public Ledger {
     std::int64_t plans = 0;
     Cost gain = 0;
   };
-  mutable std::mutex posting_;  // orders what is announced of plans, and guards:
-  std::array<Found, kPlanSources.size()> found_;
+  std::mutex posting_;  // orders what is announced of plans
+  mutable std::mutex counting_;
+  std::array<Found, kPlanSources.size()> found_;  // under counting_
 };
 
 }  // namespace grove

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "grove/engine/checkpoints.h"
+#include "grove/engine/survey.h"
 #include "grove/model/plan.h"
 #include "grove/primal/plan_source.h"
 #include "grove/search/expander.h"
@@ -52,14 +53,52 @@ class RunObserver {
   // A checkpoint was written, or could not be.
   virtual void on_checkpoint(const CheckpointReport& /*report*/) {}
 
-  // For tests of the search's reasoning (planted optimum): every root, every expansion with what it
-  // led to, and the bound from which on open nodes were dropped.
+  // Asked after each event: true to be given a survey now, of the run up to here.
+  virtual bool wants_survey() { return false; }
+  virtual void on_survey(const Survey& /*survey*/) {}
+
+  // For who looks at the trees themselves, or tests the search's reasoning (planted optimum): every
+  // root, every expansion with what it led to and the number of the worker, from 0, that did it;
+  // and the bound from which on open nodes were dropped. Where ranks share a search only the roots
+  // are told.
   virtual void on_root(const NodePtr& /*root*/) {}
-  virtual void on_expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/) {}
+  virtual void on_expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/,
+                           int /*worker*/) {}
   virtual void on_pruned(Cost /*bound*/) {}
   // An open node was given up for want of memory; the ledger keeps its bound until the search, out
   // of nodes, begins anew (each root then comes again).
   virtual void on_evicted(const NodePtr& /*node*/) {}
+};
+
+// Passes everything on to another; override what is to be more.
+class ForwardingObserver : public RunObserver {
+ public:
+  // `next` must outlive this.
+  explicit ForwardingObserver(RunObserver& next) : next_(next) {}
+
+  void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {
+    next_.on_incumbent(plan, source, progress);
+  }
+  void on_event(RunEvent event, const Progress& progress) override {
+    next_.on_event(event, progress);
+  }
+  void on_infeasible(std::string_view reason) override { next_.on_infeasible(reason); }
+  void on_note(std::string_view note) override { next_.on_note(note); }
+  void on_checkpoint(const CheckpointReport& report) override { next_.on_checkpoint(report); }
+  bool wants_survey() override { return next_.wants_survey(); }
+  void on_survey(const Survey& survey) override { next_.on_survey(survey); }
+  void on_root(const NodePtr& root) override { next_.on_root(root); }
+  void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override {
+    next_.on_expanded(node, expansion, worker);
+  }
+  void on_pruned(Cost bound) override { next_.on_pruned(bound); }
+  void on_evicted(const NodePtr& node) override { next_.on_evicted(node); }
+
+ protected:
+  RunObserver& next() { return next_; }
+
+ private:
+  RunObserver& next_;
 };
 
 }  // namespace grove

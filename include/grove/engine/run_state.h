@@ -30,6 +30,7 @@ class RunState {
 
   // Those who expand nodes turn to these, from any thread.
   CentralLedger& ledger() { return ledger_; }
+  const CentralLedger& ledger() const { return ledger_; }
   CentralTrees& trees() { return trees_; }
   Announcements& announcements() { return announcements_; }
   // What the first tree found out about the agents' stops, for workers to begin with.

@@ -11,6 +11,7 @@
 #include "grove/engine/ledger.h"
 #include "grove/engine/local_nodes.h"
 #include "grove/engine/solve.h"
+#include "grove/engine/survey.h"
 #include "grove/engine/tree_source.h"
 #include "grove/engine/turn_observer.h"
 #include "grove/search/expander.h"
@@ -37,8 +38,8 @@ class SharedSearch {
 
   // A node to expand; null if there is none just now. Whoever takes it brings it back by finish().
   NodePtr take();
-  // What became of a node taken.
-  void finish(const NodePtr& node, Expansion expansion);
+  // What became of a node taken, in the hands of the worker of this number.
+  void finish(const NodePtr& node, Expansion expansion, int worker);
   // A node, perhaps in other hands, that came back unfinished last; null if it has been finished.
   NodePtr unfinished() const;
   // Is there something for an idle worker to take, or to find out?
@@ -51,6 +52,8 @@ class SharedSearch {
 
   // Adds what was counted here to the answer's statistics.
   void add_counts(Stats& stats) const;
+  // What this process holds now.
+  MemoryUse memory_use() const;
 
  private:
   NodePtr take_open();

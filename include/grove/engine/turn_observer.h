@@ -18,8 +18,8 @@ class TurnObserver {
   TurnObserver& operator=(const TurnObserver&) = delete;
   virtual ~TurnObserver() = default;
 
-  // A node led to this.
-  virtual void expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/) {}
+  // A node led to this, in the hands of the worker of this number.
+  virtual void expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/, int /*worker*/) {}
   // These were given up.
   virtual void evicted(std::span<const NodePtr> /*nodes*/) {}
   // Some work was done.

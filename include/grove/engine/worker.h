@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -37,7 +38,8 @@ class Worker {
     FoundOut found;
     Expansion expansion;
     std::optional<Plan> plan;
-    std::int64_t work = 0;  // see search/work.h
+    std::int64_t work = 0;   // see search/work.h
+    ExpansionCounts counts;  // what this turn added
   };
 
   // Does the best there is to do: expands a node, helps another worker with one, goes on with the
@@ -63,11 +65,12 @@ class Worker {
   // Its own expander, made when first asked for. Of one thread; not necessarily the worker's.
   Expander& expander();
 
-  // Adds what this worker counted to the answer's statistics.
+  // Adds what the turns of this worker that were committed have counted. From any thread.
   void add_counts(Stats& stats) const;
 
  private:
   PrimalSearch& primal();
+  void count(const Turn& turn);
   void expand(Turn& turn, Expander& by) const;
   void help(Turn& turn, Expander& by);
   void step_primal(Turn& turn);
@@ -85,6 +88,10 @@ class Worker {
   std::unique_ptr<PrimalSearch> primal_;
   const std::unique_ptr<PrimalShare> share_;
   NodePtr helped_;  // the last node that there was nothing left to help with
+
+  mutable std::mutex counting_;  // guards what was counted:
+  ExpansionCounts of_tree_;
+  PrimalSearch::Counts of_primal_;
   std::int64_t helps_ = 0;
 };
 

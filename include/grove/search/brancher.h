@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,6 +19,12 @@
 #include "grove/search/search_options.h"
 
 namespace grove {
+
+// How a node was split, and what for.
+struct Branching {
+  Conflict conflict;  // of the node's paths
+  Split split;
+};
 
 // Chooses the split of a node and makes its children. The essay is at the head of brancher.cpp.
 // Workspace of one thread.
@@ -41,6 +48,8 @@ class Brancher {
   // two agents are in conflict.
   Outcome branch(NodeView& view, Cost cutoff, std::span<const Split> last_resorts,
                  const Limits& limits, std::vector<NodePtr>& children);
+  // How the last node was split; none if it was not.
+  const std::optional<Branching>& branching() const { return branching_; }
 
   // So far: nodes of sets of paths looked through for those of fewest conflicts; splits made, by
   // the kind of their second demand, which tells where they come from (kRestBy: when an agent comes
@@ -62,7 +71,7 @@ class Brancher {
   // The best split so far, by what its cheaper and its dearer side rise by.
   struct Choice {
     std::pair<Cost, Cost> gain{-1, -1};
-    Split split;
+    Branching branching;
   };
   // What all steps of one call of branch() read.
   struct Task {
@@ -73,10 +82,10 @@ class Brancher {
 
   void show_others(const NodeView& view);
   // False: a limit struck.
-  bool choose(const Task& task, std::span<const Split> last_resorts, Split& chosen);
-  bool improve(Choice& choice, const Split& split, const Task& task);
+  bool choose(const Task& task, std::span<const Split> last_resorts, Branching& chosen);
+  bool improve(Choice& choice, const Branching& by, const Task& task);
   bool improve_by_sequences(Choice& choice, const Task& task);
-  Split earliest(const NodeView& view);
+  Branching earliest(const NodeView& view);
   bool make_side(const Task& task, const AgentConstraint& demand, Side& side);
   bool replan(const Task& task, const AgentConstraint& demand, Side& side);
   bool replan_one(const Task& task, AgentIndex agent, const Constraint& more, Time cutoff,
@@ -98,6 +107,7 @@ class Brancher {
   std::array<Side, 2> sides_;
   std::vector<AgentIndex> in_conflict_;
   Path path_;
+  std::optional<Branching> branching_;
   std::array<std::int64_t, kConstraintKinds> splits_made_{};
   std::int64_t bypasses_ = 0;
 };

@@ -30,6 +30,7 @@ struct Expansion {
   std::optional<Plan> plan;       // the node's paths, or others as cheap, are conflict-free
   std::vector<NodePtr> children;  // at most two; a child without a path is none. One: perhaps the
                                   // same node with a higher bound
+  std::optional<Branching> branching;  // if the node was split
 };
 
 // What expanders have done so far.
@@ -50,6 +51,9 @@ struct ExpansionCounts {
   std::int64_t prices_known = 0;
   std::int64_t sets_asked = 0;
   std::int64_t sets_known = 0;
+
+  ExpansionCounts& operator+=(const ExpansionCounts& more);
+  ExpansionCounts& operator-=(const ExpansionCounts& less);
 };
 
 // Expands nodes with the workspace of one thread and the memory of what was found out about agents,

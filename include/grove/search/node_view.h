@@ -43,7 +43,8 @@ class NodeView {
   Time cost_of(AgentIndex agent) const { return static_cast<Time>(paths_[agent].size()) - 1; }
   std::span<const Conflict> conflicts() const { return conflicts_; }
   bool conflict_free() const { return conflicts_.empty(); }
-  bool in_conflict(AgentIndex a, AgentIndex b) const;
+  // The first of these two; null: there is none.
+  const Conflict* conflict_between(AgentIndex a, AgentIndex b) const;
   // Who in scope must go another way if `demand` is made: whose path does not obey what it asks,
   // or, if that is about the sequence, who is asked. Replaces `agents`.
   void disturbed(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const;

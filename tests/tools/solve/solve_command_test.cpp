@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -20,6 +21,7 @@ namespace solve_command_test {
 
 using nlohmann::json;
 using ::testing::EndsWith;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -432,17 +434,113 @@ TEST_F(SolveCommand, LogsForPrograms) {
   EXPECT_EQ(log.back()["status"], "optimal");
   EXPECT_EQ(log.back()["stats"], plan("p.json")["stats"]);
   std::int64_t incumbents = 0;
+  std::int64_t bound = 0;
   for (const json& row : log) {
-    if (&row == &log.front() || &row == &log.back()) continue;
+    if (&row == &log.front() || &row == &log.back() || row["event"] == "counts") continue;
     for (const char* key :
          {"time_s", "nodes", "open", "trees", "lower_bound", "incumbent", "gap", "memory_mb"})
       EXPECT_TRUE(row.contains(key)) << key;
     EXPECT_EQ(row["event"] == "incumbent", row.contains("source"));
+    const json raised_by = row.value("raised_by", json::object());
+    for (const auto& [what, gain] : raised_by.items()) {
+      EXPECT_THAT(what, AnyOf("sequences", "groups", "splits"));
+      bound += std::int64_t(gain);
+    }
+    EXPECT_EQ(bound, row["lower_bound"]);  // it rises by nothing that is not told
     incumbents += row["event"] == "incumbent" ? 1 : 0;
     EXPECT_EQ(row["gap"].is_null(), row["incumbent"].is_null());
   }
   EXPECT_GT(incumbents, 0);
-  EXPECT_EQ(log[log.size() - 2]["gap"], 0);
+  EXPECT_EQ(log[log.size() - 3]["gap"], 0);
+  // What was counted up to the end is what was counted.
+  const json& counts = log[log.size() - 2];
+  ASSERT_EQ(counts["event"], "counts");
+  for (const auto& [name, count] : counts["counts"].items())
+    EXPECT_TRUE(name == "nodes_generated" || count == log.back()["stats"][name]) << name;
+  EXPECT_TRUE(counts["counts"].contains("prices_asked"));
+  EXPECT_GT(counts["memory_mb"]["process"], 0);
+  EXPECT_FALSE(counts.contains("ranks"));
+}
+
+// What the events `root` and `node` of a log say, put together.
+struct LoggedTree {
+  std::map<std::int64_t, json> open;  // nodes not expanded yet
+  std::int64_t expanded = 0;
+  std::map<std::string, std::int64_t> splits;  // by kind
+
+  // Each node is expanded once, after it was made; children are new, and no bound falls.
+  void add(const json& event) {
+    if (event["event"] == "root") open[event["node"]] = event;
+    if (event["event"] != "node") return;
+    ASSERT_TRUE(open.contains(event["node"])) << event;
+    const std::int64_t bound = open.at(event["node"])["bound"];
+    open.erase(event["node"]);
+    ++expanded;
+    EXPECT_EQ(event["outcome"] == "plan", event.contains("cost"));
+    EXPECT_EQ(event.contains("conflict"), event.contains("split"));
+    if (event.contains("split")) ++splits["splits_" + std::string(event["split"])];
+    for (const json& child : event["children"]) {
+      EXPECT_TRUE(open.emplace(child["node"], child).second) << event;
+      EXPECT_EQ(event["outcome"] == "split", child.contains("demand"));
+      EXPECT_GE(child["bound"], bound + (event["outcome"] == "raise" ? 1 : 0));
+    }
+  }
+};
+
+TEST_F(SolveCommand, LogsTheTreeOnRequest) {
+  for (const char* threads : {"1", "2"}) {
+    SCOPED_TRACE(threads);
+    const ProcessResult solved =
+        solve({data("rooms-32x32_n10_m30.cts.json"), "--omega", "0", "--threads", threads,
+               "--log-format", "jsonl", "--log-tree", "1000000", "--without", "primal"});
+    LoggedTree tree;
+    const std::vector<json> log = events(solved.out);
+    for (const json& event : log) tree.add(event);
+    const json& stats = log.back()["stats"];
+    EXPECT_EQ(tree.expanded, stats["nodes_expanded"]);
+    EXPECT_GT(tree.expanded, 10);
+    std::int64_t splits = 0;
+    for (const auto& [name, count] : stats.items())
+      if (name.starts_with("splits_")) splits += std::int64_t(count);
+    std::int64_t logged = 0;
+    for (const auto& [name, count] : tree.splits) logged += count;
+    EXPECT_EQ(logged, splits);
+  }
+}
+
+// Times and memory aside.
+std::vector<json> timeless_events(std::vector<json> log) {
+  for (json& event : log)
+    for (const char* key : {"time_s", "memory_mb", "threads", "options", "stats"}) event.erase(key);
+  return log;
+}
+
+TEST_F(SolveCommand, DeterministicRunsLogTheSameTreeAndCounts) {
+  std::vector<std::vector<json>> logs;
+  for (const char* threads : {"1", "4"})
+    logs.push_back(timeless_events(
+        events(solve({data("random-32x32-20_n10_m30.cts.json"), "--omega", "0", "--deterministic",
+                      "--threads", threads, "--log-format", "jsonl", "--log-tree", "100"})
+                   .out)));
+  EXPECT_EQ(logs[0], logs[1]);
+  EXPECT_GT(logs[0].size(), 10u);
+}
+
+TEST_F(SolveCommand, LogsAsMuchOfTheTreeAsIsAskedFor) {
+  const std::vector<std::string> words{data("rooms-32x32_n10_m30.cts.json"),
+                                       "--omega",
+                                       "0",
+                                       "--deterministic",
+                                       "--without",
+                                       "primal",
+                                       "--log-format",
+                                       "jsonl",
+                                       "--log-tree",
+                                       "5"};
+  const std::vector<json> log = events(solve(words).out);
+  EXPECT_EQ(std::ranges::count(log, "node", [](const json& e) { return e["event"]; }), 5);
+  EXPECT_THAT(complaint(solve({"puzzle.json", "--log-tree", "5"})),
+              HasSubstr("--log-tree: expected --log-format jsonl with it"));
 }
 
 TEST_F(SolveCommand, LogsForProgramsWhateverHappens) {

@@ -172,6 +172,44 @@ TEST_F(ViewCommand, OpensThePageByTheDesktopsOpener) {
   EXPECT_EQ(read("opened"), (directory_.path() / "p.html").string() + "\n");
 }
 
+constexpr const char* kHeader = R"({"event": "header", "instance": "</script>"})";
+
+TEST_F(ViewCommand, ShowsARunAsFarAsItsLogGoes) {
+  directory_.write("run.jsonl",
+                   std::string(kHeader) + "\n{\"event\": \"progress\"}\n{\"event\": \"su");
+  ProcessOptions options;
+  options.directory = directory_.path();
+  const ProcessResult done = run_grove({"view", "--run", "run.jsonl"}, options);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const std::string page = read("run.html");
+  const std::string begin = R"(<script type="application/json" id="grove-log">)";
+  const auto from = page.find(begin) + begin.size();
+  EXPECT_EQ(
+      page.substr(from, page.find("</script>", from) - from),
+      "{\"event\": \"header\", \"instance\": \"\\u003c/script>\"}\n{\"event\": \"progress\"}\n");
+}
+
+TEST_F(ViewCommand, RefusesWhatIsNoLog) {
+  const auto complaint = [&](const std::string& log) {
+    directory_.write("run.jsonl", log);
+    const ProcessResult done = run_grove({"view", "--run", directory_ / "run.jsonl"});
+    EXPECT_EQ(done.exit_code, 2) << done.out;
+    return done.err;
+  };
+  EXPECT_THAT(complaint(""), HasSubstr("run.jsonl: is empty; expected the header of a log"));
+  EXPECT_THAT(complaint("Grove 0.1.0\n"), HasSubstr("line 1: expected the header of a log"));
+  EXPECT_THAT(complaint("[1]\n"), HasSubstr("line 1"));
+  EXPECT_THAT(complaint(std::string(kHeader) + "\n{\"event\": 7}\n"),
+              HasSubstr("line 2: expected an object with a text \"event\""));
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"view"},
+                                                {"view", "--follow"},
+                                                {"view", "x.json", "--run", "y"},
+                                                {"view", "--run", "y", "--svg", "z"},
+                                                {"view", "--run", "y", "--port", "1"},
+                                                {"view", "--run", directory_ / "none.jsonl"}})
+    EXPECT_EQ(run_grove(words).exit_code, 2) << words.back();
+}
+
 TEST_F(ViewCommand, RefusesWhatItDoesNotUnderstand) {
   const auto complaint = [](const ProcessResult& result) {
     EXPECT_EQ(result.exit_code, 2) << result.out;

@@ -15,6 +15,22 @@ export class Value {
     return this.value !== undefined;
   }
 
+  get isNull(): boolean {
+    return this.value === null;
+  }
+
+  get isNumber(): boolean {
+    return typeof this.value === "number" && Number.isFinite(this.value);
+  }
+
+  // Of an object: its keys.
+  names(): string[] {
+    const object = this.value;
+    if (typeof object !== "object" || object === null || Array.isArray(object))
+      this.fail("an object");
+    return Object.keys(object as object);
+  }
+
   key(name: string): Value {
     const object = this.value;
     if (typeof object !== "object" || object === null || Array.isArray(object))

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace grove {
+
+// Hands a file or an address to the desktop's own opener and does not wait for it. Throws
+// InputError where there is none.
+void open_in_browser(std::string target);
+
+}  // namespace grove

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// GET / is the page; GET /log?from=N the log from byte N on, whole lines of it, with three headers:
+// X-Log names the log, so that the page begins anew when that does, X-End is where the answer ends,
+// and X-Size what there is.
+#include "tools/view/follow_server.h"
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+#include "grove/io/input_error.h"
+
+namespace grove {
+namespace {
+
+constexpr const char* kLoopback = "127.0.0.1";
+constexpr std::streamoff kMostAtOnce = 4 << 20;  // bytes
+constexpr std::streamsize kBeginning = 4096;     // by which a log is known again
+constexpr auto kPause = std::chrono::milliseconds(100);
+
+// A file that somebody writes.
+class GrowingFile {
+ public:
+  explicit GrowingFile(std::filesystem::path path) : path_(std::move(path)) {}
+
+  struct Part {
+    std::string name;  // another one when the file has begun anew
+    std::string text;  // whole lines
+    std::streamoff end = 0;
+    std::streamoff size = 0;
+  };
+  // What it holds from `from` on if it is still the one of this name, else from the beginning.
+  Part read(std::streamoff from, const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    std::ifstream file(path_, std::ios::binary);
+    file.seekg(0, std::ios::end);
+    const std::streamoff size = file ? std::streamoff(file.tellg()) : 0;
+    look_whether_it_began_anew(file, size);
+    Part part{std::to_string(number_), "", 0, size};
+    if (name == part.name) part.end = std::min(from, size);
+    part.text.resize(static_cast<std::size_t>(std::min(size - part.end, kMostAtOnce)));
+    file.seekg(part.end);
+    file.read(part.text.data(), static_cast<std::streamsize>(part.text.size()));
+    part.text.resize(part.text.rfind('\n') + 1);  // npos + 1 is 0
+    part.end += static_cast<std::streamoff>(part.text.size());
+    return part;
+  }
+
+ private:
+  void look_whether_it_began_anew(std::ifstream& file, std::streamoff size) {
+    std::string beginning(static_cast<std::size_t>(std::min<std::streamoff>(size, kBeginning)),
+                          ' ');
+    file.seekg(0);
+    file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    if (size < size_ || !beginning.starts_with(beginning_)) ++number_;
+    beginning_ = std::move(beginning);
+    size_ = size;
+  }
+
+  const std::filesystem::path path_;
+  std::mutex mutex_;
+  std::string beginning_;
+  std::streamoff size_ = 0;
+  std::int64_t number_ = 1;
+};
+
+std::streamoff offset_of(const httplib::Request& request) {
+  try {
+    return std::max<std::streamoff>(0, std::stoll(request.get_param_value("from")));
+  } catch (const std::exception&) {
+    return 0;
+  }
+}
+
+// True: the request is not one of ours, and has been answered.
+bool refuse(int port, const httplib::Request& request, httplib::Response& response) {
+  const std::string host = request.get_header_value("Host");
+  const bool is_known =
+      host == fmt::format("{}:{}", kLoopback, port) || host == fmt::format("localhost:{}", port);
+  if (is_known && request.method == "GET") return false;
+  response.status = is_known ? 405 : 403;
+  return true;
+}
+
+}  // namespace
+
+void serve(const Followed& followed, int port, const std::function<void(const std::string&)>& begun,
+           const std::function<bool()>& over) {
+  httplib::Server server;
+  GrowingFile log(followed.log);
+  server.new_task_queue = [] { return new httplib::ThreadPool(2); };
+  server.set_default_headers(
+      {{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}});
+  server.set_keep_alive_max_count(1);  // the end does not wait for pages that might ask again
+  // As httplib does by default, but that another server may not take the port as well.
+  server.set_socket_options([](socket_t) {});
+  if (port == 0)
+    port = server.bind_to_any_port(kLoopback);
+  else if (!server.bind_to_port(kLoopback, port))
+    port = -1;
+  if (port < 0) throw InputError("--port", "", "is taken; expected one that is free, or none");
+  server.set_pre_routing_handler(
+      [port](const httplib::Request& request, httplib::Response& response) {
+        return refuse(port, request, response) ? httplib::Server::HandlerResponse::Handled
+                                               : httplib::Server::HandlerResponse::Unhandled;
+      });
+  server.Get("/", [&](const httplib::Request&, httplib::Response& response) {
+    response.set_content(followed.page, "text/html; charset=utf-8");
+  });
+  server.Get("/log", [&](const httplib::Request& request, httplib::Response& response) {
+    const GrowingFile::Part part = log.read(offset_of(request), request.get_param_value("file"));
+    response.set_header("X-Log", part.name);
+    response.set_header("X-End", std::to_string(part.end));
+    response.set_header("X-Size", std::to_string(part.size));
+    response.set_content(part.text, "text/plain; charset=utf-8");
+  });
+  begun(fmt::format("http://{}:{}/", kLoopback, port));
+  std::jthread listening([&] { server.listen_after_bind(); });
+  while (!over()) std::this_thread::sleep_for(kPause);
+  server.stop();
+}
+
+}  // namespace grove

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// grove-follow LOG: what `grove view --run LOG --follow` becomes.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+
+#include "tools/common/options.h"
+#include "tools/common/program.h"
+#include "tools/common/signals.h"
+#include "tools/view/browser.h"
+#include "tools/view/follow_server.h"
+#include "tools/view/page.h"
+
+namespace grove {
+namespace {
+
+constexpr IntegerRange kPorts{0, 65'535};
+
+struct FollowArguments {
+  std::filesystem::path log;
+  std::int64_t port = 0;
+  bool open = false;
+};
+
+void follow(const FollowArguments& arguments) {
+  stop_on_signals();
+  const auto begun = [&](const std::string& address) {
+    fmt::print("following {} at {} (Ctrl-C ends)\n", arguments.log.string(), address);
+    std::fflush(stdout);
+    if (arguments.open) open_in_browser(address);
+  };
+  serve({arguments.log, following_page(arguments.log.filename().string())},
+        static_cast<int>(arguments.port), begun, [] { return interrupted.load(); });
+}
+
+}  // namespace
+}  // namespace grove
+
+int main(int argc, char** argv) {
+  CLI::App app("Show the log of a run while it grows: grove view --run LOG --follow",
+               "grove-follow");
+  grove::FollowArguments arguments;
+  grove::prepare_program(app);
+  app.require_subcommand(0);
+  app.add_option("LOG", arguments.log, "log of a run; need not exist yet")
+      ->required()
+      ->type_name("");
+  grove::add_integer(app, "--port", arguments.port, grove::kPorts, "0: one that is free");
+  app.add_flag("--open", arguments.open, "show the page in the browser");
+  app.callback([&] { grove::follow(arguments); });
+  return grove::run_only_process(app, argc, argv);
+}

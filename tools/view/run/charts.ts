@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// What the charts of a run show: bound and incumbent, nodes, memory.
+
+import type { Contents, Mark, Point } from "./chart";
+import type { Row, Run } from "./model";
+import { kMemory } from "./model";
+import type { Scale } from "./scale";
+import { linear, logarithmic } from "./scale";
+import { kBoundSources, kPlanSources, megabytes, number, percent, seconds } from "./words";
+
+// Signs of where plans came from, and of a bound that rose.
+export const kBoundSign = "⊥";
+export const kSigns: Record<string, string> = {
+  tree: "●", start: "■", priorities: "▲", configurations: "◆", neighborhood: "+",
+};
+export const kMemoryNames: Record<string, string> = {
+  nodes: "nodes of the trees", prices: "what robots cost", path_sets: "sets of optimal paths",
+  groups: "what groups cost",
+};
+
+export function endOf(run: Run): number {
+  const rows = run.rows.length > 0 ? run.rows[run.rows.length - 1].time : 0;
+  const counts = run.counts.length > 0 ? run.counts[run.counts.length - 1].time : 0;
+  return Math.max(rows, counts, run.summary?.seconds ?? 0, 1e-3);
+}
+
+export function boundChart(run: Run, isLogarithmic: boolean): Contents {
+  const { rows } = run;
+  const plans = rows.filter((row) => row.incumbent !== null);
+  const values = [...rows.map((row) => row.bound), ...plans.map((row) => row.incumbent!)];
+  const [least, most] = extremes(values);
+  const room = Math.max(1, (most - least) * 0.05);
+  const of = (all: Row[], value: (row: Row) => number): Point[] =>
+    all.map((row) => ({ time: row.time, value: value(row) }));
+  const known = of(plans, (row) => row.incumbent!);
+  return {
+    ...frame(run, isLogarithmic, "Lower bound and best plan over time"),
+    y: linear(least - room, most + room),
+    series: [
+      { name: "gap", kind: "gap", points: known, until: of(plans, (row) => row.bound) },
+      { name: "lower bound", kind: "bound", points: of(rows, (row) => row.bound) },
+      { name: "best plan", kind: "incumbent", points: known },
+    ],
+    marks: [...planMarks(rows), ...boundMarks(rows)],
+    label: number,
+    read: (time) => standing(rowAt(rows, time)),
+  };
+}
+
+export function nodesChart(run: Run, isLogarithmic: boolean): Contents {
+  const { rows } = run;
+  const most = extremes(rows.map((row) => Math.max(row.nodes, row.open)))[1];
+  return {
+    ...frame(run, isLogarithmic, "Nodes expanded and open over time"),
+    y: linear(0, Math.max(1, most)),
+    series: [
+      { name: "expanded", kind: "bound", points: rows.map(({ time, nodes }) => ({ time, value: nodes })) },
+      { name: "open", kind: "incumbent", points: rows.map(({ time, open }) => ({ time, value: open })) },
+    ],
+    marks: [],
+    label: number,
+    read: (time) => {
+      const row = rowAt(rows, time);
+      return row ? `${number(row.nodes)} nodes expanded, ${number(row.open)} open` : "";
+    },
+  };
+}
+
+// What the search holds, kind by kind, one on the other, under what the whole process does.
+export function memoryChart(run: Run, isLogarithmic: boolean): Contents {
+  const { counts, rows } = run;
+  const whole: Point[] = counts.some((c) => c.process > 0)
+    ? counts.map(({ time, process }) => ({ time, value: process }))
+    : rows.map(({ time, memory }) => ({ time, value: memory }));
+  const upTo = (kinds: number) => counts.map(({ time, memory }) =>
+    ({ time, value: memory.slice(0, kinds).reduce((sum, part) => sum + part, 0) }));
+  return {
+    ...frame(run, isLogarithmic, "Memory by kind over time"),
+    y: linear(0, Math.max(1, extremes(whole.map((point) => point.value))[1])),
+    series: [
+      ...kMemory.map((kind, i) =>
+        ({ name: kMemoryNames[kind], kind: `memory-${kind}`, points: upTo(i + 1), until: upTo(i) })),
+      { name: "the whole process", kind: "incumbent", points: whole },
+    ],
+    marks: [],
+    label: megabytes,
+    read: (time) => memoryAt(run, time),
+  };
+}
+
+function frame(run: Run, isLogarithmic: boolean, title: string) {
+  const end = endOf(run);
+  const begin = Math.max(1e-3, run.rows.length > 0 ? run.rows[0].time : 1e-3);
+  const x: Scale = isLogarithmic ? logarithmic(begin, end) : linear(0, end);
+  return { title, end, x, stops: run.rows.map((row) => row.time) };
+}
+
+function planMarks(rows: Row[]): Mark[] {
+  return rows.filter((row) => row.kind === "incumbent").map((row) => ({
+    time: row.time,
+    value: row.incumbent!,
+    shape: kSigns[row.source] ?? "?",
+    kind: "incumbent",
+    title: `${seconds(row.time)}: a plan of ${number(row.incumbent!)}, from ${kPlanSources[row.source] ?? row.source}`,
+  }));
+}
+
+function boundMarks(rows: Row[]): Mark[] {
+  return rows.filter((row) => row.raisedBy.size > 0).map((row) => ({
+    time: row.time,
+    value: row.bound,
+    shape: kBoundSign,
+    kind: "bound",
+    title: `${seconds(row.time)}: at least ${number(row.bound)}, by ` +
+      [...row.raisedBy.keys()].map((source) => kBoundSources[source] ?? source).join(" and "),
+  }));
+}
+
+function extremes(values: number[]): [number, number] {
+  let [least, most] = [Infinity, -Infinity];
+  for (const value of values) {
+    least = Math.min(least, value);
+    most = Math.max(most, value);
+  }
+  return values.length > 0 ? [least, most] : [0, 1];
+}
+
+// The last one at that time.
+function rowAt<T extends { time: number }>(rows: T[], time: number): T | null {
+  let [least, most] = [0, rows.length];
+  while (least < most) {
+    const middle = (least + most) >> 1;
+    if (rows[middle].time <= time + 1e-9) least = middle + 1;
+    else most = middle;
+  }
+  return least > 0 ? rows[least - 1] : null;
+}
+
+function standing(row: Row | null): string {
+  if (!row) return "nothing known yet";
+  const bound = `no plan costs less than ${number(row.bound)}`;
+  if (row.incumbent === null) return `${bound}; no plan yet`;
+  return `best plan ${number(row.incumbent)}, ${bound}, gap ${percent(row.incumbent, row.bound)}`;
+}
+
+function memoryAt(run: Run, time: number): string {
+  const at = rowAt(run.counts, time);
+  if (!at) return "nothing known yet";
+  const parts = kMemory.map((kind, i) => `${kMemoryNames[kind]} ${megabytes(at.memory[i])}`);
+  return `${megabytes(at.process)}; of it ${parts.join(", ")}`;
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Where the nodes of trees are drawn: each leaf has a column of its own, a parent stands in the
+// middle of its children, and trees stand side by side. So no two nodes of one depth are nearer
+// than a column, and edges do not cross.
+
+import type { TreeNode } from "./model";
+
+export interface Placed {
+  node: TreeNode;
+  x: number; // columns
+  y: number; // depth
+}
+
+// In depth-first order, without recursion: trees may be deep.
+export function layout(roots: readonly TreeNode[]): Map<TreeNode, Placed> {
+  const placed = new Map<TreeNode, Placed>();
+  let column = 0;
+  for (const root of roots) {
+    const stack: { node: TreeNode; next: number }[] = [{ node: root, next: 0 }];
+    while (stack.length > 0) {
+      const top = stack[stack.length - 1];
+      if (top.next < top.node.children.length) {
+        stack.push({ node: top.node.children[top.next++], next: 0 });
+        continue;
+      }
+      stack.pop();
+      const { children } = top.node;
+      const x = children.length === 0 ? column++
+        : (placed.get(children[0])!.x + placed.get(children[children.length - 1])!.x) / 2;
+      placed.set(top.node, { node: top.node, x, y: top.node.depth });
+    }
+  }
+  return placed;
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// The page of a run: reads the log, in the page or as it grows, and shows what it says.
+
+import { el, setText } from "../page/dom";
+import { Chart } from "./chart";
+import { boundChart, endOf, kBoundSign, kMemoryNames, kSigns, memoryChart, nodesChart } from "./charts";
+import { Follower } from "./follow";
+import { Log } from "./log";
+import { kMemory } from "./model";
+import { boundsTable, factsList, momentsList, ranksTable, sourcesTable, splitsTable, workTable } from "./tables";
+import { TreeView } from "./tree_view";
+import { kOutcomes, kPlanSources, seconds, verdict } from "./words";
+
+const kShort = 2; // seconds
+
+class Page {
+  private log = new Log();
+  private readonly state = el("p", { class: "state", role: "status" });
+  private readonly title = el("h1", {}, "A run of Grove");
+  private readonly verdict = el("p", { class: "verdict" });
+  private readonly failure = el("p", { class: "failure", role: "alert", hidden: true });
+  private readonly charts = { bound: new Chart(), nodes: new Chart(), memory: new Chart() };
+  private readonly tree = new TreeView();
+  private readonly places = {
+    sources: el("div"), bounds: el("div"), splits: el("div"), work: el("div"), ranks: el("div"),
+    moments: el("div"), facts: el("div"),
+  };
+  private readonly time = el("button", { type: "button", click: () => this.toggleTime() }, "logarithmic time");
+  private readonly parts: Record<string, HTMLElement> = {};
+  private isLogarithmic: boolean | null = null; // null: as suits the run
+  private lastSign = performance.now();
+
+  constructor(private readonly isLive: boolean) {
+    const part = (name: string, title: string, ...content: (Node | string)[]) =>
+      this.parts[name] = el("section", {}, el("h2", {}, title), ...content);
+    document.body.append(
+      el("header", {}, this.title, this.verdict, this.state, this.failure),
+      el("main", {},
+        part("bound", "How good the plan is", legend("bound"), this.charts.bound.element, this.time,
+          el("div", { class: "pair" }, this.places.sources, this.places.bounds)),
+        part("tree", "The search tree", treeLegend(), this.tree.element),
+        part("noTree", "The search tree", el("p", { class: "faint" },
+          "The log does not tell of single nodes. With --log-tree 1000 it tells of the first thousand, and this page draws them.")),
+        part("work", "What the search did", el("div", { class: "pair" }, this.places.splits, this.places.work)),
+        part("nodes", "Nodes", legend("nodes"), this.charts.nodes.element),
+        part("memory", "Memory", legend("memory"), this.charts.memory.element),
+        part("ranks", "Ranks", this.places.ranks),
+        part("moments", "What happened", this.places.moments),
+        part("facts", "The run", this.places.facts)));
+    window.addEventListener("resize", () => this.paint());
+    setInterval(() => this.tellState(), 1000);
+  }
+
+  begin(): void {
+    this.log = new Log();
+    this.failure.hidden = true;
+  }
+
+  add(text: string): void {
+    this.lastSign = performance.now();
+    try {
+      this.log.add(text);
+    } catch (error) {
+      this.failure.hidden = false;
+      setText(this.failure, `The log cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+    }
+    this.show();
+  }
+
+  tellState(isAnswering = true): void {
+    if (this.log.run.summary) return setText(this.state, "The run has ended.");
+    if (!this.isLive)
+      return setText(this.state, "The log has no end: the run was still under way, or was killed.");
+    const ago = (performance.now() - this.lastSign) / 1000;
+    setText(this.state, !isAnswering ? "The server does not answer any more."
+      : !this.log.run.header ? "Waiting for the log to begin."
+      : ago < 2 ? "Live." : `Live; the last sign of life came ${seconds(Math.round(ago))} ago.`);
+  }
+
+  private show(): void {
+    const { run } = this.log;
+    this.tellState();
+    for (const part of Object.values(this.parts)) part.hidden = run.header === null;
+    if (!run.header) return;
+    const name = run.header.instance.split("/").pop()!;
+    setText(this.title, name);
+    document.title = `${name}: a run of Grove`;
+    setText(this.verdict, verdict(run));
+    this.fill();
+    this.paint();
+  }
+
+  private fill(): void {
+    const { run } = this.log;
+    const put = (place: HTMLElement, content: HTMLElement | null) =>
+      place.replaceChildren(...(content ? [content] : []));
+    put(this.places.sources, sourcesTable(run));
+    put(this.places.bounds, boundsTable(run));
+    put(this.places.splits, splitsTable(run));
+    put(this.places.work, workTable(run));
+    put(this.places.facts, factsList(run));
+    put(this.places.moments, momentsList(run));
+    put(this.places.ranks, ranksTable(run));
+    this.parts.moments.hidden = run.moments.length === 0;
+    this.parts.ranks.hidden = !this.places.ranks.firstChild;
+    this.parts.tree.hidden = run.roots.length === 0;
+    this.parts.noTree.hidden = run.roots.length > 0;
+    this.parts.memory.hidden = run.counts.length === 0;
+    if (run.roots.length > 0) this.tree.show(run);
+  }
+
+  private paint(): void {
+    const { run } = this.log;
+    if (run.rows.length === 0) return;
+    this.charts.bound.show(boundChart(run, this.isLogarithmicNow()));
+    this.charts.nodes.show(nodesChart(run, false));
+    this.charts.memory.show(memoryChart(run, false));
+    this.time.setAttribute("aria-pressed", String(this.isLogarithmicNow()));
+    if (run.roots.length > 0) this.tree.resize();
+  }
+
+  private toggleTime(): void {
+    this.isLogarithmic = !this.isLogarithmicNow();
+    this.paint();
+  }
+
+  // Most of what happens in a long run happens in its first second.
+  private isLogarithmicNow(): boolean {
+    return this.isLogarithmic ?? endOf(this.log.run) > kShort;
+  }
+}
+
+function entry(kind: string, text: string): HTMLElement {
+  return el("span", { class: "entry" }, el("i", { class: kind }), text);
+}
+
+function legend(chart: "bound" | "nodes" | "memory"): HTMLElement {
+  const entries = {
+    bound: [entry("bound", "lower bound: no plan costs less"), entry("incumbent", "best plan so far"),
+      el("span", { class: "entry" }, `${kBoundSign} it rose; plans are from:`),
+      ...Object.entries(kSigns).map(([source, sign]) =>
+        el("span", { class: "entry" }, `${sign} ${kPlanSources[source]}`))],
+    nodes: [entry("bound", "expanded"), entry("incumbent", "open")],
+    memory: [entry("incumbent", "the whole process"),
+      ...kMemory.map((kind) => entry(`memory-${kind}`, kMemoryNames[kind]))],
+  };
+  return el("p", { class: "legend" }, ...entries[chart]);
+}
+
+function treeLegend(): HTMLElement {
+  return el("div", {},
+    el("p", { class: "faint" }, "Each node stands for all plans that meet its demands and those of the nodes above it; the number is its " +
+      "bound: none of them costs less. Drag to move, + and - to zoom, arrow keys to walk, n and p to step."),
+    el("p", { class: "legend" }, ...Object.entries(kOutcomes).map(([kind, text]) => entry(`node-${kind}`, text)),
+      entry("node-open", "not expanded")));
+}
+
+function begin(): void {
+  const text = document.getElementById("grove-log")!.textContent!;
+  const isLive = document.body.hasAttribute("data-follow");
+  const page = new Page(isLive);
+  if (!isLive) return page.add(text);
+  page.tellState();
+  void new Follower({
+    begin: () => page.begin(),
+    add: (more) => page.add(more),
+    state: (isAnswering) => page.tellState(isAnswering),
+  }).run();
+}
+
+begin();

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// From values to positions on a chart, and the values that are worth a mark.
+
+export interface Scale {
+  at(value: number): number; // 0 .. 1
+  marks(most: number): number[];
+}
+
+export function linear(least: number, most: number): Scale {
+  const span = most > least ? most - least : 1;
+  return {
+    at: (value) => (value - least) / span,
+    marks: (count) => {
+      const step = niceStep(span / Math.max(1, count));
+      const marks = [];
+      for (let k = Math.ceil(least / step); k * step <= least + span * (1 + 1e-9); ++k)
+        marks.push(Number((k * step).toPrecision(12)));
+      return marks;
+    },
+  };
+}
+
+// From a thousandth of a second on.
+export function logarithmic(least: number, most: number): Scale {
+  const [from, to] = [Math.log10(Math.max(least, 1e-3)), Math.log10(Math.max(most, 2e-3))];
+  const span = to > from ? to - from : 1;
+  return {
+    at: (value) => Math.max(0, (Math.log10(Math.max(value, 1e-3)) - from) / span),
+    marks: () => {
+      const marks = [];
+      for (let k = Math.ceil(from); k <= to; ++k) marks.push(10 ** k);
+      return marks;
+    },
+  };
+}
+
+// 1, 2 or 5 times a power of ten, at least so much.
+function niceStep(least: number): number {
+  const power = 10 ** Math.floor(Math.log10(least));
+  for (const factor of [1, 2, 5]) if (factor * power >= least) return factor * power;
+  return 10 * power;
+}
+
+// At most so many of them, the first and the last among them, evenly spread.
+export function thin<T>(all: readonly T[], most: number): T[] {
+  if (all.length <= most) return [...all];
+  const thinned = [];
+  for (let i = 0; i < most; ++i)
+    thinned.push(all[Math.round((i * (all.length - 1)) / (most - 1))]);
+  return thinned;
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What the log's words mean to who has not read the paper.
+
+import type { Run } from "./model";
+
+// Of `splits_...` counters and `split` of nodes, by the name with dashes.
+export const kSplits: Record<string, string> = {
+  "bar": "one of two robots is not on a place, or does not make a move, at some time",
+  "no-rest-by": "a robot rests early and nobody passes any more, or rests later",
+  "rest-by": "two robots cost together more than each alone: one of them does",
+  "no-traversal": "one of two robots does not come through a passage at some time",
+  "stop-is": "a robot visits this place as its next one, or does not",
+  "stop-is-not": "a robot visits this place as its next one, or does not",
+};
+
+export const kPlanSources: Record<string, string> = {
+  tree: "the search tree itself",
+  start: "given by --start or a checkpoint",
+  priorities: "robots planned one after the other",
+  configurations: "all robots moved together (LaCAM)",
+  neighborhood: "parts of a plan planned anew",
+};
+
+export const kBoundSources: Record<string, string> = {
+  sequences: "what each robot costs alone",
+  groups: "what groups of robots cost together",
+  splits: "conflicts that were split",
+  tree: "the search of the ranks",
+};
+
+export const kOutcomes: Record<string, string> = {
+  split: "split in two",
+  raise: "its bound was raised: groups of robots cost more together",
+  plan: "its paths are a plan",
+  closed: "nothing below it is cheaper than the best plan",
+};
+
+export function seconds(time: number): string {
+  if (time < 1) return `${Number((time * 1000).toPrecision(3))} ms`;
+  if (time < 120) return `${Number(time.toPrecision(3))} s`;
+  return time < 7200 ? `${(time / 60).toFixed(1)} min` : `${(time / 3600).toFixed(1)} h`;
+}
+
+export function number(value: number): string {
+  return value.toLocaleString("en");
+}
+
+export function megabytes(value: number): string {
+  return value >= 1000 ? `${(value / 1000).toFixed(2)} GB` : `${value.toFixed(1)} MB`;
+}
+
+export function percent(cost: number, bound: number): string {
+  if (cost === bound) return "0 %";
+  return bound > 0 ? `${Number((((cost - bound) / bound) * 100).toPrecision(2))} %` : "no limit";
+}
+
+// How good the plan is, for who wants to use it.
+export function verdict(run: Run): string {
+  const last = run.rows[run.rows.length - 1];
+  const status = run.summary?.status ?? "";
+  const cost = run.summary ? run.summary.cost : last?.incumbent ?? null;
+  const bound = run.summary?.bound ?? last?.bound ?? 0;
+  if (status === "infeasible") return "There is no plan: proven.";
+  if (cost === null)
+    return `No plan yet${run.summary ? " when a limit struck" : ""}; none costs less than ${number(bound)}.`;
+  if (cost === bound) return `Optimal: a plan of ${number(cost)} steps, and none costs less.`;
+  const gap = bound > 0 ? `at most ${percent(cost, bound)} above the best there can be` :
+    "nothing is known of how far that is from the best";
+  return `A plan of ${number(cost)} steps; none costs less than ${number(bound)}: ${gap}.`;
+}
