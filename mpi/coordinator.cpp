@@ -173,8 +173,10 @@ void Coordinator::leave(int from, message::Farewell&& farewell) {
 Solution Coordinator::conclude() {
   run_.end();
   Solution solution = run_.conclude();
-  for (const auto& account : accounts_)
-    for (const auto& [key, count] : account.value().counts) solution.stats.counts[key] += count;
+  for (const auto& account : accounts_) {
+    if (!account) continue;  // a simulated run ends without farewells
+    for (const auto& [key, count] : account->counts) solution.stats.counts[key] += count;
+  }
   return solution;
 }
 

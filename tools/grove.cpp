@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   prepare_program(app);
   add_solve_command(app);
   add_check_command(app);
+  add_execute_command(app);
   add_view_command(app);
   add_generate_command(app);
   add_convert_command(app);

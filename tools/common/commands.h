@@ -27,6 +27,7 @@ class CommandFailed : public std::exception {
 
 void add_solve_command(CLI::App& app);
 void add_check_command(CLI::App& app);
+void add_execute_command(CLI::App& app);
 void add_generate_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_convert_command(CLI::App& app);

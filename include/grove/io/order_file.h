@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Passing orders as files (docs/passing-order.md).
+#pragma once
+
+#include <string>
+
+#include "grove/execution/passing_order.h"
+#include "grove/model/instance.h"
+
+namespace grove {
+
+// One JSON object: what each robot does, and what each action waits for.
+std::string order_text(const Instance& instance, const PassingOrder& order);
+
+}  // namespace grove

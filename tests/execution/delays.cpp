@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "tests/execution/delays.h"
+
+#include <cmath>
+
+namespace grove::testing {
+namespace {
+
+double part(std::mt19937_64& dice) {
+  return std::uniform_real_distribution<double>(0, 1)(dice);
+}
+
+}  // namespace
+
+Delays::Delays(const PassingOrder& order, std::uint64_t seed, bool may_die)
+    : order_(order),
+      dice_(seed),
+      delayed_(part(dice_)),
+      stops_(part(dice_) * 0.1),
+      last_(static_cast<std::size_t>(order.agent_count()), kNoAction) {
+  for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
+    slowness_.push_back(part(dice_) < 0.2 ? 1 + 4 * part(dice_) : 1);
+    const ActionIndex actions = order.end_of(agent) - order.begin_of(agent);
+    if (!may_die || actions == 0 || part(dice_) > 0.2) continue;
+    last_[agent] =
+        order.begin_of(agent) + std::uniform_int_distribution<ActionIndex>(0, actions - 1)(dice_);
+    dies_ = true;
+  }
+}
+
+Time Delays::operator()(ActionIndex action, Time) {
+  const Action& a = order_.actions()[action];
+  if (last_[a.agent] == action) return kNever;
+  double duration = a.steps * slowness_[a.agent];
+  if (part(dice_) < delayed_) duration += 5 * part(dice_);
+  if (part(dice_) < stops_) duration += 200 * part(dice_);
+  return static_cast<Time>(std::ceil(duration));
+}
+
+}  // namespace grove::testing

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "grove/execution/drive.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "grove/engine/solve.h"
+#include "grove/model/check.h"
+#include "tests/execution/collisions.h"
+#include "tests/execution/delays.h"
+#include "tests/fuzz/random_instance.h"
+
+namespace grove {
+namespace drive_test {
+
+using testing::collision;
+using testing::Delays;
+
+std::optional<Plan> solved(const Instance& instance) {
+  SolveOptions options;
+  options.omega = Omega::infinite();
+  Limits limits;
+  limits.set_deadline(std::chrono::steady_clock::now() + std::chrono::milliseconds(100));
+  return solve(instance, options, limits).plan;
+}
+
+std::vector<State> starts_of(const Instance& instance) {
+  std::vector<State> starts;
+  for (const Agent& agent : instance.agents()) starts.push_back(agent.start);
+  return starts;
+}
+
+TEST(Drive, NobodyCollidesAndEverybodyArrives) {
+  int drives = 0;
+  for (std::uint64_t seed = 1000; seed < 1150; ++seed) {
+    const Instance instance = fuzz::random_world(seed).build();
+    const auto plan = solved(instance);
+    if (!plan) continue;
+    const PassingOrder order(instance, *plan);
+    for (std::uint64_t schedule = 0; schedule < 50; ++schedule, ++drives) {
+      const Drive driven = drive(order, Delays(order, schedule));
+      ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
+      ASSERT_TRUE(stuck(order, driven).empty()) << seed << ", " << schedule;
+      Solution solution;
+      solution.plan = driven_plan(instance, *plan, order, driven);
+      solution.status = status_of(solution.plan->cost, 0, solution.omega);
+      const auto wrong = check(instance, solution);
+      ASSERT_TRUE(wrong.empty()) << seed << ", " << schedule << ": " << wrong[0].place << " "
+                                 << wrong[0].message;
+    }
+  }
+  EXPECT_GT(drives, 3000);
+}
+
+TEST(Drive, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
+  int held_up = 0;
+  for (std::uint64_t seed = 2000; seed < 2100; ++seed) {
+    const Instance instance = fuzz::random_world(seed).build();
+    const auto plan = solved(instance);
+    if (!plan) continue;
+    const PassingOrder order(instance, *plan);
+    for (std::uint64_t schedule = 0; schedule < 20; ++schedule) {
+      Delays delays(order, schedule, true);
+      const Drive driven = drive(order, std::ref(delays));
+      ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
+      const std::vector<Stuck> all = stuck(order, driven);
+      EXPECT_LE(delays.anybody_dies() ? 0 : all.size(), 0u);
+      bool has_dead = all.empty();
+      for (const Stuck& s : all) {
+        ASSERT_GE(s.waits_for, 0);
+        has_dead |= s.waits_for == s.agent;
+        held_up += s.waits_for != s.agent ? 1 : 0;
+        // Whom somebody waits for stands still, too.
+        EXPECT_TRUE(std::ranges::find(all, s.waits_for, &Stuck::agent) != all.end());
+      }
+      EXPECT_TRUE(has_dead) << seed << ", " << schedule;
+    }
+  }
+  EXPECT_GT(held_up, 50);
+}
+
+// Where nobody enters a place in the step in which another leaves it.
+TEST(Drive, UndisturbedItTakesNoLongerThanAPlanWithoutFollowing) {
+  int without_following = 0;
+  int longer = 0;
+  for (std::uint64_t seed = 3000; seed < 3300; ++seed) {
+    const Instance instance = fuzz::random_world(seed).build();
+    const auto plan = solved(instance);
+    if (!plan) continue;
+    const PassingOrder order(instance, *plan);
+    const Drive driven = drive_undisturbed(order);
+    bool follows = order.rings() > 0;
+    bool is_longer = false;
+    for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a) {
+      const Action& action = order.actions()[a];
+      const ActionIndex other = order.after(a);
+      follows |= other != kNoAction && order.actions()[other].begin == action.begin;
+      is_longer |= driven.begin[a] > action.begin;
+    }
+    without_following += follows ? 0 : 1;
+    longer += is_longer ? 1 : 0;
+    EXPECT_FALSE(!follows && is_longer) << seed;
+  }
+  EXPECT_GT(without_following, 20);
+  EXPECT_GT(longer, 0);
+}
+
+}  // namespace drive_test
+}  // namespace grove

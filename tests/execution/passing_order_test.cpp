@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "grove/execution/passing_order.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "grove/engine/solve.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace passing_order_test {
+
+using testing::AgentSpec;
+using ::testing::ElementsAre;
+using testing::instance_of;
+
+// A plan of paths written as cells; costs do not matter here.
+Plan plan_of(const Instance& instance, const std::vector<std::vector<Position>>& paths) {
+  Plan plan;
+  for (const auto& cells : paths) {
+    AgentPlan agent;
+    for (const Position cell : cells) agent.path.push_back(instance.grid().cell(cell));
+    agent.cost = static_cast<Time>(cells.size()) - 1;
+    plan.cost += agent.cost;
+    plan.agents.push_back(agent);
+  }
+  return plan;
+}
+
+std::vector<ActionIndex> afters(const PassingOrder& order) {
+  std::vector<ActionIndex> afters;
+  for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a)
+    afters.push_back(order.after(a));
+  return afters;
+}
+
+TEST(PassingOrder, LeavesOutWaits) {
+  const Instance instance = instance_of({"..."}, {AgentSpec{{0, 0}, Position{2, 0}}});
+  const PassingOrder order(instance, plan_of(instance, {{{0, 0}, {0, 0}, {1, 0}, {1, 0}, {2, 0}}}));
+  ASSERT_EQ(order.actions().size(), 2u);
+  EXPECT_EQ(order.actions()[0].begin, 1);
+  EXPECT_EQ(order.actions()[1].begin, 3);
+  EXPECT_EQ(order.waits(), 0);
+}
+
+TEST(PassingOrder, WhoFollowsWaitsForTheArrival) {
+  const Instance instance =
+      instance_of({"...."}, {AgentSpec{{1, 0}, Position{3, 0}}, AgentSpec{{0, 0}, Position{2, 0}}});
+  const PassingOrder order(instance,
+                           plan_of(instance, {{{1, 0}, {2, 0}, {3, 0}}, {{0, 0}, {1, 0}, {2, 0}}}));
+  EXPECT_THAT(afters(order), ElementsAre(kNoAction, kNoAction, 0, 1));
+}
+
+// The second agent enters three places after the first: but it has waited for it to be away once.
+TEST(PassingOrder, LeavesOutWhatFollowsAnyway) {
+  const Instance instance = instance_of(
+      {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{3, 0}}});
+  const PassingOrder order(
+      instance,
+      plan_of(instance,
+              {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
+               {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {3, 0}}}));
+  EXPECT_EQ(order.waits(), 2);  // for (2, 0) and (3, 0), which are left one after the other
+  const Instance back = instance_of(
+      {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
+  const PassingOrder backwards(
+      back,
+      plan_of(back,
+              {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
+               {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {1, 0}, {0, 0}}}));
+  EXPECT_EQ(backwards.waits(), 1);  // (1, 0) and (0, 0) were left before (2, 0)
+  EXPECT_EQ(backwards.transitive_waits(), 2);
+}
+
+TEST(PassingOrder, ARingIsOneStep) {
+  const Instance instance = instance_of(
+      {"..", ".."}, {AgentSpec{{0, 0}, Position{1, 0}}, AgentSpec{{1, 0}, Position{1, 1}},
+                     AgentSpec{{1, 1}, Position{0, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
+  const PassingOrder order(
+      instance,
+      plan_of(instance, {{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 1}}, {{0, 1}, {0, 0}}}));
+  EXPECT_EQ(order.rings(), 1);
+  ASSERT_EQ(order.step_count(), 1);
+  EXPECT_THAT(order.step(0), ::testing::UnorderedElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(order.waits(), 0);
+}
+
+TEST(PassingOrder, RefusesCollisions) {
+  const Instance instance =
+      instance_of({"...."}, {AgentSpec{{0, 0}, Position{2, 0}}, AgentSpec{{3, 0}, Position{1, 0}}});
+  EXPECT_THROW(PassingOrder(instance, plan_of(instance, {{{0, 0}, {1, 0}, {2, 0}},
+                                                         {{3, 0}, {2, 0}, {1, 0}}})),
+               std::invalid_argument);  // a swap
+  EXPECT_THROW(
+      PassingOrder(instance, plan_of(instance, {{{0, 0}, {1, 0}}, {{3, 0}, {2, 0}, {1, 0}}})),
+      std::invalid_argument);  // at rest
+  EXPECT_THROW(PassingOrder(instance, Plan{}), std::invalid_argument);
+}
+
+// --- random plans ---
+
+// By the definition and nothing else: for each place, in order of time, whoever enters after
+// another robot waits for that one's leaving; and an agent's actions for each other. Then all that
+// follows. By pairs: first must be completed before second begins.
+std::set<std::pair<ActionIndex, ActionIndex>> all_waits(const World& world,
+                                                        const PassingOrder& order,
+                                                        const std::vector<bool>& in_ring) {
+  const auto actions = order.actions();
+  const auto count = static_cast<ActionIndex>(actions.size());
+  std::set<std::pair<ActionIndex, ActionIndex>> waits;
+  for (ActionIndex a = 0; a < count; ++a) {
+    for (ActionIndex b = 0; b < count; ++b) {
+      if (actions[a].agent == actions[b].agent) {
+        if (a < b) waits.emplace(a, b);
+      } else if (actions[a].kind == Action::Kind::kMove && actions[b].kind == Action::Kind::kMove &&
+                 world.place(actions[a].from) == world.place(actions[b].to) &&
+                 actions[a].begin <= actions[b].begin &&
+                 !(in_ring[a] && in_ring[b] && actions[a].begin == actions[b].begin)) {
+        waits.emplace(a, b);
+      }
+    }
+  }
+  return waits;
+}
+
+void close_transitively(std::set<std::pair<ActionIndex, ActionIndex>>& waits,
+                        const PassingOrder& order) {
+  const auto count = static_cast<ActionIndex>(order.actions().size());
+  std::vector<std::vector<bool>> is(count, std::vector<bool>(count));
+  for (const auto& [a, b] : waits) is[a][b] = true;
+  // What one of a ring waits for all of it do, and who waits for one of it waits for all.
+  for (std::int32_t step = 0; step < order.step_count(); ++step)
+    for (const ActionIndex b : order.step(step))
+      for (const ActionIndex c : order.step(step))
+        for (ActionIndex a = 0; a < count; ++a) {
+          if (is[a][b]) is[a][c] = true;
+          if (is[b][a] && b != c) is[c][a] = true;
+        }
+  for (ActionIndex k = 0; k < count; ++k)
+    for (ActionIndex a = 0; a < count; ++a)
+      if (is[a][k])
+        for (ActionIndex b = 0; b < count; ++b)
+          if (is[k][b]) is[a][b] = true;
+  waits.clear();
+  for (ActionIndex a = 0; a < count; ++a)
+    for (ActionIndex b = 0; b < count; ++b)
+      if (is[a][b]) waits.emplace(a, b);
+}
+
+std::set<std::pair<ActionIndex, ActionIndex>> waits_of(const PassingOrder& order,
+                                                       ActionIndex without = kNoAction) {
+  std::set<std::pair<ActionIndex, ActionIndex>> waits;
+  for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a) {
+    if (order.before(a) != kNoAction) waits.emplace(order.before(a), a);
+    if (order.after(a) != kNoAction && a != without) waits.emplace(order.after(a), a);
+  }
+  return waits;
+}
+
+TEST(PassingOrder, SaysWhatTheDefinitionSaysAndNothingTwice) {
+  int plans = 0;
+  int rings = 0;
+  std::int64_t left_out = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Instance instance = fuzz::random_world(seed).build();
+    SolveOptions options;
+    options.omega = Omega::infinite();
+    Limits limits;
+    limits.set_deadline(std::chrono::steady_clock::now() + std::chrono::milliseconds(100));
+    const Solution solution = solve(instance, options, limits);
+    if (!solution.plan) continue;
+    ++plans;
+    const PassingOrder order(instance, *solution.plan);
+    rings += static_cast<int>(order.rings());
+    left_out += order.transitive_waits();
+    std::vector<bool> in_ring(order.actions().size());
+    for (std::int32_t step = 0; step < order.step_count(); ++step)
+      for (const ActionIndex a : order.step(step)) in_ring[a] = order.step(step).size() > 1;
+    auto expected = all_waits(instance.world(), order, in_ring);
+    close_transitively(expected, order);
+    auto said = waits_of(order);
+    close_transitively(said, order);
+    EXPECT_EQ(said, expected) << seed;
+    for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a) {
+      EXPECT_FALSE(expected.contains({a, a})) << seed;  // nobody waits for itself
+      if (order.after(a) == kNoAction) continue;
+      auto less = waits_of(order, a);
+      close_transitively(less, order);
+      EXPECT_NE(less, expected) << seed << ": " << a << " need not wait";
+    }
+  }
+  EXPECT_GT(plans, 150);
+  EXPECT_GT(rings, 0);
+  EXPECT_GT(left_out, 50);
+}
+
+}  // namespace passing_order_test
+}  // namespace grove

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/temporary_directory.h"
+#include "tests/tools/program.h"
+
+namespace grove {
+namespace execute_command_test {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class ExecuteCommand : public ::testing::Test {
+ protected:
+  static std::string data(const std::string& name) { return std::string(GROVE_DATA) + "/" + name; }
+  std::string plan_of(const std::string& instance) {
+    const std::string plan = directory_ / "p.plan.json";
+    EXPECT_EQ(run_grove({"solve", instance, "--quiet", "--output", plan}).exit_code, 0);
+    return plan;
+  }
+  ProcessResult execute(std::vector<std::string> more) {
+    std::vector<std::string> words{"execute", instance_, plan_};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_grove(words);
+  }
+  json read(const std::string& name) const {
+    std::ifstream file(directory_ / name);
+    return json::parse(file);
+  }
+
+  TemporaryDirectory directory_;
+  const std::string instance_ = data("rooms-32x32_n10_m30.cts.json");
+  const std::string plan_ = plan_of(instance_);
+};
+
+TEST_F(ExecuteCommand, DrivesAreValidPlans) {
+  for (const std::vector<std::string>& troubles : {std::vector<std::string>{},
+                                                   {"--delays", "0.5", "--seed", "3"},
+                                                   {"--slow", "a1=2.5"},
+                                                   {"--stop", "a2@10=60", "--stop", "a3@0=5"}}) {
+    std::vector<std::string> words = troubles;
+    words.insert(words.end(), {"--output", directory_ / "driven.plan.json"});
+    const ProcessResult done = execute(words);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_THAT(done.out, HasSubstr("driven undisturbed"));
+    const ProcessResult checked = run_grove({"check", instance_, directory_ / "driven.plan.json"});
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  }
+}
+
+TEST_F(ExecuteCommand, AStopTakesAsLongAsItIs) {
+  ASSERT_EQ(execute({"--output", directory_ / "calm.json"}).exit_code, 0);
+  ASSERT_EQ(execute({"--stop", "a2@10=60", "--output", directory_ / "late.json"}).exit_code, 0);
+  const auto cost = [&](const char* file) { return int(read(file)["agents"][2]["cost"]); };
+  EXPECT_GT(cost("late.json"), cost("calm.json"));
+  EXPECT_LE(cost("late.json"), cost("calm.json") + 60);
+  // It stands somewhere for more than 60 steps: the stop, and the action that comes after it.
+  const json path = read("late.json")["agents"][2]["path"];
+  std::size_t longest = 0;
+  for (std::size_t t = 1, since = 0; t < path.size(); ++t) {
+    if (path[t] != path[t - 1]) since = t;
+    longest = std::max(longest, t - since);
+  }
+  EXPECT_GE(longest, 60u);
+}
+
+// By the file alone: each robot goes from its start step by step, and waits for what is there.
+TEST_F(ExecuteCommand, WritesThePassingOrder) {
+  ASSERT_EQ(execute({"--order", directory_ / "order.json"}).exit_code, 0);
+  const json order = read("order.json");
+  EXPECT_EQ(order["format"], "grove passing order 1");
+  const json plan = json::parse(std::ifstream(plan_));
+  std::map<std::string, std::size_t> actions;
+  for (const json& robot : order["robots"]) actions[robot["id"]] = robot["actions"].size();
+  int waits = 0;
+  for (std::size_t i = 0; i < order["robots"].size(); ++i) {
+    const json& robot = order["robots"][i];
+    json places = json::array({robot["start"]});
+    for (const json& action : robot["actions"]) {
+      EXPECT_EQ(action["do"], "move");
+      places.push_back(action["to"]);
+      if (!action.contains("after")) continue;
+      ++waits;
+      EXPECT_LT(action["after"]["action"], actions.at(action["after"]["robot"]));
+    }
+    json path = plan["agents"][i]["path"];
+    path.erase(std::unique(path.begin(), path.end()), path.end());
+    EXPECT_EQ(places, path);
+  }
+  EXPECT_GT(waits, 50);
+}
+
+TEST_F(ExecuteCommand, SaysWhoWaitsForWhom) {
+  const ProcessResult done = execute({"--dies", "a3@12", "--view", directory_ / "page.html"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("a3 does not move any more"));
+  EXPECT_THAT(done.out, HasSubstr("waits for a3"));
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "page.html"));
+}
+
+TEST_F(ExecuteCommand, TheSameSeedDrivesTheSame) {
+  const auto drive = [&](const char* seed) {
+    return execute({"--delays", "0.3", "--seed", seed}).out;
+  };
+  EXPECT_EQ(drive("1"), drive("1"));
+  EXPECT_NE(drive("1"), drive("2"));
+}
+
+TEST_F(ExecuteCommand, RefusesWhatCannotBe) {
+  const auto complaint = [](const ProcessResult& result) {
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    return result.err;
+  };
+  EXPECT_THAT(complaint(execute({"--slow", "a1"})), HasSubstr("--slow: found 'a1'"));
+  EXPECT_THAT(complaint(execute({"--slow", "a1=0.5"})), HasSubstr("a factor from 1 to 1000"));
+  EXPECT_THAT(complaint(execute({"--slow", "zz=2"})), HasSubstr("a robot of the instance"));
+  EXPECT_THAT(complaint(execute({"--stop", "a1@x=3"})), HasSubstr("--stop"));
+  EXPECT_THAT(complaint(execute({"--dies", "a1"})), HasSubstr("ROBOT@TIME"));
+  EXPECT_THAT(complaint(execute({"--delays", "2"})), HasSubstr("--delays"));
+  json plan = json::parse(std::ifstream(plan_));
+  plan["agents"][0]["path"][1] = {0, 0};
+  std::ofstream(directory_ / "bad.json") << plan;
+  EXPECT_THAT(complaint(run_grove({"execute", instance_, directory_ / "bad.json"})),
+              HasSubstr("is not valid, so it cannot be driven"));
+}
+
+}  // namespace execute_command_test
+}  // namespace grove

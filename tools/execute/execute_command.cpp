@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// grove execute INSTANCE PLAN
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grove/execution/drive.h"
+#include "grove/io/atomic_file.h"
+#include "grove/io/input_error.h"
+#include "grove/io/order_file.h"
+#include "grove/io/plan_file.h"
+#include "grove/io/plan_import.h"
+#include "grove/model/check.h"
+#include "tools/common/commands.h"
+#include "tools/common/instance_arguments.h"
+#include "tools/common/options.h"
+#include "tools/execute/troubles.h"
+#include "tools/view/page.h"
+#include "tools/view/page_data.h"
+
+namespace grove {
+namespace {
+
+constexpr IntegerRange kRuns{1, 1'000'000};
+constexpr IntegerRange kDelaySteps{1, 1'000'000};
+constexpr std::size_t kMostStuck = 20;
+
+constexpr const char* kExecuteFooter =
+    R"(Robots drive the plan along its passing order: not by the clock, but each action as soon as the robot
+before it has left the place. So they never collide and never block each other, however late they
+are. A robot that moves holds both places until it has arrived; a robot that follows another waits for
+that, so even undisturbed a drive may take longer than the plan.
+
+Every drive is checked like a plan, from its paths. With robots that die the others go on as far as
+they can.
+
+Examples:
+  grove execute my.cts.json my.plan.json --delays 0.1 --runs 1000
+  grove execute my.cts.json my.plan.json --slow r3=1.5 --stop r5@20=60 --view driven.html
+  grove execute my.cts.json my.plan.json --dies r3@12
+  grove execute my.cts.json my.plan.json --order order.json)";
+
+struct ExecuteArguments {
+  InstanceArguments instance;
+  std::string plan;
+  TroubleArguments troubles;
+  std::int64_t runs = 1;
+  std::int64_t seed = 0;
+  std::string order;
+  std::string output;
+  std::string view;
+};
+
+// What drives took.
+struct Took {
+  std::vector<Cost> makespans;
+  std::vector<Cost> costs;
+
+  void add(const PassingOrder& order, const Drive& drive) {
+    Cost makespan = 0;
+    Cost cost = 0;
+    for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
+      const Cost finish = drive.finish(order, agent);
+      makespan = std::max(makespan, finish);
+      cost += finish;
+    }
+    makespans.push_back(makespan);
+    costs.push_back(cost);
+  }
+};
+
+class Execution {
+ public:
+  explicit Execution(const ExecuteArguments& arguments)
+      : a_(arguments),
+        loaded_(arguments.instance.load()),
+        claimed_(read()),
+        order_(loaded_.instance, *claimed_.solution.plan) {}
+
+  void run() {
+    if (!a_.order.empty()) write(a_.order, order_text(loaded_.instance, order_));
+    const Troubles troubles(a_.troubles, loaded_.instance);
+    Took driven;
+    for (std::int64_t run = 0; run < a_.runs; ++run) {
+      const auto seed = static_cast<std::uint64_t>(a_.seed + run);
+      const Drive drive = grove::drive(order_, troubles.durations(order_, seed));
+      const std::vector<Stuck> stuck = grove::stuck(order_, drive);
+      if (run == 0) show(drive, stuck);
+      if (!stuck.empty()) return tell_stuck(stuck);
+      require_valid(drive);
+      driven.add(order_, drive);
+    }
+    print(driven);
+  }
+
+ private:
+  ClaimedPlan read() const {
+    std::vector<std::string> warnings;
+    ClaimedPlan claimed = read_plan_of_any_tool(a_.plan, loaded_.instance, &warnings);
+    print_warnings(warnings);
+    const auto wrong = check(loaded_.instance, claimed.solution, 1);
+    if (!wrong.empty())
+      throw InputError(
+          a_.plan, wrong.front().place,
+          fmt::format("is not valid, so it cannot be driven: {}", wrong.front().message));
+    return claimed;
+  }
+
+  static void write(const std::string& file, const std::string& text) {
+    write_file_atomically(file, text);
+    fmt::print("wrote {}\n", file);
+  }
+
+  Solution solution_of(const Drive& drive) const {
+    Solution solution;
+    solution.plan = driven_plan(loaded_.instance, *claimed_.solution.plan, order_, drive);
+    solution.lower_bound = 0;
+    solution.status = status_of(solution.plan->cost, 0, solution.omega);
+    return solution;
+  }
+
+  void show(const Drive& drive, const std::vector<Stuck>& stuck) const {
+    const Solution driven = solution_of(drive);
+    if (!a_.output.empty() && stuck.empty())
+      write(a_.output, solution_text(loaded_.instance, driven));
+    if (a_.view.empty()) return;
+    const std::vector<NamedPlan> plans{{"planned", claimed_},
+                                       {"driven", {driven, {"lower bound", "order of tasks"}}}};
+    const std::string name = a_.instance.name();
+    write(a_.view, plan_page(name, page_data(name, loaded_.instance, plans)));
+  }
+
+  // By the independent checker: a drive that collides is a bug.
+  void require_valid(const Drive& drive) const {
+    const auto wrong = check(loaded_.instance, solution_of(drive), 1);
+    if (!wrong.empty())
+      throw std::logic_error(
+          fmt::format("a drive is not valid: {}: {}", wrong.front().place, wrong.front().message));
+  }
+
+  void tell_stuck(const std::vector<Stuck>& stuck) const {
+    const auto id = [&](AgentIndex agent) { return one_line(loaded_.instance.agent(agent).id); };
+    fmt::print("{} of {} robots do not get to their end:\n", stuck.size(), order_.agent_count());
+    for (std::size_t i = 0; i < std::min(stuck.size(), kMostStuck); ++i) {
+      const Stuck& s = stuck[i];
+      if (s.agent == s.waits_for)
+        fmt::print("  {} does not move any more\n", id(s.agent));
+      else
+        fmt::print("  {} waits for {}\n", id(s.agent), id(s.waits_for));
+    }
+    if (stuck.size() > kMostStuck) fmt::print("  and {} more\n", stuck.size() - kMostStuck);
+  }
+
+  void print(Took& driven) const {
+    const Plan& plan = *claimed_.solution.plan;
+    Took undisturbed;
+    undisturbed.add(order_, drive_undisturbed(order_));
+    const Cost makespan = std::ranges::max(plan.agents, {}, &AgentPlan::cost).cost;
+    fmt::print("passing order: {} actions, {} waits between robots, {} rings\n",
+               order_.actions().size(), order_.waits(), order_.rings());
+    fmt::print("{:<24}{:>10}{:>14}\n", "", "makespan", "sum of costs");
+    fmt::print("{:<24}{:>10}{:>14}\n", "planned", makespan, plan.cost);
+    row("driven undisturbed", undisturbed, plan.cost, makespan);
+    row("driven", driven, plan.cost, makespan);
+  }
+
+  static void row(const std::string& name, Took& took, Cost cost, Cost makespan) {
+    const auto middle = [](std::vector<Cost>& all) {
+      std::ranges::sort(all);
+      return all[all.size() / 2];
+    };
+    const auto more = [](Cost now, Cost before) {
+      return before == 0 ? 0.0
+                         : 100.0 * static_cast<double>(now - before) / static_cast<double>(before);
+    };
+    const Cost m = middle(took.makespans);
+    const Cost c = middle(took.costs);
+    fmt::print("{:<24}{:>10}{:>14}   {:+.1f} %, {:+.1f} %\n",
+               took.costs.size() > 1 ? name + ", median" : name, m, c, more(m, makespan),
+               more(c, cost));
+    if (took.costs.size() > 1)
+      fmt::print("{:<24}{:>10}{:>14}   {:+.1f} %, {:+.1f} %\n", name + ", worst",
+                 took.makespans.back(), took.costs.back(), more(took.makespans.back(), makespan),
+                 more(took.costs.back(), cost));
+  }
+
+  const ExecuteArguments& a_;
+  const LoadedInstance loaded_;
+  const ClaimedPlan claimed_;
+  const PassingOrder order_;
+};
+
+}  // namespace
+
+void add_execute_command(CLI::App& app) {
+  const auto arguments = std::make_shared<ExecuteArguments>();
+  CLI::App* command = app.add_subcommand("execute", "Drive a plan with delays, without collisions");
+  command->footer(kExecuteFooter);
+  arguments->instance.add_to(*command);
+  command->add_option("PLAN", arguments->plan, "plan file, or another solver's paths")
+      ->required()
+      ->type_name("");
+  TroubleArguments& t = arguments->troubles;
+  add_number(*command, "--delays", t.delayed, 0, 1, "share of actions that take longer");
+  add_integer(*command, "--delay-steps", t.delay_steps, kDelaySteps, "by 1 to so many steps");
+  command->add_option("--slow", t.slow, "a robot that takes FACTOR times as long")
+      ->type_name("ROBOT=FACTOR")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--stop", t.stop, "a robot that stands still for so many steps from then on")
+      ->type_name("ROBOT@TIME=STEPS")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--dies", t.dies, "a robot that does not move any more from then on")
+      ->type_name("ROBOT@TIME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_integer(*command, "--runs", arguments->runs, kRuns, "so many drives, each with other delays");
+  add_integer(*command, "--seed", arguments->seed, kSeeds, "of the delays of the first one");
+  command->add_option("--order", arguments->order, "write the passing order to this file")
+      ->type_name("FILE.json");
+  command->add_option("-o,--output", arguments->output, "write the first drive as a plan")
+      ->type_name("PLAN");
+  command->add_option("--view", arguments->view, "show plan and first drive side by side as a page")
+      ->type_name("FILE.html");
+  command->callback([arguments] { Execution(*arguments).run(); });
+}
+
+}  // namespace grove

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "tools/execute/troubles.h"
+
+#include <fmt/format.h>
+
+#include <CLI/Error.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "grove/io/input_error.h"
+#include "grove/model/parse_number.h"
+#include "tools/common/options.h"
+
+namespace grove {
+namespace {
+
+constexpr IntegerRange kSteps{0, 1'000'000};
+constexpr double kMostSlow = 1000;
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text,
+                         const std::string& expected) {
+  throw CLI::ValidationError(option,
+                             fmt::format("found '{}'; expected {}", one_line(text), expected));
+}
+
+AgentIndex agent_of(const std::string& option, const std::string& text, const std::string& id,
+                    const Instance& instance) {
+  const auto found = std::ranges::find(instance.agents(), id, &Agent::id);
+  if (found == instance.agents().end())
+    refuse(option, text,
+           fmt::format("a robot of the instance before '{}'", text.substr(id.size())));
+  return static_cast<AgentIndex>(found - instance.agents().begin());
+}
+
+double factor_of(const std::string& option, const std::string& text, const std::string& number) {
+  std::size_t read = 0;
+  double factor = 0;
+  try {
+    factor = std::stod(number, &read);
+  } catch (const std::exception&) {
+  }
+  if (read != number.size() || !(factor >= 1 && factor <= kMostSlow))
+    refuse(option, text, "ROBOT=FACTOR, a factor from 1 to 1000");
+  return factor;
+}
+
+}  // namespace
+
+Troubles::Troubles(const TroubleArguments& arguments, const Instance& instance)
+    : delayed_(arguments.delayed),
+      delay_steps_(static_cast<Time>(arguments.delay_steps)),
+      slowness_(static_cast<std::size_t>(instance.agent_count()), 1) {
+  for (const std::string& text : arguments.slow) {
+    const auto split = text.rfind('=');
+    if (split == std::string::npos) refuse("--slow", text, "ROBOT=FACTOR");
+    const AgentIndex agent = agent_of("--slow", text, text.substr(0, split), instance);
+    slowness_[agent] = factor_of("--slow", text, text.substr(split + 1));
+  }
+  read_stops(arguments, instance);
+}
+
+void Troubles::read_stops(const TroubleArguments& arguments, const Instance& instance) {
+  for (const std::string& text : arguments.stop) {
+    const auto at = text.rfind('@');
+    const auto split = text.rfind('=');
+    if (at == std::string::npos || split == std::string::npos || split < at)
+      refuse("--stop", text, "ROBOT@TIME=STEPS");
+    stops_.push_back(
+        {agent_of("--stop", text, text.substr(0, at), instance),
+         static_cast<Time>(parse_integer("--stop", text.substr(at + 1, split - at - 1), kSteps)),
+         static_cast<Time>(parse_integer("--stop", text.substr(split + 1), kSteps))});
+  }
+  for (const std::string& text : arguments.dies) {
+    const auto at = text.rfind('@');
+    if (at == std::string::npos) refuse("--dies", text, "ROBOT@TIME");
+    stops_.push_back({agent_of("--dies", text, text.substr(0, at), instance),
+                      static_cast<Time>(parse_integer("--dies", text.substr(at + 1), kSteps)),
+                      kNever});
+  }
+}
+
+// Of a slow robot the steps of all actions together are rounded, not each.
+Duration Troubles::durations(const PassingOrder& order, std::uint64_t seed) const {
+  struct Run {
+    std::mt19937_64 dice;
+    std::vector<double> owed;  // by agent: parts of steps
+    std::vector<Stop> stops;   // to come
+  };
+  const auto state = std::make_shared<Run>(
+      Run{std::mt19937_64(seed), std::vector<double>(slowness_.size()), stops_});
+  return [this, state, &order](ActionIndex index, Time begin) {
+    const Action& action = order.actions()[index];
+    double& owed = state->owed[action.agent];
+    owed += action.steps * (slowness_[action.agent] - 1);
+    const Time slower = static_cast<Time>(owed);
+    owed -= slower;
+    Time steps = action.steps + slower;
+    if (std::uniform_real_distribution<double>(0, 1)(state->dice) < delayed_)
+      steps += std::uniform_int_distribution<Time>(1, delay_steps_)(state->dice);
+    for (Stop& stop : state->stops) {
+      if (stop.agent != action.agent || begin + steps <= stop.from) continue;
+      stop.agent = -1;  // it has happened
+      if (stop.steps == kNever) return kNever;
+      steps += stop.steps;
+    }
+    return steps;
+  };
+}
+
+}  // namespace grove
