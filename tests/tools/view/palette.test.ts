@@ -7,7 +7,7 @@ import { kDark, kLight, type Colors } from "../../../tools/view/page/colors";
 
 declare const process: { env: Record<string, string> };
 const source = (name: string) => readFileSync(`${process.env.GROVE_VIEW_SOURCES}/${name}`, "utf8");
-const drawing = source("picture/drawing.cpp");
+const drawing = source("picture/drawing.cpp") + source("picture/shapes.h");
 
 test("pictures are in the colours of the light page", () => {
   const found = [...drawing.matchAll(/^constexpr Color k(\w+) = hex\(0x([0-9a-f]{6})\);/gm)];

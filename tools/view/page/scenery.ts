@@ -6,11 +6,14 @@ import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { visitsBy, type PlanFacts } from "./facts";
 import type { Model, World } from "./model";
+import { labelsOf } from "./names";
 import type { Paths } from "./paths";
 import { kTaskRadius, paintTasks } from "./tasks_canvas";
 import { outlined } from "./text";
 
 const kGoalRadius = 0.4; // of a destination's square, in steps
+const kLeastOwned = 34; // pixels of a step from which on destinations say whose they are
+const kLongestOwner = 9;
 const kRoomOfName = 5000; // square pixels, on the mean, if vertices are to have their names
 
 export interface Shown {
@@ -29,6 +32,7 @@ export class Scenery {
 
   private readonly tasksByPlace = new Map<number, number[]>();
   private readonly goals: Set<number>;
+  private readonly owners: string[]; // of destinations, by robot
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -36,6 +40,7 @@ export class Scenery {
     private readonly facts: PlanFacts | null,
   ) {
     this.goals = new Set(model.agents.map(({ goal }) => goal));
+    this.owners = labelsOf(model.agents.map(({ name }) => name), kLongestOwner);
     model.tasks.forEach(({ place }, index) => {
       const others = this.tasksByPlace.get(place);
       if (others) others.push(index);
@@ -122,6 +127,7 @@ export class Scenery {
       c.lineWidth = index === shown.chosen ? 2.5 : 1.25;
       const r = Math.max(2, kGoalRadius * step);
       c.strokeRect(p.x - r, p.y - r, 2 * r, 2 * r);
+      if (step >= kLeastOwned && shown.labels) this.paintOwner(c, p.x, p.y + r, index, step, colors);
     });
     for (const [place, indices] of this.tasksByPlace) {
       const p = camera.toView(world.xs[place], world.ys[place]);
@@ -134,6 +140,16 @@ export class Scenery {
       }));
       paintTasks(c, p.x, p.y, step, states, indices.includes(shown.chosenTask), colors);
     }
+  }
+
+  // At the lower edge of the square, so that it is seen while others pass.
+  private paintOwner(
+    c: CanvasRenderingContext2D, x: number, y: number, robot: number, step: number, colors: Colors,
+  ): void {
+    c.font = `${Math.min(15, Math.max(9, 0.13 * step))}px system-ui, sans-serif`;
+    c.textAlign = "center";
+    c.textBaseline = "bottom";
+    outlined(c, this.owners[robot], x, y - 1, colors.faint, colors.floor);
   }
 
   // Under what stands on the vertex; of those that would cover each other, the first.

@@ -10,39 +10,10 @@
 #include <string>
 #include <variant>
 
+#include "tools/view/picture/shapes.h"
+
 namespace grove {
 namespace {
-
-struct Color {
-  double red, green, blue;
-};
-
-constexpr Color hex(unsigned value) {
-  return {(value >> 16) / 255.0, (value >> 8 & 255) / 255.0, (value & 255) / 255.0};
-}
-
-// The page's light palette (page/colors.ts).
-constexpr Color kFloor = hex(0xffffff);
-constexpr Color kWall = hex(0x5f6670);
-constexpr Color kLines = hex(0xeceef1);
-constexpr Color kRoad = hex(0xcfd5dc);
-constexpr Color kVertex = hex(0x8b949e);
-constexpr Color kGoal = hex(0x8a929c);
-constexpr Color kTask = hex(0x7a5c00);
-constexpr Color kTaskOpen = hex(0xfff3c4);
-constexpr Color kTaskBegun = hex(0xf0e442);
-constexpr Color kTaskDone = hex(0xd7dbe0);
-constexpr Color kText = hex(0x1c2128);
-constexpr Color kOnRobot = hex(0xffffff);
-constexpr Color kCollision = hex(0xd0021b);
-constexpr int kMoving = 0;
-constexpr int kWaiting = 1;
-constexpr int kWorking = 2;
-constexpr int kResting = 3;
-constexpr std::array kDoing{hex(0x0072b2), hex(0xe69f00), hex(0x009e73), hex(0x8a929c)};
-
-constexpr Color kFaint = hex(0x656d76);
-constexpr Color kOnPale = hex(0x1c2128);
 
 // The page's measures (page/world.ts, robots.ts, scenery.ts, tasks_canvas.ts), in steps.
 constexpr double kBend = 0.35;    // between roads that join the same vertices
@@ -57,10 +28,6 @@ constexpr double kTagSize = 9.0;        // pixels
 constexpr double kRoomOfName = 5000.0;  // square pixels of a vertex that has its name
 constexpr int kMostStacked = 3;         // diamonds seen of several tasks on one place
 
-void set(cairo_t* cairo, const Color& color) {
-  cairo_set_source_rgb(cairo, color.red, color.green, color.blue);
-}
-
 // The time from which on it stays: after its last step and its last work.
 Time rest_of(const AgentPlan& plan) {
   Time rest = 0;
@@ -68,61 +35,6 @@ Time rest_of(const AgentPlan& plan) {
     if (plan.path[t] != plan.path[t - 1]) rest = static_cast<Time>(t);
   for (const WorkTime& work : plan.work) rest = std::max(rest, work.end);
   return rest;
-}
-
-void center_text(cairo_t* cairo, const std::string& text, Point at, double size, double most) {
-  cairo_set_font_size(cairo, size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(cairo, text.c_str(), &extents);
-  if (extents.width > most) {
-    size *= most / extents.width;
-    cairo_set_font_size(cairo, size);
-    cairo_text_extents(cairo, text.c_str(), &extents);
-  }
-  cairo_move_to(cairo, at.x - extents.width / 2 - extents.x_bearing,
-                at.y - extents.height / 2 - extents.y_bearing);
-  cairo_show_text(cairo, text.c_str());
-}
-
-// Its baseline at `at`; on a rim in the colour of the floor, which is the text itself a little
-// aside: outlines of letters would make an SVG file large.
-void outlined_text(cairo_t* cairo, const std::string& text, Point at, double size,
-                   const Color& color) {
-  cairo_set_font_size(cairo, size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(cairo, text.c_str(), &extents);
-  const double x = at.x - extents.width / 2 - extents.x_bearing;
-  const auto show = [&](double right, double down) {
-    cairo_move_to(cairo, x + 0.12 * size * right, at.y + 0.12 * size * down);
-    cairo_show_text(cairo, text.c_str());
-  };
-  set(cairo, kFloor);
-  for (const double right : {-1.0, 1.0})
-    for (const double down : {-1.0, 1.0}) show(right, down);
-  set(cairo, color);
-  show(0, 0);
-}
-
-// An id of bytes, cut between characters.
-std::string shortened(const std::string& id, std::size_t most) {
-  if (id.size() <= most) return id;
-  std::size_t end = most - 1;
-  while (end > 0 && (static_cast<unsigned char>(id[end]) & 0xc0) == 0x80) --end;
-  return id.substr(0, end) + "…";
-}
-
-void diamond(cairo_t* cairo, Point at, double radius, const Color& color, const Color& rim,
-             double line) {
-  cairo_move_to(cairo, at.x, at.y - radius);
-  cairo_line_to(cairo, at.x + radius, at.y);
-  cairo_line_to(cairo, at.x, at.y + radius);
-  cairo_line_to(cairo, at.x - radius, at.y);
-  cairo_close_path(cairo);
-  set(cairo, color);
-  cairo_fill_preserve(cairo);
-  set(cairo, rim);
-  cairo_set_line_width(cairo, line);
-  cairo_stroke(cairo);
 }
 
 }  // namespace
@@ -475,12 +387,10 @@ void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
       cairo_line_to(cairo, at.x + length * std::cos(angle), at.y + length * std::sin(angle));
     }
     cairo_close_path(cairo);
+    cairo_fill(cairo);
   } else {
-    set(cairo, kDoing[static_cast<std::size_t>(robot.doing)]);
-    cairo_new_sub_path(cairo);
-    cairo_arc(cairo, at.x, at.y, r, 0, 2 * std::numbers::pi);
+    disc(cairo, at, r, kDoing[static_cast<std::size_t>(robot.doing)]);
   }
-  cairo_fill(cairo);
   if (robot.turns) {
     const double dx = std::sin(robot.angle);
     const double dy = -std::cos(robot.angle);
@@ -503,59 +413,6 @@ void Drawing::draw_name(cairo_t* cairo, const Robot& robot, const std::string& i
   }
   const double size = kTagSize * pixel(cairo);
   outlined_text(cairo, shortened(id, 14), {robot.at.x, robot.at.y - r - 0.2 * size}, size, kText);
-}
-
-void Drawing::draw_legend(cairo_t* cairo) const {
-  constexpr double kSize = 10;
-  constexpr double kRow = 18;
-  const Point at{kSize / 2, kRow / 2};
-  double x = 0;
-  const auto add = [&](const char* text, const auto& shape) {
-    cairo_save(cairo);
-    cairo_translate(cairo, x, 0);
-    shape();
-    set(cairo, kText);
-    cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cairo, 11);
-    cairo_text_extents_t extents;
-    cairo_text_extents(cairo, text, &extents);
-    cairo_move_to(cairo, 1.5 * kSize, at.y + 4);
-    cairo_show_text(cairo, text);
-    cairo_restore(cairo);
-    x += 1.5 * kSize + extents.x_advance + 14;
-  };
-  const auto disc = [&](const Color& color) {
-    return [cairo, at, color] {
-      set(cairo, color);
-      cairo_new_sub_path(cairo);
-      cairo_arc(cairo, at.x, at.y, kSize / 2, 0, 2 * std::numbers::pi);
-      cairo_fill(cairo);
-    };
-  };
-  const auto task = [&](const Color& color, const Color& rim) {
-    return [cairo, at, color, rim] { diamond(cairo, at, 0.6 * kSize, color, rim, 1); };
-  };
-  const auto square = [&] {
-    set(cairo, kGoal);
-    cairo_set_line_width(cairo, 1);
-    cairo_rectangle(cairo, 0.5, at.y - 0.5 * kSize, kSize, kSize);
-    cairo_stroke(cairo);
-  };
-  const bool has_work =
-      std::ranges::any_of(instance_.tasks(), [](const Task& t) { return t.duration > 0; });
-  if (plan_ != nullptr) {
-    add("moving", disc(kDoing[kMoving]));
-    add("waiting", disc(kDoing[kWaiting]));
-    if (has_work) add("at work", disc(kDoing[kWorking]));
-    add("at rest", disc(kDoing[kResting]));
-  }
-  if (instance_.task_count() > 0) {
-    add("open task", task(kTaskOpen, kTask));
-    add("begun", task(kTaskBegun, kTask));
-    add("done", task(kTaskDone, kGoal));
-  }
-  if (std::ranges::any_of(instance_.agents(), [](const Agent& a) { return a.goal.has_value(); }))
-    add("destination", square);
 }
 
 }  // namespace grove

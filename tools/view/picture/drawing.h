@@ -21,15 +21,13 @@ class Drawing {
   // Height for a width of 1.
   double shape() const { return height_ / width_; }
   bool has_plan() const { return plan_ != nullptr; }
+  const Instance& instance() const { return instance_; }
   // The last time at which anything changes, in steps.
   Time end() const { return end_; }
 
   // Fills `width` x (`width` * shape()) units of `cairo` from its origin on. `time` may lie between
   // two steps.
   void draw(cairo_t* cairo, double width, double time) const;
-  // One line that says what shapes and colours mean, from the origin on. Of what this instance has
-  // nothing of, nothing is said.
-  void draw_legend(cairo_t* cairo) const;
 
  private:
   struct Robot {

@@ -15,6 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "tools/view/picture/legend.h"
+#include "tools/view/picture/shapes.h"
+
 namespace grove {
 namespace {
 
@@ -74,7 +77,7 @@ void draw_caption(cairo_t* cairo, const Strip& strip, double moment) {
   cairo_set_font_size(cairo, 12);
   cairo_text_extents_t extents;
   cairo_text_extents(cairo, text.c_str(), &extents);
-  cairo_set_source_rgb(cairo, 0.11, 0.13, 0.16);
+  set(cairo, kText);
   cairo_move_to(cairo, (strip.panel_width - extents.x_advance) / 2, strip.panel_height + 14);
   cairo_show_text(cairo, text.c_str());
 }
@@ -95,7 +98,7 @@ void draw_strip(cairo_t* cairo, const Drawing& drawing, std::span<const double> 
   if (strip.legend == 0) return;
   cairo_save(cairo);
   cairo_translate(cairo, 4, strip.whole_height() - kLegend + 4);
-  drawing.draw_legend(cairo);
+  draw_legend(cairo, drawing.instance(), drawing.has_plan());
   cairo_restore(cairo);
 }
 
