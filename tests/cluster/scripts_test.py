@@ -18,8 +18,8 @@ SLURM = {
     "srun": 'while case $1 in --*) ;; *) false ;; esac; do shift; done; exec "$@"',
     "scontrol": 'echo "$@" >>scontrol.log',
 }
-# Not for grove-mpi: --deterministic, and --anytime with the only method that has it.
-NOT_OURS = {"--deterministic", "--anytime"}
+# Not for grove-mpi: --deterministic, --log-tree, and --anytime with the only method that has it.
+NOT_OURS = {"--deterministic", "--anytime", "--log-tree"}
 VALUES = {
     "--omega": "0.5", "--time-limit": "20", "--memory-limit": "1", "--threads": "1",
     "--method": "auto", "--policy": "fixed", "--rtsp": "dp", "--seed": "3", "--checkpoint": "other",

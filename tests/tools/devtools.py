@@ -133,6 +133,8 @@ class Chromium:
         before = time.monotonic()
         self.call("Page.navigate", url=page.resolve().as_uri() + fragment)
         while not self.evaluate("document.readyState === 'complete' && !document.querySelector('.reading')"):
+            if time.monotonic() - before > 60:
+                raise AssertionError(f"{page.name} is not loaded after a minute")
             time.sleep(0.01)
         return time.monotonic() - before
 

@@ -49,6 +49,7 @@ Examples:
   grove view --run run.jsonl)";
 
 constexpr IntegerRange kWidths{16, 10'000};
+constexpr std::size_t kMostPlans = 2;  // on a page
 constexpr IntegerRange kPorts{0, 65'535};
 
 struct ViewArguments {
@@ -137,6 +138,9 @@ void run(const ViewArguments& arguments) {
   for (const std::string& file : arguments.plans)
     plans.push_back({fs::path(file).filename().string(),
                      read_plan_of_any_tool(file, loaded.instance, &warnings)});
+  if (plans.size() > kMostPlans)
+    warnings.push_back(fmt::format("a page shows {} plans; {} and those after it are left out",
+                                   kMostPlans, one_line(plans[kMostPlans].name)));
   print_warnings(warnings);
   if (arguments.wants_pictures()) write_pictures(arguments, loaded.instance, plans);
   if (!arguments.wants_pictures() || !arguments.output.empty())

@@ -189,6 +189,16 @@ TEST_F(ViewCommand, ShowsARunAsFarAsItsLogGoes) {
       "{\"event\": \"header\", \"instance\": \"\\u003c/script>\"}\n{\"event\": \"progress\"}\n");
 }
 
+TEST_F(ViewCommand, SaysWhichPlansItLeavesOut) {
+  const std::string plan = plan_of("first");
+  const ProcessResult done =
+      run_grove({"view", data("first.cts.json"), plan, plan, plan, "-o", directory_ / "x.html"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_THAT(
+      done.err,
+      HasSubstr("warning: a page shows 2 plans; first.plan.json and those after it are left out"));
+}
+
 TEST_F(ViewCommand, RefusesWhatIsNoLog) {
   const auto complaint = [&](const std::string& log) {
     directory_.write("run.jsonl", log);
