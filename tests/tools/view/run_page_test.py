@@ -108,6 +108,7 @@ class Pages(unittest.TestCase):
                         row(3, lower_bound=33, incumbent=33), SUMMARY))
         self.browser.evaluate("document.querySelector('.picture').focus()")
         self.assertIn("gap 0 %", self.text(".readout"))
+        self.assertIn("With --log-tree 1000", self.text("main"))
         self.browser.key("ArrowLeft")
         self.assertIn("2 s: best plan 36, no plan costs less than 30, gap 20 %", self.text(".readout"))
 
@@ -122,7 +123,7 @@ class Pages(unittest.TestCase):
         self.assertIn("0 · 500 · 999", self.text(".spread"))
         self.assertIn("The log has no end", self.text(".state"))
         self.assertEqual(self.browser.evaluate("document.querySelectorAll('.scroll tbody tr').length"), 1001)
-        self.assertIn("With --log-tree 1000", self.text("main"))
+        self.assertIn("The nodes are with the ranks", self.text("main"))
 
     def test_hostile_logs(self):
         hostile = {"event": "node", "time_s": 1, "node": 0, "worker": 0, "outcome": "split", "conflict": ALERT, "split": ALERT,

@@ -68,8 +68,9 @@ export function nodesChart(run: Run, isLogarithmic: boolean): Contents {
 
 // What the search holds, kind by kind, one on the other, under what the whole process does.
 export function memoryChart(run: Run, isLogarithmic: boolean): Contents {
-  const { counts, rows } = run;
-  const whole: Point[] = counts.some((c) => c.process > 0)
+  const { rows } = run;
+  const counts = run.counts.filter((c) => c.process > 0); // ranks tell after some time
+  const whole: Point[] = counts.length > 0
     ? counts.map(({ time, process }) => ({ time, value: process }))
     : rows.map(({ time, memory }) => ({ time, value: memory }));
   const upTo = (kinds: number) => counts.map(({ time, memory }) =>

@@ -23,7 +23,7 @@ class Page {
   private readonly tree = new TreeView();
   private readonly places = {
     sources: el("div"), bounds: el("div"), splits: el("div"), work: el("div"), ranks: el("div"),
-    moments: el("div"), facts: el("div"),
+    moments: el("div"), facts: el("div"), noTree: el("p", { class: "faint" }),
   };
   private readonly time = el("button", { type: "button", click: () => this.toggleTime() }, "logarithmic time");
   private readonly parts: Record<string, HTMLElement> = {};
@@ -39,8 +39,7 @@ class Page {
         part("bound", "How good the plan is", legend("bound"), this.charts.bound.element, this.time,
           el("div", { class: "pair" }, this.places.sources, this.places.bounds)),
         part("tree", "The search tree", treeLegend(), this.tree.element),
-        part("noTree", "The search tree", el("p", { class: "faint" },
-          "The log does not tell of single nodes. With --log-tree 1000 it tells of the first thousand, and this page draws them.")),
+        part("noTree", "The search tree", this.places.noTree),
         part("work", "What the search did", el("div", { class: "pair" }, this.places.splits, this.places.work)),
         part("nodes", "Nodes", legend("nodes"), this.charts.nodes.element),
         part("memory", "Memory", legend("memory"), this.charts.memory.element),
@@ -105,6 +104,9 @@ class Page {
     this.parts.ranks.hidden = !this.places.ranks.firstChild;
     this.parts.tree.hidden = run.roots.length === 0;
     this.parts.noTree.hidden = run.roots.length > 0;
+    setText(this.places.noTree, this.places.ranks.firstChild
+      ? "The nodes are with the ranks; the log does not tell of them one by one."
+      : "The log does not tell of single nodes. With --log-tree 1000 it tells of the first thousand, and this page draws them.");
     this.parts.memory.hidden = run.counts.length === 0;
     if (run.roots.length > 0) this.tree.show(run);
   }
