@@ -148,18 +148,22 @@ void run(const ViewArguments& arguments) {
 }
 
 void add_run_options(CLI::App& command, ViewArguments& arguments) {
-  CLI::Option* run =
-      command.add_option("--run", arguments.run, "log of a run to show, in place of an instance")
-          ->type_name("LOG.jsonl");
-  CLI::Option* follow =
-      command.add_flag("--follow", arguments.follow, "with --run: show it while it grows");
-  CLI::Option* port =
-      add_integer(command, "--port", arguments.port, kPorts, "of --follow; 0: one that is free");
-  follow->needs(run);
-  port->needs(follow);
+  command.add_option("--run", arguments.run, "log of a run to show, in place of an instance")
+      ->type_name("LOG.jsonl");
+  command.add_flag("--follow", arguments.follow, "with --run: show it while it grows");
+  add_integer(command, "--port", arguments.port, kPorts, "of --follow; 0: one that is free");
+}
+
+// (CLI11 would say the same, and write it into every line of the help.)
+void require_fit(const CLI::App& command) {
+  const auto given = [&](const char* name) { return !command.get_option(name)->empty(); };
+  if (given("--follow") && !given("--run")) throw CLI::RequiresError("--follow", "--run");
+  if (!given("INSTANCE") && !given("--run"))
+    throw CLI::RequiredError("INSTANCE, or --run LOG.jsonl");
+  if (given("--port") && !given("--follow")) throw CLI::RequiresError("--port", "--follow");
   for (const char* other :
-       {"--svg", "--png", "--gif", "--at", "--width", "--speed", "INSTANCE", "PLAN"})
-    run->excludes(command.get_option(other));
+       {"INSTANCE", "PLAN", "--svg", "--png", "--gif", "--at", "--width", "--speed"})
+    if (given("--run") && given(other)) throw CLI::ExcludesError("--run", other);
 }
 
 }  // namespace
@@ -173,7 +177,7 @@ void add_view_command(CLI::App& app) {
       ->type_name("");
   command
       ->add_option("-o,--output", arguments->output,
-                   "page to write, whole or not at all; by default named after the plan")
+                   "page to write, whole or not at all; by default named after plan or log")
       ->type_name("FILE.html");
   command->add_flag("--open", arguments->open, "show the page in the browser");
   command->add_option("--svg", arguments->svg, "vector picture to write")->type_name("FILE.svg");
@@ -182,18 +186,17 @@ void add_view_command(CLI::App& app) {
   command
       ->add_option("--at", arguments->moments, "moments of --svg and --png, in steps; by default 0")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(CLI::Range(0.0, 1e9).description(""))
       ->type_name("T,T,...");
   add_integer(*command, "--width", arguments->width, kWidths, "pixels of a moment");
   command->add_option("--speed", arguments->speed, "steps that --gif plays in a second")
-      ->check(CLI::Range(0.1, 50.0))
+      ->check(CLI::Range(0.1, 50.0).description(""))
       ->type_name("X")
       ->capture_default_str();
   add_run_options(*command, *arguments);
-  const CLI::Option* instance = command->get_option("INSTANCE")->required(false);
-  command->callback([arguments, instance] {
-    if (instance->empty() && arguments->run.empty())
-      throw CLI::RequiredError("INSTANCE, or --run LOG.jsonl");
+  command->get_option("INSTANCE")->required(false);
+  command->callback([command, arguments] {
+    require_fit(*command);
     run(*arguments);
   });
 }
