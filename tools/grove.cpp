@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   add_generate_command(app);
   add_convert_command(app);
   add_bench_command(app);
-  add_report_command(app);
+  add_companion_commands(app);
   return run_only_process(app, argc, argv);
 }
 

@@ -35,8 +35,13 @@ std::vector<int> rings_of(const PassingOrder& order) {
   return rings;
 }
 
-OrderedJson action_json(const Instance& instance, const PassingOrder& order, ActionIndex index,
-                        int ring) {
+OrderedJson point_json(const Instance& instance, const Frame& frame, State state) {
+  const Point at = metres(instance.map(), frame, instance.world().place(state));
+  return {at.x, at.y};
+}
+
+OrderedJson action_json(const Instance& instance, const PassingOrder& order, const Frame& frame,
+                        ActionIndex index, int ring) {
   const Action& action = order.actions()[index];
   const Motion motion = instance.agent(action.agent).motion;
   OrderedJson json{{"do", name_of(action.kind)}};
@@ -44,6 +49,7 @@ OrderedJson action_json(const Instance& instance, const PassingOrder& order, Act
     json["task"] = instance.task(action.task).id;
   else
     json["to"] = pose_json(instance.map(), motion, instance.pose_of(action.to));
+  if (action.kind == Action::Kind::kMove) json["at"] = point_json(instance, frame, action.to);
   json["steps"] = action.steps;
   json["planned"] = action.begin;
   if (const ActionIndex other = order.after(index); other != kNoAction) {
@@ -57,16 +63,17 @@ OrderedJson action_json(const Instance& instance, const PassingOrder& order, Act
 
 }  // namespace
 
-std::string order_text(const Instance& instance, const PassingOrder& order) {
+std::string order_text(const Instance& instance, const PassingOrder& order, const Frame& frame) {
   const std::vector<int> rings = rings_of(order);
   OrderedJson robots = OrderedJson::array();
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
     const Agent& a = instance.agent(agent);
     OrderedJson actions = OrderedJson::array();
     for (ActionIndex i = order.begin_of(agent); i < order.end_of(agent); ++i)
-      actions.push_back(action_json(instance, order, i, rings[i]));
+      actions.push_back(action_json(instance, order, frame, i, rings[i]));
     robots.push_back({{"id", a.id},
                       {"start", pose_json(instance.map(), a.motion, instance.pose_of(a.start))},
+                      {"at", point_json(instance, frame, a.start)},
                       {"actions", std::move(actions)}});
   }
   return dump_by_lines({{"format", "grove passing order 1"}, {"robots", std::move(robots)}});

@@ -17,6 +17,7 @@
 #include "grove/io/plan_import.h"
 #include "grove/model/check.h"
 #include "tools/common/commands.h"
+#include "tools/common/frame_arguments.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
 #include "tools/execute/troubles.h"
@@ -52,6 +53,7 @@ struct ExecuteArguments {
   std::int64_t runs = 1;
   std::int64_t seed = 0;
   std::string order;
+  FrameArguments frame;
   std::string output;
   std::string view;
 };
@@ -83,7 +85,8 @@ class Execution {
         order_(loaded_.instance, *claimed_.solution.plan) {}
 
   void run() {
-    if (!a_.order.empty()) write(a_.order, order_text(loaded_.instance, order_));
+    if (!a_.order.empty())
+      write(a_.order, order_text(loaded_.instance, order_, a_.frame.frame(loaded_.instance)));
     const Troubles troubles(a_.troubles, loaded_.instance);
     Took driven;
     for (std::int64_t run = 0; run < a_.runs; ++run) {
@@ -224,11 +227,16 @@ void add_execute_command(CLI::App& app) {
   add_integer(*command, "--seed", arguments->seed, kSeeds, "of the delays of the first one");
   command->add_option("--order", arguments->order, "write the passing order to this file")
       ->type_name("FILE.json");
+  arguments->frame.add_to(*command);
   command->add_option("-o,--output", arguments->output, "write the first drive as a plan")
       ->type_name("PLAN");
   command->add_option("--view", arguments->view, "show plan and first drive side by side as a page")
       ->type_name("FILE.html");
-  command->callback([arguments] { Execution(*arguments).run(); });
+  command->callback([arguments] {
+    if (arguments->frame.given() && arguments->order.empty())
+      throw CLI::ValidationError("--cell-size, --origin", "expected only with --order");
+    Execution(*arguments).run();
+  });
 }
 
 }  // namespace grove

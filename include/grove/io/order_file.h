@@ -5,11 +5,12 @@
 #include <string>
 
 #include "grove/execution/passing_order.h"
+#include "grove/io/frame.h"
 #include "grove/model/instance.h"
 
 namespace grove {
 
-// One JSON object: what each robot does, and what each action waits for.
-std::string order_text(const Instance& instance, const PassingOrder& order);
+// One JSON object: what each robot does, where in the world, and what each action waits for.
+std::string order_text(const Instance& instance, const PassingOrder& order, const Frame& frame);
 
 }  // namespace grove

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Commands that are Python programs beside this one. Options and help are theirs, so that there is
+// one text of them.
+#include "tools/common/commands.h"
+#include "tools/common/companion.h"
+
+namespace grove {
+namespace {
+
+// grove NAME hands over to grove-NAME.
+void add(CLI::App& app, const std::string& name, const std::string& description) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->set_help_flag();
+  command->prefix_command();
+  command->callback([command, name] { become("grove-" + name, command->remaining()); });
+}
+
+}  // namespace
+
+void add_companion_commands(CLI::App& app) {
+  add(app, "report", "Tables and figures from results, as a page");
+}
+
+}  // namespace grove

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// How a grid lies in the world, as one types it.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+#include "grove/io/frame.h"
+#include "grove/model/instance.h"
+
+namespace grove {
+
+// --cell-size and --origin. Must outlive the parsing.
+class FrameArguments {
+ public:
+  void add_to(CLI::App& command);
+
+  bool given() const { return cell_size_ > 0 || !origin_.empty(); }
+  // Throws CLI::ValidationError: no two numbers; or on a roadmap, which is in metres as it is.
+  Frame frame(const Instance& instance) const;
+
+ private:
+  double cell_size_ = 0;  // 0: not given
+  std::string origin_;
+};
+
+}  // namespace grove
