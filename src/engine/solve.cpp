@@ -138,18 +138,29 @@ std::optional<Solution> answer_without_search(const Problem& problem, const Solv
   return without_search(options, Status::kInfeasible, "reason", *reason);
 }
 
-Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
+Solution solve(const Problem& problem, const SolveOptions& options, const Limits& limits,
                RunObserver* observer) {
   RunObserver silent;
   RunObserver& watcher = observer ? *observer : silent;
   try {
-    const Problem problem(instance, limits);
     if (auto answer = answer_without_search(problem, options, limits, watcher))
       return std::move(*answer);
     return search(problem, options, limits, watcher);
   } catch (const std::bad_alloc&) {  // before the search: nothing is known yet
     limits.memory_exhausted();
-    return stopped_before_search(instance, options, limits, watcher);
+    return stopped_before_search(problem.instance, options, limits, watcher);
+  }
+}
+
+Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
+               RunObserver* observer) {
+  try {
+    const Problem problem(instance, limits);
+    return solve(problem, options, limits, observer);
+  } catch (const std::bad_alloc&) {
+    RunObserver silent;
+    limits.memory_exhausted();
+    return stopped_before_search(instance, options, limits, observer ? *observer : silent);
   }
 }
 

@@ -4,18 +4,40 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "grove/model/assert.h"
 
 namespace grove {
 namespace {
 
+// From when on nothing changes and nothing is left to do.
+Time finish(const AgentPlan& plan) {
+  Time last = static_cast<Time>(plan.path.size()) - 1;
+  while (last > 0 && plan.path[last - 1] == plan.path.back()) --last;
+  for (const WorkTime& work : plan.work) last = std::max(last, work.end);
+  return last;
+}
+
+// When a task is visited that an agent visits within its first steps.
+Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex index) {
+  const Task& task = instance.task(index);
+  if (task.duration > 0) return std::ranges::find(plan.work, index, &WorkTime::task)->end;
+  const auto is_there = [&](State s) { return instance.world().place(s) == task.cell; };
+  return static_cast<Time>(std::ranges::find_if(plan.path, is_there) - plan.path.begin());
+}
+
 // One agent after `time` steps.
 class AgentLater {
  public:
   AgentLater(const Instance& instance, AgentIndex agent, const AgentPlan& plan, Time time)
-      : instance_(instance), agent_(instance.agent(agent)), plan_(plan), time_(time) {
+      : instance_(instance),
+        agent_index_(agent),
+        agent_(instance.agent(agent)),
+        plan_(plan),
+        time_(time) {
     for (const TaskIndex task : agent_.tasks)
       if (!is_visited(task)) left_.push_back(task);
   }
@@ -23,9 +45,10 @@ class AgentLater {
   const std::vector<TaskIndex>& left() const { return left_; }
 
   AgentSpec spec() const {
-    AgentSpec spec{agent_.id,           instance_.pose_of(state_at(plan_.path, time_)),
-                   destination(),       agent_.motion,
-                   agent_.goal_heading, {}};
+    AgentSpec spec = instance_.spec(agent_index_);
+    spec.start = instance_.pose_of(state_at(plan_.path, time_));
+    spec.goal = destination();
+    spec.working.reset();
     if (const WorkTime* work = work_under_way())
       spec.working = WorkBegun{instance_.task(work->task).id, time_ - work->begin};
     return spec;
@@ -70,24 +93,24 @@ class AgentLater {
 
   Place place_of_rest() const { return instance_.world().place(plan_.path.back()); }
 
-  // Of an agent without one: where it rests, if that is not on a task that is left.
+  // Of an agent without one: where it rests, if that is on a task of its own that is not left.
   std::optional<Place> destination() const {
     const auto rests_on = [&](TaskIndex task) {
       return instance_.task(task).cell == place_of_rest();
     };
-    if (agent_.goal || left_.empty() || std::ranges::any_of(left_, rests_on)) return agent_.goal;
+    if (agent_.goal || left_.empty() || !visits_all() || std::ranges::any_of(left_, rests_on) ||
+        std::ranges::none_of(agent_.tasks, rests_on))
+      return agent_.goal;
     return place_of_rest();
   }
 
-  // From when on nothing changes and nothing is left to do.
-  static Time finish(const AgentPlan& plan) {
-    Time last = static_cast<Time>(plan.path.size()) - 1;
-    while (last > 0 && plan.path[last - 1] == plan.path.back()) --last;
-    for (const WorkTime& work : plan.work) last = std::max(last, work.end);
-    return last;
+  bool visits_all() const {
+    return std::ranges::all_of(
+        left_, [&](TaskIndex task) { return std::ranges::count(plan_.sequence, task) > 0; });
   }
 
   const Instance& instance_;
+  const AgentIndex agent_index_;
   const Agent& agent_;
   const AgentPlan& plan_;
   const Time time_;
@@ -99,7 +122,7 @@ class AgentLater {
 Remainder advance(const Instance& instance, const Plan& plan, Time time) {
   GROVE_ASSERT(time >= 0, "plans begin at time 0");
   std::vector<AgentLater> agents;
-  InstanceBuilder builder(instance.map());
+  InstanceBuilder builder(instance.shared_map());
   std::vector<std::vector<std::string>> visitors(instance.tasks().size());
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     agents.emplace_back(instance, i, plan.agents[i], time);
@@ -119,6 +142,60 @@ Remainder advance(const Instance& instance, const Plan& plan, Time time) {
     rest.plan.cost += rest.plan.agents.back().cost;
   }
   return rest;
+}
+
+namespace {
+
+// The first part of an agent's plan as if it ended then.
+AgentPlan first_steps(const AgentPlan& plan, Time time) {
+  AgentPlan first;
+  for (const WorkTime& work : plan.work)
+    if (work.end <= time) first.work.push_back(work);
+  const Time end = std::min(time, static_cast<Time>(plan.path.size()) - 1);
+  first.path.assign(plan.path.begin(), plan.path.begin() + end + 1);
+  return first;
+}
+
+AgentPlan joined(const Instance& instance, AgentIndex agent, AgentPlan first, Time time,
+                 const AgentPlan& rest, const std::vector<TaskIndex>& before) {
+  std::vector<TaskIndex> later;
+  for (const TaskIndex task : rest.sequence) later.push_back(before[task]);
+  for (const TaskIndex task : instance.agent(agent).tasks)
+    if (std::ranges::count(later, task) == 0) first.sequence.push_back(task);
+  std::ranges::stable_sort(first.sequence, {},
+                           [&](TaskIndex task) { return visit_time(instance, first, task); });
+  first.sequence.insert(first.sequence.end(), later.begin(), later.end());
+  if (rest.cost > 0) {
+    first.path.resize(static_cast<std::size_t>(time) + 1, first.path.back());
+    first.path.insert(first.path.end(), rest.path.begin() + 1, rest.path.end());
+    for (const WorkTime& work : rest.work)
+      first.work.push_back({before[work.task], work.begin + time, work.end + time});
+  }
+  first.cost = rest.cost > 0 ? time + rest.cost : finish(first);
+  first.path.resize(static_cast<std::size_t>(first.cost) + 1, first.path.back());
+  return first;
+}
+
+}  // namespace
+
+Time finish_of_steps(const AgentPlan& plan, Time time) {
+  return finish(first_steps(plan, time));
+}
+
+Plan joined(const Instance& instance, const Plan& plan, Time time, const Instance& later,
+            const Plan& rest) {
+  std::unordered_map<std::string, TaskIndex> by_id;
+  for (TaskIndex task = 0; task < instance.task_count(); ++task)
+    by_id.emplace(instance.task(task).id, task);
+  std::vector<TaskIndex> before;
+  for (const Task& task : later.tasks()) before.push_back(by_id.at(task.id));
+  Plan whole;
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+    whole.agents.push_back(joined(instance, agent, first_steps(plan.agents[agent], time), time,
+                                  rest.agents[agent], before));
+    whole.cost += whole.agents.back().cost;
+  }
+  return whole;
 }
 
 }  // namespace grove

@@ -36,18 +36,14 @@ std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
 // Builds `instance` anew, with the agent ids of `agent_id(i)` and the task ids of `task_id(i)`.
 template <typename AgentId, typename TaskId>
 InstanceBuilder with_agents(const Instance& instance, AgentId agent_id, TaskId task_id) {
-  InstanceBuilder builder(instance.map());
+  InstanceBuilder builder(instance.shared_map());
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
-    const Agent& agent = instance.agent(i);
-    AgentSpec spec{.id = agent_id(i),
-                   .start = instance.pose_of(agent.start),
-                   .goal = agent.goal,
-                   .motion = agent.motion,
-                   .goal_heading = agent.goal_heading};
-    if (const World& world = instance.world(); world.is_working(agent.start)) {
-      const Work& work = world.work(agent.start);
-      if (const std::string id = task_id(work.task); !id.empty())
-        spec.working = WorkBegun{id, work.done};
+    AgentSpec spec = instance.spec(i);
+    spec.id = agent_id(i);
+    if (spec.working) {
+      const TaskIndex task = instance.world().work(instance.agent(i).start).task;
+      const std::string id = task_id(task);
+      spec.working = id.empty() ? std::nullopt : std::optional(WorkBegun{id, spec.working->done});
     }
     builder.add_agent(std::move(spec));
   }

@@ -19,14 +19,16 @@ class Targets {
   }
 
   std::vector<std::vector<State>> sets;
+  std::vector<Place> places;  // by set: all that stand there; kNoPlace: others
   // Numbers of sets; kNone: there is none to be reached.
   static constexpr int kNone = -1;
   std::vector<int> of_tasks;
   std::vector<int> of_agents;
 
  private:
-  int add(std::vector<State> states) {
+  int add(std::vector<State> states, Place place = kNoPlace) {
     sets.push_back(std::move(states));
+    places.push_back(place);
     return static_cast<int>(sets.size()) - 1;
   }
   int on_place(Place place) {
@@ -34,7 +36,7 @@ class Targets {
     if (is_new) {
       std::vector<State> states;
       instance_.world().for_each_state(place, [&](State state) { states.push_back(state); });
-      known->second = add(std::move(states));
+      known->second = add(std::move(states), place);
     }
     return known->second;
   }
@@ -78,21 +80,33 @@ DistanceField distance_field(const World& world, Place target) {
   return distance_field(world, states);
 }
 
-DistanceFields::DistanceFields(const Instance& instance, const Limits& limits) {
+DistanceFields::DistanceFields(const Instance& instance, const Limits& limits,
+                               const DistanceFields* known) {
+  if (instance.world().states_are_places()) map_ = instance.shared_map();
   const Targets targets(instance);
   const auto states = static_cast<std::size_t>(instance.world().state_count());
   if (!limits.memory_allows(targets.sets.size() * states * sizeof(Time))) {
     limits.memory_exhausted();
     return;
   }
-  for (const std::vector<State>& set : targets.sets) {
+  for (std::size_t set = 0; set < targets.sets.size(); ++set) {
     if (limits.stop_requested()) return;
-    fields_.push_back(std::make_unique<DistanceField>(distance_field(instance.world(), set)));
+    FieldPtr field = field_to(targets.places[set], known);
+    if (!field)
+      field = std::make_shared<DistanceField>(distance_field(instance.world(), targets.sets[set]));
+    if (map_ && targets.places[set] != kNoPlace) to_place_.emplace(targets.places[set], field);
+    fields_.push_back(std::move(field));
   }
   for (const int set : targets.of_tasks) by_task_.push_back(fields_[set].get());
   for (const int set : targets.of_agents)
     by_agent_.push_back(set == Targets::kNone ? nullptr : fields_[set].get());
   complete_ = add_ports(instance, limits);
+}
+
+DistanceFields::FieldPtr DistanceFields::field_to(Place place, const DistanceFields* known) const {
+  if (!known || !map_ || known->map_ != map_) return nullptr;
+  const auto found = known->to_place_.find(place);
+  return found == known->to_place_.end() ? nullptr : found->second;
 }
 
 // False if a limit struck.

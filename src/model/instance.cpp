@@ -17,8 +17,17 @@ void require_new_id(const std::string& id, bool is_new) {
 
 }  // namespace
 
-Instance::Instance(Map map)
-    : map_(std::make_shared<const Map>(std::move(map))), world_(&ground(*map_)) {}
+Instance::Instance(std::shared_ptr<const Map> map) : map_(std::move(map)), world_(&ground(*map_)) {}
+
+AgentSpec Instance::spec(AgentIndex agent) const {
+  const Agent& a = agents_[agent];
+  AgentSpec spec{a.id, pose_of(a.start), a.goal, a.motion, a.goal_heading, {}};
+  if (world_->is_working(a.start)) {
+    const Work& work = world_->work(a.start);
+    spec.working = WorkBegun{tasks_[work.task].id, work.done};
+  }
+  return spec;
+}
 
 bool Instance::rests_on_last_stop(AgentIndex agent) const {
   const Agent& a = agents_[agent];
@@ -79,7 +88,9 @@ std::vector<TaskIndex> Instance::tasks_in_order(AgentIndex agent,
   return order;
 }
 
-InstanceBuilder::InstanceBuilder(Map map) : instance_(std::move(map)) {}
+InstanceBuilder::InstanceBuilder(Map map)
+    : InstanceBuilder(std::make_shared<const Map>(std::move(map))) {}
+InstanceBuilder::InstanceBuilder(std::shared_ptr<const Map> map) : instance_(std::move(map)) {}
 
 std::string InstanceBuilder::name(Place place) const {
   return (instance_.is_on_grid() ? "cell " : "place ") + instance_.world().name(place);

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include "in_the_way.h"
+
 namespace grove {
 
 const std::vector<AgentIndex>& Neighborhoods::choose() {
@@ -77,22 +79,11 @@ AgentIndex Neighborhoods::some_delayed_agent() {
 
 // Those that the agent would run into on its own best path, `late` steps late.
 void Neighborhoods::add_those_in_the_way(AgentIndex agent, Time late) {
-  const World& world = problem_.instance.world();
-  const Path& path = router_.own_path(agent);
-  const Reservations& reservations = paths_.reservations();
-  for (Time t = 1; t < static_cast<Time>(path.size()) && !full(); ++t) {
-    const Place from = world.place(path[t - 1]);
-    const Place to = world.place(path[t]);
-    const AgentIndex there = reservations.agent_at(to, t + late);
-    if (there != agent) add(there);
-    const AgentIndex before = reservations.agent_at(to, t + late - 1);
-    if (before != agent && before != Reservations::kNobody &&
-        before == reservations.agent_at(from, t + late))
-      add(before);
-  }
-  const Time end = static_cast<Time>(path.size()) - 1 + late;
-  for (const Reservations::Stay& stay : reservations.stays(world.place(path.back())))
-    if (stay.last >= end && stay.agent != agent) add(stay.agent);
+  visit_those_in_the_way(problem_.instance.world(), paths_.reservations(), agent,
+                         router_.own_path(agent), late, [&](AgentIndex other) {
+                           add(other);
+                           return !full();
+                         });
 }
 
 // Breadth first from a place on somebody's path, about the time when it is there.

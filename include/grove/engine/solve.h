@@ -65,6 +65,10 @@ struct SolveOptions {
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer = nullptr);
 
+// The same of a problem that somebody keeps.
+Solution solve(const Problem& problem, const SolveOptions& options, const Limits& limits,
+               RunObserver* observer = nullptr);
+
 // The answer where there is no search to be made: the instance is seen to have no plan, or limits
 // struck before `problem` was complete. None: search. For engines.
 std::optional<Solution> answer_without_search(const Problem& problem, const SolveOptions& options,

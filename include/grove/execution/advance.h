@@ -17,7 +17,16 @@ struct Remainder {
 // any more are gone. Agents keep their order and their ids, tasks their ids. An agent without a
 // destination that has visited everything is idle; one that has tasks left but is going to rest on
 // one that it has visited has that place as its destination, for an instance cannot say that it may
-// rest there. `plan` must be a valid one.
+// rest there. `plan` must be a valid one, but that some agents' parts of it may end too soon and
+// leave tasks out, of what they say (change.h).
 Remainder advance(const Instance& instance, const Plan& plan, Time time);
+
+// When the agent comes to rest if its plan ends after `time` steps.
+Time finish_of_steps(const AgentPlan& plan, Time time);
+
+// The plan of `instance` that begins as `plan` does, in its first `time` steps, and then goes on as
+// `rest`, a valid plan of advance(instance, plan, time).instance.
+Plan joined(const Instance& instance, const Plan& plan, Time time, const Instance& later,
+            const Plan& rest);
 
 }  // namespace grove

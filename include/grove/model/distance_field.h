@@ -2,6 +2,7 @@
 // Shortest distances, ignoring other agents.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,8 +27,10 @@ DistanceField distance_field(const World& world, Place target);
 class DistanceFields {
  public:
   // Asks `limits` for the memory and looks at them between fields; if they strike, complete() is
-  // false.
-  explicit DistanceFields(const Instance& instance, const Limits& limits = Limits());
+  // false. Shares what `known` (null: nothing) has of the same map, as long as every state is its
+  // place.
+  explicit DistanceFields(const Instance& instance, const Limits& limits = Limits(),
+                          const DistanceFields* known = nullptr);
 
   // All fields are there. If not, nothing must be asked for.
   bool complete() const { return complete_; }
@@ -48,7 +51,12 @@ class DistanceFields {
   }
 
  private:
-  std::vector<std::unique_ptr<const DistanceField>> fields_;
+  using FieldPtr = std::shared_ptr<const DistanceField>;
+  FieldPtr field_to(Place place, const DistanceFields* known) const;
+
+  std::shared_ptr<const Map> map_;     // null unless every state is its place
+  std::map<Place, FieldPtr> to_place_;  // of that map
+  std::vector<FieldPtr> fields_;
   std::vector<const DistanceField*> by_task_;
   std::vector<const DistanceField*> by_agent_;
   // By task, kind and heading; empty where no such agent has the task.

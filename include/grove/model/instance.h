@@ -80,6 +80,8 @@ class Instance {
  public:
   const World& world() const { return *world_; }
   const Map& map() const { return *map_; }
+  // To build others on: what was computed for one map holds for all of its instances.
+  std::shared_ptr<const Map> shared_map() const { return map_; }
   // Null if every state is its place.
   const MotionWorld* motion_world() const { return motion_world_.get(); }
   // Null if the map is a grid.
@@ -93,6 +95,8 @@ class Instance {
   const Task& task(TaskIndex i) const { return tasks_[i]; }
   int agent_count() const { return static_cast<int>(agents_.size()); }
   int task_count() const { return static_cast<int>(tasks_.size()); }
+  // What an InstanceBuilder would be told to add this agent.
+  AgentSpec spec(AgentIndex agent) const;
 
   // The base state of this agent's kind, and back (of the state in which it works, if it does).
   State state_of(AgentIndex agent, const Pose& pose) const {
@@ -125,7 +129,7 @@ class Instance {
 
  private:
   friend class InstanceBuilder;
-  explicit Instance(Map map);
+  explicit Instance(std::shared_ptr<const Map> map);
 
   std::shared_ptr<const Map> map_;
   std::shared_ptr<const MotionWorld> motion_world_;
@@ -139,6 +143,7 @@ class Instance {
 class InstanceBuilder {
  public:
   explicit InstanceBuilder(Map map);
+  explicit InstanceBuilder(std::shared_ptr<const Map> map);
   const Map& map() const { return instance_.map(); }
   const Roadmap* roadmap() const { return instance_.roadmap(); }
 

@@ -11,8 +11,12 @@ namespace grove {
 // An instance with its distance fields and its corridors. Immutable, shared by all threads;
 // outlives the search. Use it only if distances.complete().
 struct Problem {
-  Problem(const Instance& the_instance, const Limits& limits)
-      : instance(the_instance), distances(the_instance, limits), chains(the_instance.world()) {}
+  // `known`: distances of an earlier one, to share; null: none.
+  Problem(const Instance& the_instance, const Limits& limits,
+          const DistanceFields* known = nullptr)
+      : instance(the_instance),
+        distances(the_instance, limits, known),
+        chains(the_instance.world()) {}
 
   const Instance& instance;  // owned by the caller
   const DistanceFields distances;

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "grove/execution/change.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace grove {
+namespace {
+
+// A map with some ways closed, and what became of its places.
+struct ClosedMap {
+  std::shared_ptr<const Map> map;
+  std::vector<Place> places;  // by place before; kNoPlace: it is closed
+};
+
+ClosedMap close_cells(const Grid& grid, const std::vector<Place>& blocked) {
+  std::vector<bool> passable;
+  std::vector<Place> places(static_cast<std::size_t>(grid.cell_count()));
+  std::iota(places.begin(), places.end(), 0);
+  for (const Place place : blocked) places[place] = kNoPlace;
+  for (Cell cell = 0; cell < grid.cell_count(); ++cell)
+    passable.push_back(grid.passable(cell) && places[cell] != kNoPlace);
+  return {std::make_shared<const Map>(Grid(grid.width(), grid.height(), passable)), places};
+}
+
+bool is_closed(const Roadmap& roadmap, int road, const std::vector<Place>& blocked) {
+  return std::ranges::any_of(blocked, [&](Place place) {
+    const Roadmap::Spot spot = roadmap.spot(place);
+    const Road& r = roadmap.roads()[road];
+    return spot.vertex < 0 ? spot.road == road : spot.vertex == r.from || spot.vertex == r.to;
+  });
+}
+
+ClosedMap close_roads(const Roadmap& roadmap, const std::vector<Place>& blocked) {
+  std::vector<Road> roads;
+  std::vector<int> number;  // by road before; -1: closed
+  for (int road = 0; road < static_cast<int>(roadmap.roads().size()); ++road) {
+    const bool closed = is_closed(roadmap, road, blocked);
+    number.push_back(closed ? -1 : static_cast<int>(roads.size()));
+    if (!closed) roads.push_back(roadmap.roads()[road]);
+  }
+  auto map = std::make_shared<const Map>(Roadmap(roadmap.vertices(), std::move(roads)));
+  const Roadmap& rest = std::get<Roadmap>(*map);
+  std::vector<Place> places;
+  for (Place place = 0; place < roadmap.place_count(); ++place) {
+    const Roadmap::Spot spot = roadmap.spot(place);
+    if (spot.vertex >= 0)
+      places.push_back(std::ranges::count(blocked, place) > 0 ? kNoPlace
+                                                              : rest.place_of_vertex(spot.vertex));
+    else
+      places.push_back(number[spot.road] < 0 ? kNoPlace
+                                             : rest.place_on_road(number[spot.road], spot.steps));
+  }
+  return {std::move(map), std::move(places)};
+}
+
+class Applying {
+ public:
+  Applying(const Instance& instance, const Plan& plan, const InstanceChange& change)
+      : instance_(instance), plan_(plan), change_(change), dropped_(dropped()) {
+    require_free();
+    if (change.blocked.empty())
+      closed_.map = instance.shared_map();
+    else
+      closed_ = instance.is_on_grid() ? close_cells(instance.grid(), change.blocked)
+                                      : close_roads(*instance.roadmap(), change.blocked);
+  }
+
+  Changed run() {
+    std::vector<TaskIndex> tasks(instance_.tasks().size(), -1);
+    Changed changed{build(tasks), {}, {}, {}};
+    for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
+      changed.plan.agents.push_back(agent_plan(changed.instance, agent, tasks));
+      changed.plan.cost += changed.plan.agents.back().cost;
+      changed.cut.push_back(changed.plan.agents.back().path.size() <
+                            plan_.agents[agent].path.size());
+      changed.affected.push_back(is_affected(agent, changed));
+    }
+    return changed;
+  }
+
+ private:
+  Place place_now(Place before) const {
+    return closed_.places.empty() ? before : closed_.places[before];
+  }
+
+  std::vector<bool> dropped() const {
+    std::vector<bool> dropped(instance_.tasks().size());
+    for (std::size_t i = 0; i < change_.dropped_tasks.size(); ++i) {
+      const std::string& id = change_.dropped_tasks[i];
+      const auto found = std::ranges::find(instance_.tasks(), id, &Task::id);
+      if (found == instance_.tasks().end())
+        throw InstanceError(
+            fmt::format("dropped_tasks/{}", i),
+            fmt::format("there is no task '{}' left; expected one that is not visited yet", id));
+      dropped[found - instance_.tasks().begin()] = true;
+    }
+    return dropped;
+  }
+
+  void require_free() const {
+    for (std::size_t i = 0; i < change_.blocked.size(); ++i) {
+      const auto fail = [&](const std::string& message) {
+        throw InstanceError(fmt::format("blocked/{}", i), message);
+      };
+      for (const Agent& agent : instance_.agents()) {
+        const Place start = instance_.world().place(agent.start);
+        if (stands_on(start, change_.blocked[i])) fail(fmt::format("'{}' is there", agent.id));
+        if (agent.goal == change_.blocked[i])
+          fail(fmt::format("it is the destination of '{}'", agent.id));
+      }
+      for (TaskIndex task = 0; task < instance_.task_count(); ++task)
+        if (!dropped_[task] && instance_.task(task).cell == change_.blocked[i])
+          fail(fmt::format("task '{}' is there; expected that it is dropped, too",
+                           instance_.task(task).id));
+    }
+  }
+
+  // On it, or on a road that is closed with it.
+  bool stands_on(Place place, Place blocked) const {
+    if (place == blocked) return true;
+    const Roadmap* roadmap = instance_.roadmap();
+    if (!roadmap || roadmap->spot(place).vertex >= 0) return false;
+    return is_closed(*roadmap, roadmap->spot(place).road, {blocked});
+  }
+
+  // Fills in the numbers of tasks that are left.
+  Instance build(std::vector<TaskIndex>& tasks) const {
+    InstanceBuilder builder(closed_.map);
+    for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
+      AgentSpec spec = instance_.spec(i);
+      spec.start.place = place_now(spec.start.place);
+      if (spec.goal) spec.goal = place_now(*spec.goal);
+      if (spec.working && is_dropped(spec.working->task)) spec.working.reset();
+      builder.add_agent(std::move(spec));
+    }
+    for (TaskIndex i = 0; i < instance_.task_count(); ++i) {
+      const Task& task = instance_.task(i);
+      if (dropped_[i]) continue;
+      std::vector<std::string> agents;
+      for (const AgentIndex agent : task.agents) agents.push_back(instance_.agent(agent).id);
+      tasks[i] = builder.add_task(task.id, place_now(task.cell), agents, task.duration);
+    }
+    for (std::size_t i = 0; i < change_.new_tasks.size(); ++i) add_new(builder, i);
+    return std::move(builder).build();
+  }
+
+  bool is_dropped(const std::string& task) const {
+    return std::ranges::count(change_.dropped_tasks, task) > 0;
+  }
+
+  void add_new(InstanceBuilder& builder, std::size_t number) const {
+    const NewTask& task = change_.new_tasks[number];
+    const auto fail = [&](const std::string& field, const std::string& message) {
+      throw InstanceError(fmt::format("new_tasks/{}/{}", number, field), message);
+    };
+    if (place_now(task.place) == kNoPlace) fail("cell", "it is blocked");
+    try {
+      builder.add_task(task.id, place_now(task.place), task.agents, task.duration);
+    } catch (const InstanceError& error) {
+      fail(error.field(), error.what());
+    }
+  }
+
+  // What of the agent's plan is left on the new map.
+  AgentPlan agent_plan(const Instance& now, AgentIndex agent,
+                       const std::vector<TaskIndex>& tasks) const {
+    const AgentPlan& before = plan_.agents[agent];
+    AgentPlan plan;
+    for (const TaskIndex task : before.sequence)
+      if (tasks[task] >= 0) plan.sequence.push_back(tasks[task]);
+    for (const State state : before.path) {
+      Pose pose = instance_.pose_of(state);
+      pose.place = place_now(pose.place);
+      if (pose.place == kNoPlace) break;
+      plan.path.push_back(now.state_of(agent, pose));
+    }
+    const Time end = static_cast<Time>(plan.path.size()) - 1;
+    for (const WorkTime& work : before.work)
+      if (tasks[work.task] >= 0 && work.end <= end)
+        plan.work.push_back({tasks[work.task], work.begin, work.end});
+    plan.cost = end;
+    return plan;
+  }
+
+  bool is_affected(AgentIndex agent, const Changed& changed) const {
+    const auto has_dropped = [&](TaskIndex task) { return dropped_[task]; };
+    const AgentPlan& now = changed.plan.agents[agent];
+    return std::ranges::any_of(instance_.agent(agent).tasks, has_dropped) || changed.cut[agent] ||
+           now.sequence.size() < changed.instance.agent(agent).tasks.size();
+  }
+
+  const Instance& instance_;
+  const Plan& plan_;
+  const InstanceChange& change_;
+  const std::vector<bool> dropped_;  // by task
+  ClosedMap closed_;
+};
+
+}  // namespace
+
+Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change) {
+  return Applying(instance, plan, change).run();
+}
+
+}  // namespace grove

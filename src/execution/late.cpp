@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Why the plan is valid. Every place is passed by the robots in the order of `plan`, each coming to
+// it no sooner than the one before has gone: an action begins no sooner than that which it waits
+// for, both moves taking one step. (Waits left out of the order as transitive hold all the same,
+// for along the others begins never fall.) So no two are on one place at one time. Two that swapped
+// places would each come to a place after the other there: in `plan`, too, their moves would have
+// to be one step, a swap.
+#include "grove/execution/late.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace grove {
+namespace {
+
+// When actions would begin if nobody were in the way.
+class Wishes {
+ public:
+  Wishes(const PassingOrder& order, Time time, std::span<const Late> late)
+      : order_(order), time_(time), late_(static_cast<std::size_t>(order.agent_count())) {
+    for (const Late& l : late) late_[l.agent] = std::min(l.steps, time);
+  }
+
+  Time begin(ActionIndex index) const {
+    const Action& action = order_.actions()[index];
+    if (is_done(action)) return action.begin;
+    return is_under_way(action) ? action.begin + late_[action.agent] : time_;
+  }
+  // Must it have begun just then?
+  bool is_certain(ActionIndex index) const {
+    const Action& action = order_.actions()[index];
+    return late_[action.agent] > 0 && (is_done(action) || is_under_way(action));
+  }
+
+ private:
+  Time clock(const Action& action) const { return time_ - late_[action.agent]; }
+  bool is_done(const Action& action) const { return action.begin + action.steps <= clock(action); }
+  // The robot stood still within it.
+  bool is_under_way(const Action& action) const {
+    return action.begin < clock(action) && !is_done(action);
+  }
+
+  const PassingOrder& order_;
+  const Time time_;
+  std::vector<Time> late_;  // by agent
+};
+
+[[noreturn]] void refuse(const Instance& instance, const PassingOrder& order, ActionIndex index,
+                         Time time) {
+  const Action& action = order.actions()[index];
+  const ActionIndex other = order.after(index);
+  const std::string before =
+      other == kNoAction ? "others"
+                         : fmt::format("'{}'", instance.agent(order.actions()[other].agent).id);
+  throw ImpossibleLateness(
+      action.agent,
+      fmt::format("'{}' cannot have come to {} by step {}, for {} had not left it",
+                  instance.agent(action.agent).id, instance.world().name(action.to), time, before));
+}
+
+}  // namespace
+
+Plan late_plan(const Instance& instance, const Plan& plan, const PassingOrder& order, Time time,
+               std::span<const Late> late) {
+  const Wishes wishes(order, time, late);
+  Drive drive{std::vector<Time>(order.actions().size()), std::vector<Time>(order.actions().size())};
+  for (std::int32_t number = 0; number < order.step_count(); ++number) {
+    Time begin = 0;
+    for (const ActionIndex a : order.step(number)) {
+      begin = std::max(begin, wishes.begin(a));
+      if (order.before(a) != kNoAction) begin = std::max(begin, drive.end[order.before(a)]);
+      if (order.after(a) != kNoAction) begin = std::max(begin, drive.begin[order.after(a)]);
+    }
+    for (const ActionIndex a : order.step(number)) {
+      if (wishes.is_certain(a) && begin > wishes.begin(a)) refuse(instance, order, a, time);
+      drive.begin[a] = begin;
+      drive.end[a] = begin + order.actions()[a].steps;
+    }
+  }
+  return driven_plan(instance, plan, order, drive);
+}
+
+}  // namespace grove

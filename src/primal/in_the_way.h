@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Who of those planned would be run into.
+#pragma once
+
+#include "grove/planning/reservations.h"
+
+namespace grove {
+
+// Calls visit(agent) for each one, other than `agent` itself, that it would run into on `path`,
+// begun `late` steps late, resting at its end included; for some more than once. Ends when visit()
+// returns false.
+template <class Visit>
+void visit_those_in_the_way(const World& world, const Reservations& reservations, AgentIndex agent,
+                            const Path& path, Time late, Visit visit) {
+  const auto ends_at = [&](AgentIndex other) {
+    return other != Reservations::kNobody && other != agent && !visit(other);
+  };
+  for (Time t = 1; t < static_cast<Time>(path.size()); ++t) {
+    const Place from = world.place(path[t - 1]);
+    const Place to = world.place(path[t]);
+    if (ends_at(reservations.agent_at(to, t + late))) return;
+    const AgentIndex before = reservations.agent_at(to, t + late - 1);
+    const bool swaps = from != to && before == reservations.agent_at(from, t + late);
+    if (swaps && ends_at(before)) return;
+  }
+  const Time end = static_cast<Time>(path.size()) - 1 + late;
+  for (const Reservations::Stay& stay : reservations.stays(world.place(path.back())))
+    if (stay.last >= end && ends_at(stay.agent)) return;
+}
+
+}  // namespace grove

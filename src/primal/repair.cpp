@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Agents wait for a path in a queue. The first one gets the best path around those that have one;
+// if there is none, or none is found in many times the labels that it needs alone, those in the way
+// of its own best path lose theirs and join the queue at its end. Two that shut out each other
+// would take turns for ever: so after many failures an agent also pushes away those that it would
+// run into if it were late, and the number of failures is limited.
+#include "grove/primal/repair.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "grove/model/random.h"
+#include "in_the_way.h"
+#include "path_set.h"
+#include "router.h"
+
+namespace grove {
+namespace {
+
+constexpr std::int64_t kFailuresPerAgent = 4;
+constexpr std::int64_t kLabels = 10'000;   // a call may take so many,
+constexpr std::int64_t kLabelsOfOwn = 50;  // and so many for each step of the agent's own path
+constexpr int kLatest = 8;                 // steps late that those are looked for who give way
+
+class Repair {
+ public:
+  Repair(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed, const Limits& limits)
+      : problem_(problem),
+        agents_(problem.instance.agent_count()),
+        limits_(limits),
+        random_(seed),
+        router_(problem, stops),
+        paths_(problem.instance.world(), agents_) {}
+
+  std::optional<Plan> run(const std::vector<Path>& paths) {
+    for (AgentIndex agent = 0; agent < agents_; ++agent) {
+      if (paths[agent].empty())
+        queue_.push_back(agent);
+      else
+        paths_.put(agent, paths[agent]);
+    }
+    std::int64_t left = kFailuresPerAgent * agents_;
+    while (!queue_.empty()) {
+      const AgentIndex agent = queue_.front();
+      if (!router_.meet(agent, limits_)) return std::nullopt;
+      if (plan(agent)) {
+        queue_.pop_front();
+        continue;
+      }
+      if (limits_.stop_requested() || left-- == 0) return std::nullopt;
+      clear_the_way(agent, ++failures_);
+    }
+    for (AgentIndex agent = 0; agent < agents_; ++agent)
+      if (!router_.meet(agent, limits_)) return std::nullopt;
+    return router_.plan(paths_.paths());
+  }
+
+ private:
+  bool plan(AgentIndex agent) {
+    const PathQuery query{.most_labels = kLabels + kLabelsOfOwn * router_.own_cost(agent),
+                          .reservations = &paths_.reservations(),
+                          .known_sequences = true};
+    Path path;
+    if (router_.find(agent, query, limits_, path) != PathOutcome::kFound) return false;
+    paths_.put(agent, std::move(path));
+    return true;
+  }
+
+  void clear_the_way(AgentIndex agent, std::int64_t failures) {
+    const World& world = problem_.instance.world();
+    std::vector<AgentIndex> gone;
+    const auto note = [&](AgentIndex other) {
+      if (std::ranges::find(gone, other) == gone.end()) gone.push_back(other);
+      return true;
+    };
+    visit_those_in_the_way(world, paths_.reservations(), agent, router_.own_path(agent), 0, note);
+    // Again and again: it is more than those.
+    if (failures > agents_ / 2 || gone.empty())
+      visit_those_in_the_way(world, paths_.reservations(), agent, router_.own_path(agent),
+                             static_cast<Time>(1 + random_.below(kLatest)), note);
+    if (gone.empty()) gone = some_planned();
+    random_.shuffle(gone);
+    for (const AgentIndex other : gone) {
+      paths_.take(other);
+      queue_.push_back(other);
+    }
+  }
+
+  std::vector<AgentIndex> some_planned() {
+    std::vector<AgentIndex> planned;
+    for (AgentIndex agent = 0; agent < agents_; ++agent)
+      if (!paths_.path(agent).empty()) planned.push_back(agent);
+    random_.shuffle(planned);
+    planned.resize(std::min<std::size_t>(planned.size(), 4));
+    return planned;
+  }
+
+  const Problem& problem_;
+  const int agents_;
+  const Limits& limits_;
+  Random random_;
+  Router router_;
+  PathSet paths_;
+  std::deque<AgentIndex> queue_;
+  std::int64_t failures_ = 0;
+};
+
+}  // namespace
+
+std::optional<Plan> repaired(const Problem& problem, AgentStopsStore& stops,
+                             const std::vector<Path>& paths, std::uint64_t seed,
+                             const Limits& limits) {
+  return Repair(problem, stops, seed, limits).run(paths);
+}
+
+Cost sum_of_own_costs(const Problem& problem, AgentStopsStore& stops, const Limits& limits) {
+  Router router(problem, stops);
+  Cost sum = 0;
+  for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
+    if (router.meet(agent, limits)) sum += router.own_cost(agent);
+  return sum;
+}
+
+}  // namespace grove
