@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   add_solve_command(app);
   add_check_command(app);
   add_execute_command(app);
+  add_replan_command(app);
   add_view_command(app);
   add_generate_command(app);
   add_convert_command(app);

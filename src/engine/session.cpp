@@ -33,7 +33,8 @@ class WholePlans : public ForwardingObserver {
         lower_bound_(lower_bound) {}
 
   Solution whole(Solution solution) const {
-    solution.stats.counts["lower_bound_committed"] = cost_before() + solution.lower_bound;
+    if (ends_are_free())
+      solution.stats.counts["lower_bound_committed"] = cost_before() + solution.lower_bound;
     solution.lower_bound = lower_bound_;
     if (solution.plan) {
       solution.plan = whole(*solution.plan);
@@ -60,6 +61,15 @@ class WholePlans : public ForwardingObserver {
     progress.lower_bound = lower_bound_;
     progress.incumbent = cost_;
     return progress;
+  }
+
+  // May all come to rest then wherever they may by the instance before?
+  bool ends_are_free() const {
+    for (AgentIndex agent = 0; agent < later_.agent_count(); ++agent)
+      if (!instance_.agent(agent).goal &&
+          later_.agent(agent).tasks.size() < instance_.agent(agent).tasks.size())
+        return false;
+    return true;
   }
 
   // What the committed steps cost whatever comes after: of who has nothing to do then, until it
@@ -93,12 +103,24 @@ struct Kept {
   const Problem problem;
 };
 
+// Is there an answer to be searched for?
+bool is_searched(const Problem& problem) {
+  return problem.distances.complete() && !evident_infeasibility(problem);
+}
+
+Solution unknown(const SolveOptions& options, const std::string& reason) {
+  Solution solution;
+  solution.omega = options.omega;
+  solution.stats.texts["reason"] = reason;
+  return solution;
+}
+
 // The paths of a plan, none of those that have to be planned anew; then a plan, if they can be.
 std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affected,
                                const Problem& problem, const SolveOptions& options,
                                const Limits& limits) {
   if (std::ranges::count(affected, true) == 0) return plan;
-  if (!problem.distances.complete() || evident_infeasibility(problem)) return std::nullopt;
+  if (!is_searched(problem)) return std::nullopt;
   std::vector<Path> paths(affected.size());
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     if (!affected[agent]) paths[agent] = walked_path(problem.instance, agent, plan.agents[agent]);
@@ -151,9 +173,10 @@ class Session::Impl {
   Solution solve(const SolveOptions& options, const Limits& limits, RunObserver& observer,
                  Time commit) {
     auto now = std::make_unique<Kept>(instance_, limits, kept_.get());
-    Solution solution = commit == 0 || !old_ ? solve_from(old_ ? &*old_ : nullptr, affected_,
-                                                          now->problem, options, limits, observer)
-                                             : solve_later(*now, options, limits, observer, commit);
+    Solution solution = commit > 0 && old_ && is_searched(now->problem)
+                            ? solve_later(*now, options, limits, observer, commit)
+                            : solve_from(old_ ? &*old_ : nullptr, affected_, now->problem, options,
+                                         limits, observer);
     kept_ = std::move(now);
     if (solution.plan) {
       plan_ = old_ = solution.plan;
@@ -181,13 +204,17 @@ class Session::Impl {
   Solution solve_later(const Kept& now, const SolveOptions& options, const Limits& limits,
                        RunObserver& observer, Time commit) {
     require_open(commit);
-    Remainder rest = grove::advance(instance_, *old_, commit);
-    const Kept later(std::move(rest.instance), limits, &now);
+    std::optional<Remainder> rest;
+    try {
+      rest = grove::advance(instance_, *old_, commit, Rests::kWhereItMust);
+    } catch (const InstanceError& error) {
+      return unknown(options, error.what());
+    }
+    const Kept later(std::move(rest->instance), limits, &now);
     AgentStopsStore stops(now.instance, now.problem.distances);
-    const Cost own_costs =
-        now.problem.distances.complete() ? sum_of_own_costs(now.problem, stops, limits) : 0;
+    const Cost own_costs = sum_of_own_costs(now.problem, stops, limits);
     WholePlans plans(observer, instance_, *old_, commit, later.instance, own_costs);
-    Solution solution = solve_from(&rest.plan, affected_, later.problem, options, limits, plans);
+    Solution solution = solve_from(&rest->plan, affected_, later.problem, options, limits, plans);
     return plans.whole(std::move(solution));
   }
 

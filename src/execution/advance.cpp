@@ -32,12 +32,14 @@ Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex index
 // One agent after `time` steps.
 class AgentLater {
  public:
-  AgentLater(const Instance& instance, AgentIndex agent, const AgentPlan& plan, Time time)
+  AgentLater(const Instance& instance, AgentIndex agent, const AgentPlan& plan, Time time,
+             Rests rests)
       : instance_(instance),
         agent_index_(agent),
         agent_(instance.agent(agent)),
         plan_(plan),
-        time_(time) {
+        time_(time),
+        rests_(rests) {
     for (const TaskIndex task : agent_.tasks)
       if (!is_visited(task)) left_.push_back(task);
   }
@@ -98,9 +100,13 @@ class AgentLater {
     const auto rests_on = [&](TaskIndex task) {
       return instance_.task(task).cell == place_of_rest();
     };
-    if (agent_.goal || left_.empty() || !visits_all() || std::ranges::any_of(left_, rests_on) ||
-        std::ranges::none_of(agent_.tasks, rests_on))
-      return agent_.goal;
+    if (agent_.goal || agent_.is_idle()) return agent_.goal;
+    const bool is_own = std::ranges::any_of(agent_.tasks, rests_on);
+    if (left_.empty()) {
+      if (rests_ == Rests::kAnywhere) return std::nullopt;
+      return is_own ? place_of_rest() : instance_.task(agent_.tasks.front()).cell;
+    }
+    if (!is_own || !visits_all() || std::ranges::any_of(left_, rests_on)) return std::nullopt;
     return place_of_rest();
   }
 
@@ -114,18 +120,19 @@ class AgentLater {
   const Agent& agent_;
   const AgentPlan& plan_;
   const Time time_;
+  const Rests rests_;
   std::vector<TaskIndex> left_;
 };
 
 }  // namespace
 
-Remainder advance(const Instance& instance, const Plan& plan, Time time) {
+Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests rests) {
   GROVE_ASSERT(time >= 0, "plans begin at time 0");
   std::vector<AgentLater> agents;
   InstanceBuilder builder(instance.shared_map());
   std::vector<std::vector<std::string>> visitors(instance.tasks().size());
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
-    agents.emplace_back(instance, i, plan.agents[i], time);
+    agents.emplace_back(instance, i, plan.agents[i], time, rests);
     builder.add_agent(agents.back().spec());
     for (const TaskIndex task : agents.back().left())
       visitors[task].push_back(instance.agent(i).id);
@@ -173,6 +180,10 @@ AgentPlan joined(const Instance& instance, AgentIndex agent, AgentPlan first, Ti
   }
   first.cost = rest.cost > 0 ? time + rest.cost : finish(first);
   first.path.resize(static_cast<std::size_t>(first.cost) + 1, first.path.back());
+  if (instance.rests_on_last_stop(agent))  // which may have been visited before
+    std::ranges::stable_partition(first.sequence, [&](TaskIndex task) {
+      return instance.task(task).cell != instance.world().place(first.path.back());
+    });
   return first;
 }
 

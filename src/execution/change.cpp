@@ -27,19 +27,20 @@ ClosedMap close_cells(const Grid& grid, const std::vector<Place>& blocked) {
   return {std::make_shared<const Map>(Grid(grid.width(), grid.height(), passable)), places};
 }
 
-bool is_closed(const Roadmap& roadmap, int road, const std::vector<Place>& blocked) {
-  return std::ranges::any_of(blocked, [&](Place place) {
-    const Roadmap::Spot spot = roadmap.spot(place);
-    const Road& r = roadmap.roads()[road];
-    return spot.vertex < 0 ? spot.road == road : spot.vertex == r.from || spot.vertex == r.to;
-  });
+bool is_closed(const Roadmap& roadmap, int road, const InstanceChange& change) {
+  const Road& r = roadmap.roads()[road];
+  const auto is_blocked = [&](int vertex) {
+    return std::ranges::count(change.blocked, roadmap.place_of_vertex(vertex)) > 0;
+  };
+  return std::ranges::count(change.closed_roads, road) > 0 || is_blocked(r.from) ||
+         is_blocked(r.to);
 }
 
-ClosedMap close_roads(const Roadmap& roadmap, const std::vector<Place>& blocked) {
+ClosedMap close_roads(const Roadmap& roadmap, const InstanceChange& change) {
   std::vector<Road> roads;
   std::vector<int> number;  // by road before; -1: closed
   for (int road = 0; road < static_cast<int>(roadmap.roads().size()); ++road) {
-    const bool closed = is_closed(roadmap, road, blocked);
+    const bool closed = is_closed(roadmap, road, change);
     number.push_back(closed ? -1 : static_cast<int>(roads.size()));
     if (!closed) roads.push_back(roadmap.roads()[road]);
   }
@@ -49,8 +50,9 @@ ClosedMap close_roads(const Roadmap& roadmap, const std::vector<Place>& blocked)
   for (Place place = 0; place < roadmap.place_count(); ++place) {
     const Roadmap::Spot spot = roadmap.spot(place);
     if (spot.vertex >= 0)
-      places.push_back(std::ranges::count(blocked, place) > 0 ? kNoPlace
-                                                              : rest.place_of_vertex(spot.vertex));
+      places.push_back(std::ranges::count(change.blocked, place) > 0
+                           ? kNoPlace
+                           : rest.place_of_vertex(spot.vertex));
     else
       places.push_back(number[spot.road] < 0 ? kNoPlace
                                              : rest.place_on_road(number[spot.road], spot.steps));
@@ -63,11 +65,11 @@ class Applying {
   Applying(const Instance& instance, const Plan& plan, const InstanceChange& change)
       : instance_(instance), plan_(plan), change_(change), dropped_(dropped()) {
     require_free();
-    if (change.blocked.empty())
+    if (change.blocked.empty() && change.closed_roads.empty())
       closed_.map = instance.shared_map();
     else
       closed_ = instance.is_on_grid() ? close_cells(instance.grid(), change.blocked)
-                                      : close_roads(*instance.roadmap(), change.blocked);
+                                      : close_roads(*instance.roadmap(), change);
   }
 
   Changed run() {
@@ -103,29 +105,42 @@ class Applying {
   }
 
   void require_free() const {
-    for (std::size_t i = 0; i < change_.blocked.size(); ++i) {
-      const auto fail = [&](const std::string& message) {
-        throw InstanceError(fmt::format("blocked/{}", i), message);
-      };
-      for (const Agent& agent : instance_.agents()) {
-        const Place start = instance_.world().place(agent.start);
-        if (stands_on(start, change_.blocked[i])) fail(fmt::format("'{}' is there", agent.id));
-        if (agent.goal == change_.blocked[i])
-          fail(fmt::format("it is the destination of '{}'", agent.id));
-      }
-      for (TaskIndex task = 0; task < instance_.task_count(); ++task)
-        if (!dropped_[task] && instance_.task(task).cell == change_.blocked[i])
-          fail(fmt::format("task '{}' is there; expected that it is dropped, too",
-                           instance_.task(task).id));
+    for (std::size_t i = 0; i < change_.blocked.size(); ++i)
+      require_nothing_at(change_.blocked[i], fmt::format("blocked/{}", i));
+    const Roadmap* roadmap = instance_.roadmap();
+    for (const Agent& agent : instance_.agents()) {
+      const Place start = instance_.world().place(agent.start);
+      if (!roadmap || roadmap->spot(start).vertex >= 0) continue;
+      const int road = roadmap->spot(start).road;
+      if (is_closed(*roadmap, road, change_))
+        throw InstanceError(field_of(*roadmap, road),
+                            fmt::format("'{}' is on that road", agent.id));
     }
   }
 
-  // On it, or on a road that is closed with it.
-  bool stands_on(Place place, Place blocked) const {
-    if (place == blocked) return true;
-    const Roadmap* roadmap = instance_.roadmap();
-    if (!roadmap || roadmap->spot(place).vertex >= 0) return false;
-    return is_closed(*roadmap, roadmap->spot(place).road, {blocked});
+  void require_nothing_at(Place blocked, const std::string& field) const {
+    for (const Agent& agent : instance_.agents()) {
+      if (instance_.world().place(agent.start) == blocked)
+        throw InstanceError(field, fmt::format("'{}' is there", agent.id));
+      if (agent.goal == blocked)
+        throw InstanceError(field, fmt::format("it is the destination of '{}'", agent.id));
+    }
+    for (TaskIndex task = 0; task < instance_.task_count(); ++task)
+      if (!dropped_[task] && instance_.task(task).cell == blocked)
+        throw InstanceError(field, fmt::format("task '{}' is there; expected it to be dropped, too",
+                                               instance_.task(task).id));
+  }
+
+  // What closes the road.
+  std::string field_of(const Roadmap& roadmap, int road) const {
+    const auto found = std::ranges::find(change_.closed_roads, road);
+    if (found != change_.closed_roads.end())
+      return fmt::format("closed_roads/{}", found - change_.closed_roads.begin());
+    const Road& r = roadmap.roads()[road];
+    const auto end = std::ranges::find_if(change_.blocked, [&](Place place) {
+      return place == roadmap.place_of_vertex(r.from) || place == roadmap.place_of_vertex(r.to);
+    });
+    return fmt::format("blocked/{}", end - change_.blocked.begin());
   }
 
   // Fills in the numbers of tasks that are left.
@@ -177,7 +192,9 @@ class Applying {
       Pose pose = instance_.pose_of(state);
       pose.place = place_now(pose.place);
       if (pose.place == kNoPlace) break;
-      plan.path.push_back(now.state_of(agent, pose));
+      const State then = now.state_of(agent, pose);
+      if (!plan.path.empty() && !leads_to(now.world(), plan.path.back(), then)) break;
+      plan.path.push_back(then);
     }
     const Time end = static_cast<Time>(plan.path.size()) - 1;
     for (const WorkTime& work : before.work)
@@ -185,6 +202,11 @@ class Applying {
         plan.work.push_back({tasks[work.task], work.begin, work.end});
     plan.cost = end;
     return plan;
+  }
+
+  // Is there still a way?
+  static bool leads_to(const World& world, State from, State to) {
+    return from == to || std::ranges::count(world.moves(from), to) > 0;
   }
 
   bool is_affected(AgentIndex agent, const Changed& changed) const {

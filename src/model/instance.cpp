@@ -167,6 +167,7 @@ TaskIndex InstanceBuilder::add_task(std::string id, Position cell,
 TaskIndex InstanceBuilder::add_task(std::string id, Place place,
                                     std::span<const std::string> agent_ids, Time duration) {
   require_new_id(id, !task_by_id_.contains(id));
+  if (instance_.is_on_grid()) passable_cell("cell", instance_.grid().position(place));
   Task task{std::move(id), place, {}, duration};
   if (duration < 0 || duration > kLongest)
     throw InstanceError("duration",

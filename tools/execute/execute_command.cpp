@@ -20,6 +20,7 @@
 #include "tools/common/frame_arguments.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
+#include "tools/execute/robots.h"
 #include "tools/execute/troubles.h"
 #include "tools/view/page.h"
 #include "tools/view/page_data.h"
@@ -81,7 +82,7 @@ class Execution {
   explicit Execution(const ExecuteArguments& arguments)
       : a_(arguments),
         loaded_(arguments.instance.load()),
-        claimed_(read()),
+        claimed_(read_plan_to_drive(arguments.plan, loaded_.instance)),
         order_(loaded_.instance, *claimed_.solution.plan) {}
 
   void run() {
@@ -102,18 +103,6 @@ class Execution {
   }
 
  private:
-  ClaimedPlan read() const {
-    std::vector<std::string> warnings;
-    ClaimedPlan claimed = read_plan_of_any_tool(a_.plan, loaded_.instance, &warnings);
-    print_warnings(warnings);
-    const auto wrong = check(loaded_.instance, claimed.solution, 1);
-    if (!wrong.empty())
-      throw InputError(
-          a_.plan, wrong.front().place,
-          fmt::format("is not valid, so it cannot be driven: {}", wrong.front().message));
-    return claimed;
-  }
-
   static void write(const std::string& file, const std::string& text) {
     write_file_atomically(file, text);
     fmt::print("wrote {}\n", file);

@@ -11,27 +11,13 @@
 #include "grove/io/input_error.h"
 #include "grove/model/parse_number.h"
 #include "tools/common/options.h"
+#include "tools/execute/robots.h"
 
 namespace grove {
 namespace {
 
 constexpr IntegerRange kSteps{0, 1'000'000};
 constexpr double kMostSlow = 1000;
-
-[[noreturn]] void refuse(const std::string& option, const std::string& text,
-                         const std::string& expected) {
-  throw CLI::ValidationError(option,
-                             fmt::format("found '{}'; expected {}", one_line(text), expected));
-}
-
-AgentIndex agent_of(const std::string& option, const std::string& text, const std::string& id,
-                    const Instance& instance) {
-  const auto found = std::ranges::find(instance.agents(), id, &Agent::id);
-  if (found == instance.agents().end())
-    refuse(option, text,
-           fmt::format("a robot of the instance before '{}'", text.substr(id.size())));
-  return static_cast<AgentIndex>(found - instance.agents().begin());
-}
 
 double factor_of(const std::string& option, const std::string& text, const std::string& number) {
   std::size_t read = 0;
@@ -54,7 +40,7 @@ Troubles::Troubles(const TroubleArguments& arguments, const Instance& instance)
   for (const std::string& text : arguments.slow) {
     const auto split = text.rfind('=');
     if (split == std::string::npos) refuse("--slow", text, "ROBOT=FACTOR");
-    const AgentIndex agent = agent_of("--slow", text, text.substr(0, split), instance);
+    const AgentIndex agent = robot_of("--slow", text, text.substr(0, split), instance);
     slowness_[agent] = factor_of("--slow", text, text.substr(split + 1));
   }
   read_stops(arguments, instance);
@@ -67,14 +53,14 @@ void Troubles::read_stops(const TroubleArguments& arguments, const Instance& ins
     if (at == std::string::npos || split == std::string::npos || split < at)
       refuse("--stop", text, "ROBOT@TIME=STEPS");
     stops_.push_back(
-        {agent_of("--stop", text, text.substr(0, at), instance),
+        {robot_of("--stop", text, text.substr(0, at), instance),
          static_cast<Time>(parse_integer("--stop", text.substr(at + 1, split - at - 1), kSteps)),
          static_cast<Time>(parse_integer("--stop", text.substr(split + 1), kSteps))});
   }
   for (const std::string& text : arguments.dies) {
     const auto at = text.rfind('@');
     if (at == std::string::npos) refuse("--dies", text, "ROBOT@TIME");
-    stops_.push_back({agent_of("--dies", text, text.substr(0, at), instance),
+    stops_.push_back({robot_of("--dies", text, text.substr(0, at), instance),
                       static_cast<Time>(parse_integer("--dies", text.substr(at + 1), kSteps)),
                       kNever});
   }

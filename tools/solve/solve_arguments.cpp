@@ -201,6 +201,10 @@ void add_file_options(CLI::App& app, SolveArguments& a) {
   app.add_flag("--require-plan", a.require_plan,
                "end with exit code 3 if no plan was found (grove-mpi: with 0 even then, since "
                "mpirun takes anything else for a crash)");
+  add_log_options(app, a);
+}
+
+void add_log_options(CLI::App& app, SolveArguments& a) {
   app.add_option("--log", a.log, "write the log to this file too")->type_name("FILE");
   app.add_option("--log-format", a.log_format,
                  "text, for people, or jsonl: one JSON object per event and line, for programs")

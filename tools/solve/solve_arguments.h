@@ -52,6 +52,7 @@ void add_search_options(CLI::App& app, SolveArguments& arguments);
 void add_omega_option(CLI::App& app, SolveArguments& arguments);
 void add_method_options(CLI::App& app, SolveArguments& arguments);
 void add_file_options(CLI::App& app, SolveArguments& arguments);
+void add_log_options(CLI::App& app, SolveArguments& arguments);
 // All that `grove solve` knows.
 void add_solve_options(CLI::App& app, SolveArguments& arguments);
 

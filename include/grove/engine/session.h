@@ -43,8 +43,10 @@ class Session {
   // Solves the instance as it is: as grove::solve() does, but the old plan, repaired where it does
   // not do any more, is what it starts from (options.start is not looked at). All robots keep to
   // the old plan, or what a change left of it, for `commit` steps; the plan found begins with
-  // these. Then lower_bound holds for all plans, that of those that begin like this is
-  // counts["lower_bound_committed"]. Throws as solve() does, and NotCommitted.
+  // these. Then lower_bound holds for all plans; that of those that begin like this is
+  // counts["lower_bound_committed"], if all agents have a destination or nothing to do (who has
+  // none is to end on a task that is left, or as in the old plan). Throws as solve() does, and
+  // NotCommitted.
   Solution solve(const SolveOptions& options, const Limits& limits, RunObserver* observer = nullptr,
                  Time commit = 0);
 

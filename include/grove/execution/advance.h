@@ -2,6 +2,8 @@
 // What is left to do when a plan has been driven for a while.
 #pragma once
 
+#include <cstdint>
+
 #include "grove/model/plan.h"
 
 namespace grove {
@@ -19,7 +21,13 @@ struct Remainder {
 // one that it has visited has that place as its destination, for an instance cannot say that it may
 // rest there. `plan` must be a valid one, but that some agents' parts of it may end too soon and
 // leave tasks out, of what they say (change.h).
-Remainder advance(const Instance& instance, const Plan& plan, Time time);
+// With `rests` kWhereItMust the remainder serves to go on with a plan of `instance`: an agent
+// without a destination that has visited everything is not idle but ends on one of the places where
+// it may by `instance`, on that of `plan` if it can be. Throws InstanceError if two would end on
+// one.
+enum class Rests : std::uint8_t { kAnywhere, kWhereItMust };
+Remainder advance(const Instance& instance, const Plan& plan, Time time,
+                  Rests rests = Rests::kAnywhere);
 
 // When the agent comes to rest if its plan ends after `time` steps.
 Time finish_of_steps(const AgentPlan& plan, Time time);

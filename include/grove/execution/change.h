@@ -19,9 +19,8 @@ struct NewTask {
 struct InstanceChange {
   std::vector<NewTask> new_tasks;
   std::vector<std::string> dropped_tasks;  // by id
-  // Of a grid cells; of a roadmap vertices, whose roads are all closed, and places on roads, which
-  // are closed whole.
-  std::vector<Place> blocked;
+  std::vector<Place> blocked;     // cells of a grid, or vertices of a roadmap, with all their roads
+  std::vector<int> closed_roads;  // positions in Roadmap::roads()
 };
 
 // The instance that comes of it, and what a plan of the one before still says. A path that comes to
@@ -36,8 +35,8 @@ struct Changed {
 
 // `plan` must be a valid one, or what an earlier change left of one. On a map on which nothing is
 // closed states keep their numbers, but for those of agents at work. Throws InstanceError: field
-// "new_tasks/<i>/...", "dropped_tasks/<i>" or "blocked/<i>" - an agent stands there, is to end or
-// has to visit there (and the task is not dropped).
+// "new_tasks/<i>/...", "dropped_tasks/<i>", "blocked/<i>" or "closed_roads/<i>" - an agent is
+// there, is to end or has to visit there (and the task is not dropped).
 Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change);
 
 }  // namespace grove

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What may happen to robots that drive a plan.
+#pragma once
+
+#include <vector>
+
+#include "grove/execution/change.h"
+#include "grove/execution/late.h"
+#include "grove/model/random.h"
+
+namespace grove::testing {
+
+// One robot, or two, late by a few steps; nobody now and then.
+std::vector<Late> random_lateness(const Instance& instance, Random& random);
+
+// A task that has come, one that is dropped, a cell or a road that is closed: at least one of
+// these, of which some cannot be (a robot is there).
+InstanceChange random_change(const Instance& instance, Random& random);
+
+}  // namespace grove::testing

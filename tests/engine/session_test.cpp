@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include "grove/engine/session.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "grove/execution/advance.h"
+#include "grove/model/check.h"
+#include "tests/engine/random_change.h"
+#include "tests/execution/delays.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/support/fuzz_factor.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace session_test {
+
+using testing::AgentSpec;
+using testing::instance_of;
+
+Limits& within(Limits& limits, std::chrono::milliseconds time) {
+  limits.set_deadline(std::chrono::steady_clock::now() + time);
+  return limits;
+}
+
+SolveOptions with_omega(Omega omega) {
+  SolveOptions options;
+  options.omega = omega;
+  return options;
+}
+
+Solution solved(Session& session, Omega omega, Time commit = 0, int milliseconds = 100) {
+  Limits limits;
+  within(limits, std::chrono::milliseconds(milliseconds));
+  return session.solve(with_omega(omega), limits, nullptr, commit);
+}
+
+std::string wrong_with(const Instance& instance, const Solution& solution) {
+  const auto wrong = check(instance, solution, 1);
+  return wrong.empty() ? "" : wrong.front().place + ": " + wrong.front().message;
+}
+
+std::string wrong_with(const Instance& instance, const Plan& plan) {
+  Solution solution;
+  solution.plan = plan;
+  solution.status = status_of(plan.cost, 0, solution.omega);
+  return wrong_with(instance, solution);
+}
+
+Session session_of(const Instance& instance) {
+  Session session(instance);
+  solved(session, Omega());
+  return session;
+}
+
+TEST(Session, GoesOnByItsPlan) {
+  Session session = session_of(instance_of(
+      {"....."}, {AgentSpec{{0, 0}, Position{4, 0}, {Position{1, 0}, Position{3, 0}}}}));
+  ASSERT_TRUE(session.plan());
+  session.advance(2);
+  EXPECT_EQ(session.instance().task_count(), 1);
+  EXPECT_EQ(session.plan()->cost, 2);
+  EXPECT_EQ(solved(session, Omega()).plan->cost, 2);
+}
+
+TEST(Session, WhoIsLateIsWhereItWas) {
+  Session session = session_of(instance_of(
+      {"......"}, {AgentSpec{{0, 0}, Position{4, 0}, {}}, AgentSpec{{1, 0}, Position{5, 0}, {}}}));
+  // The second one is in the way of the first.
+  const Late late{1, 2};
+  session.advance(3, {&late, 1});
+  const Grid& grid = session.instance().grid();
+  EXPECT_EQ(session.instance().agent(1).start, grid.cell({2, 0}));
+  EXPECT_EQ(session.instance().agent(0).start, grid.cell({1, 0}));
+  EXPECT_EQ(wrong_with(session.instance(), *session.plan()), "");
+}
+
+TEST(Session, LatenessThatCannotBeIsRefused) {
+  Session session = session_of(instance_of(
+      {"......"}, {AgentSpec{{0, 0}, Position{4, 0}, {}}, AgentSpec{{1, 0}, Position{5, 0}, {}}}));
+  const Late late[] = {{1, 3}, {0, 1}};
+  const Plan before = *session.plan();
+  EXPECT_THROW(session.advance(3, late), ImpossibleLateness);
+  EXPECT_EQ(session.plan()->cost, before.cost);
+  EXPECT_EQ(session.instance().agent(0).start, session.instance().grid().cell({0, 0}));
+}
+
+TEST(Session, AClosedWayIsGoneRound) {
+  Session session =
+      session_of(instance_of({".....", "....."}, {AgentSpec{{0, 0}, Position{4, 0}, {}}}));
+  InstanceChange change;
+  change.blocked = {session.instance().grid().cell({2, 0})};
+  session.change(change);
+  EXPECT_FALSE(session.plan());
+  const Solution solution = solved(session, Omega());
+  EXPECT_EQ(solution.plan->cost, 6);
+  EXPECT_EQ(wrong_with(session.instance(), solution), "");
+}
+
+TEST(Session, WhatIsCommittedCannotBeClosed) {
+  Session session =
+      session_of(instance_of({".....", "....."}, {AgentSpec{{0, 0}, Position{4, 0}, {}}}));
+  InstanceChange change;
+  change.blocked = {session.instance().grid().cell({2, 0})};
+  session.change(change);
+  try {
+    solved(session, Omega(), 3);
+    FAIL();
+  } catch (const Session::NotCommitted& error) {
+    EXPECT_EQ(error.agent, 0);
+    EXPECT_EQ(error.steps, 1);
+  }
+  EXPECT_EQ(solved(session, Omega(), 1).plan->cost, 6);
+}
+
+TEST(Session, AChangeThatCannotBeChangesNothing) {
+  Session session =
+      session_of(instance_of({"....."}, {AgentSpec{{0, 0}, Position{4, 0}, {Position{2, 0}}}}));
+  InstanceChange standing;
+  standing.blocked = {0};
+  EXPECT_THROW(session.change(standing), InstanceError);
+  InstanceChange task;
+  task.blocked = {2};
+  EXPECT_THROW(session.change(task), InstanceError);
+  InstanceChange unknown;
+  unknown.dropped_tasks = {"nobody's"};
+  EXPECT_THROW(session.change(unknown), InstanceError);
+  ASSERT_TRUE(session.plan());
+  EXPECT_EQ(session.plan()->cost, 4);
+}
+
+TEST(Session, WithoutAPlanItSolvesFromNothing) {
+  Session session(instance_of({"....."}, {AgentSpec{{0, 0}, Position{4, 0}, {}}}));
+  InstanceChange change;
+  change.new_tasks.push_back({"t", 1, {session.instance().agent(0).id}});
+  session.change(change);
+  const Solution solution = solved(session, Omega());
+  ASSERT_TRUE(solution.plan);
+  EXPECT_EQ(solution.plan->agents[0].sequence.size(), 1u);
+}
+
+// What a plan of the session's instance must keep to, of the old one.
+struct Kept {
+  Instance instance;
+  Plan plan;
+  Time steps;
+  bool work_is_dropped = false;
+};
+
+void expect_kept(const Kept& kept, const Plan& plan, std::uint64_t seed) {
+  for (AgentIndex agent = 0; agent < kept.instance.agent_count(); ++agent)
+    for (Time t = 0; t <= kept.steps; ++t)
+      ASSERT_EQ(state_at(plan.agents[agent].path, t), state_at(kept.plan.agents[agent].path, t))
+          << seed << ": agent " << agent << " at " << t;
+}
+
+bool same_actions(const PassingOrder& before, const PassingOrder& after, Time steps) {
+  for (AgentIndex robot = 0; robot < before.agent_count(); ++robot)
+    for (ActionIndex a = before.begin_of(robot); a < before.end_of(robot); ++a) {
+      const ActionIndex same = after.begin_of(robot) + a - before.begin_of(robot);
+      if (before.actions()[a].begin >= steps) break;
+      if (same >= after.end_of(robot) || after.actions()[same].kind != before.actions()[a].kind ||
+          after.actions()[same].begin != before.actions()[a].begin)
+        return false;
+    }
+  return true;
+}
+
+// Robots go on by the old order with all kinds of delays, within the committed steps: whatever they
+// have done at whatever moment, the new order allows.
+void expect_safe(const Kept& kept, const Instance& now, const Plan& plan, std::uint64_t seed) {
+  const PassingOrder before(kept.instance, kept.plan);
+  const PassingOrder after(now, plan);
+  if (!same_actions(before, after, kept.steps)) {
+    ASSERT_TRUE(kept.work_is_dropped) << seed;
+    return;
+  }
+  testing::Delays delays(before, seed);
+  const auto is_committed = [&](ActionIndex a) { return before.actions()[a].begin < kept.steps; };
+  const Drive driven = drive(before, [&](ActionIndex a, Time begin) {
+    return is_committed(a) ? delays(a, begin) : kNever;
+  });
+  for (Time moment = 0; moment < 50; moment += 1 + moment / 4) {
+    const auto is_done = [&](ActionIndex a) {  // of the new order
+      const AgentIndex robot = after.actions()[a].agent;
+      const ActionIndex same = before.begin_of(robot) + a - after.begin_of(robot);
+      return same < before.end_of(robot) && is_committed(same) && driven.end[same] <= moment;
+    };
+    for (std::int32_t step = 0; step < after.step_count(); ++step)
+      for (const ActionIndex a : after.step(step)) {
+        if (!is_done(a)) continue;
+        ASSERT_TRUE(after.after(a) == kNoAction || is_done(after.after(a))) << seed;
+        for (const ActionIndex member : after.step(step)) ASSERT_TRUE(is_done(member)) << seed;
+      }
+  }
+}
+
+TEST(SessionFuzz, EveryAnswerHoldsAndKeepsWhatIsCommitted) {
+  int changes = 0;
+  int committed = 0;
+  const int count = testing::fuzz_rounds(100);
+  for (std::uint64_t seed = 1; static_cast<int>(seed) <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Session session(fuzz::random_world(seed).build());
+    if (!solved(session, Omega::infinite(), 0, 100).plan) continue;
+    for (int round = 0; round < 4 && session.plan(); ++round) {
+      const Time time = random.below(6);
+      try {
+        session.advance(time, testing::random_lateness(session.instance(), random));
+      } catch (const ImpossibleLateness&) {
+        session.advance(time);
+      }
+      ASSERT_EQ(wrong_with(session.instance(), *session.plan()), "") << seed;
+      const Time commit = static_cast<Time>(random.below(3) == 0 ? random.below(4) : 0);
+      Kept kept{session.instance(), *session.plan(), commit};
+      bool changed = true;
+      try {
+        const InstanceChange change = testing::random_change(session.instance(), random);
+        kept.work_is_dropped = !change.dropped_tasks.empty();
+        session.change(change);
+      } catch (const InstanceError&) {
+        changed = false;
+      }
+      try {
+        const Solution best = solved(session, Omega(), commit);
+        if (!best.plan) break;
+        ++changes;
+        ASSERT_EQ(wrong_with(session.instance(), best), "") << seed;
+        // Nothing that is proven is refuted by what another search finds.
+        Limits limits;
+        const Solution anew = grove::solve(session.instance(), with_omega(Omega()),
+                                           within(limits, std::chrono::milliseconds(100)));
+        ASSERT_LE(best.lower_bound, anew.plan ? anew.plan->cost : best.plan->cost) << seed;
+        ASSERT_GE(best.plan->cost, anew.lower_bound) << seed;
+        if (commit == 0) continue;
+        ++committed;
+        if (best.stats.counts.contains("lower_bound_committed")) {
+          ASSERT_LE(best.stats.counts.at("lower_bound_committed"), best.plan->cost) << seed;
+        }
+        if (!changed || kept.instance.is_on_grid()) expect_kept(kept, *best.plan, seed);
+        expect_safe(kept, session.instance(), *best.plan, seed);
+      } catch (const Session::NotCommitted&) {
+        break;
+      }
+    }
+  }
+  EXPECT_GT(changes, count);
+  EXPECT_GT(committed, count / 8);
+}
+
+// The tightest of all: of what begins like this, the search without the committed steps.
+TEST(SessionFuzz, TheBoundOfWhatIsCommittedIsReached) {
+  int optimal = 0;
+  for (std::uint64_t seed = 1000; seed < 1100; ++seed) {
+    Session session(fuzz::random_world(seed).build());
+    if (!solved(session, Omega::infinite(), 0, 100).plan) continue;
+    const Solution solution = solved(session, Omega(), 2);
+    ASSERT_TRUE(solution.plan) << seed;
+    ASSERT_EQ(wrong_with(session.instance(), solution), "") << seed;
+    if (!solution.stats.counts.contains("lower_bound_committed")) continue;
+    const Cost bound = solution.stats.counts.at("lower_bound_committed");
+    ASSERT_LE(bound, solution.plan->cost) << seed;
+    optimal += bound == solution.plan->cost ? 1 : 0;
+  }
+  EXPECT_GT(optimal, 50);
+}
+
+}  // namespace session_test
+}  // namespace grove

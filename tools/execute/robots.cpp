@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "tools/execute/robots.h"
+
+#include <fmt/format.h>
+
+#include <CLI/Error.hpp>
+#include <algorithm>
+#include <vector>
+
+#include "grove/io/input_error.h"
+#include "grove/model/check.h"
+#include "tools/common/instance_arguments.h"
+
+namespace grove {
+
+void refuse(const std::string& option, const std::string& text, const std::string& expected) {
+  throw CLI::ValidationError(option,
+                             fmt::format("found '{}'; expected {}", one_line(text), expected));
+}
+
+AgentIndex robot_of(const std::string& option, const std::string& text, const std::string& id,
+                    const Instance& instance) {
+  const auto found = std::ranges::find(instance.agents(), id, &Agent::id);
+  if (found == instance.agents().end())
+    refuse(option, text,
+           fmt::format("a robot of the instance before '{}'", text.substr(id.size())));
+  return static_cast<AgentIndex>(found - instance.agents().begin());
+}
+
+ClaimedPlan read_plan_to_drive(const std::string& file, const Instance& instance) {
+  std::vector<std::string> warnings;
+  ClaimedPlan claimed = read_plan_of_any_tool(file, instance, &warnings);
+  print_warnings(warnings);
+  const auto wrong = check(instance, claimed.solution, 1);
+  if (!wrong.empty())
+    throw InputError(
+        file, wrong.front().place,
+        fmt::format("is not valid, so it cannot be driven: {}", wrong.front().message));
+  return claimed;
+}
+
+}  // namespace grove

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "tools/replan/change_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/Error.hpp>
+#include <algorithm>
+
+#include "grove/io/input_error.h"
+#include "grove/model/parse_number.h"
+#include "tools/common/instance_arguments.h"
+#include "tools/common/options.h"
+#include "tools/execute/robots.h"
+
+namespace grove {
+namespace {
+
+constexpr IntegerRange kSteps{0, 1'000'000};
+
+// "new_tasks/3/agents/0" as its parts "new_tasks", 3 and "/agents/0".
+struct Field {
+  explicit Field(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const std::size_t next = std::min(text.find('/', slash + 1), text.size());
+    part = text.substr(0, slash);
+    if (slash == std::string::npos) return;
+    number = parse_number<std::size_t>(text.substr(slash + 1, next - slash - 1)).value_or(0);
+    rest = text.substr(next);
+  }
+  std::string part;
+  std::size_t number = 0;
+  std::string rest;
+};
+
+}  // namespace
+
+std::vector<Late> late_robots(const ChangeArguments& arguments, const Instance& instance) {
+  std::vector<Late> late;
+  for (const std::string& text : arguments.late) {
+    const auto split = text.rfind('=');
+    if (split == std::string::npos) refuse("--late", text, "ROBOT=STEPS");
+    const AgentIndex robot = robot_of("--late", text, text.substr(0, split), instance);
+    if (std::ranges::count(late, robot, &Late::agent) > 0)
+      refuse("--late", text, "each robot once");
+    late.push_back(
+        {robot, static_cast<Time>(parse_integer("--late", text.substr(split + 1), kSteps))});
+  }
+  return late;
+}
+
+AskedChange::AskedChange(const ChangeArguments& arguments, const Instance& instance) {
+  for (const std::string& file : arguments.new_tasks) read_new_tasks(file, instance);
+  for (const std::string& task : arguments.dropped) {
+    change_.dropped_tasks.push_back(task);
+    dropped_.push_back({"--drop-task", task});
+  }
+  for (const std::string& text : arguments.blocked) block(text, instance);
+}
+
+void AskedChange::read_new_tasks(const std::string& file, const Instance& instance) {
+  std::vector<std::string> warnings;
+  for (ReadTask& read : grove::read_new_tasks(file, instance, &warnings)) {
+    change_.new_tasks.push_back(std::move(read.task));
+    new_tasks_.push_back({file, read.place});
+  }
+  print_warnings(warnings);
+}
+
+void AskedChange::block(const std::string& text, const Instance& instance) {
+  if (instance.roadmap()) return block_on_roadmap(text, *instance.roadmap());
+  const Grid& grid = instance.grid();
+  const std::size_t comma = text.find(',');
+  const auto x = parse_number<int>(text.substr(0, comma), 0, grid.width() - 1);
+  const auto y = comma == std::string::npos
+                     ? std::nullopt
+                     : parse_number<int>(text.substr(comma + 1), 0, grid.height() - 1);
+  if (!x || !y)
+    grove::refuse("--blocked", text,
+                  fmt::format("X,Y, a cell with x in 0..{} and y in 0..{}", grid.width() - 1,
+                              grid.height() - 1));
+  change_.blocked.push_back(grid.cell({*x, *y}));
+  blocked_.push_back({"--blocked", text});
+}
+
+void AskedChange::block_on_roadmap(const std::string& text, const Roadmap& roadmap) {
+  if (const auto vertex = roadmap.vertex(text)) {
+    change_.blocked.push_back(roadmap.place_of_vertex(*vertex));
+    blocked_.push_back({"--blocked", text});
+    return;
+  }
+  // Ids may have commas in them.
+  for (std::size_t comma = text.find(','); comma != std::string::npos;
+       comma = text.find(',', comma + 1)) {
+    const auto from = roadmap.vertex(text.substr(0, comma));
+    const auto to = roadmap.vertex(text.substr(comma + 1));
+    if (!from || !to || roadmap.roads_between(*from, *to).empty()) continue;
+    for (const int road : roadmap.roads_between(*from, *to)) {
+      change_.closed_roads.push_back(road);
+      closed_roads_.push_back({"--blocked", text});
+    }
+    return;
+  }
+  grove::refuse("--blocked", text, "a vertex of the roadmap, or A,B: two that a road joins");
+}
+
+void AskedChange::refuse(const InstanceError& error) const {
+  const Field field(error.field());
+  if (field.part == "new_tasks") {
+    const Said& said = new_tasks_[field.number];
+    throw InputError(said.where, said.what + field.rest, error.what());
+  }
+  const auto& all = field.part == "dropped_tasks" ? dropped_
+                    : field.part == "blocked"     ? blocked_
+                                                  : closed_roads_;
+  if (field.number >= all.size()) throw error;
+  const Said& said = all[field.number];
+  throw CLI::ValidationError(said.where,
+                             fmt::format("'{}': {}", one_line(said.what), error.what()));
+}
+
+}  // namespace grove
