@@ -64,7 +64,9 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
 AgentPlan with_work_before_turns(const Instance& instance, AgentPlan plan) {
   for (WorkTime& work : plan.work) {
     if (work.begin <= 0) continue;
-    const auto within_turn = [&](Time t) { return instance.pose_of(plan.path[t]).steps > 0; };
+    const auto within_turn = [&](Time t) {
+      return instance.pose_of(plan.path[t]).steps > 0 && plan.path[t] != plan.path.front();
+    };
     Time turn = work.begin;
     while (turn > 0 && within_turn(turn)) --turn;
     const auto at = [&](Time t) { return plan.path.begin() + t; };
