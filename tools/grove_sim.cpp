@@ -93,6 +93,7 @@ void add_options(CLI::App& app, SimArguments& a) {
   add_number(app, "--cost-per-work", a.machine.seconds_per_work, 0, 1e3,
              "seconds that a unit of an expansion's work takes; 0: what it takes here")
       ->type_name("S");
+  a.solve.instance.add_rules_to(app);
   add_omega_option(app, a.solve);
   add_method_options(app, a.solve);
   app.add_option("--start", a.solve.start, "a plan file of this instance: the first incumbent")

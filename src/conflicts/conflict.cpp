@@ -11,6 +11,14 @@ namespace grove {
 
 Split split(const Conflict& c) {
   GROVE_ASSERT(c.first >= 0 && c.first < c.second, "two agents conflict");
+  if (c.is_following()) {
+    // Whoever leaves may not have been there just before, or the other not enter then.
+    const auto bar = [&](AgentIndex agent) {
+      const Time time = agent == c.follower ? c.time : c.time - 1;
+      return Constraint{c.cell, kNoPlace, time, time};
+    };
+    return {{{c.first, bar(c.first)}, {c.second, bar(c.second)}}};
+  }
   if (!c.is_swap()) {
     const Constraint here{c.cell, kNoPlace, c.time, c.time};
     return {{{c.first, here}, {c.second, here}}};
@@ -19,7 +27,8 @@ Split split(const Conflict& c) {
       {{c.first, {c.cell, c.from, c.time, c.time}}, {c.second, {c.from, c.cell, c.time, c.time}}}};
 }
 
-ConflictFinder::ConflictFinder(const World& world) : world_(world) {
+ConflictFinder::ConflictFinder(const World& world, bool may_follow)
+    : world_(world), may_follow_(may_follow) {
   for (auto& visits : visits_) visits.resize(world.place_count());
 }
 
@@ -33,6 +42,8 @@ void ConflictFinder::all(std::span<const Path> paths, std::span<const AgentIndex
     for (AgentIndex agent : agents) meet_all(paths, agent, time, conflicts);
     if (time == 0) continue;
     for (AgentIndex agent : agents) swap_all(paths, agent, time, conflicts);
+    if (may_follow_) continue;
+    for (AgentIndex agent : agents) follow_all(paths, agent, time, conflicts);
   }
   base_ += static_cast<std::int64_t>(horizon) + 1;
 }
@@ -63,6 +74,22 @@ void ConflictFinder::swap_all(std::span<const Path> paths, AgentIndex agent, Tim
   for (AgentIndex other = visit.agent; other >= 0; other = also_there[other])
     if (agent < other && place_at(world_, paths[other], time) == from)
       conflicts.push_back({agent, other, to, from, time});
+}
+
+// Those that stay are met, those that come the other way swapped with.
+void ConflictFinder::follow_all(std::span<const Path> paths, AgentIndex agent, Time time,
+                                std::vector<Conflict>& conflicts) const {
+  const Place to = place_at(world_, paths[agent], time);
+  const Place from = place_at(world_, paths[agent], time - 1);
+  const Visit& visit = visits_[(time - 1) % 2][to];
+  if (from == to || visit.stamp != base_ + time - 1) return;
+  const auto& also_there = also_there_[(time - 1) % 2];
+  for (AgentIndex other = visit.agent; other >= 0; other = also_there[other]) {
+    const Place now = place_at(world_, paths[other], time);
+    if (now != to && now != from)
+      conflicts.push_back(
+          {std::min(agent, other), std::max(agent, other), to, kNoPlace, time, agent});
+  }
 }
 
 }  // namespace grove

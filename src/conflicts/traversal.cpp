@@ -95,6 +95,7 @@ std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> pa
 
 std::optional<Split> traversal_split(const Conflict& conflict, std::span<const Path> paths,
                                      const World& world, const Chains& chains) {
+  if (conflict.is_following()) return std::nullopt;
   // Where both are, or - when they meet on an end - where one of them comes from.
   const std::array<Place, 4> places{
       conflict.cell, conflict.is_swap() ? conflict.from : conflict.cell,

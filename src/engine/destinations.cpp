@@ -171,7 +171,7 @@ std::optional<Destinations> choose_destinations(const Problem& problem, Cost vis
 }
 
 Instance with_destinations(const Instance& instance, const Destinations& destinations) {
-  InstanceBuilder builder(instance.map());
+  InstanceBuilder builder = InstanceBuilder::like(instance);
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
     const TaskIndex end = destinations.tasks[i];

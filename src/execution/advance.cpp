@@ -129,7 +129,7 @@ class AgentLater {
 Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests rests) {
   GROVE_ASSERT(time >= 0, "plans begin at time 0");
   std::vector<AgentLater> agents;
-  InstanceBuilder builder(instance.shared_map());
+  InstanceBuilder builder = InstanceBuilder::like(instance);
   std::vector<std::vector<std::string>> visitors(instance.tasks().size());
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     agents.emplace_back(instance, i, plan.agents[i], time, rests);

@@ -146,6 +146,7 @@ class Applying {
   // Fills in the numbers of tasks that are left.
   Instance build(std::vector<TaskIndex>& tasks) const {
     InstanceBuilder builder(closed_.map);
+    if (!instance_.may_follow()) builder.forbid_following();
     for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
       AgentSpec spec = instance_.spec(i);
       spec.start.place = place_now(spec.start.place);

@@ -36,7 +36,7 @@ std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
 // Builds `instance` anew, with the agent ids of `agent_id(i)` and the task ids of `task_id(i)`.
 template <typename AgentId, typename TaskId>
 InstanceBuilder with_agents(const Instance& instance, AgentId agent_id, TaskId task_id) {
-  InstanceBuilder builder(instance.shared_map());
+  InstanceBuilder builder = InstanceBuilder::like(instance);
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     AgentSpec spec = instance.spec(i);
     spec.id = agent_id(i);

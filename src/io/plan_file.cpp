@@ -59,6 +59,7 @@ OrderedJson solution_json(const Instance& instance, const Solution& solution) {
   if (solution.plan) json["cost"] = solution.plan->cost;
   json["lower_bound"] = solution.lower_bound;
   json["omega"] = omega_json(solution.omega);
+  if (!instance.may_follow()) json["following"] = false;  // what is claimed is of that instance
   if (solution.plan) {
     OrderedJson& agents = json["agents"] = OrderedJson::array();
     for (std::size_t i = 0; i < solution.plan->agents.size(); ++i)
@@ -191,13 +192,14 @@ Solution parse_solution(std::string_view text, const std::string& name, const In
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   UnknownKeys unknown(name, warnings);
-  unknown.look_at(root, {"status", "cost", "lower_bound", "omega", "agents", "stats"});
+  unknown.look_at(root, {"status", "cost", "lower_bound", "omega", "following", "agents", "stats"});
 
   Solution solution;
   solution.status = read_status(root.member("status"));
   solution.lower_bound =
       root.member("lower_bound").integer(std::numeric_limits<Cost>::min(), kLargestCost);
   solution.omega = read_omega(root.member("omega"));
+  if (const auto following = root.find("following")) solution.may_follow = following->boolean();
   const bool has_plan = root.find("cost") || root.find("agents");
   if (has_plan) solution.plan = PlanReader(instance, unknown).read(root);
   if (const auto stats = root.find("stats")) solution.stats = read_stats(*stats);

@@ -356,10 +356,12 @@ class AgentCheck {
 // Moves all agents through time together. Every path must stay inside the map.
 class CollisionCheck {
  public:
-  CollisionCheck(const Instance& instance, const Steps& steps, const Plan& plan, Report& report)
+  CollisionCheck(const Instance& instance, const Steps& steps, const Plan& plan, bool may_follow,
+                 Report& report)
       : instance_(instance),
         steps_(steps),
         plan_(plan),
+        may_follow_(may_follow),
         report_(report),
         before_(static_cast<std::size_t>(steps.places()), kNobody),
         now_(static_cast<std::size_t>(steps.places()), kNobody) {}
@@ -371,6 +373,8 @@ class CollisionCheck {
       for (AgentIndex i = 0; i < agent_count(); ++i) enter(i, t);
       if (t > 0)
         for (AgentIndex i = 0; i < agent_count(); ++i) check_swap(i, t);
+      if (t > 0 && !may_follow_)
+        for (AgentIndex i = 0; i < agent_count(); ++i) check_following(i, t);
       if (t > 0)
         for (AgentIndex i = 0; i < agent_count(); ++i) before_[at(i, t - 1)] = kNobody;
       std::swap(before_, now_);
@@ -405,6 +409,18 @@ class CollisionCheck {
                   id(agent), id(other), steps_.name(from), steps_.name(to), t - 1, t);
   }
 
+  void check_following(AgentIndex agent, std::size_t t) {
+    const Place to = at(agent, t);
+    const AgentIndex other = before_[to];
+    if (other == kNobody || other == agent || at(other, t) == to) return;
+    if (is_new(following_pairs_, other, agent))
+      report_.add(
+          where(agent, t),
+          "agent '{}' enters {} at time {}, as '{}' leaves it; expected that nobody follows "
+          "another so closely",
+          id(agent), steps_.name(to), t, id(other));
+  }
+
   const std::string& id(AgentIndex agent) const { return instance_.agent(agent).id; }
 
   std::string where(AgentIndex agent, std::size_t t) const {
@@ -421,11 +437,13 @@ class CollisionCheck {
   const Instance& instance_;
   const Steps& steps_;
   const Plan& plan_;
+  const bool may_follow_;
   Report& report_;
   std::vector<AgentIndex> before_;  // by place: an agent that was there at time t - 1
   std::vector<AgentIndex> now_;
   Pairs vertex_pairs_;
   Pairs edge_pairs_;
+  Pairs following_pairs_;
 };
 
 // The cost that the paths add up to; none when a path cannot be followed.
@@ -481,7 +499,8 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
   }
   const Steps steps(instance.map());
   if (const auto cost = check_agents(instance, steps, plan, report)) {
-    CollisionCheck(instance, steps, plan, report).run();
+    CollisionCheck(instance, steps, plan, instance.may_follow() && solution.may_follow, report)
+        .run();
     check_claims(solution, *cost, report);
   }
   return report.take();

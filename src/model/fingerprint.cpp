@@ -56,6 +56,7 @@ std::uint64_t fingerprint(const Instance& instance) {
     hash.add(static_cast<std::int64_t>(agent.tasks.size()));
     for (const TaskIndex task : agent.tasks) hash.add(task);
   }
+  if (!instance.may_follow()) hash.add(1);
   return hash.hash();
 }
 

@@ -92,6 +92,12 @@ InstanceBuilder::InstanceBuilder(Map map)
     : InstanceBuilder(std::make_shared<const Map>(std::move(map))) {}
 InstanceBuilder::InstanceBuilder(std::shared_ptr<const Map> map) : instance_(std::move(map)) {}
 
+InstanceBuilder InstanceBuilder::like(const Instance& instance) {
+  InstanceBuilder builder(instance.shared_map());
+  if (!instance.may_follow()) builder.forbid_following();
+  return builder;
+}
+
 std::string InstanceBuilder::name(Place place) const {
   return (instance_.is_on_grid() ? "cell " : "place ") + instance_.world().name(place);
 }

@@ -37,6 +37,7 @@ void SafeIntervals::assign(const Reservations& reservations) {
 
 void SafeIntervals::look_up(Place place) {
   const std::span<const Reservations::Stay> stays = reservations_->stays(place);
+  const Time margin = reservations_->margin();
   if (stays.empty()) return;
   Group g{.place = place};
   g.first_slot = slot_count();
@@ -44,10 +45,10 @@ void SafeIntervals::look_up(Place place) {
     Time safe_from = 0;
     Place left_for = kNoPlace;
     for (const Reservations::Stay& stay : stays) {
-      if (safe_from < stay.first)
-        intervals_.push_back(
-            {state, safe_from, stay.first - 1, stay.first - 1, kFree, false, left_for});
-      safe_from = stay.last + 1;
+      const Time until = stay.first - 1 - margin;
+      if (safe_from <= until)
+        intervals_.push_back({state, safe_from, until, until, kFree, false, left_for});
+      safe_from = stay.last + 1 + margin;
       left_for = stay.next;
     }
     if (safe_from < kNever)

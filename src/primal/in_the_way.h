@@ -15,17 +15,19 @@ void visit_those_in_the_way(const World& world, const Reservations& reservations
   const auto ends_at = [&](AgentIndex other) {
     return other != Reservations::kNobody && other != agent && !visit(other);
   };
+  const Time margin = reservations.margin();
   for (Time t = 1; t < static_cast<Time>(path.size()); ++t) {
     const Place from = world.place(path[t - 1]);
     const Place to = world.place(path[t]);
-    if (ends_at(reservations.agent_at(to, t + late))) return;
+    for (Time at = t + late - margin; at <= t + late + margin; ++at)
+      if (ends_at(reservations.agent_at(to, at))) return;
     const AgentIndex before = reservations.agent_at(to, t + late - 1);
     const bool swaps = from != to && before == reservations.agent_at(from, t + late);
     if (swaps && ends_at(before)) return;
   }
   const Time end = static_cast<Time>(path.size()) - 1 + late;
   for (const Reservations::Stay& stay : reservations.stays(world.place(path.back())))
-    if (stay.last >= end && ends_at(stay.agent)) return;
+    if (stay.last >= end - margin && ends_at(stay.agent)) return;
 }
 
 }  // namespace grove

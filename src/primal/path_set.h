@@ -14,7 +14,9 @@ namespace grove {
 // Paths that do not collide, by AgentIndex; an agent without one has an empty path.
 class PathSet {
  public:
-  PathSet(const World& world, int agents) : reservations_(world), paths_(agents) {}
+  explicit PathSet(const Instance& instance)
+      : reservations_(instance.world(), instance.may_follow() ? 0 : 1),
+        paths_(static_cast<std::size_t>(instance.agent_count())) {}
 
   const Reservations& reservations() const { return reservations_; }
   const std::vector<Path>& paths() const { return paths_; }

@@ -57,12 +57,13 @@ class PrimalSearch::Impl {
       : problem_(problem),
         tuning_(tuning),
         seed_(seed),
-        may_configure_(techniques.has(Technique::kConfigurations)),
+        // (Its agents move into each other's places.)
+        may_configure_(techniques.has(Technique::kConfigurations) && problem.instance.may_follow()),
         agents_(problem.instance.agent_count()),
         random_(seed),
         router_(problem, stops),
-        paths_(problem.instance.world(), agents_),
-        planned_(problem.instance.world(), agents_),
+        paths_(problem.instance),
+        planned_(problem.instance),
         planning_(router_, planned_, random_, tuning_),
         neighborhoods_(problem, router_, paths_, random_, tuning_) {}
 

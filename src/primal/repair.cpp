@@ -30,7 +30,7 @@ class Repair {
         limits_(limits),
         random_(seed),
         router_(problem, stops),
-        paths_(problem.instance.world(), agents_) {}
+        paths_(problem.instance) {}
 
   std::optional<Plan> run(const std::vector<Path>& paths) {
     for (AgentIndex agent = 0; agent < agents_; ++agent) {

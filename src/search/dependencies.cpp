@@ -115,7 +115,8 @@ Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, NodeV
     if (techniques_.has(Technique::kJointPaths) && known.excess == 0) {
       const auto dependence = compare(view, a, b, limits);
       if (!dependence) return Outcome::kStopped;
-      known.exact = *dependence == Dependence::kCompatible;
+      // (Of following the comparison knows nothing.)
+      known.exact = *dependence == Dependence::kCompatible && instance_.may_follow();
       known.excess = *dependence == Dependence::kDependent ? 1 : 0;
     }
     const bool solved =

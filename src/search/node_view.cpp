@@ -12,7 +12,7 @@ NodeView::NodeView(const Problem& problem, const SearchOptions& options, Memory&
     : problem_(problem),
       audit_(options.audit),
       memory_(memory),
-      finder_(problem.instance.world()) {}
+      finder_(problem.instance.world(), problem.instance.may_follow()) {}
 
 void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
   GROVE_ASSERT(node && std::ranges::is_sorted(scope), "a scope is in ascending order");

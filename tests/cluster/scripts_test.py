@@ -18,8 +18,9 @@ SLURM = {
     "srun": 'while case $1 in --*) ;; *) false ;; esac; do shift; done; exec "$@"',
     "scontrol": 'echo "$@" >>scontrol.log',
 }
-# Not for grove-mpi: --deterministic, --log-tree, and --anytime with the only method that has it.
-NOT_OURS = {"--deterministic", "--anytime", "--log-tree"}
+# Not for grove-mpi: --deterministic, --log-tree, and --anytime with the only method that has it; and
+# the plan to start from need not keep to --no-following.
+NOT_OURS = {"--deterministic", "--anytime", "--log-tree", "--no-following"}
 VALUES = {
     "--omega": "0.5", "--time-limit": "20", "--memory-limit": "1", "--threads": "1",
     "--method": "auto", "--policy": "fixed", "--rtsp": "dp", "--seed": "3", "--checkpoint": "other",

@@ -25,20 +25,25 @@ Cell at(const Path& path, Time t) {
 }
 
 // Do agents a and b collide at time t? Straight from the definition.
-bool collide(const Path& a, const Path& b, Time t) {
+bool collide(const Path& a, const Path& b, Time t, bool may_follow = true) {
   if (at(a, t) == at(b, t)) return true;
+  const auto enters = [&](const Path& one, const Path& other) {
+    return t > 0 && at(one, t) != at(one, t - 1) && at(one, t) == at(other, t - 1);
+  };
+  if (!may_follow && (enters(a, b) || enters(b, a))) return true;
   return t > 0 && at(a, t) == at(b, t - 1) && at(b, t) == at(a, t - 1);
 }
 
 // Every time at which a pair collides, but for those at which both stand where they stood together.
 using Meetings = std::multiset<std::tuple<Time, AgentIndex, AgentIndex>>;
 
-Meetings meetings(const std::vector<Path>& paths, const std::vector<AgentIndex>& agents) {
+Meetings meetings(const std::vector<Path>& paths, const std::vector<AgentIndex>& agents,
+                  bool may_follow) {
   Meetings all;
   for (Time t = 0; t < 50; ++t)
     for (AgentIndex a : agents)
       for (AgentIndex b : agents)
-        if (a < b && collide(paths[a], paths[b], t) &&
+        if (a < b && collide(paths[a], paths[b], t, may_follow) &&
             !(t > 0 && at(paths[a], t - 1) == at(paths[a], t) &&
               at(paths[b], t - 1) == at(paths[b], t)))
           all.emplace(t, a, b);
@@ -91,10 +96,34 @@ TEST(ConflictFinder, AllowsFollowingAndRotation) {
   EXPECT_TRUE(conflicts_of(finder, std::vector<Path>{{0, 1}, {1, 3}, {3, 2}, {2, 0}}).empty());
 }
 
-TEST(ConflictFinder, FindsTheCollisionsOfRandomPathsAndSplitLosesNone) {
+TEST(ConflictFinder, SeesWhoFollowsWhereThatIsForbidden) {
+  const Grid grid = open_grid(4, 1);
+  ConflictFinder finder(grid, false);
+  const auto conflicts = conflicts_of(finder, std::vector<Path>{{1, 2, 3}, {0, 0, 1, 2}, {0}});
+  // Agent 1 enters 2 at 3, when agent 0 is long gone; 0 leaves 1 at 1 and 1 enters it at 2.
+  std::vector<Conflict> following;
+  for (const Conflict& c : conflicts)
+    if (c.is_following()) following.push_back(c);
+  EXPECT_TRUE(following.empty());
+  const auto close = conflicts_of(finder, std::vector<Path>{{1, 2, 3}, {0, 1, 2}});
+  ASSERT_EQ(close.size(), 2u);
+  EXPECT_EQ(close[0].follower, 1);
+  EXPECT_EQ(close[0].cell, 1);
+  EXPECT_EQ(close[0].time, 1);
+  EXPECT_EQ(split(close[0])[0].constraint.begin, 0);
+  EXPECT_EQ(split(close[0])[1].constraint.begin, 1);
+  const Grid square = open_grid(2, 2);
+  ConflictFinder ring(square, false);
+  EXPECT_EQ(conflicts_of(ring, std::vector<Path>{{0, 1}, {1, 3}, {3, 2}, {2, 0}}).size(), 4u);
+}
+
+class RandomPaths : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(MayFollow, RandomPaths, ::testing::Bool());
+
+TEST_P(RandomPaths, CollisionsAreFoundAndSplitLosesNone) {
   const Grid grid = open_grid(5, 4);
   std::mt19937 random(7);
-  ConflictFinder finder(grid);
+  ConflictFinder finder(grid, GetParam());
   int with_conflict = 0;
   for (int round = 0; round < 3000; ++round) {
     std::vector<Path> paths(2 + random() % 4);
@@ -113,7 +142,7 @@ TEST(ConflictFinder, FindsTheCollisionsOfRandomPathsAndSplitLosesNone) {
     finder.all(paths, agents, conflicts);
     Meetings found;
     for (const Conflict& c : conflicts) found.emplace(c.time, c.first, c.second);
-    ASSERT_EQ(found, meetings(paths, agents));
+    ASSERT_EQ(found, meetings(paths, agents, GetParam()));
     ASSERT_TRUE(std::ranges::is_sorted(conflicts, {}, &Conflict::time));
     for (const Conflict& conflict : conflicts) {
       ++with_conflict;
@@ -124,7 +153,9 @@ TEST(ConflictFinder, FindsTheCollisionsOfRandomPathsAndSplitLosesNone) {
       // Any two paths that do not collide there obey at least one of the two.
       for (const Path& a : paths)
         for (const Path& b : paths)
-          EXPECT_TRUE(collide(a, b, conflict.time) || obeys(grid, a, branches[0].constraint) ||
+          EXPECT_TRUE(collide(a, b, conflict.time, GetParam()) ||
+                      (conflict.is_following() && collide(a, b, conflict.time - 1)) ||
+                      obeys(grid, a, branches[0].constraint) ||
                       obeys(grid, b, branches[1].constraint));
     }
   }

@@ -198,6 +198,7 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.instance = on_plain_grid ? random_instance(seed)
                        : world < 50  ? random_roads(seed)
                                      : random_world(seed);
+  fuzz_case.instance.may_follow = Random(seed ^ 0xF0110).below(100) >= 15;
   Random random(~seed);
   fuzz_case.options.omega = random_omega(random);
   fuzz_case.options.policy =

@@ -175,6 +175,10 @@ void read_line(const std::string& line, std::string& section, TinyInstance& inst
     section = line;
     return;
   }
+  if (line == "no following") {
+    instance.may_follow = false;
+    return;
+  }
   std::istringstream in(line);
   if (section == "map")
     instance.rows.push_back(read_row(in));
@@ -202,6 +206,7 @@ std::vector<Position> passable_cells(const std::vector<std::string>& rows) {
 
 Instance TinyInstance::build() const {
   InstanceBuilder builder(roads.empty() ? Map(grid_of(rows)) : Map(roadmap_of(*this)));
+  if (!may_follow) builder.forbid_following();
   for (std::size_t a = 0; a < agents.size(); ++a)
     builder.add_agent(spec_of(builder, static_cast<int>(a), agents[a]));
   for (std::size_t t = 0; t < tasks.size(); ++t) {
@@ -238,6 +243,7 @@ std::string TinyInstance::to_text() const {
     text += fmt::format("{},{}{}: {}\n", task.cell.x, task.cell.y,
                         task.duration > 0 ? fmt::format(" takes {}", task.duration) : "",
                         fmt::join(task.agents, " "));
+  if (!may_follow) text += "no following\n";
   return text;
 }
 

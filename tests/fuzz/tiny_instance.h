@@ -33,6 +33,8 @@ namespace grove::fuzz {
 //     work 0 2       (it has done 2 steps of task 0)
 //     road 1 2       (it starts 2 steps along road 1 instead)
 //
+// A line "no following" forbids agents to enter a place in the step in which another leaves it.
+//
 // With roads the passable cells are the vertices of a roadmap, and nothing else joins them:
 //
 //     roads
@@ -72,6 +74,7 @@ struct TinyInstance {
   std::vector<Road> roads;        // empty: a grid
   std::vector<Agent> agents;
   std::vector<Task> tasks;
+  bool may_follow = true;
 
   // Throws InstanceError or std::invalid_argument where it breaks the rules.
   Instance build() const;

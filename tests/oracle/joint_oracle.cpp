@@ -166,8 +166,9 @@ bool JointSearch::collides(std::size_t agent, State to) const {
   const auto cell = [&](std::size_t a, State s) { return agents_[a].cell(s); };
   for (std::size_t other = 0; other < agent; ++other) {
     if (cell(other, to_[other]) == cell(agent, to)) return true;
-    if (cell(other, to_[other]) == cell(agent, from_[agent]) &&
-        cell(other, from_[other]) == cell(agent, to))
+    const bool other_follows = cell(other, to_[other]) == cell(agent, from_[agent]);
+    const bool follows = cell(other, from_[other]) == cell(agent, to);
+    if ((other_follows && follows) || (!instance_.may_follow() && (other_follows || follows)))
       return true;
   }
   return false;

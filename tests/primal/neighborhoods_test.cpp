@@ -28,7 +28,7 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
   const Problem problem(instance, Limits());
   AgentStopsStore stops(instance, problem.distances);
   Router router(problem, stops);
-  PathSet paths(instance.grid(), instance.agent_count());
+  PathSet paths(instance);
   Random random(1);
   const Tuning tuning;
   PrioritizedPlanning planning(router, paths, random, tuning);

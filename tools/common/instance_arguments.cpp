@@ -36,6 +36,14 @@ void InstanceArguments::add_to(CLI::App& command) {
       ->default_str("");
 }
 
+void InstanceArguments::add_rules_to(CLI::App& command) {
+  command.add_flag("--no-following", no_following_,
+                   "nobody enters a place in the step in which another leaves it: robots that hold "
+                   "a place until "
+                   "they have left it drive such a plan as it stands, without rings (see 'grove "
+                   "execute --help')");
+}
+
 std::string InstanceArguments::name() const {
   return is_standard_input() ? "standard input" : path_;
 }
@@ -84,6 +92,7 @@ LoadedInstance InstanceArguments::read_first_rows() const {
 
 LoadedInstance InstanceArguments::load(bool speaks) const {
   LoadedInstance loaded = read();
+  if (no_following_) loaded.instance = loaded.instance.without_following();
   if (speaks) print_warnings(loaded.warnings);
   return loaded;
 }

@@ -17,6 +17,8 @@ namespace grove {
 class InstanceArguments {
  public:
   void add_to(CLI::App& command);
+  // --no-following, of those that search.
+  void add_rules_to(CLI::App& command);
 
   // Reads the files; prints the warnings on stderr if it `speaks`. Throws InputError, or
   // CLI::ValidationError when the arguments do not fit together.
@@ -40,6 +42,7 @@ class InstanceArguments {
   std::string path_;
   std::string map_;
   std::int64_t agents_ = 0;
+  bool no_following_ = false;
   std::optional<std::string> standard_input_;
 };
 

@@ -145,6 +145,7 @@ void add_mpi_solve_command(CLI::App& root, MpiSession& session, CommandLines& li
   const auto arguments = std::make_shared<SolveArguments>();
   arguments->instance.add_to(*app);
   add_search_options(*app, *arguments);
+  arguments->instance.add_rules_to(*app);
   add_checkpoint_options(*app, arguments->checkpoints);
   add_file_options(*app, *arguments);
   app->callback([app, arguments, &session, &lines] {

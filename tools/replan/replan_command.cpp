@@ -211,6 +211,7 @@ void add_replan_command(CLI::App& root) {
                 "end with exit code 3 if no plan was found");
   a.solve.time_limit_s = kTimeLimit_s;
   add_search_options(*app, a.solve);
+  a.solve.instance.add_rules_to(*app);
   add_log_options(*app, a.solve);
   app->callback([app, arguments] {
     stop_on_signals();

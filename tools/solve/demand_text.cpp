@@ -24,6 +24,11 @@ std::string text_of(const Conflict& conflict, const Instance& instance) {
   const std::string& first = instance.agent(conflict.first).id;
   const std::string& second = instance.agent(conflict.second).id;
   const std::string place = name_of(instance, conflict.cell);
+  if (conflict.is_following()) {
+    const bool first_follows = conflict.follower == conflict.first;
+    return fmt::format("{} follows {} onto {} at {}", first_follows ? first : second,
+                       first_follows ? second : first, place, conflict.time);
+  }
   if (!conflict.is_swap())
     return fmt::format("{} and {} on {} at {}", first, second, place, conflict.time);
   return fmt::format("{} and {} swap {} and {} at {}", first, second,

@@ -218,6 +218,7 @@ void add_log_options(CLI::App& app, SolveArguments& a) {
 void add_solve_options(CLI::App& app, SolveArguments& a) {
   a.instance.add_to(app);
   add_search_options(app, a);
+  a.instance.add_rules_to(app);
   app.add_flag(
       "--deterministic", a.deterministic,
       "let what happens depend on the work done alone: runs that come near no time or memory limit "

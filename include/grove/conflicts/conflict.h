@@ -13,16 +13,21 @@
 
 namespace grove {
 
-// Two agents that are on one place at one time, or that swap places in one step.
+// Two agents that are on one place at one time, or that swap places in one step; or, where that is
+// forbidden (Instance::may_follow), one that enters a place in the step in which the other leaves
+// it.
 struct Conflict {
   AgentIndex first = -1;
   AgentIndex second = -1;
   Place cell = kNoPlace;  // the shared place; for a swap, the place that `first` arrives on
   Place from = kNoPlace;  // kNoPlace: vertex conflict; else the place that `first` leaves and
                           // `second` arrives on
-  Time time = 0;  // for a swap, the time of arrival
+  Time time = 0;          // for a swap, the time of arrival
+  AgentIndex follower =
+      -1;  // of the two, the one that enters `cell` at `time`, following the other
 
   bool is_swap() const { return from != kNoPlace; }
+  bool is_following() const { return follower >= 0; }
 };
 
 // Two demands of which every conflict-free plan meets at least one.
@@ -34,8 +39,8 @@ Split split(const Conflict& conflict);
 // Finds conflicts among paths. Workspace of one thread: reuse it, do not share it.
 class ConflictFinder {
  public:
-  // `world` must outlive this.
-  explicit ConflictFinder(const World& world);
+  // `world` must outlive this. `may_follow`: see Instance.
+  explicit ConflictFinder(const World& world, bool may_follow = true);
 
   // Every conflict among the paths of `agents` (`paths` is by AgentIndex), in order of time;
   // `first` < `second` in each. Of two agents that stand on one place together only the first time.
@@ -54,7 +59,11 @@ class ConflictFinder {
   void swap_all(std::span<const Path> paths, AgentIndex agent, Time time,
                 std::vector<Conflict>& conflicts) const;
 
+  void follow_all(std::span<const Path> paths, AgentIndex agent, Time time,
+                  std::vector<Conflict>& conflicts) const;
+
   const World& world_;
+  const bool may_follow_;
   std::int64_t base_ = 0;
   std::array<std::vector<Visit>, 2> visits_;  // by parity of the time, then by place
   // Who else is there: by parity of the time, then by agent; -1 ends the list.

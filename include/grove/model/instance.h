@@ -95,6 +95,15 @@ class Instance {
   const Task& task(TaskIndex i) const { return tasks_[i]; }
   int agent_count() const { return static_cast<int>(agents_.size()); }
   int task_count() const { return static_cast<int>(tasks_.size()); }
+  // May an agent enter a place in the step in which another leaves it? As a rule it may.
+  bool may_follow() const { return may_follow_; }
+  // The same instance where it may not, as robots that hold a place until they have left it would
+  // have it ("1-robust plans", Atzmon et al. 2020).
+  Instance without_following() const {
+    Instance instance = *this;
+    instance.may_follow_ = false;
+    return instance;
+  }
   // What an InstanceBuilder would be told to add this agent.
   AgentSpec spec(AgentIndex agent) const;
 
@@ -136,6 +145,7 @@ class Instance {
   const World* world_;  // the map itself, or motion_world_
   std::vector<Agent> agents_;
   std::vector<Task> tasks_;
+  bool may_follow_ = true;
 };
 
 // Collects agents, then tasks, and checks every rule as they come. The only way to make an
@@ -144,8 +154,12 @@ class InstanceBuilder {
  public:
   explicit InstanceBuilder(Map map);
   explicit InstanceBuilder(std::shared_ptr<const Map> map);
+  // With the map and the rules of another instance.
+  static InstanceBuilder like(const Instance& instance);
   const Map& map() const { return instance_.map(); }
   const Roadmap* roadmap() const { return instance_.roadmap(); }
+
+  void forbid_following() { instance_.may_follow_ = false; }
 
   // On a grid. Throws InstanceError: empty or repeated id; start or goal outside, blocked or taken.
   AgentIndex add_agent(std::string id, Position start, std::optional<Position> goal);

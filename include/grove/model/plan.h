@@ -87,6 +87,7 @@ struct Solution {
   std::optional<Plan> plan;
   Cost lower_bound = 0;  // proven: no plan costs less. 0 and meaningless when infeasible
   Omega omega;
+  bool may_follow = true;  // false: what is claimed is of an instance without following
   Stats stats;
 };
 

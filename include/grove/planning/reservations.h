@@ -26,8 +26,12 @@ class Reservations {
     AgentIndex agent;  // whose it is
   };
 
-  // `world` must outlive this.
-  explicit Reservations(const World& world) : world_(world), stays_(world.place_count()) {}
+  // `world` must outlive this. `margin`: a place is taken so many steps before and after anybody is
+  // there.
+  explicit Reservations(const World& world, Time margin = 0)
+      : world_(world), margin_(margin), stays_(world.place_count()) {}
+
+  Time margin() const { return margin_; }
 
   // `path`, not empty, must collide with no path that is here; an agent has at most one.
   void add(AgentIndex agent, const Path& path);
@@ -44,6 +48,7 @@ class Reservations {
 
  private:
   const World& world_;
+  const Time margin_;
   std::vector<std::vector<Stay>> stays_;  // by place
   std::int64_t count_ = 0;
 };
