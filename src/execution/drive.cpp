@@ -11,13 +11,6 @@ Time end_of(const Drive& drive, ActionIndex action) {
   return action == kNoAction ? 0 : drive.end[action];
 }
 
-// kNever is not reached but by who never ends.
-Time sum(Time begin, Time duration) {
-  if (duration >= kNever) return kNever;
-  if (duration >= kNever - begin) throw std::overflow_error("robots drive for too many steps");
-  return begin + duration;
-}
-
 Time may_begin(const PassingOrder& order, const Drive& drive, ActionIndex action) {
   return std::max(end_of(drive, order.before(action)), end_of(drive, order.after(action)));
 }
@@ -60,6 +53,13 @@ AgentIndex waits_for(const PassingOrder& order, const Drive& drive, std::int32_t
 
 }  // namespace
 
+// kNever is not reached but by who never ends.
+Time end_of_action(Time begin, Time duration) {
+  if (duration >= kNever) return kNever;
+  if (duration >= kNever - begin) throw std::overflow_error("robots drive for too many steps");
+  return begin + duration;
+}
+
 Drive drive(const PassingOrder& order, const Duration& duration) {
   Drive drive{std::vector<Time>(order.actions().size(), kNever),
               std::vector<Time>(order.actions().size(), kNever)};
@@ -70,7 +70,7 @@ Drive drive(const PassingOrder& order, const Duration& duration) {
     if (begin == kNever) continue;
     Time end = begin;
     for (const ActionIndex a : order.step(number))
-      end = std::max(end, sum(begin, duration(a, begin)));
+      end = std::max(end, end_of_action(begin, duration(a, begin)));
     for (const ActionIndex a : order.step(number)) {
       drive.begin[a] = begin;
       drive.end[a] = end;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "grove/model/random.h"
+
 namespace grove::testing {
 namespace {
 
@@ -14,6 +16,7 @@ double part(std::mt19937_64& dice) {
 
 Delays::Delays(const PassingOrder& order, std::uint64_t seed, bool may_die)
     : order_(order),
+      seed_(seed),
       dice_(seed),
       delayed_(part(dice_)),
       stops_(part(dice_) * 0.1),
@@ -32,8 +35,11 @@ Time Delays::operator()(ActionIndex action, Time) {
   const Action& a = order_.actions()[action];
   if (last_[a.agent] == action) return kNever;
   double duration = a.steps * slowness_[a.agent];
-  if (part(dice_) < delayed_) duration += 5 * part(dice_);
-  if (part(dice_) < stops_) duration += 200 * part(dice_);
+  const auto draw = [&](std::uint64_t number) {
+    return unit_draw(seed_, 4 * static_cast<std::uint64_t>(action) + number);
+  };
+  if (draw(0) < delayed_) duration += 5 * draw(1);
+  if (draw(2) < stops_) duration += 200 * draw(3);
   return static_cast<Time>(std::ceil(duration));
 }
 

@@ -11,7 +11,7 @@
 namespace grove::testing {
 
 // One schedule: actions that take longer now and then, slower robots, long stops, and with
-// `may_die` robots that stop for good. The same seed makes the same one.
+// `may_die` robots that stop for good. The same seed makes the same one, whenever actions begin.
 class Delays {
  public:
   Delays(const PassingOrder& order, std::uint64_t seed, bool may_die = false);
@@ -21,7 +21,8 @@ class Delays {
 
  private:
   const PassingOrder& order_;
-  std::mt19937_64 dice_;
+  std::uint64_t seed_;
+  std::mt19937_64 dice_;           // of the robots
   double delayed_ = 0;             // how often an action takes longer
   double stops_ = 0;               // how often it takes very long
   std::vector<double> slowness_;   // by agent

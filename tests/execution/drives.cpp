@@ -10,6 +10,10 @@
 
 #include "grove/engine/solve.h"
 #include "grove/execution/drive.h"
+#include "grove/execution/switching.h"
+#include "grove/io/instance_file.h"
+#include "grove/io/plan_file.h"
+#include "grove/model/random.h"
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
@@ -27,7 +31,14 @@ struct Counts {
   std::int64_t collisions = 0;
   std::int64_t deadlocks = 0;
   std::int64_t collisions_by_clock = 0;
-  double longer = 0;  // sum of makespans over those of plans
+  std::int64_t switches = 0;
+  // Over those of plans, summed.
+  double undisturbed = 0;
+  double makespans = 0;
+  double makespans_switching = 0;
+  double costs = 0;
+  double costs_switching = 0;
+  int worse = 0;  // by switching, in sum of costs
 };
 
 std::optional<Plan> solved(const Instance& instance) {
@@ -36,6 +47,37 @@ std::optional<Plan> solved(const Instance& instance) {
   Limits limits;
   limits.set_deadline(std::chrono::steady_clock::now() + std::chrono::seconds(1));
   return solve(instance, options, limits).plan;
+}
+
+// Four robots each on squares of four cells that go round, and one or two others.
+Instance roundabouts(std::uint64_t seed) {
+  Random random(seed);
+  const int width = 5 + random.below(3);
+  const int height = 4 + random.below(3);
+  InstanceBuilder builder(
+      Grid(width, height, std::vector<bool>(static_cast<std::size_t>(width * height), true)));
+  int robots = 0;
+  const auto add = [&](Position start, Position goal) {
+    try {
+      builder.add_agent(fmt::format("r{}", robots), start, goal);
+      ++robots;
+    } catch (const InstanceError&) {  // taken
+    }
+  };
+  constexpr Position kRound[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (const int left : {0, 3}) {
+    const int top = random.below(height - 1);
+    const int turn = 1 + random.below(3);
+    if (left + 1 >= width) continue;
+    for (int i = 0; i < 4; ++i) {
+      const Position from = kRound[i];
+      const Position to = kRound[(i + turn) % 4];
+      add({left + from.x, top + from.y}, {left + to.x, top + to.y});
+    }
+  }
+  for (int i = random.below(3); i > 0; --i)
+    add({random.below(width), random.below(height)}, {random.below(width), random.below(height)});
+  return std::move(builder).build();
 }
 
 // As if there were nobody else, but never before the time of the plan.
@@ -50,55 +92,92 @@ Drive by_clock(const PassingOrder& order, Delays delays) {
   return drive;
 }
 
+// Makespan and sum of costs.
+std::pair<double, double> took(const PassingOrder& order, const Drive& drive) {
+  Time makespan = 0;
+  Cost cost = 0;
+  for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
+    makespan = std::max(makespan, drive.finish(order, agent));
+    cost += drive.finish(order, agent);
+  }
+  return {makespan, static_cast<double>(cost)};
+}
+
 void drive_all(const Instance& instance, const Plan& plan, std::int64_t drives, std::uint64_t seed,
                Counts& counts) {
+  const World& world = instance.world();
   const PassingOrder order(instance, plan);
   std::vector<State> starts;
   for (const Agent& agent : instance.agents()) starts.push_back(agent.start);
-  const Time planned = std::max(1, std::ranges::max(plan.agents, {}, &AgentPlan::cost).cost);
+  const double planned = std::max(1, std::ranges::max(plan.agents, {}, &AgentPlan::cost).cost);
+  const double cost = std::max<double>(1, static_cast<double>(plan.cost));
   ++counts.plans;
   counts.rings += static_cast<int>(order.rings());
+  counts.undisturbed += took(order, drive_undisturbed(order)).first / planned;
+  const auto look_at = [&](const Drive& driven) {
+    counts.collisions += collision(world, order, driven, starts).empty() ? 0 : 1;
+    counts.deadlocks += stuck(order, driven).empty() ? 0 : 1;
+  };
   for (std::int64_t i = 0; i < drives; ++i, ++counts.drives) {
     const Delays delays(order, seed + static_cast<std::uint64_t>(i));
     const Drive driven = drive(order, delays);
-    counts.collisions += collision(instance.world(), order, driven, starts).empty() ? 0 : 1;
-    counts.deadlocks += stuck(order, driven).empty() ? 0 : 1;
+    look_at(driven);
+    const SwitchedDrive switched = drive_switching(world, plan, order, delays);
+    look_at(switched.drive);
+    counts.switches += switched.switches;
     counts.collisions_by_clock +=
-        collision(instance.world(), order, by_clock(order, delays), starts).empty() ? 0 : 1;
-    Time makespan = 0;
-    for (AgentIndex agent = 0; agent < order.agent_count(); ++agent)
-      makespan = std::max(makespan, driven.finish(order, agent));
-    counts.longer += static_cast<double>(makespan) / planned;
+        collision(world, order, by_clock(order, delays), starts).empty() ? 0 : 1;
+    const auto [makespan, sum] = took(order, driven);
+    const auto [makespan_switching, sum_switching] = took(order, switched.drive);
+    counts.makespans += makespan / planned;
+    counts.makespans_switching += makespan_switching / planned;
+    counts.costs += sum / cost;
+    counts.costs_switching += sum_switching / cost;
+    counts.worse += sum_switching > sum ? 1 : 0;
   }
 }
 
 void print(const Counts& c) {
-  fmt::print("{} plans, {} rings of robots in them, {} drives\n", c.plans, c.rings, c.drives);
-  fmt::print(
-      "along the passing order: {} collide, {} do not end; makespan {:.2f} times the plan's\n",
-      c.collisions, c.deadlocks,
-      c.longer / static_cast<double>(std::max<std::int64_t>(1, c.drives)));
+  const auto drives = static_cast<double>(std::max<std::int64_t>(1, c.drives));
+  fmt::print("{} plans, {} rings of robots in them; {} drives, each with and without switching\n",
+             c.plans, c.rings, c.drives);
+  fmt::print("along the passing order: {} collide, {} do not end\n", c.collisions, c.deadlocks);
   fmt::print("by the clock:            {} collide\n", c.collisions_by_clock);
+  fmt::print("{:<36}{:>10}{:>14}\n", "times the plan's, on average", "makespan", "sum of costs");
+  fmt::print("{:<36}{:>10.3f}\n", "undisturbed", c.undisturbed / std::max(1, c.plans));
+  fmt::print("{:<36}{:>10.3f}{:>14.3f}\n", "delayed", c.makespans / drives, c.costs / drives);
+  fmt::print("{:<36}{:>10.3f}{:>14.3f}   {} places switched; worse by it: {} drives\n",
+             "delayed, switching", c.makespans_switching / drives, c.costs_switching / drives,
+             c.switches, c.worse);
 }
 
 }  // namespace
 }  // namespace grove
 
 int main(int argc, char** argv) {
-  CLI::App app("Random plans driven with random troubles", "grove-drives");
+  using namespace grove;
+  CLI::App app("Random plans, or one, driven with random troubles", "grove-drives");
   int plans = 100;
   std::int64_t drives = 100;
   std::uint64_t seed = 1;
-  app.add_option("--plans", plans, "so many plans")->capture_default_str();
+  std::string instance_file;
+  std::string plan_file;
+  app.add_option("INSTANCE", instance_file, "drive a plan of this, in place of random ones");
+  app.add_option("PLAN", plan_file);
+  app.add_option("--plans", plans, "so many plans, every third one of robots that go round")
+      ->capture_default_str();
   app.add_option("--drives", drives, "so many drives of each")->capture_default_str();
   app.add_option("--seed", seed, "of the first one")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  grove::Counts counts;
-  for (; counts.plans < plans; ++seed) {
-    const grove::Instance instance = grove::fuzz::random_world(seed).build();
-    if (const auto plan = grove::solved(instance))
-      grove::drive_all(instance, *plan, drives, seed << 32, counts);
+  Counts counts;
+  if (!instance_file.empty()) {
+    const Instance instance = read_instance(instance_file).instance;
+    drive_all(instance, *read_solution(plan_file, instance).plan, drives, seed << 32, counts);
   }
-  grove::print(counts);
+  for (; instance_file.empty() && counts.plans < plans; ++seed) {
+    const Instance instance = seed % 3 == 0 ? roundabouts(seed) : fuzz::random_world(seed).build();
+    if (const auto plan = solved(instance)) drive_all(instance, *plan, drives, seed << 32, counts);
+  }
+  print(counts);
   return counts.collisions + counts.deadlocks > 0 ? 1 : 0;
 }

@@ -10,6 +10,7 @@
 
 #include "grove/io/input_error.h"
 #include "grove/model/parse_number.h"
+#include "grove/model/random.h"
 #include "tools/common/options.h"
 #include "tools/execute/robots.h"
 
@@ -69,21 +70,20 @@ void Troubles::read_stops(const TroubleArguments& arguments, const Instance& ins
 // Of a slow robot the steps of all actions together are rounded, not each.
 Duration Troubles::durations(const PassingOrder& order, std::uint64_t seed) const {
   struct Run {
-    std::mt19937_64 dice;
     std::vector<double> owed;  // by agent: parts of steps
     std::vector<Stop> stops;   // to come
   };
-  const auto state = std::make_shared<Run>(
-      Run{std::mt19937_64(seed), std::vector<double>(slowness_.size()), stops_});
-  return [this, state, &order](ActionIndex index, Time begin) {
+  const auto state = std::make_shared<Run>(Run{std::vector<double>(slowness_.size()), stops_});
+  return [this, seed, state, &order](ActionIndex index, Time begin) {
     const Action& action = order.actions()[index];
     double& owed = state->owed[action.agent];
     owed += action.steps * (slowness_[action.agent] - 1);
     const Time slower = static_cast<Time>(owed);
     owed -= slower;
     Time steps = action.steps + slower;
-    if (std::uniform_real_distribution<double>(0, 1)(state->dice) < delayed_)
-      steps += std::uniform_int_distribution<Time>(1, delay_steps_)(state->dice);
+    const auto draw = static_cast<std::uint64_t>(index) * 2;
+    if (unit_draw(seed, draw) < delayed_)
+      steps += 1 + static_cast<Time>(unit_draw(seed, draw + 1) * delay_steps_);
     for (Stop& stop : state->stops) {
       if (stop.agent != action.agent || begin + steps <= stop.from) continue;
       stop.agent = -1;  // it has happened

@@ -24,6 +24,10 @@ struct Drive {
 // robot does not move again. Called once for each action that begins, in the order of steps.
 using Duration = std::function<Time(ActionIndex action, Time begin)>;
 
+// When an action ends that begins then and takes so long; kNever: never. Throws
+// std::overflow_error for times that no plan can mention.
+Time end_of_action(Time begin, Time duration);
+
 // O(actions). The moves of a ring take as long as the slowest of them. Throws std::overflow_error
 // for times that no plan can mention.
 Drive drive(const PassingOrder& order, const Duration& duration);

@@ -12,6 +12,15 @@
 
 namespace grove {
 
+// The draw of this number of a sequence, in [0, 1): they do not depend on which of them are drawn,
+// or when (SplitMix64, Steele et al. 2014).
+inline double unit_draw(std::uint64_t seed, std::uint64_t number) {
+  std::uint64_t z = seed + (number + 1) * 0x9E3779B97F4A7C15;
+  z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9;
+  z = (z ^ z >> 27) * 0x94D049BB133111EB;
+  return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
 // A sequence of draws that the seed settles. For one thread.
 class Random {
  public:

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+// Of each place there is a row of the robots that will be on it, one after the other; an action
+// that enters a place begins when the robot before it in the row has completed leaving it. So
+// nobody collides, whatever the rows (passing_order.cpp says why). What rows may not be is such
+// that robots wait in a circle. A switch moves a robot that has not yet begun to come to a place,
+// nor to any other of the group, behind another one there. It is made only if all actions that are
+// not completed can then be put into an order, found by taking away again and again what waits for
+// nothing that is left: so there is no circle, and as long as robots complete what they have begun
+// the first action in that order that is not completed can be. What has begun is not touched, for
+// whatever waits for it stays behind it. The joint step of a ring counts as one action: what it
+// waits for inside is not looked at, and if somebody comes between two robots of a ring it waits
+// for itself, which is no order.
+#include "grove/execution/switching.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <vector>
+
+namespace grove {
+namespace {
+
+constexpr Time kLongest = 64;  // times its patience: who waits for one that may be dead
+
+// A robot's being on a place.
+struct Visit {
+  AgentIndex agent = -1;
+  ActionIndex enters = kNoAction;  // none: it starts there
+  ActionIndex leaves = kNoAction;  // none: it rests there
+};
+
+// Who is on a place after whom, and what follows for actions.
+class PlaceRows {
+ public:
+  PlaceRows(const World& world, const Plan& plan, const PassingOrder& order)
+      : order_(order),
+        by_agent_(static_cast<std::size_t>(order.agent_count())),
+        number_(order.actions().size(), -1),
+        rows_(static_cast<std::size_t>(world.place_count())) {
+    for (AgentIndex agent = 0; agent < order.agent_count(); ++agent)
+      add_visits(world, agent, plan.agents[agent].path.front());
+    for (auto& row : rows_)
+      std::ranges::sort(row, {}, [&](int visit) { return begin_of(visits_[visit]); });
+    for (const auto& row : rows_)
+      for (std::size_t i = 0; i < row.size(); ++i) position_[row[i]] = static_cast<int>(i);
+  }
+
+  // What an action waits for on the place it enters.
+  ActionIndex after(ActionIndex action) const {
+    const int visit = number_[action];
+    if (visit < 0 || position_[visit] == 0) return kNoAction;
+    const Visit& before = visits_[rows_[place_[visit]][position_[visit] - 1]];
+    return before.agent == visits_[visit].agent ? kNoAction : before.leaves;
+  }
+
+  // The places that both robots pass one after the other, in the same or the opposite direction,
+  // around the one that `entering` enters: pairs of visits, that of the other robot first.
+  std::vector<std::pair<int, int>> group(ActionIndex entering, AgentIndex other) const {
+    const int mine = number_[entering];
+    const auto& row = rows_[place_[mine]];
+    int theirs = -1;
+    for (int i = position_[mine] - 1; i >= 0 && theirs < 0; --i)
+      if (visits_[row[i]].agent == other) theirs = row[i];
+    if (theirs < 0) return {};
+    std::vector<std::pair<int, int>> pairs{{theirs, mine}};
+    for (const int direction : {1, -1})
+      for (const int step : {1, -1})
+        for (int k = 1;
+             is_shared(theirs + direction * step * k, other, mine + step * k, visits_[mine].agent);
+             ++k)
+          pairs.emplace_back(theirs + direction * step * k, mine + step * k);
+    std::erase_if(pairs, [&](const auto& p) { return position_[p.first] > position_[p.second]; });
+    return pairs;
+  }
+
+  const Visit& visit(int number) const { return visits_[number]; }
+
+  // Moves the first one behind the second one, on their place; may be undone by put_back.
+  void move_behind(int visit, int other) { move(visit, position_[other]); }
+  int position(int visit) const { return position_[visit]; }
+  void move(int visit, int to) {
+    auto& row = rows_[place_[visit]];
+    const int from = position_[visit];
+    const auto at = [&](int i) { return row.begin() + i; };
+    if (from < to)
+      std::rotate(at(from), at(from) + 1, at(to) + 1);
+    else
+      std::rotate(at(to), at(from), at(from) + 1);
+    for (int i = std::min(from, to); i <= std::max(from, to); ++i) position_[row[i]] = i;
+  }
+
+ private:
+  void add_visits(const World& world, AgentIndex agent, State start) {
+    by_agent_[agent].first = static_cast<int>(visits_.size());
+    add({agent}, world.place(start));
+    for (ActionIndex a = order_.begin_of(agent); a < order_.end_of(agent); ++a) {
+      if (order_.actions()[a].kind != Action::Kind::kMove) continue;
+      visits_.back().leaves = a;
+      number_[a] = static_cast<int>(visits_.size());
+      add({agent, a}, world.place(order_.actions()[a].to));
+    }
+    by_agent_[agent].second = static_cast<int>(visits_.size());
+  }
+  void add(const Visit& visit, Place place) {
+    rows_[place].push_back(static_cast<int>(visits_.size()));
+    visits_.push_back(visit);
+    place_.push_back(place);
+    position_.push_back(0);
+  }
+  Time begin_of(const Visit& visit) const {
+    return visit.enters == kNoAction ? -1 : order_.actions()[visit.enters].begin;
+  }
+  bool is_shared(int theirs, AgentIndex other, int mine, AgentIndex self) const {
+    const auto is_of = [&](int visit, AgentIndex agent) {
+      return visit >= by_agent_[agent].first && visit < by_agent_[agent].second;
+    };
+    return is_of(theirs, other) && is_of(mine, self) && place_[theirs] == place_[mine];
+  }
+
+  const PassingOrder& order_;
+  std::vector<std::pair<int, int>> by_agent_;  // their visits, in order of time
+  std::vector<int> number_;                    // by action: the visit that it begins
+  std::vector<Visit> visits_;
+  std::vector<Place> place_;            // by visit
+  std::vector<int> position_;           // by visit: in its row
+  std::vector<std::vector<int>> rows_;  // by place
+};
+
+class Switching {
+ public:
+  Switching(const World& world, const Plan& plan, const PassingOrder& order,
+            const Duration& duration, Time patience)
+      : order_(order),
+        duration_(duration),
+        patience_(patience),
+        rows_(world, plan, order),
+        step_of_(order.actions().size()),
+        waits_(static_cast<std::size_t>(order.agent_count())),
+        next_(static_cast<std::size_t>(order.agent_count())) {
+    driven_.drive.begin.assign(order.actions().size(), kNever);
+    driven_.drive.end.assign(order.actions().size(), kNever);
+    for (std::int32_t step = 0; step < order.step_count(); ++step)
+      for (const ActionIndex a : order.step(step)) step_of_[a] = step;
+    for (AgentIndex agent = 0; agent < order.agent_count(); ++agent)
+      next_[agent] = order.begin_of(agent);
+  }
+
+  SwitchedDrive run() {
+    moments_.push(0);
+    while (!moments_.empty()) {
+      now_ = moments_.top();
+      while (!moments_.empty() && moments_.top() == now_) moments_.pop();
+      begin_what_may();
+      for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent) consider(agent);
+    }
+    for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent)
+      if (next_[agent] < order_.end_of(agent))
+        driven_.stuck.push_back({agent, waits_for(next_[agent])});
+    return std::move(driven_);
+  }
+
+ private:
+  // A robot's waiting for another.
+  struct Wait {
+    ActionIndex action = kNoAction;
+    Time patience = 0;
+    Time until = 0;
+  };
+
+  bool is_done(ActionIndex a) const { return driven_.drive.end[a] <= now_; }
+  bool is_begun(ActionIndex a) const { return driven_.drive.begin[a] <= now_; }
+  bool is_in_ring(ActionIndex a) const { return order_.step(step_of_[a]).size() > 1; }
+
+  // What it waits for; none within its own ring.
+  ActionIndex after(ActionIndex a) const {
+    const ActionIndex other = rows_.after(a);
+    return other != kNoAction && step_of_[other] == step_of_[a] ? kNoAction : other;
+  }
+  bool may_begin_alone(ActionIndex a) const {
+    const ActionIndex other = after(a);
+    const ActionIndex before = order_.before(a);
+    return (before == kNoAction || is_done(before)) && (other == kNoAction || is_done(other));
+  }
+
+  void begin_what_may() {
+    for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent) {
+      ActionIndex& next = next_[agent];
+      if (next < order_.end_of(agent) && is_begun(next) && is_done(next)) ++next;
+    }
+    for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent) {
+      const ActionIndex a = next_[agent];
+      if (a == order_.end_of(agent) || is_begun(a)) continue;
+      const auto step = order_.step(step_of_[a]);
+      if (std::ranges::all_of(step, [&](ActionIndex m) { return may_begin_alone(m); })) begin(step);
+    }
+  }
+
+  void begin(std::span<const ActionIndex> step) {
+    Time end = now_;
+    for (const ActionIndex a : step) {
+      end = std::max(end, end_of_action(now_, duration_(a, now_)));
+    }
+    for (const ActionIndex a : step) {
+      driven_.drive.begin[a] = now_;
+      driven_.drive.end[a] = end;
+    }
+    if (end < kNever) moments_.push(end);
+  }
+
+  // Has the robot waited too long for another?
+  void consider(AgentIndex agent) {
+    const ActionIndex a = next_[agent];
+    if (a == order_.end_of(agent) || is_begun(a) || is_in_ring(a)) return;
+    const ActionIndex other = after(a);
+    if (other == kNoAction || is_done(other)) return;
+    Wait& wait = waits_[agent];
+    if (wait.action != a) {
+      wait = {a, patience_, now_ + patience_};
+      moments_.push(wait.until);
+      return;
+    }
+    if (now_ < wait.until) return;
+    if (go_first(a, order_.actions()[other].agent)) {
+      moments_.push(now_);  // it may begin at once
+      wait = {};
+      return;
+    }
+    if (wait.patience >= kLongest * patience_ && !is_anything_to_end()) return;
+    wait.patience *= 2;
+    wait.until = now_ + wait.patience;
+    moments_.push(wait.until);
+  }
+
+  // Itself if it has begun.
+  AgentIndex waits_for(ActionIndex action) const {
+    for (const ActionIndex a : order_.step(step_of_[action])) {
+      const AgentIndex agent = order_.actions()[a].agent;
+      const ActionIndex other = after(a);
+      if (other != kNoAction && !is_done(other)) return order_.actions()[other].agent;
+      if (next_[agent] != a) return agent;  // of a ring: not there yet
+    }
+    return order_.actions()[action].agent;
+  }
+
+  bool is_anything_to_end() const {
+    for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent) {
+      const ActionIndex a = next_[agent];
+      if (a < order_.end_of(agent) && is_begun(a) && driven_.drive.end[a] < kNever) return true;
+    }
+    return false;
+  }
+
+  bool go_first(ActionIndex entering, AgentIndex other) {
+    const auto group = rows_.group(entering, other);
+    for (const auto& [theirs, mine] : group) {
+      const Visit& visit = rows_.visit(theirs);
+      const bool may_yield = visit.enters != kNoAction && !is_begun(visit.enters) &&
+                             rows_.visit(mine).leaves != kNoAction;
+      if (!may_yield) return false;
+    }
+    if (group.empty()) return false;
+    const Cost before = expected();
+    std::vector<std::pair<int, int>> undo;
+    for (const auto& [theirs, mine] : group) {
+      undo.emplace_back(theirs, rows_.position(theirs));
+      rows_.move_behind(theirs, mine);
+    }
+    if (expected() < before) {
+      driven_.switches += std::ssize(group);
+      return true;
+    }
+    for (auto u = undo.rbegin(); u != undo.rend(); ++u) rows_.move(u->first, u->second);
+    return false;
+  }
+
+  // When the action is expected to end if it begins then, or has begun.
+  Time expected_end(ActionIndex a, Time begin) const {
+    const Time end = begin + order_.actions()[a].steps;
+    return end > now_ || !is_begun(a) ? end : now_ + std::max(1, now_ - end);
+  }
+
+  // The sum of finish times from now on; kInfiniteCost if robots would wait in a circle.
+  Cost expected() {
+    const auto count = order_.actions().size();
+    ends_.assign(static_cast<std::size_t>(order_.step_count()), kNever);
+    left_.assign(static_cast<std::size_t>(order_.step_count()), 0);
+    waiting_.assign(count, kNoAction);
+    queue_.clear();
+    followers_.assign(count, kNoAction);
+    for (ActionIndex a = 0; a < static_cast<ActionIndex>(count); ++a) {
+      const auto step = step_of_[a];
+      if (is_done(a)) {
+        ends_[step] = driven_.drive.end[a];
+        continue;
+      }
+      if (is_begun(a)) continue;
+      if (const ActionIndex before = order_.before(a); before != kNoAction && !is_done(before))
+        ++left_[step];
+      if (const ActionIndex other = after(a); other != kNoAction && !is_done(other)) {
+        ++left_[step];
+        waiting_[a] = followers_[other];
+        followers_[other] = a;
+      }
+    }
+    for (std::int32_t step = 0; step < order_.step_count(); ++step)
+      if (left_[step] == 0 && !is_done(order_.step(step).front())) queue_.push_back(step);
+    std::size_t taken = 0;
+    for (; taken < queue_.size(); ++taken) take(queue_[taken]);
+    for (std::int32_t step = 0; step < order_.step_count(); ++step)
+      if (ends_[step] == kNever) return kInfiniteCost;
+    Cost sum = 0;
+    for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent)
+      if (order_.begin_of(agent) < order_.end_of(agent))
+        sum += ends_[step_of_[order_.end_of(agent) - 1]];
+    return sum;
+  }
+
+  void take(std::int32_t step) {
+    Time begin = now_;
+    for (const ActionIndex a : order_.step(step)) {
+      if (is_begun(a)) begin = driven_.drive.begin[a];
+      if (is_begun(a)) continue;
+      if (const ActionIndex before = order_.before(a); before != kNoAction)
+        begin = std::max(begin, ends_[step_of_[before]]);
+      if (const ActionIndex other = after(a); other != kNoAction)
+        begin = std::max(begin, ends_[step_of_[other]]);
+    }
+    Time end = 0;
+    for (const ActionIndex a : order_.step(step)) end = std::max(end, expected_end(a, begin));
+    ends_[step] = end;
+    for (const ActionIndex a : order_.step(step)) {
+      if (a + 1 < order_.end_of(order_.actions()[a].agent)) release(a + 1);
+      for (ActionIndex w = followers_[a]; w != kNoAction; w = waiting_[w]) release(w);
+    }
+  }
+  void release(ActionIndex a) {
+    if (--left_[step_of_[a]] == 0) queue_.push_back(step_of_[a]);
+  }
+
+  const PassingOrder& order_;
+  const Duration& duration_;
+  const Time patience_;
+  PlaceRows rows_;
+  std::vector<std::int32_t> step_of_;  // by action
+  std::vector<Wait> waits_;            // by agent
+  std::vector<ActionIndex> next_;      // by agent: not completed yet
+  std::priority_queue<Time, std::vector<Time>, std::greater<>> moments_;
+  Time now_ = 0;
+  SwitchedDrive driven_;
+
+  // Of expected().
+  std::vector<Time> ends_;              // by step
+  std::vector<std::int32_t> left_;      // by step: what it waits for
+  std::vector<ActionIndex> followers_;  // by action: the first that waits for it on a place
+  std::vector<ActionIndex> waiting_;    // by action: the next one of these
+  std::vector<std::int32_t> queue_;
+};
+
+}  // namespace
+
+SwitchedDrive drive_switching(const World& world, const Plan& plan, const PassingOrder& order,
+                              const Duration& duration, Time patience) {
+  return Switching(world, plan, order, duration, patience).run();
+}
+
+}  // namespace grove

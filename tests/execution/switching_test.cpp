@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "grove/execution/switching.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "grove/engine/solve.h"
+#include "grove/model/check.h"
+#include "grove/model/random.h"
+#include "tests/execution/collisions.h"
+#include "tests/execution/delays.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/support/instances.h"
+
+namespace grove {
+namespace switching_test {
+
+using testing::AgentSpec;
+using testing::collision;
+using testing::Delays;
+using testing::instance_of;
+
+std::optional<Plan> solved(const Instance& instance) {
+  SolveOptions options;
+  options.omega = Omega::infinite();
+  Limits limits;
+  limits.set_deadline(std::chrono::steady_clock::now() + std::chrono::milliseconds(100));
+  return solve(instance, options, limits).plan;
+}
+
+// A dozen robots on a small hall with pillars.
+Instance crowd(std::uint64_t seed) {
+  Random random(seed);
+  const int width = 8;
+  const int height = 6;
+  std::vector<bool> passable;
+  for (int i = 0; i < width * height; ++i) passable.push_back(random.below(6) > 0);
+  const Grid grid(width, height, passable);
+  InstanceBuilder builder{Map(grid)};
+  for (int tries = 0, robots = 0; tries < 60 && robots < 10; ++tries) {
+    try {
+      const Cell start = random.below(grid.cell_count());
+      const Cell goal = random.below(grid.cell_count());
+      builder.add_agent(fmt::format("r{}", robots), grid.position(start), grid.position(goal));
+      ++robots;
+    } catch (const InstanceError&) {  // taken, or blocked
+    }
+  }
+  return std::move(builder).build();
+}
+
+std::string wrong_with(const Instance& instance, const Plan& plan) {
+  Solution solution;
+  solution.plan = plan;
+  solution.status = status_of(plan.cost, 0, solution.omega);
+  const auto wrong = check(instance, solution, 1);
+  return wrong.empty() ? "" : wrong.front().place + ": " + wrong.front().message;
+}
+
+Cost cost_of(const PassingOrder& order, const Drive& drive) {
+  Cost cost = 0;
+  for (AgentIndex agent = 0; agent < order.agent_count(); ++agent)
+    cost += drive.finish(order, agent);
+  return cost;
+}
+
+// Red crosses blue's way first, by the plan, but stands still before it does.
+TEST(Switching, WhoWaitsForALateOneGoesFirst) {
+  const Instance instance =
+      instance_of({"@@@.@@@", "@@@.@@@", ".......", "@@@.@@@", "@@@.@@@"},
+                  {AgentSpec{{0, 2}, Position{6, 2}, {}}, AgentSpec{{3, 0}, Position{3, 4}, {}}});
+  Plan plan;
+  const Grid& grid = instance.grid();
+  const auto path = [&](std::vector<Position> cells) {
+    Path states;
+    for (const Position p : cells) states.push_back(grid.cell(p));
+    return states;
+  };
+  plan.agents.push_back(
+      {6, {}, path({{0, 2}, {1, 2}, {2, 2}, {3, 2}, {4, 2}, {5, 2}, {6, 2}}), {}});
+  plan.agents.push_back(
+      {6, {}, path({{3, 0}, {3, 1}, {3, 1}, {3, 1}, {3, 2}, {3, 3}, {3, 4}}), {}});
+  plan.cost = 12;
+  ASSERT_EQ(wrong_with(instance, plan), "");
+  const PassingOrder order(instance, plan);
+  const Duration stops = [&](ActionIndex a, Time) { return a == 0 ? 50 : 1; };
+  const SwitchedDrive switched = drive_switching(instance.world(), plan, order, stops);
+  EXPECT_EQ(switched.switches, 1);
+  EXPECT_EQ(drive(order, stops).finish(order, 1), 56);
+  EXPECT_LT(switched.drive.finish(order, 1), 15);
+  EXPECT_EQ(switched.drive.finish(order, 0), 55);
+}
+
+// In a corridor that both have to pass nobody can go first once the other is in it.
+TEST(Switching, NobodyWaitsInACircle) {
+  std::int64_t switches = 0;
+  Cost fixed = 0;
+  Cost switching = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const Instance instance = seed % 2 == 0 ? crowd(seed) : fuzz::random_world(seed).build();
+    const auto plan = solved(instance);
+    if (!plan) continue;
+    const PassingOrder order(instance, *plan);
+    std::vector<State> starts;
+    for (const Agent& agent : instance.agents()) starts.push_back(agent.start);
+    for (std::uint64_t schedule = 0; schedule < 20; ++schedule) {
+      const Delays delays(order, schedule);
+      const SwitchedDrive switched =
+          drive_switching(instance.world(), *plan, order, delays, 1 + static_cast<Time>(seed % 5));
+      ASSERT_EQ(collision(instance.world(), order, switched.drive, starts), "") << seed;
+      ASSERT_TRUE(switched.stuck.empty()) << seed << ", " << schedule;
+      ASSERT_EQ(wrong_with(instance, driven_plan(instance, *plan, order, switched.drive)), "")
+          << seed;
+      switches += switched.switches;
+      switching += cost_of(order, switched.drive);
+      fixed += cost_of(order, drive(order, delays));
+    }
+  }
+  EXPECT_GT(switches, 300);
+  EXPECT_LT(switching, fixed);
+}
+
+TEST(Switching, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
+  std::int64_t stuck_fixed = 0;
+  std::int64_t stuck_switching = 0;
+  for (std::uint64_t seed = 0; seed < 60; seed += 2) {
+    const Instance instance = crowd(seed);
+    const auto plan = solved(instance);
+    if (!plan) continue;
+    const PassingOrder order(instance, *plan);
+    for (std::uint64_t schedule = 0; schedule < 10; ++schedule) {
+      const Delays delays(order, schedule, true);
+      const SwitchedDrive switched = drive_switching(instance.world(), *plan, order, delays);
+      const std::vector<Stuck> fixed = stuck(order, drive(order, delays));
+      bool has_dead = switched.stuck.empty();
+      for (const Stuck& s : switched.stuck) {
+        has_dead |= s.waits_for == s.agent;
+        EXPECT_TRUE(std::ranges::find(switched.stuck, s.waits_for, &Stuck::agent) !=
+                    switched.stuck.end());
+      }
+      EXPECT_TRUE(has_dead) << seed << ", " << schedule;
+      stuck_fixed += std::ssize(fixed);
+      stuck_switching += std::ssize(switched.stuck);
+    }
+  }
+  EXPECT_GT(stuck_fixed, 200);
+  EXPECT_LT(stuck_switching, stuck_fixed);
+}
+
+}  // namespace switching_test
+}  // namespace grove
