@@ -36,6 +36,9 @@ constexpr std::array kPlanNames = {
     Entry{"eecbs", PlanFormat::kEecbs},
     Entry{"tracker", PlanFormat::kTracker},
     Entry{"tracker-csv", PlanFormat::kTrackerCsv},
+    Entry{"waypoints", PlanFormat::kWaypoints},
+    Entry{"nav-path", PlanFormat::kNavPath},
+    Entry{"planviz", PlanFormat::kPlanViz},
 };
 constexpr std::array kPlanSuffixes = {
     Entry{".yaml", PlanFormat::kLibmrp},

@@ -8,7 +8,16 @@
 namespace grove {
 
 enum class InstanceFormat : std::uint8_t { kGrove, kLibmrp, kMgcbs, kMapfw, kScen };
-enum class PlanFormat : std::uint8_t { kLibmrp, kVisualizer, kEecbs, kTracker, kTrackerCsv };
+enum class PlanFormat : std::uint8_t {
+  kLibmrp,
+  kVisualizer,
+  kEecbs,
+  kTracker,
+  kTrackerCsv,
+  kWaypoints,
+  kNavPath,
+  kPlanViz,
+};
 
 // The format called `name`; if that is empty, the one that the suffix of `file` tells. Throw
 // CLI::ValidationError, naming `option`, when there is none.

@@ -15,7 +15,10 @@ class FrameArguments {
  public:
   void add_to(CLI::App& command);
 
-  bool given() const { return cell_size_ > 0 || !origin_.empty(); }
+  bool given() const { return cell_size_ > 0 || has_origin(); }
+  bool has_origin() const { return !origin_.empty(); }
+  // Metres; 0: not given.
+  double cell_size() const { return cell_size_; }
   // Throws CLI::ValidationError: no two numbers; or on a roadmap, which is in metres as it is.
   Frame frame(const Instance& instance) const;
 

@@ -33,9 +33,9 @@ bool same_map(const Grid& a, const Grid& b) {
 void require_map_of_instance(const std::string& map, const ConvertArguments& arguments,
                              const Instance& instance) {
   if (!instance.is_on_grid())
-    throw InputError(map, "",
-                     fmt::format("is a map; expected none, for '{}' is on a roadmap",
-                                 arguments.instance));
+    throw InputError(
+        map, "",
+        fmt::format("is a map; expected none, for '{}' is on a roadmap", arguments.instance));
   if (!same_map(read_map(map), instance.grid()))
     throw InputError(
         map, "",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one asks of grove convert, and the three things that it does.
+// What one asks of grove convert, and the four things that it does.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "grove/io/instance_file.h"
 #include "tools/common/file_formats.h"
+#include "tools/common/frame_arguments.h"
 #include "tools/common/options.h"
 
 namespace grove {
@@ -31,6 +32,8 @@ struct ConvertArguments {
   std::string layout;
   std::string vehicle_type;
   bool merges_lanes = false;
+  FrameArguments frame;
+  double robot_radius = 0;  // metres
 
   bool drops(const std::string& what) const;
 };
@@ -46,6 +49,10 @@ void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFo
 // Whether INSTANCE is a file of roads, or OUT a roadmap; and the one as the other. Throws as above.
 bool is_about_roads(const ConvertArguments& arguments);
 void convert_roadmap(const ConvertArguments& arguments);
+
+// Whether OUT is a map, of another tool's map; and the one as the other. Throws as above.
+bool is_about_maps(const ConvertArguments& arguments);
+void convert_map(const ConvertArguments& arguments);
 
 // Runs `write`; of what OUT cannot hold it says where it is in `instance`, which was read from a
 // file of format `from`.

@@ -39,6 +39,12 @@ TrackerScenario tracker_scenario(const ConvertArguments& arguments, const Loaded
                         : fmt::format("found '{}'; expected even-N or random-N", scenario));
 }
 
+Scale scale(const ConvertArguments& arguments, const Instance& instance) {
+  Scale scale{.frame = arguments.frame.frame(instance)};
+  if (arguments.seconds_per_step > 0) scale.seconds_per_step = arguments.seconds_per_step;
+  return scale;
+}
+
 void write_plan_as(const ConvertArguments& arguments, const LoadedInstance& loaded,
                    const Solution& solution, PlanFormat to) {
   const Instance& instance = loaded.instance;
@@ -58,6 +64,12 @@ void write_plan_as(const ConvertArguments& arguments, const LoadedInstance& load
           arguments.output, instance, solution, tracker_scenario(arguments, loaded),
           to == PlanFormat::kTracker ? TrackerLayout::kJson : TrackerLayout::kCsv,
           arguments.flip_up_down ? TrackerUp::kAwayFromRowZero : TrackerUp::kTowardsRowZero);
+    case PlanFormat::kWaypoints:
+      return write_waypoints(arguments.output, instance, solution, scale(arguments, instance));
+    case PlanFormat::kNavPath:
+      return write_nav_paths(arguments.output, instance, solution, scale(arguments, instance));
+    case PlanFormat::kPlanViz:
+      return write_planviz(arguments.output, instance, solution);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "grove/io/frame.h"
 #include "grove/model/plan.h"
 
 namespace grove {
@@ -32,5 +33,32 @@ void write_visualizer_text(const std::filesystem::path& path, const Instance& in
 // (row,column), each until the agent comes to rest.
 void write_path_lists(const std::filesystem::path& path, const Instance& instance,
                       const Solution& solution);
+
+// What PlanViz shows, the viewer of the League of Robot Runners
+// (https://github.com/MAPF-Competition/ PlanViz), in its format of 2024: paths as actions, U, D, L,
+// R (U is one row down there) or, of robots that turn, F, R, C; W is a wait. Each agent has one
+// task of several errands: its own tasks in the order of its visits, then its destination. Throws
+// NotExpressible on roadmaps, for turns that do not take one step, and where some robots turn and
+// others do not.
+void write_planviz(const std::filesystem::path& path, const Instance& instance,
+                   const Solution& solution);
+
+// How steps and places of a plan are seconds and metres.
+struct Scale {
+  Frame frame;
+  double seconds_per_step = 1;
+};
+
+// Timed waypoints, CSV: robot, seconds, x, y, theta (radians, counterclockwise from x), task. A row
+// for each place come to, each step of a turn, and the begin and the end of each wait and of work;
+// in between robots move steadily. theta is the heading; of robots that turn freely the direction in
+// which they go on, at the end that in which they came. `task` is the one visited, or at work on,
+// then.
+void write_waypoints(const std::filesystem::path& path, const Instance& instance,
+                     const Solution& solution, const Scale& scale);
+
+// The same for ROS: YAML with one nav_msgs/Path for each robot, by its id, in the frame "map".
+void write_nav_paths(const std::filesystem::path& path, const Instance& instance,
+                     const Solution& solution, const Scale& scale);
 
 }  // namespace grove

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: MIT
+#include "tools/convert/occupancy_map.h"
+
+#include <cairo.h>
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "grove/io/input_error.h"
+#include "grove/io/map_file.h"
+#include "grove/io/text_file.h"
+#include "grove/model/parse_number.h"
+
+namespace grove {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<double> light;  // 0 black, 1 white; row by row from the top
+};
+
+void require_size(const std::string& file, std::int64_t width, std::int64_t height) {
+  if (width < 1 || height < 1 || width * height > kMaxMapCells)
+    throw InputError(
+        file, "",
+        fmt::format("found {} x {} pixels; expected 1 to {} in all", width, height, kMaxMapCells));
+}
+
+// Netpbm's grey maps, binary (P5) or in words (P2).
+class PgmReader {
+ public:
+  PgmReader(const fs::path& path) : file_(path.string()), text_(read_text(path)) {}
+
+  Image read() {
+    const std::string kind = word();
+    if (kind != "P5" && kind != "P2")
+      fail(fmt::format("found '{}'; expected P5 or P2, a PGM image", one_line(kind)));
+    Image image;
+    image.width = number(1, kMaxMapCells, "a width");
+    image.height = number(1, kMaxMapCells, "a height");
+    require_size(file_, image.width, image.height);
+    const int most = number(1, 65535, "a greatest value");
+    const std::size_t count =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    if (kind == "P5") ++at_;  // one blank
+    for (std::size_t i = 0; i < count; ++i)
+      image.light.push_back(
+          static_cast<double>(kind == "P5" ? raw(most) : number(0, most, "a value")) / most);
+    return image;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(file_, fmt::format("byte {}", at_), message);
+  }
+  std::string word() {
+    const auto is_blank = [&] { return std::isspace(static_cast<unsigned char>(text_[at_])) != 0; };
+    while (at_ < text_.size() && (is_blank() || text_[at_] == '#')) {
+      if (text_[at_] == '#')
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      else
+        ++at_;
+    }
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !is_blank()) ++at_;
+    return text_.substr(begin, std::min<std::size_t>(at_ - begin, 40));
+  }
+  int number(int least, int most, const char* what) {
+    const std::string text = word();
+    const auto value = parse_number(text, least, most);
+    if (!value)
+      fail(fmt::format("found '{}'; expected {} from {} to {}", one_line(text), what, least, most));
+    return *value;
+  }
+  int raw(int most) {
+    const std::size_t bytes = most > 255 ? 2 : 1;
+    if (at_ + bytes > text_.size()) fail("the file ends here; expected more pixels");
+    int value = static_cast<unsigned char>(text_[at_++]);
+    if (bytes == 2) value = 256 * value + static_cast<unsigned char>(text_[at_++]);
+    return std::min(value, most);
+  }
+
+  std::string file_;
+  std::string text_;
+  std::size_t at_ = 0;
+};
+
+Image read_png(const fs::path& path) {
+  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
+      cairo_image_surface_create_from_png(path.c_str()), cairo_surface_destroy);
+  if (const auto status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
+    throw InputError(path.string(), "",
+                     fmt::format("no PNG image: {}", cairo_status_to_string(status)));
+  const auto format = cairo_image_surface_get_format(surface.get());
+  if (format != CAIRO_FORMAT_RGB24 && format != CAIRO_FORMAT_ARGB32)
+    throw InputError(path.string(), "", "expected a PNG image of 8 bits a channel");
+  Image image;
+  image.width = cairo_image_surface_get_width(surface.get());
+  image.height = cairo_image_surface_get_height(surface.get());
+  require_size(path.string(), image.width, image.height);
+  const unsigned char* data = cairo_image_surface_get_data(surface.get());
+  const int stride = cairo_image_surface_get_stride(surface.get());
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const unsigned char* pixel = data + y * stride + 4 * x;
+      image.light.push_back((pixel[0] + pixel[1] + pixel[2]) / (3 * 255.0));
+    }
+  return image;
+}
+
+// One key of a map.yaml after the other.
+class Keys {
+ public:
+  explicit Keys(const fs::path& path) : file_(path.string()) {
+    try {
+      root_ = YAML::Load(read_text(path));
+    } catch (const YAML::Exception& error) {
+      throw InputError(file_, fmt::format("line {}", error.mark.line + 1), one_line(error.msg));
+    }
+    if (!root_.IsMap() || !root_["image"])
+      throw InputError(file_, "", "expected the keys of a ROS map: image, resolution, origin, ...");
+  }
+
+  const std::string& file() const { return file_; }
+  std::string text(const char* key, const std::string& otherwise) const {
+    const YAML::Node node = root_[key];
+    return node && node.IsScalar() ? node.Scalar() : otherwise;
+  }
+  double number(const char* key, double least, double most, double otherwise) const {
+    const YAML::Node node = root_[key];
+    if (!node && !std::isnan(otherwise)) return otherwise;
+    return as_number(node, key, least, most);
+  }
+  Point origin() const {
+    const YAML::Node node = root_["origin"];
+    if (!node || !node.IsSequence() || node.size() < 2)
+      throw InputError(file_, "origin", "expected [x, y, yaw], metres and radians");
+    if (node.size() > 2 && as_number(node[2], "origin", -10, 10) != 0)
+      throw InputError(
+          file_, "origin",
+          fmt::format("found a yaw of {}; expected 0: turn the image first", node[2].Scalar()));
+    return {as_number(node[0], "origin", -1e6, 1e6), as_number(node[1], "origin", -1e6, 1e6)};
+  }
+
+ private:
+  double as_number(const YAML::Node& node, const char* key, double least, double most) const {
+    const std::string text = node && node.IsScalar() ? node.Scalar() : "";
+    if (const auto value = parse_number(text, least, most)) return *value;
+    throw InputError(
+        file_, key,
+        fmt::format("found '{}'; expected a number from {} to {}", one_line(text), least, most));
+  }
+
+  std::string file_;
+  YAML::Node root_;
+};
+
+constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+OccupancyMap::OccupancyMap(const fs::path& yaml) {
+  const Keys keys(yaml);
+  if (const std::string mode = keys.text("mode", "trinary"); mode != "trinary" && mode != "scale")
+    throw InputError(keys.file(), "mode",
+                     fmt::format("found '{}'; expected trinary or scale", one_line(mode)));
+  resolution_ = keys.number("resolution", 1e-4, 100, kRequired);
+  origin_ = keys.origin();
+  const double free_below = keys.number("free_thresh", 0, 1, 0.25);
+  const std::string negate = keys.text("negate", "0");
+  const bool is_negated = negate == "1" || negate == "true";
+  const fs::path file = yaml.parent_path() / keys.text("image", "");
+  const std::string suffix = file.extension().string();
+  const Image image =
+      suffix == ".png" || suffix == ".PNG" ? read_png(file) : PgmReader(file).read();
+  width_ = image.width;
+  height_ = image.height;
+  for (const double light : image.light)
+    free_.push_back((is_negated ? light : 1 - light) < free_below);
+}
+
+OccupancyMap::OccupancyMap(int width, int height, std::vector<bool> free, double resolution,
+                           Point origin)
+    : width_(width),
+      height_(height),
+      free_(std::move(free)),
+      resolution_(resolution),
+      origin_(origin) {}
+
+bool OccupancyMap::is_free(int x, int y) const {
+  return x >= 0 && x < width_ && y >= 0 && y < height_ &&
+         free_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(x)];
+}
+
+bool OccupancyMap::is_clear(Point at, double radius) const {
+  // In pixels, y down.
+  const double px = at.x / resolution_;
+  const double py = height_ - at.y / resolution_;
+  const double reach = radius / resolution_;
+  const auto first = [&](double p) { return static_cast<int>(std::floor(p - reach)); };
+  const auto last = [&](double p) { return static_cast<int>(std::floor(p + reach)); };
+  for (int y = first(py); y <= last(py); ++y)
+    for (int x = first(px); x <= last(px); ++x) {
+      const double dx = std::max({0.0, x - px, px - (x + 1)});
+      const double dy = std::max({0.0, y - py, py - (y + 1)});
+      const bool is_here = std::floor(px) == x && std::floor(py) == y;
+      if ((is_here || dx * dx + dy * dy < reach * reach) && !is_free(x, y)) return false;
+    }
+  return true;
+}
+
+namespace {
+
+class Cells {
+ public:
+  Cells(const OccupancyMap& map, double cell_size, double radius)
+      : map_(map),
+        size_(cell_size),
+        radius_(radius),
+        // (A cell that fits but for the last digits of numbers fits.)
+        width_(static_cast<int>(std::floor(map.width() / cell_size + 1e-6))),
+        height_(static_cast<int>(std::floor(map.height() / cell_size + 1e-6))) {
+    if (width_ < 1 || height_ < 1)
+      throw std::invalid_argument(fmt::format("no cell of {} m fits into {:.4g} x {:.4g} m",
+                                              cell_size, map.width(), map.height()));
+  }
+
+  CellMap run() {
+    int too_near = 0;
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        passable_.push_back(map_.is_clear(middle(x, y), radius_));
+        if (!passable_.back() && map_.is_clear(middle(x, y), 0)) ++too_near;
+      }
+    const int narrow = block_narrow();
+    return {Grid(width_, height_, passable_), too_near, narrow};
+  }
+
+ private:
+  Point middle(int x, int y) const { return {(x + 0.5) * size_, (height_ - y - 0.5) * size_}; }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+  bool passable(int x, int y) const {
+    return x >= 0 && x < width_ && y >= 0 && y < height_ && passable_[index(x, y)];
+  }
+  bool leads(int ax, int ay, int bx, int by) const {
+    const Point a = middle(ax, ay);
+    const Point b = middle(bx, by);
+    const int steps = std::max(1, static_cast<int>(std::ceil(2 * size_ / map_.resolution())));
+    for (int i = 1; i < steps; ++i) {
+      const double part = static_cast<double>(i) / steps;
+      if (!map_.is_clear({a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)}, radius_))
+        return false;
+    }
+    return true;
+  }
+  int ways(int x, int y) const {
+    int count = 0;
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+      if (passable(x + dx, y + dy) && leads(x, y, x + dx, y + dy)) ++count;
+    return count;
+  }
+  int block_narrow() {
+    int blocked = 0;
+    const auto look_at = [&](int ax, int ay, int bx, int by) {
+      if (!passable(ax, ay) || !passable(bx, by) || leads(ax, ay, bx, by)) return;
+      const bool first = ways(ax, ay) < ways(bx, by);
+      passable_[first ? index(ax, ay) : index(bx, by)] = false;
+      ++blocked;
+    };
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        look_at(x, y, x + 1, y);
+        look_at(x, y, x, y + 1);
+      }
+    return blocked;
+  }
+
+  const OccupancyMap& map_;
+  const double size_;
+  const double radius_;
+  const int width_;
+  const int height_;
+  std::vector<bool> passable_;
+};
+
+}  // namespace
+
+CellMap cells_of(const OccupancyMap& map, double cell_size, double robot_radius) {
+  return Cells(map, cell_size, robot_radius).run();
+}
+
+}  // namespace grove
