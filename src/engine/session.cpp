@@ -158,7 +158,7 @@ class Session::Impl {
   }
 
   void change(const InstanceChange& change) {
-    Changed changed = apply(instance_, old_ ? *old_ : standing_still(), change);
+    Changed changed = apply(instance_, old_ ? *old_ : standing_plan(instance_), change);
     for (std::size_t agent = 0; agent < affected_.size(); ++agent)
       affected_[agent] = affected_[agent] || changed.affected[agent] || !old_;
     instance_ = std::move(changed.instance);
@@ -187,13 +187,6 @@ class Session::Impl {
   }
 
  private:
-  Plan standing_still() const {
-    Plan plan;
-    for (const Agent& agent : instance_.agents())
-      plan.agents.push_back({.sequence = {}, .path = {instance_.world().base(agent.start)}});
-    return plan;
-  }
-
   void require_open(Time commit) const {
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
       const Time end = static_cast<Time>(old_->agents[agent].path.size()) - 1;

@@ -95,6 +95,13 @@ Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& gi
   return path;
 }
 
+Plan standing_plan(const Instance& instance) {
+  Plan plan;
+  for (const Agent& agent : instance.agents())
+    plan.agents.push_back({.sequence = {}, .path = {instance.world().base(agent.start)}});
+  return plan;
+}
+
 std::string_view to_string(Status status) {
   for (const auto& [value, name] : kNames)
     if (value == status) return name;

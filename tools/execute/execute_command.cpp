@@ -20,8 +20,10 @@
 #include "tools/common/frame_arguments.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
+#include "tools/common/own_files.h"
 #include "tools/execute/robots.h"
 #include "tools/execute/troubles.h"
+#include "tools/solve/solve_arguments.h"
 #include "tools/view/page.h"
 #include "tools/view/page_data.h"
 
@@ -43,7 +45,11 @@ the sum of finish times is expected to be less for it; the order stays one in wh
 circle. The table then has both, with the same delays.
 
 Every drive is checked like a plan, from its paths. With robots that die the others go on as far as
-they can.
+they can, and it says who waits for whom. Of several drives, each with other delays, the table has
+the median and the worst, of each column by itself; of those that end.
+
+--stop and --dies hold whatever else happens; several stops of a robot add up. In the plan that
+--output writes a robot that took longer for something waits before it.
 
 Examples:
   grove execute my.cts.json my.plan.json --delays 0.1 --runs 1000
@@ -85,40 +91,23 @@ struct Took {
 
 class Execution {
  public:
-  explicit Execution(const ExecuteArguments& arguments)
+  Execution(const CLI::App& app, const ExecuteArguments& arguments)
       : a_(arguments),
+        options_(options_text(app)),
         loaded_(arguments.instance.load()),
         claimed_(read_plan_to_drive(arguments.plan, loaded_.instance)),
         order_(loaded_.instance, *claimed_.solution.plan) {}
 
   void run() {
+    require_own_files({{"--order", a_.order}, {"--output", a_.output}, {"--view", a_.view}},
+                      a_.instance, loaded_, {a_.plan});
     if (!a_.order.empty())
       write(a_.order, order_text(loaded_.instance, order_, a_.frame.frame(loaded_.instance)));
     const Troubles troubles(a_.troubles, loaded_.instance);
-    Took driven;
-    Took switching;
-    std::int64_t switches = 0;
-    for (std::int64_t run = 0; run < a_.runs; ++run) {
-      const auto durations = [&] {
-        return troubles.durations(order_, static_cast<std::uint64_t>(a_.seed + run));
-      };
-      Drive drive = grove::drive(order_, durations());
-      std::vector<Stuck> stuck = grove::stuck(order_, drive);
-      if (a_.switches) {
-        if (stuck.empty()) driven.add(order_, drive);
-        SwitchedDrive switched =
-            drive_switching(loaded_.instance.world(), *claimed_.solution.plan, order_, durations());
-        drive = std::move(switched.drive);
-        stuck = std::move(switched.stuck);
-        switches += switched.switches;
-      }
-      if (run == 0) show(drive, stuck);
-      if (!stuck.empty()) return tell_stuck(stuck);
-      require_valid(drive);
-      (a_.switches ? switching : driven).add(order_, drive);
-    }
-    print(driven, switching);
-    if (a_.switches) fmt::print("switched: {} places\n", switches);
+    for (std::int64_t run = 0; run < a_.runs; ++run) drive_once(troubles, a_.seed + run);
+    print();
+    if (a_.switches) fmt::print("switched: {} places\n", switches_);
+    if (unfinished_ > 0) tell_stuck();
   }
 
  private:
@@ -127,11 +116,35 @@ class Execution {
     fmt::print("wrote {}\n", file);
   }
 
+  void drive_once(const Troubles& troubles, std::int64_t seed) {
+    const auto durations = [&] {
+      return troubles.durations(order_, static_cast<std::uint64_t>(seed));
+    };
+    Drive drive = grove::drive(order_, durations());
+    std::vector<Stuck> stuck = grove::stuck(order_, drive);
+    if (stuck.empty()) fixed_.add(order_, drive);
+    if (a_.switches) {
+      SwitchedDrive switched =
+          drive_switching(loaded_.instance.world(), *claimed_.solution.plan, order_, durations());
+      drive = std::move(switched.drive);
+      stuck = std::move(switched.stuck);
+      switches_ += switched.switches;
+      if (stuck.empty()) switching_.add(order_, drive);
+    }
+    if (seed == a_.seed) show(drive, stuck);
+    if (stuck.empty()) return require_valid(drive);
+    if (unfinished_++ > 0) return;
+    first_stuck_ = std::move(stuck);
+    first_stuck_seed_ = seed;
+  }
+
   Solution solution_of(const Drive& drive) const {
     Solution solution;
     solution.plan = driven_plan(loaded_.instance, *claimed_.solution.plan, order_, drive);
     solution.lower_bound = 0;
     solution.status = status_of(solution.plan->cost, 0, solution.omega);
+    solution.stats.texts["driven"] = a_.plan;
+    solution.stats.texts["options"] = options_;
     return solution;
   }
 
@@ -139,9 +152,18 @@ class Execution {
     const Solution driven = solution_of(drive);
     if (!a_.output.empty() && stuck.empty())
       write(a_.output, solution_text(loaded_.instance, driven));
+    else if (!a_.output.empty())
+      print_warnings(
+          {fmt::format("{} is not written: not all robots get to their end, so the drive "
+                       "is no plan",
+                       a_.output)});
     if (a_.view.empty()) return;
-    const std::vector<NamedPlan> plans{{"planned", claimed_},
-                                       {"driven", {driven, {"lower bound", "order of tasks"}}}};
+    const std::string name_of_drive = stuck.empty()
+                                          ? "driven"
+                                          : fmt::format("driven, {} of {} robots not to their end",
+                                                        stuck.size(), order_.agent_count());
+    const std::vector<NamedPlan> plans{
+        {"planned", claimed_}, {name_of_drive, {driven, {"lower bound", "order of tasks"}}}};
     const std::string name = std::filesystem::path(a_.instance.name()).filename().string();
     write(a_.view, plan_page(name, page_data(name, loaded_.instance, plans)));
   }
@@ -154,20 +176,26 @@ class Execution {
           fmt::format("a drive is not valid: {}: {}", wrong.front().place, wrong.front().message));
   }
 
-  void tell_stuck(const std::vector<Stuck>& stuck) const {
+  void tell_stuck() const {
     const auto id = [&](AgentIndex agent) { return one_line(loaded_.instance.agent(agent).id); };
-    fmt::print("{} of {} robots do not get to their end:\n", stuck.size(), order_.agent_count());
-    for (std::size_t i = 0; i < std::min(stuck.size(), kMostStuck); ++i) {
-      const Stuck& s = stuck[i];
+    const std::string which =
+        a_.runs == 1 ? ""
+                     : fmt::format("{} of {} drives do not end; of the one with --seed {} ",
+                                   unfinished_, a_.runs, first_stuck_seed_);
+    fmt::print("{}{} of {} robots do not get to their end:\n", which, first_stuck_.size(),
+               order_.agent_count());
+    for (std::size_t i = 0; i < std::min(first_stuck_.size(), kMostStuck); ++i) {
+      const Stuck& s = first_stuck_[i];
       if (s.agent == s.waits_for)
         fmt::print("  {} does not move any more\n", id(s.agent));
       else
         fmt::print("  {} waits for {}\n", id(s.agent), id(s.waits_for));
     }
-    if (stuck.size() > kMostStuck) fmt::print("  and {} more\n", stuck.size() - kMostStuck);
+    if (first_stuck_.size() > kMostStuck)
+      fmt::print("  and {} more\n", first_stuck_.size() - kMostStuck);
   }
 
-  void print(Took& driven, Took& switching) const {
+  void print() {
     const Plan& plan = *claimed_.solution.plan;
     Took undisturbed;
     undisturbed.add(order_, drive_undisturbed(order_));
@@ -177,8 +205,8 @@ class Execution {
     fmt::print("{:<27}{:>10}{:>14}\n", "", "makespan", "sum of costs");
     fmt::print("{:<27}{:>10}{:>14}\n", "planned", makespan, plan.cost);
     row("driven undisturbed", undisturbed, plan.cost, makespan);
-    if (!driven.costs.empty()) row("driven", driven, plan.cost, makespan);
-    if (a_.switches) row("driven, switching", switching, plan.cost, makespan);
+    if (!fixed_.costs.empty()) row("driven", fixed_, plan.cost, makespan);
+    if (!switching_.costs.empty()) row("driven, switching", switching_, plan.cost, makespan);
   }
 
   static void row(const std::string& name, Took& took, Cost cost, Cost makespan) {
@@ -202,9 +230,16 @@ class Execution {
   }
 
   const ExecuteArguments& a_;
+  const std::string options_;
   const LoadedInstance loaded_;
   const ClaimedPlan claimed_;
   const PassingOrder order_;
+  Took fixed_;
+  Took switching_;
+  std::int64_t switches_ = 0;
+  std::int64_t unfinished_ = 0;  // drives
+  std::vector<Stuck> first_stuck_;
+  std::int64_t first_stuck_seed_ = 0;
 };
 
 }  // namespace
@@ -243,10 +278,10 @@ void add_execute_command(CLI::App& app) {
       ->type_name("PLAN");
   command->add_option("--view", arguments->view, "show plan and first drive side by side as a page")
       ->type_name("FILE.html");
-  command->callback([arguments] {
+  command->callback([command, arguments] {
     if (arguments->frame.given() && arguments->order.empty())
       throw CLI::ValidationError("--cell-size, --origin", "expected only with --order");
-    Execution(*arguments).run();
+    Execution(*command, *arguments).run();
   });
 }
 

@@ -12,10 +12,12 @@
 #include "grove/io/atomic_file.h"
 #include "grove/io/input_error.h"
 #include "grove/io/plan_import.h"
+#include "grove/model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/companion.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
+#include "tools/common/own_files.h"
 #include "tools/view/browser.h"
 #include "tools/view/page.h"
 #include "tools/view/page_data.h"
@@ -76,10 +78,17 @@ std::string size_text(std::size_t bytes) {
                           : fmt::format("{:.1f} MB", kilobytes / 1e3);
 }
 
+// (The page of a plan is mostly called like the instance.)
 std::string default_output(const ViewArguments& arguments) {
-  if (arguments.plans.empty()) return arguments.instance.stem() + ".html";
+  if (arguments.plans.empty()) return arguments.instance.stem() + ".instance.html";
   const std::string name = fs::path(arguments.plans.front()).filename().string();
   return name.substr(0, name.find('.')) + ".html";
+}
+
+// Empty: pictures alone are wanted.
+std::string page_file(const ViewArguments& arguments) {
+  if (!arguments.output.empty() || arguments.wants_pictures()) return arguments.output;
+  return default_output(arguments);
 }
 
 std::string name_of(const std::string& file) {
@@ -94,8 +103,7 @@ void write(const std::string& file, const std::string& bytes) {
 void write_page(const ViewArguments& arguments, const Instance& instance,
                 const std::vector<NamedPlan>& plans) {
   const std::string name = fs::path(arguments.instance.name()).filename().string();
-  const std::string output =
-      arguments.output.empty() ? default_output(arguments) : arguments.output;
+  const std::string output = page_file(arguments);
   write(output, plan_page(name, page_data(name, instance, plans)));
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
@@ -130,21 +138,39 @@ void show_run(const ViewArguments& arguments) {
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
 
+// It is shown all the same: the page says what is wrong, a picture shows it red.
+void note_what_is_wrong(const Instance& instance, const NamedPlan& plan,
+                        std::vector<std::string>& warnings) {
+  const Solution& solution = plan.claimed.solution;
+  if (!solution.plan) return;
+  const auto wrong = check(instance, solution, 1);
+  if (!wrong.empty())
+    warnings.push_back(fmt::format("{} is not valid: {}: {}", one_line(plan.name),
+                                   wrong.front().place, one_line(wrong.front().message)));
+}
+
 void run(const ViewArguments& arguments) {
   if (!arguments.run.empty()) return show_run(arguments);
   const LoadedInstance loaded = arguments.instance.load();
+  require_own_files({{"--output", page_file(arguments)},
+                     {"--svg", arguments.svg},
+                     {"--png", arguments.png},
+                     {"--gif", arguments.gif}},
+                    arguments.instance, loaded, arguments.plans);
   std::vector<std::string> warnings;
   std::vector<NamedPlan> plans;
   for (const std::string& file : arguments.plans)
     plans.push_back({fs::path(file).filename().string(),
                      read_plan_of_any_tool(file, loaded.instance, &warnings)});
+  for (const NamedPlan& plan : plans) note_what_is_wrong(loaded.instance, plan, warnings);
+  if (arguments.wants_pictures() && plans.size() > 1)
+    warnings.push_back("pictures show the first plan alone");
   if (plans.size() > kMostPlans)
     warnings.push_back(fmt::format("a page shows {} plans; {} and those after it are left out",
                                    kMostPlans, one_line(plans[kMostPlans].name)));
   print_warnings(warnings);
   if (arguments.wants_pictures()) write_pictures(arguments, loaded.instance, plans);
-  if (!arguments.wants_pictures() || !arguments.output.empty())
-    write_page(arguments, loaded.instance, plans);
+  if (!page_file(arguments).empty()) write_page(arguments, loaded.instance, plans);
 }
 
 void add_run_options(CLI::App& command, ViewArguments& arguments) {

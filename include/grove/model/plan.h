@@ -61,6 +61,9 @@ struct Plan {
   std::vector<AgentPlan> agents;  // by AgentIndex
 };
 
+// Everybody stays where it starts, for as long as nobody has a plan.
+Plan standing_plan(const Instance& instance);
+
 enum class Status : std::uint8_t {
   kOptimal,     // a plan, and its cost equals the lower bound
   kBounded,     // a plan, and cost <= (1 + w) * lower bound

@@ -6,6 +6,7 @@ import type { App, Viewed } from "./app";
 import { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { el } from "./dom";
+import { planFacts } from "./facts";
 import { Frame } from "./frame";
 import { listen } from "./gestures";
 import { heatMap } from "./heat";
@@ -14,14 +15,15 @@ import { Paths } from "./paths";
 import { Labels, type RobotPainter } from "./robots";
 import { EitherRobots } from "./robots_either";
 import { Scenery, type Shown } from "./scenery";
+import { standing } from "./standing";
 
 export class Stage {
   readonly element: HTMLElement;
   readonly camera: Camera;
-  readonly frame: Frame | null;
+  readonly frame: Frame;
   private readonly canvases: HTMLCanvasElement[];
   private readonly scenery: Scenery;
-  private readonly robots: RobotPainter | null;
+  private readonly robots: RobotPainter;
   private readonly labels: Labels;
   private readonly minimap: Minimap;
   private readonly paths: Paths | null;
@@ -33,15 +35,16 @@ export class Stage {
     const { model } = app;
     const { world } = model;
     this.camera = new Camera(world.width, world.height, world.unit);
-    this.frame = viewed
-      ? new Frame(model, viewed.plan, viewed.facts, viewed.checker.violations) : null;
+    const plan = viewed ? viewed.plan : standing(model);
+    this.frame = new Frame(model, plan, viewed ? viewed.facts : planFacts(model, plan),
+      viewed ? viewed.checker.violations : []);
     const other = app.viewed.find((v) => v !== viewed) ?? null;
     this.paths = viewed ? new Paths(model, viewed, other) : null;
     const [ground, plain, fast] = [el("canvas"), el("canvas"), el("canvas")];
     const top = el("canvas", { tabindex: 0 });
     this.canvases = [ground, plain, fast, top];
     this.scenery = new Scenery(ground, model, viewed ? viewed.facts : null);
-    this.robots = this.frame ? new EitherRobots(plain, fast, world) : null;
+    this.robots = new EitherRobots(plain, fast, world);
     this.labels = new Labels(top, model, viewed ? other : null);
     this.minimap = new Minimap(model, this.camera, () => this.cameraMoved());
     top.setAttribute("aria-label", viewed ? `The plan ${viewed.plan.name}` : "The instance");
@@ -72,7 +75,7 @@ export class Stage {
     const { world } = model;
     const p = this.camera.toWorld(x, y);
     const reach = Math.max(0.5 * world.unit, 10 / this.camera.scale);
-    const robot = this.frame ? this.frame.nearest(p.x, p.y, reach) : -1;
+    const robot = this.frame.nearest(p.x, p.y, reach);
     if (robot >= 0) return this.app.choose(robot);
     const isHere = (place: number) =>
       place >= 0 && Math.hypot(world.xs[place] - p.x, world.ys[place] - p.y) < reach;
@@ -90,10 +93,10 @@ export class Stage {
   // Draws if something has changed.
   draw(colors: Colors, ratio: number): void {
     const { player, chosen, following } = this.app;
-    if (!this.dirty && this.frame?.time === player.time) return;
+    if (!this.dirty && this.frame.time === player.time) return;
     const { frame } = this;
-    frame?.update(player.time);
-    if (following && chosen >= 0 && frame) {
+    frame.update(player.time);
+    if (following && chosen >= 0) {
       this.camera.show(frame.xs[chosen], frame.ys[chosen]);
       this.dirty = true;
     }
@@ -104,8 +107,7 @@ export class Stage {
       this.scenery.paint(this.camera, player.time, shown, colors, ratio);
     this.step = Math.floor(player.time);
     this.dirty = false;
-    if (!frame) return;
-    this.robots?.paint(this.camera, frame, colors, ratio);
+    this.robots.paint(this.camera, frame, colors, ratio);
     this.labels.paint(this.camera, frame, shown, colors, ratio);
     this.minimap.paint(frame, shown, colors, ratio);
   }

@@ -39,7 +39,8 @@ Time rest_of(const AgentPlan& plan) {
 
 }  // namespace
 
-Drawing::Drawing(const Instance& instance, const Plan* plan) : instance_(instance), plan_(plan) {
+Drawing::Drawing(const Instance& instance, const Plan* plan)
+    : instance_(instance), standing_(standing_plan(instance)), plan_(plan ? plan : &standing_) {
   if (const Roadmap* roadmap = instance.roadmap()) {
     measure_roadmap(*roadmap);
   } else {
@@ -48,9 +49,9 @@ Drawing::Drawing(const Instance& instance, const Plan* plan) : instance_(instanc
   }
   visits_.resize(static_cast<std::size_t>(instance.task_count()));
   begins_.resize(visits_.size(), std::numeric_limits<Time>::max());
-  if (plan_ == nullptr) return;
   for (std::size_t i = 0; i < plan_->agents.size(); ++i) {
     rests_.push_back(rest_of(plan_->agents[i]));
+    if (!has_plan()) continue;
     end_ = std::max(end_, rests_.back());
     note_visits(static_cast<AgentIndex>(i), plan_->agents[i]);
   }
@@ -229,13 +230,11 @@ void Drawing::draw(cairo_t* cairo, double width, double time) const {
   draw_goals(cairo);
   draw_tasks(cairo, time);
   if (!instance_.is_on_grid()) draw_vertex_names(cairo);
-  if (plan_ != nullptr) {
-    const auto all = robots(time);
-    for (const Robot& robot : all) draw_robot(cairo, robot);
-    const bool named = unit_ >= kLeastLabeled * pixel(cairo) || all.size() <= kMostTags;
-    for (std::size_t i = 0; named && i < all.size(); ++i)
-      draw_name(cairo, all[i], instance_.agent(static_cast<AgentIndex>(i)).id);
-  }
+  const auto all = robots(time);
+  for (const Robot& robot : all) draw_robot(cairo, robot);
+  const bool named = unit_ >= kLeastLabeled * pixel(cairo) || all.size() <= kMostTags;
+  for (std::size_t i = 0; named && i < all.size(); ++i)
+    draw_name(cairo, all[i], instance_.agent(static_cast<AgentIndex>(i)).id);
   cairo_restore(cairo);
 }
 

@@ -12,15 +12,17 @@
 
 namespace grove {
 
-// Draws an instance and, if there is one, a plan. Holds references: both must outlive it. A plan
-// need not be valid; agents without a path are left out.
+// Draws an instance and, if there is one, a plan; else all where they start. Holds references: both
+// must outlive it. A plan need not be valid; agents without a path are left out.
 class Drawing {
  public:
   Drawing(const Instance& instance, const Plan* plan);
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
 
   // Height for a width of 1.
   double shape() const { return height_ / width_; }
-  bool has_plan() const { return plan_ != nullptr; }
+  bool has_plan() const { return plan_ != &standing_; }
   const Instance& instance() const { return instance_; }
   // The last time at which anything changes, in steps.
   Time end() const { return end_; }
@@ -58,6 +60,7 @@ class Drawing {
   double pixel(cairo_t* cairo) const;
 
   const Instance& instance_;
+  const Plan standing_;
   const Plan* plan_;
   double width_ = 1;  // in the world's units: cells or metres
   double height_ = 1;

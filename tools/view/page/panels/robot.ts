@@ -23,7 +23,22 @@ export class RobotDetails {
     const turning = turnSteps > 0
       ? [el("p", { class: "faint" }, `A quarter turn takes it ${plural(turnSteps, "step")}.`)] : [];
     this.elements = [head(app, name, this.follow), ...turning, ...comparedDetails(app, agent),
-      ...app.viewed.flatMap((viewed) => this.plan(viewed))];
+      ...(app.viewed.length > 0 ? app.viewed.flatMap((viewed) => this.plan(viewed))
+        : this.asked())];
+  }
+
+  // What the instance says of it, where there is no plan.
+  private asked(): HTMLElement[] {
+    const { agents, tasks, world } = this.app.model;
+    const { start, goal, tasks: own } = agents[this.agent];
+    const line = (text: string) => el("p", {}, text);
+    return [
+      line(`Starts on ${world.place(start)}.`),
+      line(own.length > 0 ? `Is to visit ${own.map((task) => tasks[task].name).join(", ")}.`
+        : "Has no tasks."),
+      line(goal >= 0 ? `Ends on ${world.place(goal)}.`
+        : own.length > 0 ? "Ends on one of its tasks." : "May end anywhere."),
+    ];
   }
 
   update(): void {
