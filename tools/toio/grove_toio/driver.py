@@ -174,8 +174,8 @@ class Driver:
         """Until it stands at the goal, or is seen on the way from there to where `onward` leads."""
         handle.goal = goal
         while True:
+            handle.far = far = onward()
             if self.fit(handle):
-                far = onward()
                 if far and handle.in_lane(goal, far, tolerance):
                     return
                 if handle.at_rest and distance(handle.mean, goal) <= tolerance:

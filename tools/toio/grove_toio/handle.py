@@ -28,6 +28,7 @@ class Handle:
     def __init__(self, robot, cube, place, now):
         self.robot, self.cube, self.name, self.now = robot, cube, robot.name, now
         self.place = self.goal = place      # centres of where it is or comes from, and goes to
+        self.far = None                     # where it may drive on to from the goal without a stop
         self.done = 0                       # actions
         self.state = "waiting"
         self.command = None
@@ -132,7 +133,7 @@ class Handle:
 
     def strays(self):
         """How far it is from where it has to be."""
-        path = [self.place, self.goal, *(self.command.path if self.command else ())]
+        path = [self.place, self.goal, *([self.far] if self.far else [])]
         return min(point_to_segment(self.position, a, b) for a, b in zip(path, path[1:]))
 
     # ---- commands
