@@ -36,12 +36,16 @@ PATIENCE = 3.0                  # until a cube of which nothing was heard is mis
 class Outcome(NamedTuple):
     seconds: float
     completed: bool
-    actions: int
+    done: dict                  # actions of each robot
     all_actions: int
     writes: int
     repeats: int
-    corrections: int
+    corrections: int            # rolls over the last units
     waits: list                 # if it is not completed: who waits for whom
+
+    @property
+    def actions(self):
+        return sum(self.done.values())
 
 
 class Driver:
@@ -268,8 +272,10 @@ class Driver:
         return False
 
     def tell(self, handle, about, text):
-        if self.said.get((handle.name, about)) is None:
-            self.said[handle.name, about] = text
+        """Once, while it is the same."""
+        kind = text.split(",")[0].split("[")[0]
+        if self.said.get((handle.name, about), ("",))[0] != kind:
+            self.said[handle.name, about] = kind, text
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
     def told_off(self, handle, about, text=None):
@@ -280,9 +286,9 @@ class Driver:
         """Why it has not gone on: a text, or None for one that has done all it has to."""
         k = handle.done
         if (handle.name, "unfit") in self.said:
-            return f"{handle.name} {self.said[handle.name, 'unfit']}"
+            return f"{handle.name} {self.said[handle.name, 'unfit'][1]}"
         if (handle.name, "blocked") in self.said:
-            return f"{handle.name} {self.said[handle.name, 'blocked']}"
+            return f"{handle.name} {self.said[handle.name, 'blocked'][1]}"
         if k == len(handle.robot.actions):
             return None
         action = handle.robot.actions[k]
@@ -355,6 +361,6 @@ class Driver:
 
     def outcome(self):
         waits = [text for text in map(self.waits_of, self.handles) if text]
-        return Outcome(self.now(), self.all_done(), sum(h.done for h in self.handles),
+        return Outcome(self.now(), self.all_done(), {h.name: h.done for h in self.handles},
                        sum(len(h.robot.actions) for h in self.handles), sum(h.writes for h in self.handles),
                        sum(h.repeats for h in self.handles), sum(h.corrections for h in self.handles), waits)

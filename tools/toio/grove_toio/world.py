@@ -8,6 +8,7 @@ from .geometry import distance
 from .mat import BODY, MM
 
 TICK = 0.01
+SPREAD = 12                 # units from where it was that a hand puts a cube back
 MOST_TICKS = 20             # made up for at once, where the machine was busy
 
 
@@ -74,7 +75,7 @@ class World:
     def _put_back(self, lift):
         """Where nobody is in the way of the hand."""
         for _ in range(20):
-            x, y = lift.where or (lift.cube.x + self.random.uniform(-12, 12), lift.cube.y + self.random.uniform(-12, 12))
+            x, y = lift.where or [at + self.random.uniform(-SPREAD, SPREAD) for at in (lift.cube.x, lift.cube.y)]
             if self.on_mat(x, y) and all(distance((x, y), (c.x, c.y)) > BODY + 6
                                          for c in self.cubes if c is not lift.cube and not c.lifted):
                 lift.cube.put_down(x, y, self.random.uniform(0, 360))
