@@ -105,9 +105,12 @@ class Driver:
             else:
                 await self.stand_until(handle, lambda k=k: self.after_done(handle, k))
                 await getattr(self, action.kind)(handle, k, action)
-            handle.place = handle.goal
-            handle.done += 1
+            self.end_action(handle)
         await self.stand_until(handle, lambda: False, "done")
+
+    def end_action(self, handle):
+        handle.place = handle.goal
+        handle.done += 1
 
     async def move(self, handle, k, action):
         await self.reach(handle, self.grid.centre(action.cell), self.grid.tolerance,

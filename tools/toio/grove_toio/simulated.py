@@ -75,7 +75,7 @@ class SimulatedCube:
         if self.random.random() < self.troubles.loss:
             return not_before
         loop = asyncio.get_running_loop()
-        when = max(not_before, loop.time() + self.random.uniform(*DELAYS))
+        when = max(not_before + 1e-5, loop.time() + self.random.uniform(*DELAYS))
         loop.call_at(when, handler, data)
         return when
 
