@@ -98,10 +98,15 @@ def _noise(text):
     return _number(text, 0, 2, "a number from 0 to 2")
 
 
-def _integer(text, least, most, expected):
-    if not text.isascii() or not text.isdigit() or not least <= int(text) <= most:
+def _integers(text, parts, least, most, expected):
+    """Of the parts; if one is none the whole text is wrong."""
+    if not all(p.isascii() and p.isdigit() and least <= int(p) <= most for p in parts):
         raise _wrong(text, expected)
-    return int(text)
+    return [int(p) for p in parts]
+
+
+def _integer(text, least, most, expected):
+    return _integers(text, [text], least, most, expected)[0]
 
 
 def _speed(text):
@@ -114,8 +119,10 @@ def _seed(text):
 
 def _cells(text):
     expected = "WIDTHxHEIGHT, as 7x5"
-    width, _, height = text.partition("x")
-    return _integer(width, 1, 1000, expected), _integer(height, 1, 1000, expected)
+    parts = text.split("x")
+    if len(parts) != 2:
+        raise _wrong(text, expected)
+    return tuple(_integers(text, parts, 1, 1000, expected))
 
 
 def _mat(text):
@@ -125,7 +132,7 @@ def _mat(text):
     numbers = text.split(",")
     if len(numbers) != 4:
         raise _wrong(text, expected)
-    x0, y0, x1, y1 = (_integer(n, 0, 65534, expected) for n in numbers)
+    x0, y0, x1, y1 = _integers(text, numbers, 0, 65534, expected)
     if x0 >= x1 or y0 >= y1:
         raise _wrong(text, expected)
     return x0, y0, x1, y1
