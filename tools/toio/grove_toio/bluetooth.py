@@ -111,8 +111,9 @@ def choose_by_place(order, grid, robots, positions):
         start = grid.centre(order.robot(robot).start)
         near = [label for label, at in positions.items() if at and distance(at, start) < grid.pitch / 2]
         if len(near) != 1:
-            raise BadInput(f"--bluetooth: found {len(near)} cubes on {list(order.robot(robot).start)}, the start of {robot}; "
-                           f"expected one ({len(positions)} cubes are on; --cube {robot}=NAME tells which it is)")
+            where = f"{list(order.robot(robot).start)}, the start of {robot}"
+            raise BadInput(f"--bluetooth: found {len(near)} cubes on {where}; expected one ({len(positions)} cubes are "
+                           f"on; --cube {robot}=NAME tells which it is)")
         chosen[robot] = near[0]
     return chosen
 
@@ -131,7 +132,8 @@ async def _scan():
     try:
         return await bleak.BleakScanner.discover(timeout=SCAN_SECONDS, service_uuids=[protocol.SERVICE])
     except (bleak.exc.BleakError, OSError) as error:
-        raise BadInput(f"--bluetooth: cannot be searched for cubes: {error}; expected a Bluetooth adapter that is on") from None
+        raise BadInput(f"--bluetooth: cannot be searched for cubes: {error}; "
+                       "expected a Bluetooth adapter that is on") from None
 
 
 async def connect_cubes(order, grid, named):

@@ -35,9 +35,9 @@ Each cube does its actions one after the other, each when the order allows it; a
 cube is seen to stand on its cell. So cubes never touch, whatever is lost or late. A cube that was lifted
 goes on when it is put back near its cell; meanwhile others wait for it.
 
-Of simulated cubes the least distance between two centres is told, and cubes are held for touching when
-it is below the diagonal of a cube, 45.3 mm. Whom nobody touched may still have waited: who for whom is
-said when --time-limit is over.
+Of simulated cubes the least distance between two centres is told; cubes are held for touching when it is
+below the diagonal of a cube, 45.3 mm, so however they are turned. Who waits for whom is said when
+--time-limit is over.
 
 Exit codes:
   0    all actions are done
@@ -224,13 +224,13 @@ def _make_grid(a, order, file):
         raise BadInput(f"--cells: found {width}x{height}; expected at least {used[0]}x{used[1]}, which the order uses")
     grid = make_grid(a.mat, width, height, a.pitch)
     for members in order.rings.values():
-        robots = [order.robots[i] for i, _ in members]
         cells = [order.robots[i].cell_before(k) for i, k in members]
         least = rings.least_pitch(cells)
         if grid.pitch < least:
             i, k = members[0]
-            raise at(file, f"/robots/{i}/actions/{k}/ring", f"{len(robots)} robots that go round on cells of "
-                     f"{grid.pitch:.1f} units", f"at least {least:.1f}, so that cubes do not touch (a larger --mat, or fewer --cells)")
+            raise at(file, f"/robots/{i}/actions/{k}/ring",
+                     f"{len(members)} robots that go round on cells of {grid.pitch:.1f} units",
+                     f"at least {least:.1f}, so that cubes do not touch (a larger --mat, or fewer --cells)")
     return grid
 
 
@@ -267,6 +267,9 @@ def _describe(a, order, grid, name):
     yield "Cubes         " + ("real ones" if a.bluetooth else
                               f"simulated: {100 * a.loss:g} % of messages lost, {a.slip:g} slips a second, "
                               f"positions off by {a.noise:g} units, seed {a.seed}")
+    if a.bluetooth:
+        yield "Starts        " + ", ".join(f"{r.name} {list(r.start)} at ({x:.0f}, {y:.0f})"
+                                           for r in order.robots for x, y in [grid.centre(r.start)])
 
 
 def _visited(a, order, outcome):

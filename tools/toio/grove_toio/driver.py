@@ -349,7 +349,8 @@ class Driver:
     @staticmethod
     async def first_failure_or(watch, tasks):
         while not watch.done():
-            done, _ = await asyncio.wait([watch, *(t for t in tasks if not t.done())], return_when=asyncio.FIRST_COMPLETED)
+            running = [watch, *(t for t in tasks if not t.done())]
+            done, _ = await asyncio.wait(running, return_when=asyncio.FIRST_COMPLETED)
             for task in done:
                 task.result()
 

@@ -28,7 +28,8 @@ RESERVE = 2.0
 LEAST_TOLERANCE, MOST_TOLERANCE = 2.0, 4.0
 LEAST_PITCH = BODY + 2 * (RESERVE + LEAST_TOLERANCE)
 
-# Top left and bottom right. Development: the twelve sheets, three beside each other.
+# Top left and bottom right: the specification's page "Position ID"; of the twelve sheets for development, three
+# beside and four below each other, what the toio SDK for Unity has.
 MATS = {"simple": (98, 142, 402, 358),
         "collection": (45, 45, 455, 455),
         "development": (34, 35, 949, 898)}

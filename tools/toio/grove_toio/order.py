@@ -165,7 +165,8 @@ def _rings(reader, robots):
         rings[ring] = _follow_each_other(robots, those)
         if rings[ring] is None:
             i, k = those[0]
-            reader.fail(f"/robots/{i}/actions/{k}/ring", ring, "moves into the cells that the others of the ring leave")
+            reader.fail(f"/robots/{i}/actions/{k}/ring", ring,
+                        "moves into the cells that the others of the ring leave")
     return rings
 
 
@@ -197,8 +198,8 @@ def _check_completable(reader, order):
     done = _completable(order)
     for i, robot in enumerate(order.robots):
         if done[robot.name] < len(robot.actions):
-            raise at(reader.file, f"/robots/{i}/actions/{done[robot.name]}", "actions that wait for each other in a circle",
-                     "an order that can be driven")
+            raise at(reader.file, f"/robots/{i}/actions/{done[robot.name]}",
+                     "actions that wait for each other in a circle", "an order that can be driven")
 
 
 def parse_order(file, text):

@@ -247,6 +247,7 @@ class SimulatedCube:
             return
         self.notified_at = now
         angle = round(self.angle + self.random.uniform(-1, 1)) % 360
-        ahead = (SENSOR_AHEAD * math.cos(math.radians(angle)), SENSOR_AHEAD * math.sin(math.radians(angle)))
         x, y = self._seen(self.x), self._seen(self.y)
-        self._notify(self.on_id, protocol.position(x, y, angle, max(0, round(x + ahead[0])), max(0, round(y + ahead[1])), angle))
+        sensor_x = max(0, round(x + SENSOR_AHEAD * math.cos(math.radians(angle))))
+        sensor_y = max(0, round(y + SENSOR_AHEAD * math.sin(math.radians(angle))))
+        self._notify(self.on_id, protocol.position(x, y, angle, sensor_x, sensor_y, angle))
