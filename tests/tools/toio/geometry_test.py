@@ -21,6 +21,13 @@ class Distances(unittest.TestCase):
             self.assertLessEqual(found, sampled + 1e-9)
             self.assertLess(sampled - found, 0.5)
 
+    def test_nearer(self):
+        source = random.Random(2)
+        for _ in range(300):
+            paths = [[(source.uniform(0, 9), source.uniform(0, 9)) for _ in range(source.randint(1, 3))] for _ in range(2)]
+            least = source.uniform(0, 5)
+            self.assertEqual(geometry.nearer(*paths, least), geometry.path_to_path(*paths) < least)
+
     @staticmethod
     def point(a, b, i):
         return (a[0] + (b[0] - a[0]) * i / 30, a[1] + (b[1] - a[1]) * i / 30)

@@ -15,7 +15,7 @@ import math
 from typing import NamedTuple
 
 from . import rings
-from .geometry import distance, path_to_path, turn_between
+from .geometry import distance, nearer, turn_between
 from .handle import Handle
 from .mat import BODY
 from .order import HEADINGS
@@ -248,7 +248,7 @@ class Driver:
         least = CLEAR_TO_GO_ON if handle.command else CLEAR_TO_BEGIN
         lane = [handle.position, *path]
         return next((other for other in self.handles
-                     if other is not handle and path_to_path(lane, other.lane()) < least), None)
+                     if other is not handle and nearer(lane, other.lane(), least)), None)
 
     # ---- troubles
 

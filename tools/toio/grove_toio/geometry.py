@@ -36,5 +36,16 @@ def _segments(path):
     return list(zip(path, path[1:])) or [(path[0], path[0])]
 
 
+def _length(path):
+    return sum(distance(a, b) for a, b in zip(path, path[1:]))
+
+
 def path_to_path(one, other):
     return min(segment_to_segment(*s, *t) for s in _segments(one) for t in _segments(other))
+
+
+def nearer(one, other, least):
+    """Whether two paths come nearer to each other than that; mostly their first points tell that they do not."""
+    if distance(one[0], other[0]) >= least + _length(one) + _length(other):
+        return False
+    return path_to_path(one, other) < least
