@@ -24,6 +24,9 @@ class BleakError(Exception):
     pass
 
 
+HANDLERS = {protocol.MOTOR: "on_motor", protocol.ID_INFORMATION: "on_id", protocol.CONFIGURATION: "on_configuration"}
+
+
 class Client:
     """As of bleak 0.20: characteristics by UUID, handlers get the characteristic first."""
 
@@ -47,8 +50,7 @@ class Client:
         self.disconnected(self)
 
     async def start_notify(self, uuid, handler):
-        name = {protocol.MOTOR: "on_motor", protocol.ID_INFORMATION: "on_id", protocol.CONFIGURATION: "on_configuration"}[uuid]
-        setattr(self.cube, name, lambda data: handler(uuid, bytearray(data)))
+        setattr(self.cube, HANDLERS[uuid], lambda data: handler(uuid, bytearray(data)))
 
     async def write_gatt_char(self, uuid, data, response=False):
         if not self.is_connected:

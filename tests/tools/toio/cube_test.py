@@ -81,7 +81,8 @@ class Journeys(unittest.TestCase):
 
     def test_nothing_to_do(self):
         nowhere = Target(protocol.SAME, protocol.SAME, 0, protocol.SAME_ANGLE)
-        self.assertEqual(play(1, protocol.one_target(6, nowhere, 40, 5)).responses, [(0x83, 6, protocol.BAD_PARAMETERS)])
+        done = play(1, protocol.one_target(6, nowhere, 40, 5))
+        self.assertEqual(done.responses, [(0x83, 6, protocol.BAD_PARAMETERS)])
 
     def test_another_write_replaces_it(self):
         done = play(4, protocol.one_target(1, Target(400, 100), 40, 9), protocol.one_target(2, Target(100, 180), 40, 9))
@@ -90,7 +91,8 @@ class Journeys(unittest.TestCase):
     def test_one_write_can_be_added_and_no_second(self):
         one, two, three = (protocol.targets(n, [Target(100 + 60 * n, 100)], 40, 5, protocol.APPEND) for n in (1, 2, 3))
         done = play(8, one, two, three)
-        self.assertEqual(done.responses, [(0x84, 3, protocol.CANNOT_APPEND), (0x84, 1, protocol.DONE), (0x84, 2, protocol.DONE)])
+        self.assertEqual(done.responses, [(0x84, 3, protocol.CANNOT_APPEND), (0x84, 1, protocol.DONE),
+                                          (0x84, 2, protocol.DONE)])
         self.near(done, 220, 100)
 
     def test_wheels_for_a_time(self):
@@ -135,6 +137,7 @@ class Sight(unittest.TestCase):
             self.assertTrue(least <= len(alone.positions) <= most, (condition, len(alone.positions)))
 
     def test_lost_messages(self):
-        done = play(10, *[protocol.one_target(n, Target(protocol.SAME, protocol.SAME, 0, 6), 40, 5) for n in range(200)],
-                    cube=Alone(Troubles(loss=0.2)))
+        nowhere = Target(protocol.SAME, protocol.SAME, 0, protocol.SAME_ANGLE)
+        writes = [protocol.one_target(n, nowhere, 40, 5) for n in range(200)]
+        done = play(10, *writes, cube=Alone(Troubles(loss=0.2)))
         self.assertTrue(90 <= len(done.responses) <= 160, len(done.responses))

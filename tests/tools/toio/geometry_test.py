@@ -24,7 +24,8 @@ class Distances(unittest.TestCase):
     def test_nearer(self):
         source = random.Random(2)
         for _ in range(300):
-            paths = [[(source.uniform(0, 9), source.uniform(0, 9)) for _ in range(source.randint(1, 3))] for _ in range(2)]
+            paths = [[(source.uniform(0, 9), source.uniform(0, 9)) for _ in range(source.randint(1, 3))]
+                     for _ in range(2)]
             least = source.uniform(0, 5)
             self.assertEqual(geometry.nearer(*paths, least), geometry.path_to_path(*paths) < least)
 

@@ -69,7 +69,8 @@ class Reading(unittest.TestCase):
         self.check(lambda o, r, a: a[1].pop("task"), "/robots/0/actions/1", "no key 'task'")
         self.check(lambda o, r, a: a[1].update(ring=3), "/robots/0/actions/1/ring")
         self.check(lambda o, r, a: a[0].update(after={"robot": "x", "action": 0}), "/robots/0/actions/0/after/robot")
-        self.check(lambda o, r, a: a[0].update(after={"robot": "blue", "action": 1}), "/robots/0/actions/0/after/action")
+        self.check(lambda o, r, a: a[0].update(after={"robot": "blue", "action": 1}),
+                   "/robots/0/actions/0/after/action", "1 actions of blue")
         self.check(lambda o, r, a: a[0].update(after=4), "/robots/0/actions/0/after")
         self.check(lambda o, r, a: o["robots"][1].update(start=[0, 0]), "/robots/1/actions/0/to")
 

@@ -42,7 +42,8 @@ class Program(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             logs = [Path(folder) / name for name in ("a", "b")]
             for log in logs:
-                self.assertEqual(run(plans.order_file("crowd"), "--fast", "--loss", 0.2, "--log", log, "--quiet"), (0, "", ""))
+                done = run(plans.order_file("crowd"), "--fast", "--loss", 0.2, "--log", log, "--quiet")
+                self.assertEqual(done, (0, "", ""))
             self.assertEqual(*(log.read_bytes() for log in logs))
 
     def test_a_drive_that_cannot_be_completed(self):

@@ -28,7 +28,8 @@ class Lifted(unittest.TestCase):
         for seed in range(6):
             for name in ("crowd", "work", "round"):
                 robots = [r.name for r in plans.order(name).robots]
-                lifts = [(robots[seed % len(robots)], 1.0 + seed / 2, 2.5), (robots[(seed + 2) % len(robots)], 3.0, 1.0)]
+                one, other = robots[seed % len(robots)], robots[(seed + 2) % len(robots)]
+                lifts = [(one, 1.0 + seed / 2, 2.5), (other, 3.0, 1.0)]
                 outcome, _ = self.drive(lifts, name, seed)
                 self.assertTrue(outcome.completed, (name, seed, outcome.waits))
 
@@ -142,7 +143,8 @@ class Cubes(unittest.TestCase):
         self.assertEqual(outcome.actions, 0)
 
     def test_each_code_is_survived(self):
-        for code in (protocol.TIMEOUT, protocol.ID_MISSED, protocol.BAD_PARAMETERS, protocol.REPLACED, protocol.CANNOT_APPEND):
+        for code in (protocol.TIMEOUT, protocol.ID_MISSED, protocol.BAD_PARAMETERS, protocol.REPLACED,
+                     protocol.CANNOT_APPEND):
             outcome, world = plans.run(drive_with(Refusing, "crowd", 10, {RED}, code=code))
             self.assertEqual(outcome.done[RED], 0)
             self.assertGreater(outcome.repeats, 3)
@@ -211,7 +213,7 @@ class Straight(WithoutGuard):
 
 class PlantedFaults(unittest.TestCase):
     def touched(self, kind, name):
-        return [world.touched for seed in range(6) for _, world in [plans.drive(name, 0.05, seed, seconds=60, kind=kind)]]
+        return [plans.drive(name, 0.05, seed, seconds=60, kind=kind)[1].touched for seed in range(6)]
 
     def test_without_the_order_they_collide(self):
         self.assertTrue(all(self.touched(WithoutOrder, "crowd")))

@@ -33,7 +33,8 @@ class BluetoothCube:
 
     @property
     def label(self):
-        return self.device.name or self.device.address
+        """Names need not differ."""
+        return f"{self.device.name or 'a cube'} ({self.device.address})"
 
     async def connect(self):
         self.wanted = True
