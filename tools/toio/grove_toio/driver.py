@@ -188,8 +188,8 @@ class Driver:
                 if handle.at_rest and distance(handle.mean, goal) <= tolerance:
                     return
                 await self.go_on(handle, goal, far)
-            elif handle.command and handle.seen_now and handle.command.kind != "stop":
-                await handle.stop()
+            else:
+                await self.hold(handle)
             await self.poll(handle)
 
     async def go_on(self, handle, goal, far):
@@ -200,8 +200,7 @@ class Driver:
         if blocker:
             self.set_state(handle, "waiting")
             self.tell(handle, "blocked", f"waits for {blocker.name}, which stands in its way")
-            if handle.command and handle.command.kind != "stop":
-                await handle.stop()
+            await self.hold(handle)
             return
         self.told_off(handle, "blocked")
         self.set_state(handle, "moving")
@@ -209,6 +208,13 @@ class Driver:
             await self.redirect(handle, path)
         elif handle.at_rest:
             await self.set_off(handle, path)
+
+    @staticmethod
+    async def hold(handle):
+        """Until it stands: a stop may be lost, too."""
+        stopping = handle.command is not None and handle.command.kind == "stop"
+        if handle.seen_now and not stopping and not handle.at_rest:
+            await handle.stop()
 
     async def redirect(self, handle, path):
         """A journey under way is lengthened or cut; other motions are short, and end first."""
