@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""Reading a passing order: what is there, and what is refused where."""
+import copy
+import json
+import unittest
+
+import plans
+from grove_toio.bad_input import BadInput
+from grove_toio.order import parse_order
+
+GOOD = {"format": "grove passing order 1",
+        "robots": [{"id": "red", "start": [0, 0], "actions": [
+                       {"do": "move", "to": [1, 0], "steps": 1, "planned": 0},
+                       {"do": "work", "task": "press", "steps": 5, "planned": 1}]},
+                   {"id": "blue", "start": [2, 0, "W"], "actions": [
+                       {"do": "turn", "to": [2, 0, "N"], "steps": 1, "planned": 0,
+                        "after": {"robot": "red", "action": 1}}]}]}
+
+
+def read(holder):
+    return parse_order("o.json", holder if isinstance(holder, str) else json.dumps(holder))
+
+
+class Reading(unittest.TestCase):
+    def test_what_is_there(self):
+        red, blue = read(GOOD).robots
+        self.assertEqual((red.name, red.start, red.heading, blue.heading), ("red", (0, 0), None, "W"))
+        self.assertEqual([a.kind for a in red.actions + blue.actions], ["move", "work", "turn"])
+        self.assertEqual((red.actions[1].cell, red.actions[1].task, red.actions[1].steps), ((1, 0), "press", 5))
+        self.assertEqual((blue.actions[0].heading, blue.actions[0].after), ("N", ("red", 1)))
+
+    def test_a_ring_is_put_in_its_order(self):
+        order = plans.order("round")
+        (members,) = order.rings.values()
+        self.assertEqual(len(members), 4)
+        for (i, k), (j, m) in zip(members, members[1:] + members[:1]):
+            self.assertEqual(order.robots[i].actions[k].cell, order.robots[j].cell_before(m))
+
+    def test_all_kinds_of_orders_are_read(self):
+        kinds = {a.kind for name in ("crowd", "work", "round") for r in plans.order(name).robots for a in r.actions}
+        self.assertEqual(kinds, {"move", "turn", "work"})
+
+    def check(self, change, place, *said):
+        holder = copy.deepcopy(GOOD)
+        change(holder, holder["robots"][0], holder["robots"][0]["actions"])
+        with self.assertRaises(BadInput) as caught:
+            read(holder)
+        text = str(caught.exception)
+        self.assertTrue(text.startswith(f"o.json: {place}: found "), text)
+        for each in ("; expected ", *said):
+            self.assertIn(each, text)
+        self.assertNotIn("\n", text)
+
+    def test_refusals(self):
+        self.check(lambda o, r, a: o.update(format="x"), "/format")
+        self.check(lambda o, r, a: o.update(robots=[]), "/robots")
+        self.check(lambda o, r, a: o.update(robots=[3]), "/robots/0")
+        self.check(lambda o, r, a: r.update(id="blue"), "/robots/1/id", "differ")
+        self.check(lambda o, r, a: r.update(start=[3, 0]), "/robots/0/actions/0/to")
+        self.check(lambda o, r, a: r.update(start=["gate"]), "/robots/0/start", "not on roadmaps")
+        self.check(lambda o, r, a: r.update(start=[0, -1]), "/robots/0/start")
+        self.check(lambda o, r, a: r.update(start=[0, 0, "Q"]), "/robots/0/start")
+        self.check(lambda o, r, a: r.pop("actions"), "/robots/0", "no key 'actions'")
+        self.check(lambda o, r, a: a[0].update(do="fly"), "/robots/0/actions/0/do", "move, turn, work")
+        self.check(lambda o, r, a: a[0].update(to=[1, 1]), "/robots/0/actions/0/to", "neighbour")
+        self.check(lambda o, r, a: a[0].update(ring=3), "/robots/0/actions/0/ring")
+        self.check(lambda o, r, a: a[0].update(steps=True), "/robots/0/actions/0/steps")
+        self.check(lambda o, r, a: a[0].update(steps=-1), "/robots/0/actions/0/steps")
+        self.check(lambda o, r, a: a[1].pop("task"), "/robots/0/actions/1", "no key 'task'")
+        self.check(lambda o, r, a: a[1].update(ring=3), "/robots/0/actions/1/ring")
+        self.check(lambda o, r, a: a[0].update(after={"robot": "x", "action": 0}), "/robots/0/actions/0/after/robot")
+        self.check(lambda o, r, a: a[0].update(after={"robot": "blue", "action": 1}),
+                   "/robots/0/actions/0/after/action", "1 actions of blue")
+        self.check(lambda o, r, a: a[0].update(after=4), "/robots/0/actions/0/after")
+        self.check(lambda o, r, a: o["robots"][1].update(start=[0, 0]), "/robots/1/actions/0/to")
+
+    def test_actions_that_wait_for_each_other(self):
+        self.check(lambda o, r, a: a[0].update(after={"robot": "blue", "action": 0}), "/robots/0/actions/0", "circle")
+
+    def test_no_json(self):
+        for text in ("", "{", "[" * 100000, "[]", "null"):
+            with self.assertRaises(BadInput):
+                read(text)

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""The program as its user meets it: the demonstration, messages, exit codes."""
+import json
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import plans
+
+
+def start(*arguments):
+    return subprocess.Popen([plans.GROVE.parent / "grove-toio", *map(str, arguments)], text=True,
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def run(*arguments):
+    process = start(*arguments)
+    out, err = process.communicate(timeout=60)
+    return process.returncode, out, err
+
+
+class Program(unittest.TestCase):
+    def test_grove_hands_over_to_it(self):
+        done = subprocess.run([plans.GROVE, "toio", "--help"], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("ORDER.json", done.stdout)
+
+    def test_the_demonstration(self):
+        with tempfile.TemporaryDirectory() as folder:
+            log = Path(folder) / "drive.jsonl"
+            code, out, err = run("--demo", "--fast", "--log", log)
+            self.assertEqual((code, err), (0, ""))
+            self.assertIn("3 robots", out)
+            self.assertIn("Tasks         all visited", out)
+            self.assertRegex(out, r"Distance      at least [5-9]\d\.\d mm between centres")
+            self.assertEqual(json.loads(log.read_text().splitlines()[0])["robots"], ["purple", "yellow", "green"])
+
+    def test_the_same_log_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            logs = [Path(folder) / name for name in ("a", "b")]
+            for log in logs:
+                done = run(plans.order_file("crowd"), "--fast", "--loss", 0.2, "--log", log, "--quiet")
+                self.assertEqual(done, (0, "", ""))
+            self.assertEqual(*(log.read_bytes() for log in logs))
+
+    def test_a_drive_that_cannot_be_completed(self):
+        code, out, err = run(plans.order_file("crowd"), "--fast", "--lift", "a0@2=never", "--time-limit", "40")
+        self.assertEqual(code, 1)
+        self.assertIn("Tasks         not all visited", out)
+        self.assertTrue(err.startswith("grove: error: not done within 40 s: "), err)
+        self.assertIn("a0 is off the mat", err)
+        self.assertEqual(err.count("\n"), 1)
+
+    def test_signals(self):
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            process = start(plans.order_file("crowd"))
+            process.stdout.readline()
+            time.sleep(0.7)
+            process.send_signal(number)
+            process.communicate(timeout=20)
+            self.assertEqual(process.returncode, code)
+
+    def refused(self, text, *arguments, code=2):
+        found, out, err = run(*arguments)
+        self.assertEqual(found, code, err)
+        self.assertTrue(err.startswith("grove: error: "), err)
+        self.assertEqual(err.count("\n"), 1, err)
+        self.assertIn(text, err)
+        self.assertNotIn("Traceback", err)
+
+    def test_bad_input(self):
+        order, ring, missing = plans.order_file("crowd"), plans.order_file("round"), plans.folder() / "none.json"
+        plan = plans.folder() / "crowd.plan.json"
+        for text, *arguments in (
+                ("none.json: cannot be read", missing), ("/format: found null", plan),
+                ("/ring: found 4 robots that go round", ring),
+                ("ORDER.json", ), ("ORDER.json", order, "--demo"), ("--moon", order, "--moon"),
+                ("--mat: found 'moon'", order, "--mat", "moon"), ("--mat: found '5,5,1,1'", order, "--mat", "5,5,1,1"),
+                ("--mat: found 304 x 216 units for 9 x 9", order, "--cells", "9x9"),
+                ("--cells: found 2x2", order, "--cells", "2x2"), ("--cells: found 'x'", order, "--cells", "x"),
+                ("--pitch: found 60", order, "--pitch", "60"), ("--pitch", order, "--pitch", "nan"),
+                ("--loss: found '2'", order, "--loss", "2"), ("--noise", order, "--noise", "9"),
+                ("--speed: found '9'", order, "--speed", "9"), ("--seed", order, "--seed", "-1"),
+                ("--lift: found 'a0@1'", order, "--lift", "a0@1"), ("expected one of a0", order, "--lift", "x@1=1"),
+                ("--cube", order, "--cube", "a0=toio-x"), ("--cube", order, "--bluetooth", "--cube", "a0"),
+                ("--fast: found with --bluetooth", order, "--bluetooth", "--fast"),
+                ("not allowed with", order, "--bluetooth", "--simulate"),
+                ("cannot be written", order, "--log", plans.folder() / "no" / "log")):
+            with self.subTest(arguments=arguments):
+                self.refused(text, *arguments)
+
+    def test_a_full_disk(self):
+        self.refused("No space left", plans.order_file("crowd"), "--fast", "--quiet", "--log", "/dev/full", code=1)

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: MIT
+"""Real cubes, by bleak (Debian: python3-bleak 0.20). Like simulated ones they have write, configure and three
+places for handlers of notifications. Untried with real cubes."""
+import asyncio
+
+from . import protocol
+from .bad_input import BadInput
+from .geometry import distance
+
+SCAN_SECONDS = 8.0
+CONNECT_SECONDS = 15.0
+READ_TRIES, READ_PAUSE = 20, 0.1
+RECONNECT_PAUSE = 1.0
+
+
+def _bleak():
+    try:
+        import bleak  # here, so that simulated cubes need none
+    except ModuleNotFoundError:
+        raise BadInput("--bluetooth: there is no bleak; expected the Debian package python3-bleak") from None
+    return bleak
+
+
+class BluetoothCube:
+    def __init__(self, device):
+        self.bleak = _bleak()
+        self.device = device
+        self.on_motor = self.on_id = self.on_configuration = lambda data: None
+        self.configuration = None       # a cube forgets it with the connection
+        self.wanted = False
+        self.reconnecting = None
+        self.client = self.bleak.BleakClient(device, disconnected_callback=self._lost, timeout=CONNECT_SECONDS)
+
+    @property
+    def label(self):
+        """Names need not differ."""
+        return f"{self.device.name or 'a cube'} ({self.device.address})"
+
+    async def connect(self):
+        self.wanted = True
+        await self.client.connect()
+        for characteristic, handler in ((protocol.MOTOR, "on_motor"), (protocol.ID_INFORMATION, "on_id"),
+                                        (protocol.CONFIGURATION, "on_configuration")):
+            await self.client.start_notify(characteristic, self._handler(handler))
+        if self.configuration:
+            await self.configure(self.configuration)
+
+    def _handler(self, name):
+        return lambda _, data: getattr(self, name)(bytes(data))
+
+    def _lost(self, _):
+        if self.wanted and (self.reconnecting is None or self.reconnecting.done()):
+            self.reconnecting = asyncio.get_running_loop().create_task(self._reconnect())
+
+    async def _reconnect(self):
+        while self.wanted and not self.client.is_connected:
+            await asyncio.sleep(RECONNECT_PAUSE)
+            try:
+                await self.connect()
+            except (self.bleak.exc.BleakError, asyncio.TimeoutError, OSError, EOFError):
+                pass    # tried again; the driver says that nothing is heard of the cube
+
+    async def disconnect(self):
+        self.wanted = False
+        if self.reconnecting:
+            self.reconnecting.cancel()
+        try:
+            await self.client.disconnect()
+        except (self.bleak.exc.BleakError, asyncio.TimeoutError, OSError, EOFError):
+            pass
+
+    async def write(self, data):
+        """What cannot be written counts as lost."""
+        await self._write(protocol.MOTOR, data, False)
+
+    async def configure(self, data):
+        self.configuration = data
+        await self._write(protocol.CONFIGURATION, data, True)
+
+    async def _write(self, characteristic, data, with_response):
+        try:
+            await self.client.write_gatt_char(characteristic, data, response=with_response)
+        except (self.bleak.exc.BleakError, asyncio.TimeoutError, OSError, EOFError):
+            pass
+
+    async def read_position(self):
+        """None if it does not stand on a mat."""
+        for _ in range(READ_TRIES):
+            found = protocol.read_id_notification(bytes(await self.client.read_gatt_char(protocol.ID_INFORMATION)))
+            if isinstance(found, protocol.Position):
+                return found.x, found.y
+            await asyncio.sleep(READ_PAUSE)
+        return None
+
+
+def choose_named(devices, named):
+    """{robot: device}, and the devices that nobody named."""
+    chosen = {}
+    for robot, name in named.items():
+        found = [d for d in devices if name.lower() in (d.address.lower(), (d.name or "").lower())]
+        if not found:
+            known = ", ".join(sorted(d.name or d.address for d in devices)) or "none"
+            raise BadInput(f"--cube: found no cube called '{name}'; expected one of those that are on: {known}")
+        chosen[robot] = found[0]
+    return chosen, [d for d in devices if d not in chosen.values()]
+
+
+def choose_by_place(order, grid, robots, positions):
+    """{robot: label} by the start that each cube stands on; positions are {label: (x, y) or None}."""
+    chosen = {}
+    for robot in robots:
+        start = grid.centre(order.robot(robot).start)
+        near = [label for label, at in positions.items() if at and distance(at, start) < grid.pitch / 2]
+        if len(near) != 1:
+            where = f"{list(order.robot(robot).start)}, the start of {robot}"
+            raise BadInput(f"--bluetooth: found {len(near)} cubes on {where}; expected one ({len(positions)} cubes are "
+                           f"on; --cube {robot}=NAME tells which it is)")
+        chosen[robot] = near[0]
+    return chosen
+
+
+async def _connect(device):
+    cube = BluetoothCube(device)
+    try:
+        await cube.connect()
+    except (cube.bleak.exc.BleakError, asyncio.TimeoutError, OSError, EOFError) as error:
+        raise BadInput(f"--bluetooth: {cube.label} cannot be connected: {error or 'no answer'}") from None
+    return cube
+
+
+async def _scan():
+    bleak = _bleak()
+    try:
+        return await bleak.BleakScanner.discover(timeout=SCAN_SECONDS, service_uuids=[protocol.SERVICE])
+    except (bleak.exc.BleakError, OSError) as error:
+        raise BadInput(f"--bluetooth: cannot be searched for cubes: {error}; "
+                       "expected a Bluetooth adapter that is on") from None
+
+
+async def connect_cubes(order, grid, named):
+    """{robot: cube}, all connected."""
+    devices, others = choose_named(await _scan(), named)
+    cubes = {}
+    spare = []
+    try:
+        for robot, device in devices.items():
+            cubes[robot] = await _connect(device)
+        robots = [r.name for r in order.robots if r.name not in cubes]
+        for device in others if robots else []:
+            spare.append(await _connect(device))
+        labels = {cube.label: cube for cube in spare}
+        positions = {label: await cube.read_position() for label, cube in labels.items()}
+        for robot, label in choose_by_place(order, grid, robots, positions).items():
+            cubes[robot] = labels[label]
+            spare.remove(labels[label])
+    except BaseException:
+        for cube in (*spare, *cubes.values()):
+            await cube.disconnect()
+        raise
+    for cube in spare:
+        await cube.disconnect()
+    return cubes

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT
+"""The demonstration: three cubes, six tasks, 7 x 5 cells with obstacles, from the instance to the drive."""
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
+from .bad_input import BadInput
+from .order import read_order
+
+INSTANCE = Path(__file__).resolve().parent / "demo" / "demo.cts.json"
+SIZE = (7, 5)
+
+
+def _grove(*arguments):
+    grove = Path(__file__).resolve().parents[1] / "grove"
+    if not grove.exists():
+        raise BadInput(f"{grove}: there is no such file; expected grove beside grove-toio")
+    done = subprocess.run([grove, *map(str, arguments)], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise BadInput(f"grove {arguments[0]}: {done.stderr.strip().removeprefix('grove: error: ')}")
+
+
+def demo_order():
+    with tempfile.TemporaryDirectory() as folder:
+        plan, order = Path(folder) / "demo.plan.json", Path(folder) / "demo.order.json"
+        _grove("solve", INSTANCE, "--omega", "0", "--threads", "1", "--quiet", "--require-plan", "--output", plan)
+        _grove("execute", INSTANCE, plan, "--order", order)
+        return read_order(order)
+
+
+def demo_visits():
+    """[(task, robot, cell)]: what has to be visited."""
+    instance = json.loads(INSTANCE.read_text(encoding="utf-8"))
+    return [(task["id"], robot, tuple(task["cell"])) for task in instance["tasks"] for robot in task["agents"]]
+
+
+def tasks_left(order, done):
+    """The demonstration's tasks that somebody did not visit."""
+    seen = {(r.name, cell) for r in order.robots
+            for cell in (r.start, *(a.cell for a in r.actions[:done[r.name]]))}
+    return sorted({task for task, robot, cell in demo_visits() if (robot, cell) not in seen})

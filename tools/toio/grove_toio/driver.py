@@ -1,0 +1,376 @@
+# SPDX-License-Identifier: MIT
+"""Drives cubes along a passing order.
+
+Each robot does its actions one after the other, each once the order allows it. An action counts as done by
+where the cube is seen to be, at rest within the tolerance of the grid (mat.py), never by what it responds:
+responses may be lost, and come up to 15 units early. A cube that drives on in the same direction or
+round a corner is seen within the tolerance of its next lane instead.
+
+Beside the order there is a second guard, for what no order knows - cubes that were lifted and put back
+elsewhere: nobody drives on a line that comes nearer to another cube, or to the line that it drives on, than
+cubes may come. Along the order that never happens.
+"""
+import asyncio
+import math
+from typing import NamedTuple
+
+from . import rings
+from .geometry import distance, nearer, turn_between
+from .handle import Handle
+from .mat import BODY
+from .order import HEADINGS
+from .protocol import REACHED_BOX
+from .simulated import UNITS_PER_SPEED
+
+POLL = 0.03
+CLEAR_TO_BEGIN, CLEAR_TO_GO_ON = BODY + 1.0, BODY
+BY_HAND = REACHED_BOX + 2       # units from which on a cube would not move by itself, and noise
+ROLL_SPEED = 20
+UNHEARD = 1.5                   # a cube at rest may seem to be so far beyond the tolerance
+ASTRAY = 0.75                   # cells from its lane: it is not driven back from there
+TURN_TOLERANCE = 8
+ASK_SECONDS = 0.5
+PATIENCE = 3.0                  # until a cube of which nothing was heard is missed
+
+
+class Outcome(NamedTuple):
+    seconds: float
+    completed: bool
+    done: dict                  # actions of each robot
+    all_actions: int
+    writes: int
+    repeats: int
+    corrections: int            # rolls over the last units
+    waits: list                 # if it is not completed: who waits for whom
+
+    @property
+    def actions(self):
+        return sum(self.done.values())
+
+
+class Driver:
+    def __init__(self, order, cubes, grid, speed=40, step_seconds=1.0, log=None, say=lambda text: None):
+        self.order, self.grid, self.speed, self.step_seconds = order, grid, speed, step_seconds
+        self.loop = asyncio.get_running_loop()
+        self.begun = self.loop.time()
+        self.log, self.say = log, say
+        self.handles = [Handle(robot, cubes[robot.name], grid.centre(robot.start), self.now) for robot in order.robots]
+        self.by_name = {h.name: h for h in self.handles}
+        self.at_ring = {ring: {} for ring in order.rings}     # robot: parts that it has ended
+        self.under_way = set()                                # rings
+        self.said = {}
+
+    def now(self):
+        return self.loop.time() - self.begun
+
+    # ---- what the order allows
+
+    def after_done(self, handle, k):
+        after = handle.robot.actions[k].after
+        return after is None or self.by_name[after[0]].done > after[1]
+
+    def next_point(self, handle, k):
+        """Where action k + 1 leads if the cube may drive on to there without a stop."""
+        actions = handle.robot.actions
+        if k + 1 >= len(actions):
+            return None
+        following = actions[k + 1]
+        if following.kind != "move" or following.ring is not None or following.cell == handle.robot.cell_before(k):
+            return None
+        return self.grid.centre(following.cell) if self.after_done(handle, k + 1) else None
+
+    def ring_cells(self, ring):
+        return [self.order.robots[i].cell_before(k) for i, k in self.order.rings[ring]]
+
+    def ring_may_begin(self, ring):
+        if ring in self.under_way:
+            return True
+        for i, k in self.order.rings[ring]:
+            handle = self.handles[i]
+            if handle.done != k or handle.name not in self.at_ring[ring] or not self.after_done(handle, k):
+                return False
+        cells = self.ring_cells(ring)
+        if any(rings.near(cells, self.ring_cells(other)) for other in self.under_way):
+            return False
+        self.under_way.add(ring)
+        return True
+
+    # ---- one robot
+
+    async def run_robot(self, handle):
+        await self.reach(handle, handle.place, self.grid.tolerance)
+        for k, action in enumerate(handle.robot.actions):
+            if action.ring is not None:
+                await self.go_round(handle, action.ring)
+            else:
+                await self.stand_until(handle, lambda k=k: self.after_done(handle, k))
+                await getattr(self, action.kind)(handle, k, action)
+            self.end_action(handle)
+        await self.stand_until(handle, lambda: False, "done")
+
+    def end_action(self, handle):
+        handle.place = handle.goal
+        handle.done += 1
+
+    async def move(self, handle, k, action):
+        await self.reach(handle, self.grid.centre(action.cell), self.grid.tolerance,
+                         lambda: self.next_point(handle, k))
+
+    async def turn(self, handle, _, action):
+        wanted = HEADINGS[action.heading]
+        while True:
+            if self.fit(handle):
+                if handle.at_rest and abs(turn_between(handle.angle, wanted)) <= TURN_TOLERANCE:
+                    return
+                if handle.at_rest:
+                    self.set_state(handle, "moving")
+                    await handle.turn(wanted, self.speed)
+            await self.poll(handle)
+
+    async def work(self, handle, _, action):
+        """Only time in which it stands on its cell counts."""
+        left, then = action.steps * self.step_seconds, self.now()
+        while left > 1e-6:
+            if self.stands(handle):
+                self.set_state(handle, "working")
+                await self.poll(handle)
+                left -= self.now() - then
+            elif self.fit(handle) and handle.at_rest:
+                await self.reach(handle, handle.place, self.grid.tolerance)
+            else:
+                await self.poll(handle)
+            then = self.now()
+
+    async def go_round(self, handle, ring):
+        """Part by part, nobody before all have ended the one before."""
+        those = [self.handles[i] for i, _ in self.order.rings[ring]]
+        path = rings.wide_paths(self.ring_cells(ring))[those.index(handle)]
+        tolerance = min(self.grid.tolerance, rings.TOLERANCE)
+        parts = self.at_ring[ring]
+        parts[handle.name] = -1
+        await self.stand_until(handle, lambda: self.ring_may_begin(ring))
+        for part, cell in enumerate(path):
+            await self.reach(handle, self.grid.centre(cell), tolerance)
+            handle.place = handle.goal
+            parts[handle.name] = part
+            await self.stand_until(handle, lambda part=part: all(parts[h.name] >= part for h in those))
+        self.under_way.discard(ring)
+
+    def stands(self, handle):
+        return self.fit(handle) and handle.at_rest \
+            and distance(handle.mean, handle.place) <= self.grid.tolerance + UNHEARD
+
+    async def stand_until(self, handle, may, state="waiting"):
+        """A cube that was pushed aside meanwhile goes back to its place."""
+        while not may():
+            if not self.fit(handle):
+                pass
+            elif handle.at_rest and not self.stands(handle):
+                await self.reach(handle, handle.place, self.grid.tolerance)
+            else:
+                self.set_state(handle, state)
+            await self.poll(handle)
+
+    async def poll(self, handle):
+        await asyncio.sleep(POLL)
+        handle.settle()
+
+    # ---- motion
+
+    async def reach(self, handle, goal, tolerance, onward=lambda: None):
+        """Until it stands at the goal, or is seen on the way from there to where `onward` leads."""
+        handle.goal = goal
+        while True:
+            handle.far = far = onward()
+            if self.fit(handle):
+                if far and handle.in_lane(goal, far, tolerance):
+                    return
+                if handle.at_rest and distance(handle.mean, goal) <= tolerance:
+                    return
+                await self.go_on(handle, goal, far)
+            else:
+                await self.hold(handle)
+            await self.poll(handle)
+
+    async def go_on(self, handle, goal, far):
+        path = [goal, far] if far else [goal]
+        if far and self.in_the_way(handle, path):
+            path = [goal]
+        blocker = self.in_the_way(handle, path)
+        if blocker:
+            self.set_state(handle, "waiting")
+            self.tell(handle, "blocked", f"waits for {blocker.name}, which stands in its way")
+            await self.hold(handle)
+            return
+        self.told_off(handle, "blocked")
+        self.set_state(handle, "moving")
+        if handle.command:
+            await self.redirect(handle, path)
+        elif handle.at_rest:
+            await self.set_off(handle, path)
+
+    @staticmethod
+    async def hold(handle):
+        """Until it stands: a stop may be lost, too."""
+        stopping = handle.command is not None and handle.command.kind == "stop"
+        if handle.seen_now and not stopping and not handle.at_rest:
+            await handle.stop()
+
+    async def redirect(self, handle, path):
+        """A journey under way is lengthened or cut; other motions are short, and end first."""
+        if handle.command.kind != "journey" or handle.command.path[-1] == path[-1]:
+            return
+        if len(path) == 2 or not self.within_hand(handle.position, path[0]):
+            await handle.travel(path, self.speed)
+        else:
+            await handle.stop()
+
+    async def set_off(self, handle, path):
+        if len(path) == 1 and self.within_hand(handle.mean, path[0]):
+            await self.by_hand(handle, path[0])
+        else:
+            await handle.travel(path, self.speed)
+
+    @staticmethod
+    def within_hand(point, goal):
+        return abs(goal[0] - point[0]) <= BY_HAND and abs(goal[1] - point[1]) <= BY_HAND
+
+    async def by_hand(self, handle, goal):
+        """The last units, which a cube holds for none: turned towards the goal or away from it, then rolled."""
+        dx, dy = goal[0] - handle.mean[0], goal[1] - handle.mean[1]
+        way, bearing = math.hypot(dx, dy), math.degrees(math.atan2(dy, dx))
+        off = turn_between(handle.angle, bearing)
+        forward = abs(off) <= 90
+        if not forward:
+            bearing += 180
+            off = turn_between(handle.angle, bearing)
+        if abs(off) > 7 and way * math.sin(math.radians(abs(off))) > 0.8:
+            await handle.turn(bearing, self.speed)
+        else:
+            seconds = way / (ROLL_SPEED * UNITS_PER_SPEED)
+            await handle.roll(ROLL_SPEED if forward else -ROLL_SPEED, max(10, 10 * round(100 * seconds)))
+
+    def in_the_way(self, handle, path):
+        least = CLEAR_TO_GO_ON if handle.command else CLEAR_TO_BEGIN
+        lane = [handle.position, *path]
+        return next((other for other in self.handles
+                     if other is not handle and nearer(lane, other.lane(), least)), None)
+
+    # ---- troubles
+
+    def fit(self, handle):
+        """Whether it can be driven. What is wrong is said once."""
+        if handle.trouble:
+            return self.unfit(handle, "lost", handle.trouble)
+        if handle.missing:
+            return self.unfit(handle, "lifted", "is off the mat")
+        if handle.silent or handle.position is None:
+            return self.unfit(handle, "lost", "is not heard of any more")
+        if handle.strays() > ASTRAY * self.grid.pitch:
+            stands, wanted = self.grid.cell(handle.position), self.grid.cell(handle.goal)
+            return self.unfit(handle, "lost", f"stands at [{stands[0]:.1f}, {stands[1]:.1f}], far from its way to "
+                              f"[{wanted[0]:.1f}, {wanted[1]:.1f}]: put it there")
+        self.told_off(handle, "unfit", "goes on")
+        return True
+
+    def unfit(self, handle, state, why):
+        if handle.position is None and self.now() < PATIENCE:
+            return False    # it has just been asked for its first position
+        self.set_state(handle, state)
+        self.tell(handle, "unfit", why)
+        return False
+
+    def tell(self, handle, about, text):
+        """Once, while it is the same."""
+        kind = text.split(",")[0].split("[")[0]
+        if self.said.get((handle.name, about), ("",))[0] != kind:
+            self.said[handle.name, about] = kind, text
+            self.say(f"{self.now():7.1f} s  {handle.name} {text}")
+
+    def told_off(self, handle, about, text=None):
+        if self.said.pop((handle.name, about), None) and text:
+            self.say(f"{self.now():7.1f} s  {handle.name} {text}")
+
+    def waits_of(self, handle):
+        """Why it has not gone on: a text, or None for one that has done all it has to."""
+        k = handle.done
+        if (handle.name, "unfit") in self.said:
+            return f"{handle.name} {self.said[handle.name, 'unfit'][1]}"
+        if (handle.name, "blocked") in self.said:
+            return f"{handle.name} {self.said[handle.name, 'blocked'][1]}"
+        if k == len(handle.robot.actions):
+            return None
+        action = handle.robot.actions[k]
+        if not self.after_done(handle, k):
+            return f"{handle.name} waits for {action.after[0]} to end its action {action.after[1]}"
+        if action.ring is not None:
+            others = [self.handles[i].name for i, _ in self.order.rings[action.ring]]
+            return f"{handle.name} waits to go round with {', '.join(n for n in others if n != handle.name)}"
+        return f"{handle.name} is at its action {k}"
+
+    # ---- all robots
+
+    def set_state(self, handle, state):
+        if handle.state != state:
+            handle.state = state
+            self.log_line(handle)
+
+    def log_line(self, handle):
+        if self.log and handle.position is not None:
+            self.log.write(self.now(), handle, self.grid)
+
+    async def log_all(self):
+        while True:
+            await asyncio.sleep(0.1)
+            for handle in self.handles:
+                self.log_line(handle)
+
+    async def ask_for_positions(self, handle):
+        while not handle.configured:
+            await handle.ask_for_positions()
+            await asyncio.sleep(ASK_SECONDS)
+
+    def all_done(self):
+        return all(h.done == len(h.robot.actions) for h in self.handles)
+
+    async def watch(self, seconds):
+        while not self.all_done() and self.now() < seconds:
+            await asyncio.sleep(POLL)
+
+    async def drive(self, seconds=math.inf):
+        """Until all have done their actions, for so many seconds at most. However it ends, cubes stand."""
+        tasks = [asyncio.create_task(work) for handle in self.handles
+                 for work in (self.ask_for_positions(handle), self.run_robot(handle))]
+        tasks.append(asyncio.create_task(self.log_all()))
+        watch = asyncio.create_task(self.watch(seconds))
+        try:
+            await self.first_failure_or(watch, tasks)
+            return self.outcome()
+        finally:
+            for task in (watch, *tasks):
+                task.cancel()
+            await asyncio.gather(watch, *tasks, return_exceptions=True)
+            await self.stop_all()
+
+    @staticmethod
+    async def first_failure_or(watch, tasks):
+        while not watch.done():
+            running = [watch, *(t for t in tasks if not t.done())]
+            done, _ = await asyncio.wait(running, return_when=asyncio.FIRST_COMPLETED)
+            for task in done:
+                task.result()
+
+    async def stop_all(self):
+        """Thrice, for what is lost."""
+        for _ in range(3):
+            await asyncio.gather(*(h.stop() for h in self.handles))
+            await asyncio.sleep(0.05)
+        for handle in self.handles:
+            if handle.done == len(handle.robot.actions):
+                self.set_state(handle, "done")
+
+    def outcome(self):
+        waits = [text for text in map(self.waits_of, self.handles) if text]
+        return Outcome(self.now(), self.all_done(), {h.name: h.done for h in self.handles},
+                       sum(len(h.robot.actions) for h in self.handles), sum(h.writes for h in self.handles),
+                       sum(h.repeats for h in self.handles), sum(h.corrections for h in self.handles), waits)

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: MIT
+"""What the driver knows of one cube: where it was last seen, what it was told, whether it is still at it."""
+from collections import deque
+from typing import NamedTuple
+
+from . import protocol
+from .geometry import distance, point_to_segment, turn_between
+
+ANSWER_SECONDS = 0.5        # a cube that for so long neither moves nor responds has lost a message, or stopped
+SETTLE_SECONDS = 0.06       # after the end of a motion, till positions are those of a cube at rest
+SILENT_SECONDS = 1.0
+MOVED, TURNED = 3.5, 7      # units and degrees that are more than noise
+SEEN_AT_REST = 3            # so many positions make an arrival
+TIMEOUT = 5                 # of the cube's own, seconds for each target
+
+
+class Command(NamedTuple):
+    kind: str               # journey, turn, wheels or stop
+    path: tuple             # where it leads
+    number: int
+    written: float
+    until: float            # of wheels: when they stop
+
+
+class Handle:
+    """Of a cube and of the robot whose actions it does."""
+
+    def __init__(self, robot, cube, place, now):
+        self.robot, self.cube, self.name, self.now = robot, cube, robot.name, now
+        self.place = self.goal = place      # centres of where it is or comes from, and goes to
+        self.far = None                     # where it may drive on to from the goal without a stop
+        self.done = 0                       # actions
+        self.state = "waiting"
+        self.command = None
+        self.number = 0
+        self.position = self.angle = None
+        self.seen = now()
+        self.missing = False
+        self.trouble = None                 # a text: why nothing can be done with it
+        self.configured = False
+        self.moved_at, self.moved_from = now(), None
+        self.rest_since = now()
+        self.history = deque(maxlen=5)
+        self.writes = self.repeats = self.corrections = 0
+        self.last_path = None
+        cube.on_id, cube.on_motor, cube.on_configuration = self._on_id, self._on_motor, self._on_configuration
+
+    # ---- notifications
+
+    def _on_configuration(self, data):
+        self.configured = self.configured or data[:1] == b"\x98"
+
+    def _on_id(self, data):
+        found = protocol.read_id_notification(data)
+        if isinstance(found, protocol.Missed):
+            self.missing = True
+            self.history.clear()
+        elif found:
+            self.missing = False
+            self.position, self.angle, self.seen = (found.x, found.y), found.angle, self.now()
+            self.history.append((self.seen, self.position))
+            self._note_motion()
+
+    def _note_motion(self):
+        if self.moved_from is None or distance(self.position, self.moved_from[0]) > MOVED \
+                or abs(turn_between(self.angle, self.moved_from[1])) > TURNED:
+            self.moved_from, self.moved_at = (self.position, self.angle), self.seen
+
+    def _on_motor(self, data):
+        found = protocol.read_motor_notification(data)
+        if not found or not self.command or found.number != self.command.number:
+            return
+        if found.code == protocol.BAD_STATE:
+            self.trouble = "is being switched off"
+        elif found.code == protocol.UNSUPPORTED:
+            self.trouble = "does not take the commands (is its software older than 2.1.0, or --speed too low?)"
+        # What else there is - done, timed out, off the mat, nothing to do, replaced - ends the motion; what
+        # comes next is decided by where the cube then is.
+        if self.command.kind in ("journey", "turn"):
+            self._end_command()
+
+    def _end_command(self):
+        self.command, self.rest_since = None, self.now() + SETTLE_SECONDS
+
+    def settle(self):
+        """Ends a command that no response has ended."""
+        if self.command is None:
+            return
+        if self.command.kind in ("wheels", "stop"):
+            over = self.now() >= self.command.until
+        else:
+            over = self.now() - max(self.command.written, self.moved_at) > ANSWER_SECONDS
+        if over:
+            self._end_command()
+
+    # ---- what is known
+
+    @property
+    def silent(self):
+        return self.now() - self.seen > SILENT_SECONDS
+
+    @property
+    def seen_now(self):
+        return self.position is not None and not self.missing and not self.silent
+
+    def _positions_at_rest(self):
+        return [p for t, p in self.history if t >= self.rest_since]
+
+    @property
+    def at_rest(self):
+        """Positions say so: of a moving cube they differ."""
+        if self.command is not None or not self.seen_now:
+            return False
+        those = self._positions_at_rest()
+        return len(those) >= SEEN_AT_REST and all(distance(p, those[0]) <= MOVED for p in those)
+
+    @property
+    def mean(self):
+        those = self._positions_at_rest()
+        return (sum(x for x, _ in those) / len(those), sum(y for _, y in those) / len(those))
+
+    def in_lane(self, a, b, tolerance):
+        return point_to_segment(self.position, a, b) <= tolerance
+
+    def lane(self):
+        """The path that it may take up from now on."""
+        if not self.seen_now:
+            return [self.place, self.goal]
+        if self.command is None or self.command.kind == "stop":
+            return [self.position]
+        path = list(self.command.path)
+        return [self.position] + (path[path.index(self.goal):] if self.goal in path else path)
+
+    def strays(self):
+        """How far it is from where it has to be."""
+        path = [self.place, self.goal, *([self.far] if self.far else [])]
+        return min(point_to_segment(self.position, a, b) for a, b in zip(path, path[1:]))
+
+    # ---- commands
+
+    async def _write(self, data, kind, path, seconds=0.0):
+        self.writes += 1
+        self.command = Command(kind, tuple(path), self.number, self.now(), self.now() + seconds)
+        await self.cube.write(data)
+
+    def _next_number(self):
+        self.number = (self.number + 1) % 256
+        return self.number
+
+    async def travel(self, path, speed):
+        """To one point, or to a second one by the first."""
+        self.repeats += tuple(path) == self.last_path
+        self.last_path = tuple(path)
+        those = [protocol.Target(round(x), round(y)) for x, y in path]
+        number = self._next_number()
+        data = protocol.one_target(number, those[0], speed, TIMEOUT) if len(those) == 1 \
+            else protocol.targets(number, those, speed, TIMEOUT)
+        await self._write(data, "journey", path)
+
+    async def turn(self, angle, speed):
+        target = protocol.Target(protocol.SAME, protocol.SAME, round(angle) % 360, protocol.SHORTEST)
+        await self._write(protocol.one_target(self._next_number(), target, speed, TIMEOUT), "turn", [self.goal])
+
+    async def roll(self, speed, milliseconds):
+        """Straight on, or back, for so long: what is lost of this does no harm."""
+        self.corrections += 1
+        data = protocol.wheels(speed, speed, milliseconds)
+        await self._write(data, "wheels", [self.goal], milliseconds / 1000 + 0.1)
+
+    async def stop(self):
+        await self._write(protocol.stop(), "stop", [], 0.1)
+
+    async def ask_for_positions(self):
+        """All the time, also of a cube that stands still: so that one notices what was lost."""
+        await self.cube.configure(protocol.notify_positions(3, 0))

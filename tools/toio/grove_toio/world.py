@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""A mat with simulated cubes on it, seen from above: where they truly are, and how near they came."""
+import asyncio
+import math
+import random
+
+from .geometry import distance
+from .mat import BODY, MM
+
+TICK = 0.01
+SPREAD = 12                 # units from where it was that a hand puts a cube back
+MOST_TICKS = 20             # made up for at once, where the machine was busy
+
+
+class Lift:
+    """A cube that a hand takes away at a time, and puts back later, at a place or near where it was."""
+
+    def __init__(self, cube, at, seconds, where=None):
+        self.cube, self.at, self.until, self.where = cube, at, at + seconds, where
+
+
+class World:
+    def __init__(self, mat, seed=0):
+        self.mat = mat
+        self.cubes = []
+        self.lifts = []
+        self.least = math.inf       # between two centres, units
+        self.least_pair = None
+        self.least_at = None
+        self.random = random.Random(f"world {seed}")
+
+    @property
+    def least_mm(self):
+        return self.least * MM
+
+    @property
+    def touched(self):
+        return self.least < BODY
+
+    async def run(self):
+        loop = asyncio.get_running_loop()
+        begin = then = loop.time()
+        while True:
+            await asyncio.sleep(TICK)
+            now = loop.time()
+            for _ in range(min(MOST_TICKS, round((now - then) / TICK) or 1)):
+                self.tick(TICK, now, now - begin)
+            then = now
+
+    def tick(self, seconds, now, since_begin):
+        self._hands(since_begin)
+        for cube in self.cubes:
+            cube.tick(seconds, now)
+        self._measure(since_begin)
+
+    def on_mat(self, x, y):
+        x0, y0, x1, y1 = self.mat
+        return x0 <= x <= x1 and y0 <= y <= y1
+
+    def _measure(self, since_begin):
+        standing = [c for c in self.cubes if not c.lifted]
+        for i, one in enumerate(standing):
+            for other in standing[:i]:
+                apart = math.hypot(one.x - other.x, one.y - other.y)
+                if apart < self.least:
+                    self.least, self.least_pair, self.least_at = apart, (other.name, one.name), since_begin
+
+    def _hands(self, since_begin):
+        for lift in list(self.lifts):
+            if since_begin >= lift.at and not lift.cube.lifted:
+                lift.cube.lift()
+            if since_begin >= lift.until and lift.cube.lifted and self._put_back(lift):
+                self.lifts.remove(lift)
+
+    def _put_back(self, lift):
+        """Where nobody is in the way of the hand."""
+        for _ in range(20):
+            x, y = lift.where or [at + self.random.uniform(-SPREAD, SPREAD) for at in (lift.cube.x, lift.cube.y)]
+            if self.on_mat(x, y) and all(distance((x, y), (c.x, c.y)) > BODY + 6
+                                         for c in self.cubes if c is not lift.cube and not c.lifted):
+                lift.cube.put_down(x, y, self.random.uniform(0, 360))
+                return True
+        return False
