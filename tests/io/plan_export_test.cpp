@@ -198,5 +198,81 @@ TEST(TrackerScenario, IsTypeAndNumber) {
     EXPECT_FALSE(parse_tracker_scenario("m", wrong)) << wrong;
 }
 
+// Places are met at their times, waits have a begin and an end, tasks are named where they are
+// done.
+TEST_F(PlanExport, Waypoints) {
+  const Scale scale{{0.5, {10, 20}}, 2};
+  const std::string text =
+      written([&](const auto& path) { write_waypoints(path, instance_, solution_, scale); });
+  EXPECT_EQ(text.substr(0, text.find("no,")),
+            "robot,seconds,x,y,theta,task\n"
+            "red,0,10.25,21.25,-1.570796,\n"
+            "red,2,10.25,20.75,0.000000,\n"
+            "red,4,10.75,20.75,0.000000,\n"
+            "red,6,11.25,20.75,0.000000,\n"
+            "red,8,11.75,20.75,0.000000,\n"
+            "red,10,12.25,20.75,1.570796,\n"
+            "red,12,12.25,21.25,1.570796,\n");
+  EXPECT_NE(text.find("no,2,11.25,21.25,-1.570796,\nno,6,11.25,21.25,-1.570796,\n"),
+            std::string::npos);
+  EXPECT_NE(text.find("no,12,10.75,20.25,3.141593,shelf\n"), std::string::npos);
+  EXPECT_NE(text.find("third one,0,10.25,20.25,0.000000,\n"), std::string::npos);
+}
+
+TEST_F(PlanExport, NavPaths) {
+  const std::string text = written([&](const auto& path) {
+    write_nav_paths(path, instance_, solution_, {{1, {}}, 0.5});
+  });
+  EXPECT_NE(text.find("\n\"third one\":\n  header: {stamp: {sec: 0, nanosec: 0}, frame_id: map}\n"),
+            std::string::npos);
+  EXPECT_NE(text.find("header: {stamp: {sec: 1, nanosec: 500000000}, frame_id: map}\n"
+                      "      pose:\n"
+                      "        position: {x: 2.5000, y: 1.5000, z: 0.0}\n"
+                      "        orientation: {x: 0.0, y: 0.0, z: 0.000000000, w: 1.000000000}\n"),
+            std::string::npos);
+}
+
+// U is one row down there.
+TEST_F(PlanExport, PlanViz) {
+  const std::string text =
+      written([&](const auto& path) { write_planviz(path, instance_, solution_); });
+  for (const char* part : {"\"actionModel\": \"MAPF\"", "[0,0,\"E\"]", "[2,0,\"E\"]",
+                           "\"U,R,R,R,R,D\"", "\"L,W,W,U,U,L\"", "\"W,W,W,W,W,W\"",
+                           "\"makespan\": 6", "[6,1,1,1]", "[1,0,[2,1]]", "[0,0,[0,4]]"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+}
+
+TEST_F(PlanExport, PlanVizKnowsOneWayToTurn) {
+  for (const Time steps : {1, 2}) {
+    InstanceBuilder builder(testing::grid_of({".."}));
+    builder.add_agent({.id = "a",
+                       .start = {0, Heading::kNorth, Heading::kNorth, 0},
+                       .goal = Place{1},
+                       .motion = {steps}});
+    const Instance instance = std::move(builder).build();
+    const auto state = [&](Place place, Heading from, Heading to, Time k) {
+      return instance.state_of(0, {place, from, to, k});
+    };
+    Path path{state(0, Heading::kNorth, Heading::kNorth, 0)};
+    if (steps == 2) path.push_back(state(0, Heading::kNorth, Heading::kEast, 1));
+    path.push_back(state(0, Heading::kEast, Heading::kEast, 0));
+    path.push_back(state(1, Heading::kEast, Heading::kEast, 0));
+    Solution solution;
+    solution.plan =
+        Plan{static_cast<Cost>(path.size()) - 1, {{static_cast<Time>(path.size()) - 1, {}, path}}};
+    solution.status = Status::kFeasible;
+    ASSERT_TRUE(check(instance, solution).empty());
+    const auto write = [&] { write_planviz(directory_ / "out", instance, solution); };
+    if (steps == 2) {
+      EXPECT_THROW(write(), NotExpressible);
+    } else {
+      write();
+      const std::string text = file_content(directory_ / "out");
+      EXPECT_NE(text.find("\"R,F\""), std::string::npos) << text;
+      EXPECT_NE(text.find("[0,0,\"N\"]"), std::string::npos) << text;
+    }
+  }
+}
+
 }  // namespace plan_export_test
 }  // namespace grove

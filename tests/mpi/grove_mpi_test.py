@@ -67,6 +67,19 @@ class Answers(Program):
                              "--output", "plan.json"))
         self.assertIn(self.plan()["status"], ("optimal", "bounded"))
 
+    def test_without_following(self):
+        instance = DATA / "yard.cts.json"
+        costs = []
+        for more in ([], ["--no-following"]):
+            self.run_well(mpirun(2, "solve", instance, "--threads", 1, "--omega", 0, "--output", "plan.json",
+                                 *more))
+            self.assertEqual(self.plan()["status"], "optimal")
+            self.assertEqual(self.plan().get("following", True), not more)
+            self.run_well([GROVE, "check", instance, "plan.json"])
+            costs.append(self.plan()["cost"])
+            (self.folder / "plan.json").unlink()
+        self.assertEqual(costs, [58, 59])
+
     def test_what_has_no_plan_is_said_to_have_none(self):
         (self.folder / "two.map").write_text("type octile\nheight 1\nwidth 3\nmap\n.@.\n")
         (self.folder / "no.cts.json").write_text(
