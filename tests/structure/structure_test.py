@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # Lowest first; each may use only those before it.
 LAYERS = ["model", "execution", "io", "sequencing", "planning", "conflicts", "search", "primal", "baselines",
           "engine", "batch", "mpi", "tools"]
-CODE_FOLDERS = ["include", "src", "mpi", "cluster", "tools", "tests", "benchmarks"]
+CODE_FOLDERS = ["include", "src", "mpi", "cluster", "examples", "tools", "tests", "benchmarks"]
 CPP = {".h", ".cpp"}
 FORBIDDEN_IN_LIBRARIES = {
     "ends the process": r"(?<![.>\w])(?:exit|_exit|_Exit|quick_exit|abort|terminate)\s*\(",
