@@ -236,7 +236,7 @@ TEST_F(ConvertCommand, FormatsAreGuessedOnlyWhereTheNameTells) {
                 kHint);
   EXPECT_EQ(refused({"--plan", "p.json", "plain.yaml", "o.txt"}),
             "--to: required, for the name 'o.txt' does not tell the format; expected one of "
-            "libmrp, mapf-visualizer, eecbs, tracker, tracker-csv" +
+            "libmrp, mapf-visualizer, eecbs, tracker, tracker-csv, waypoints, nav-path, planviz" +
                 kHint);
   EXPECT_EQ(refused({"--from", "grv", "x.json", "o.yaml"}),
             "--from: found 'grv'; expected one of grove, libmrp, mgcbs, mapfw, scen" + kHint);

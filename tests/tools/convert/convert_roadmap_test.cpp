@@ -198,26 +198,25 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
             "--from: found 'grove'; expected graphml or lif, for OUT is a roadmap" + kHint);
   EXPECT_EQ(with({"--layout", "x"}), "--layout: expected only with LIF" + kHint);
   EXPECT_EQ(with({"--vehicle-type", "x"}), "--vehicle-type: expected only with LIF" + kHint);
-  const std::string only = ": expected only with instances and plans, not with roads" + kHint;
+  const std::string only = ": expected only with instances and plans" + kHint;
   EXPECT_EQ(with({"--plan", "p"}), "--plan" + only);
   EXPECT_EQ(with({"--map", "m"}), "--map" + only);
   EXPECT_EQ(with({"--agents", "3"}), "--agents" + only);
   EXPECT_EQ(with({"--drop", "ids"}), "--drop" + only);
   EXPECT_EQ(with({"--scenario", "even-1"}), "--scenario" + only);
   EXPECT_EQ(with({"--flip-up-down"}), "--flip-up-down" + only);
+  const std::string roads =
+      ": expected only with roads: a *.graphml or *.lif.json INSTANCE, or --from graphml or lif";
   for (const Arguments& option : {Arguments{"--metres-per-step", "1"},
-                                  {"--seconds-per-step", "1"},
                                   {"--layout", "l"},
                                   {"--vehicle-type", "t"},
                                   {"--merge-lanes"}}) {
     Arguments all = {"i.cts.json", "o.mapfw.json"};
     all.insert(all.end(), option.begin(), option.end());
-    EXPECT_EQ(refused(all),
-              option[0] +
-                  ": expected only with roads: a *.graphml or *.lif.json INSTANCE, or "
-                  "--from graphml or lif" +
-                  kHint);
+    EXPECT_EQ(refused(all), option[0] + roads + kHint);
   }
+  EXPECT_EQ(refused({"i.cts.json", "o.mapfw.json", "--seconds-per-step", "1"}),
+            "--seconds-per-step" + roads + "; or --to waypoints or nav-path" + kHint);
 }
 
 TEST_F(ConvertRoadmap, FilesThatDoNotFitAreRefused) {
