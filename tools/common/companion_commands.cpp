@@ -19,6 +19,7 @@ void add(CLI::App& app, const std::string& name, const std::string& description)
 
 void add_companion_commands(CLI::App& app) {
   add(app, "report", "Tables and figures from results, as a page");
+  add(app, "vda5050", "Drive vehicles along a passing order by VDA 5050, over MQTT");
   add(app, "toio", "Drive toio cubes, real or simulated, along a passing order");
 }
 

@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: MIT
-# grove_python_program(PROGRAM PACKAGE PATTERN...): a command that is a Python program. It is run where
-# grove looks for it: PROGRAM beside grove, of its package what matches the patterns beside that.
-function(grove_python_program program package)
-  list(TRANSFORM ARGN PREPEND ${package}/ OUTPUT_VARIABLE patterns)
-  file(GLOB sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${patterns})
-  foreach(file IN ITEMS ${program} LISTS sources)
+# Commands that are Python programs. They are run where grove looks for them: beside grove.
+function(grove_python_copies target)
+  foreach(file IN LISTS ARGN)
     add_custom_command(OUTPUT ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${file}
       COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_CURRENT_SOURCE_DIR}/${file}
               ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${file}
@@ -12,5 +9,19 @@ function(grove_python_program program package)
       COMMENT "Copying ${file}")
     list(APPEND copies ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${file})
   endforeach()
-  add_custom_target(${package} ALL DEPENDS ${copies})
+  add_custom_target(${target} ALL DEPENDS ${copies})
+endfunction()
+
+# grove_python_package(PACKAGE PATTERN...): of the package what matches the patterns.
+function(grove_python_package package)
+  list(TRANSFORM ARGN PREPEND ${package}/ OUTPUT_VARIABLE patterns)
+  file(GLOB sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${patterns})
+  grove_python_copies(${package} ${sources})
+endfunction()
+
+# grove_python_program(PROGRAM PACKAGE PATTERN...): a program and its package.
+function(grove_python_program program package)
+  grove_python_package(${package} ${ARGN})
+  grove_python_copies(${package}_program ${program})
+  add_dependencies(${package} ${package}_program)
 endfunction()

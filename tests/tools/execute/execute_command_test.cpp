@@ -14,6 +14,7 @@ namespace execute_command_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAreArray;
 
 class ExecuteCommand : public ::testing::Test {
  protected:
@@ -78,6 +79,7 @@ TEST_F(ExecuteCommand, WritesThePassingOrder) {
   std::map<std::string, std::size_t> actions;
   for (const json& robot : order["robots"]) actions[robot["id"]] = robot["actions"].size();
   int waits = 0;
+  std::vector<std::tuple<std::string, std::string, json>> visited;
   for (std::size_t i = 0; i < order["robots"].size(); ++i) {
     const json& robot = order["robots"][i];
     json places = json::array({robot["start"]});
@@ -88,11 +90,21 @@ TEST_F(ExecuteCommand, WritesThePassingOrder) {
       ++waits;
       EXPECT_LT(action["after"]["action"], actions.at(action["after"]["robot"]));
     }
+    for (std::size_t k = 0; k < robot["actions"].size(); ++k)
+      for (const json& task : robot["actions"][k].value("visits", json::array()))
+        visited.emplace_back(robot["id"], task, places[k + 1]);
+    for (const json& task : robot.value("visits", json::array()))
+      visited.emplace_back(robot["id"], task, places[0]);
     json path = plan["agents"][i]["path"];
     path.erase(std::unique(path.begin(), path.end()), path.end());
     EXPECT_EQ(places, path);
   }
   EXPECT_GT(waits, 50);
+  std::vector<std::tuple<std::string, std::string, json>> tasks;
+  const json instance = json::parse(std::ifstream(instance_));
+  for (const json& task : instance["tasks"])
+    for (const json& agent : task["agents"]) tasks.emplace_back(agent, task["id"], task["cell"]);
+  EXPECT_THAT(visited, UnorderedElementsAreArray(tasks));
 }
 
 TEST_F(ExecuteCommand, SaysWhoWaitsForWhom) {

@@ -8,7 +8,7 @@ from unittest import mock
 
 import plans
 from grove_toio import bluetooth, protocol
-from grove_toio.bad_input import BadInput
+from grove_driving.bad_input import BadInput
 from grove_toio.driver import Driver
 from grove_toio.mat import BODY
 from grove_toio.simulate import make_world

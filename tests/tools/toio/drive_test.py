@@ -4,9 +4,10 @@ import io
 import json
 import unittest
 
+import orders
 import plans
+from grove_driving.drive_log import DriveLog
 from grove_toio.driver import Driver
-from grove_toio.drive_log import DriveLog
 from grove_toio.mat import BODY
 from grove_toio.rings import PARTS
 
@@ -37,8 +38,8 @@ class Ordinary(unittest.TestCase):
 
     def assert_visited(self, name, outcome):
         seen = {(r.name, cell) for r in plans.order(name).robots
-                for cell in (r.start, *(a.cell for a in r.actions[:outcome.done[r.name]]))}
-        self.assertLessEqual(plans.visits(name), seen)
+                for cell in (r.start, *(a.place for a in r.actions[:outcome.done[r.name]]))}
+        self.assertLessEqual(orders.visits(name), seen)
 
     def test_slips_and_noise(self):
         for name in ("crowd", "round"):
@@ -57,7 +58,7 @@ class Ordinary(unittest.TestCase):
         grid = plans.grid("crowd")
         for robot, cube in zip(plans.order("crowd").robots, world.cubes):
             x, y = grid.cell((cube.x, cube.y))
-            self.assertLess(max(abs(x - robot.actions[-1].cell[0]), abs(y - robot.actions[-1].cell[1])), 0.15)
+            self.assertLess(max(abs(x - robot.actions[-1].place[0]), abs(y - robot.actions[-1].place[1])), 0.15)
 
     def test_turning_robots_look_where_they_shall(self):
         _, world = plans.drive("work", 0.05, 2)
@@ -134,7 +135,7 @@ class TheLog(unittest.TestCase):
         for robot in plans.order("work").robots:
             own = [line for line in lines if line["robot"] == robot.name]
             for line, cell, action, near in ((own[0], robot.start, 0, 0.1),
-                                             (own[-1], robot.actions[-1].cell, len(robot.actions), 0.15)):
+                                             (own[-1], robot.actions[-1].place, len(robot.actions), 0.15)):
                 self.assertLess(max(abs(line["at"][0] - cell[0]), abs(line["at"][1] - cell[1])), near)
                 self.assertEqual(line["action"], action)
             self.assertEqual(own[-1]["state"], "done")

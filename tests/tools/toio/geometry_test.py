@@ -4,7 +4,7 @@ import random
 import unittest
 
 from grove_toio import geometry, rings
-from grove_toio.bad_input import BadInput
+from grove_driving.bad_input import BadInput
 from grove_toio.mat import BODY, LEAST_PITCH, MATS, RESERVE, make_grid
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]

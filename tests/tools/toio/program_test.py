@@ -8,11 +8,11 @@ import time
 import unittest
 from pathlib import Path
 
-import plans
+import orders
 
 
 def start(*arguments):
-    return subprocess.Popen([plans.GROVE.parent / "grove-toio", *map(str, arguments)], text=True,
+    return subprocess.Popen([orders.GROVE.parent / "grove-toio", *map(str, arguments)], text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
@@ -24,7 +24,7 @@ def run(*arguments):
 
 class Program(unittest.TestCase):
     def test_grove_hands_over_to_it(self):
-        done = subprocess.run([plans.GROVE, "toio", "--help"], capture_output=True, text=True, check=False)
+        done = subprocess.run([orders.GROVE, "toio", "--help"], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("ORDER.json", done.stdout)
 
@@ -42,12 +42,12 @@ class Program(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             logs = [Path(folder) / name for name in ("a", "b")]
             for log in logs:
-                done = run(plans.order_file("crowd"), "--fast", "--loss", 0.2, "--log", log, "--quiet")
+                done = run(orders.order_file("crowd"), "--fast", "--loss", 0.2, "--log", log, "--quiet")
                 self.assertEqual(done, (0, "", ""))
             self.assertEqual(*(log.read_bytes() for log in logs))
 
     def test_a_drive_that_cannot_be_completed(self):
-        code, out, err = run(plans.order_file("crowd"), "--fast", "--lift", "a0@2=never", "--time-limit", "40")
+        code, out, err = run(orders.order_file("crowd"), "--fast", "--lift", "a0@2=never", "--time-limit", "40")
         self.assertEqual(code, 1)
         self.assertIn("Tasks         not all visited", out)
         self.assertTrue(err.startswith("grove: error: not done within 40 s: "), err)
@@ -56,7 +56,7 @@ class Program(unittest.TestCase):
 
     def test_signals(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
-            process = start(plans.order_file("crowd"))
+            process = start(orders.order_file("crowd"))
             process.stdout.readline()
             time.sleep(0.7)
             process.send_signal(number)
@@ -72,8 +72,8 @@ class Program(unittest.TestCase):
         self.assertNotIn("Traceback", err)
 
     def test_bad_input(self):
-        order, ring, missing = plans.order_file("crowd"), plans.order_file("round"), plans.folder() / "none.json"
-        plan = plans.folder() / "crowd.plan.json"
+        order, ring, missing = orders.order_file("crowd"), orders.order_file("round"), orders.folder() / "none.json"
+        plan = orders.folder() / "crowd.plan.json"
         for text, *arguments in (
                 ("none.json: cannot be read", missing), ("/format: found null", plan),
                 ("/ring: found 4 robots that go round", ring),
@@ -88,9 +88,9 @@ class Program(unittest.TestCase):
                 ("--cube", order, "--cube", "a0=toio-x"), ("--cube", order, "--bluetooth", "--cube", "a0"),
                 ("--fast: found with --bluetooth", order, "--bluetooth", "--fast"),
                 ("not allowed with", order, "--bluetooth", "--simulate"),
-                ("cannot be written", order, "--log", plans.folder() / "no" / "log")):
+                ("cannot be written", order, "--log", orders.folder() / "no" / "log")):
             with self.subTest(arguments=arguments):
                 self.refused(text, *arguments)
 
     def test_a_full_disk(self):
-        self.refused("No space left", plans.order_file("crowd"), "--fast", "--quiet", "--log", "/dev/full", code=1)
+        self.refused("No space left", orders.order_file("crowd"), "--fast", "--quiet", "--log", "/dev/full", code=1)

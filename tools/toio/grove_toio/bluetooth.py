@@ -3,8 +3,9 @@
 places for handlers of notifications. Untried with real cubes."""
 import asyncio
 
+from grove_driving.bad_input import BadInput
+
 from . import protocol
-from .bad_input import BadInput
 from .geometry import distance
 
 SCAN_SECONDS = 8.0

@@ -1,27 +1,26 @@
 # SPDX-License-Identifier: MIT
 """The command line of grove toio."""
-import argparse
 import asyncio
 import contextlib
-import math
 import os
 import signal
-import sys
 from typing import NamedTuple
 
+from grove_driving.arguments import (Parser, amount, integer, integers, number, positive, robot_at_for, seed, share,
+                                     wrong)
+from grove_driving.bad_input import BadInput, at
+from grove_driving.drive_log import DriveLog, open_log
+from grove_driving.program import FAILURE, complain, exit_code
+
 from . import demo, rings
-from .bad_input import BadInput, at
+from .cells import read_cell_order, size
 from .clock import VirtualLoop
 from .driver import Driver
-from .drive_log import DriveLog
 from .mat import MATS, MM, make_grid
-from .order import read_order
 from .protocol import LEAST_SPEED, MOST_SPEED
 from .simulate import simulate
 from .simulated import Troubles
 
-BAD_INPUT = 2
-FAILURE = 1
 DEFAULT_CELLS = (7, 5)
 SIMULATION = ("loss", "slip", "noise", "lift", "fast", "seed")
 DEFAULTS = {"loss": 0.05, "slip": 0.05, "noise": 1.0, "lift": [], "fast": False, "seed": 0}
@@ -52,77 +51,26 @@ Examples:
   grove toio order.json --bluetooth --cube red=toio-M0p"""
 
 
-class _Help(argparse.RawDescriptionHelpFormatter):
-    def __init__(self, prog):
-        super().__init__(prog, width=106, max_help_position=30)
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(f"{message.removeprefix('argument ')} (see 'grove toio --help')")
-
-
 class Lifted(NamedTuple):
     robot: str
     at: float
     seconds: float
 
 
-def _wrong(text, expected):
-    return argparse.ArgumentTypeError(f"found '{text}'; expected {expected}")
-
-
-def _number(text, least, most, expected):
-    try:
-        value = float(text)
-    except ValueError:
-        raise _wrong(text, expected) from None
-    if not least <= value <= most:
-        raise _wrong(text, expected)
-    return value
-
-
-def _share(text):
-    return _number(text, 0, 0.9, "a number from 0 to 0.9")
-
-
-def _amount(text):
-    return _number(text, 0, 1e6, "a number of at least 0")
-
-
-def _positive(text):
-    return _number(text, 1e-3, 1e6, "a number of at least 0.001")
-
-
 def _noise(text):
-    return _number(text, 0, 2, "a number from 0 to 2")
-
-
-def _integers(text, parts, least, most, expected):
-    """Of the parts; if one is none the whole text is wrong."""
-    if not all(p.isascii() and p.isdigit() and least <= int(p) <= most for p in parts):
-        raise _wrong(text, expected)
-    return [int(p) for p in parts]
-
-
-def _integer(text, least, most, expected):
-    return _integers(text, [text], least, most, expected)[0]
+    return number(text, 0, 2, "a number from 0 to 2")
 
 
 def _speed(text):
-    return _integer(text, LEAST_SPEED, MOST_SPEED, f"an integer from {LEAST_SPEED} to {MOST_SPEED}")
-
-
-def _seed(text):
-    return _integer(text, 0, 10 ** 18, "an integer of at least 0")
+    return integer(text, LEAST_SPEED, MOST_SPEED, f"an integer from {LEAST_SPEED} to {MOST_SPEED}")
 
 
 def _cells(text):
     expected = "WIDTHxHEIGHT, as 7x5"
     parts = text.split("x")
     if len(parts) != 2:
-        raise _wrong(text, expected)
-    return tuple(_integers(text, parts, 1, 1000, expected))
+        raise wrong(text, expected)
+    return tuple(integers(text, parts, 1, 1000, expected))
 
 
 def _mat(text):
@@ -131,45 +79,36 @@ def _mat(text):
     expected = f"one of {', '.join(MATS)}, or X0,Y0,X1,Y1"
     numbers = text.split(",")
     if len(numbers) != 4:
-        raise _wrong(text, expected)
-    x0, y0, x1, y1 = _integers(text, numbers, 0, 65534, expected)
+        raise wrong(text, expected)
+    x0, y0, x1, y1 = integers(text, numbers, 0, 65534, expected)
     if x0 >= x1 or y0 >= y1:
-        raise _wrong(text, expected)
+        raise wrong(text, expected)
     return x0, y0, x1, y1
 
 
 def _lift(text):
-    expected = "ROBOT@SECONDS=SECONDS, or ROBOT@SECONDS=never"
-    robot, mark, when = text.rpartition("@")
-    begin, equals, seconds = when.partition("=")
-    if not robot or not mark or not equals:
-        raise _wrong(text, expected)
-    try:
-        return Lifted(robot, _amount(begin), math.inf if seconds == "never" else _amount(seconds))
-    except argparse.ArgumentTypeError:
-        raise _wrong(text, expected) from None
+    return Lifted(*robot_at_for(text))
 
 
 def _cube(text):
     robot, equals, name = text.partition("=")
     if not robot or not equals or not name:
-        raise _wrong(text, "ROBOT=NAME or ROBOT=ADDRESS")
+        raise wrong(text, "ROBOT=NAME or ROBOT=ADDRESS")
     return robot, name
 
 
 def _parser():
-    parser = _Parser(prog="grove toio", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False,
-                     formatter_class=_Help)
+    parser = Parser(prog="grove toio", description=DESCRIPTION, epilog=EPILOG)
     add = parser.add_argument
     add("order", nargs="?", metavar="ORDER.json", help="passing order")
     add("--demo", action="store_true", help="solve and drive the demonstration: 3 cubes, 6 tasks, 7 x 5 cells")
     add("--mat", type=_mat, default=MATS["simple"], metavar="MAT",
         help=f"{', '.join(MATS)}, or X0,Y0,X1,Y1, top left and bottom right (default: simple)")
     add("--cells", type=_cells, metavar="WxH", help="cells on the mat (default: 7x5, more if the order has more)")
-    add("--pitch", type=_positive, metavar="UNITS", help="from cell to cell (default: what the mat has room for)")
+    add("--pitch", type=positive, metavar="UNITS", help="from cell to cell (default: what the mat has room for)")
     add("--speed", type=_speed, default=40, metavar="N", help="of the motors, 10 to 255 (default: 40)")
-    add("--step-seconds", type=_positive, default=1.0, metavar="S", help="that a step of work takes (default: 1)")
-    add("--time-limit", type=_positive, default=600.0, metavar="S", help="give up after so long (default: 600)")
+    add("--step-seconds", type=positive, default=1.0, metavar="S", help="that a step of work takes (default: 1)")
+    add("--time-limit", type=positive, default=600.0, metavar="S", help="give up after so long (default: 600)")
     add("--log", metavar="DRIVE.jsonl", help="write the drive, line by line, to this file")
     add("--quiet", action="store_true", help="say nothing but what went wrong")
     kinds = parser.add_mutually_exclusive_group()
@@ -184,12 +123,12 @@ def _parser():
 def _add_simulation(add):
     """Without defaults, so that one sees whether they were given."""
     add("--fast", action="store_const", const=True, help="as fast as it can, the same each time")
-    add("--loss", type=_share, metavar="SHARE", help="of messages lost, each way (default: 0.05)")
-    add("--slip", type=_amount, metavar="RATE", help="slips in a second of driving (default: 0.05)")
+    add("--loss", type=share, metavar="SHARE", help="of messages lost, each way (default: 0.05)")
+    add("--slip", type=amount, metavar="RATE", help="slips in a second of driving (default: 0.05)")
     add("--noise", type=_noise, metavar="UNITS", help="that seen positions are off (default: 1)")
     add("--lift", type=_lift, action="append", metavar="ROBOT@S=S",
         help="lift a cube after so many seconds, for so many or 'never' back")
-    add("--seed", type=_seed, metavar="N", help="of what happens by chance (default: 0)")
+    add("--seed", type=seed, metavar="N", help="of what happens by chance (default: 0)")
 
 
 def _parse(arguments):
@@ -218,13 +157,13 @@ def _check_robots(a, order):
 
 
 def _make_grid(a, order, file):
-    used = order.size()
+    used = size(order)
     width, height = a.cells or tuple(map(max, DEFAULT_CELLS, used))
     if used[0] > width or used[1] > height:
         raise BadInput(f"--cells: found {width}x{height}; expected at least {used[0]}x{used[1]}, which the order uses")
     grid = make_grid(a.mat, width, height, a.pitch)
     for members in order.rings.values():
-        cells = [order.robots[i].cell_before(k) for i, k in members]
+        cells = [order.robots[i].place_before(k) for i, k in members]
         least = rings.least_pitch(cells)
         if grid.pitch < least:
             i, k = members[0]
@@ -232,13 +171,6 @@ def _make_grid(a, order, file):
                      f"{len(members)} robots that go round on cells of {grid.pitch:.1f} units",
                      f"at least {least:.1f}, so that cubes do not touch (a larger --mat, or fewer --cells)")
     return grid
-
-
-def _open_log(path):
-    try:
-        return open(path, "w", encoding="utf-8")  # noqa: SIM115 - it is closed by the caller
-    except OSError as error:
-        raise BadInput(f"{path}: cannot be written: {error.strerror}") from None
 
 
 async def _drive_real(a, order, grid, options):
@@ -305,7 +237,7 @@ def _say(a):
 def _run(arguments):
     a = _parse(arguments)
     name = "the demonstration" if a.demo else os.path.basename(a.order)
-    order = demo.demo_order() if a.demo else read_order(a.order)
+    order = demo.demo_order() if a.demo else read_cell_order(a.order)
     _check_robots(a, order)
     grid = _make_grid(a, order, name if a.demo else a.order)
     say = _say(a)
@@ -314,7 +246,7 @@ def _run(arguments):
     with contextlib.ExitStack() as stack:
         options = {"speed": a.speed, "step_seconds": a.step_seconds, "say": say}
         if a.log:
-            stream = stack.enter_context(_open_log(a.log))
+            stream = stack.enter_context(open_log(a.log))
             options["log"] = DriveLog(stream, "demo.order.json" if a.demo else name, [r.name for r in order.robots],
                                       a.step_seconds)
         runner = stack.enter_context(asyncio.Runner(loop_factory=VirtualLoop if a.fast else None))
@@ -323,29 +255,9 @@ def _run(arguments):
         say(line)
     failure = _failure(a, outcome, world)
     if failure:
-        _complain(failure)
+        complain(failure)
     return FAILURE if failure else 0
 
 
-def _complain(message):
-    print("grove: error: " + message.replace("\n", "\\n"), file=sys.stderr)
-
-
 def main(arguments):
-    try:
-        return _run(arguments)
-    except BadInput as error:
-        _complain(str(error))
-        return BAD_INPUT
-    except KeyboardInterrupt:
-        return 128 + signal.SIGINT
-    except asyncio.CancelledError:
-        return 128 + signal.SIGTERM
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end
-        return FAILURE
-    except OSError as error:
-        _complain(f"{error.filename or 'the drive'}: {error.strerror or error}")
-        return FAILURE
-    except SystemExit:  # of --help
-        return 0
+    return exit_code(_run, arguments)

@@ -5,8 +5,9 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from .bad_input import BadInput
-from .order import read_order
+from grove_driving.bad_input import BadInput
+
+from .cells import read_cell_order
 
 INSTANCE = Path(__file__).resolve().parent / "demo" / "demo.cts.json"
 SIZE = (7, 5)
@@ -26,7 +27,7 @@ def demo_order():
         plan, order = Path(folder) / "demo.plan.json", Path(folder) / "demo.order.json"
         _grove("solve", INSTANCE, "--omega", "0", "--threads", "1", "--quiet", "--require-plan", "--output", plan)
         _grove("execute", INSTANCE, plan, "--order", order)
-        return read_order(order)
+        return read_cell_order(order)
 
 
 def demo_visits():
@@ -38,5 +39,5 @@ def demo_visits():
 def tasks_left(order, done):
     """The demonstration's tasks that somebody did not visit."""
     seen = {(r.name, cell) for r in order.robots
-            for cell in (r.start, *(a.cell for a in r.actions[:done[r.name]]))}
+            for cell in (r.start, *(a.place for a in r.actions[:done[r.name]]))}
     return sorted({task for task, robot, cell in demo_visits() if (robot, cell) not in seen})

@@ -18,7 +18,7 @@ from . import rings
 from .geometry import distance, nearer, turn_between
 from .handle import Handle
 from .mat import BODY
-from .order import HEADINGS
+from .cells import HEADINGS
 from .protocol import REACHED_BOX
 from .simulated import UNITS_PER_SPEED
 
@@ -75,12 +75,12 @@ class Driver:
         if k + 1 >= len(actions):
             return None
         following = actions[k + 1]
-        if following.kind != "move" or following.ring is not None or following.cell == handle.robot.cell_before(k):
+        if following.kind != "move" or following.ring is not None or following.place == handle.robot.place_before(k):
             return None
-        return self.grid.centre(following.cell) if self.after_done(handle, k + 1) else None
+        return self.grid.centre(following.place) if self.after_done(handle, k + 1) else None
 
     def ring_cells(self, ring):
-        return [self.order.robots[i].cell_before(k) for i, k in self.order.rings[ring]]
+        return [self.order.robots[i].place_before(k) for i, k in self.order.rings[ring]]
 
     def ring_may_begin(self, ring):
         if ring in self.under_way:
@@ -113,7 +113,7 @@ class Driver:
         handle.done += 1
 
     async def move(self, handle, k, action):
-        await self.reach(handle, self.grid.centre(action.cell), self.grid.tolerance,
+        await self.reach(handle, self.grid.centre(action.place), self.grid.tolerance,
                          lambda: self.next_point(handle, k))
 
     async def turn(self, handle, _, action):
@@ -317,7 +317,8 @@ class Driver:
 
     def log_line(self, handle):
         if self.log and handle.position is not None:
-            self.log.write(self.now(), handle, self.grid)
+            self.log.write(self.now(), handle.name, self.grid.cell(handle.position), handle.angle + 90,
+                           handle.done, handle.state)
 
     async def log_all(self):
         while True:

@@ -19,7 +19,7 @@ of the way by hand, so to say: turned, then wheels for some hundredths of a seco
 import math
 from typing import NamedTuple
 
-from .bad_input import BadInput
+from grove_driving.bad_input import BadInput
 
 MM = 1.36
 CUBE = 32 / MM

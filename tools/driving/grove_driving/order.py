@@ -6,28 +6,32 @@ from typing import NamedTuple
 from .bad_input import BadInput, at
 
 FORMAT = "grove passing order 1"
-HEADINGS = {"E": 0, "S": 90, "W": 180, "N": 270}  # as cubes count angles
+HEADINGS = ("N", "E", "S", "W")
 KINDS = ("move", "turn", "work")
 
 
 class Action(NamedTuple):
     kind: str
-    cell: tuple             # where the robot then is
+    place: tuple            # where the robot then is: (x, y) of a cell; on roadmaps ("A",) or ("A", "B", k)
     heading: str            # "N", ... or None
+    at: tuple               # the middle of that place, (x, y) in metres, y up; None where the file does not say
     steps: int
     after: tuple            # (robot, action) or None
     ring: int               # or None
-    task: str               # or None
+    task: str               # that is worked on, or None
+    visits: tuple           # tasks without duration that the robot first comes by with this action
 
 
 class Robot(NamedTuple):
     name: str
     start: tuple
     heading: str
+    at: tuple
+    visits: tuple           # tasks without duration at its start
     actions: tuple
 
-    def cell_before(self, action):
-        return self.actions[action - 1].cell if action else self.start
+    def place_before(self, action):
+        return self.actions[action - 1].place if action else self.start
 
 
 class Order(NamedTuple):
@@ -37,10 +41,13 @@ class Order(NamedTuple):
     def robot(self, name):
         return next(r for r in self.robots if r.name == name)
 
-    def size(self):
-        """Width and height of the cells in use."""
-        cells = [c for r in self.robots for c in (r.start, *(a.cell for a in r.actions))]
-        return max(x for x, _ in cells) + 1, max(y for _, y in cells) + 1
+
+def _is_number(value, kinds=int):
+    return isinstance(value, kinds) and not isinstance(value, bool)
+
+
+def is_cell(place):
+    return not isinstance(place[0], str)
 
 
 class _Reader:
@@ -65,15 +72,33 @@ class _Reader:
             self.fail(f"{place}/{key}", value, "an integer of at least 0")
         return value
 
-    def cell(self, place, holder, key):
-        """(cell, heading)"""
-        value = self.key(place, holder, key, list, '[x, y] or [x, y, "N"]')
-        if value and isinstance(value[0], str):
-            self.fail(f"{place}/{key}", value, "[x, y]: cubes drive on grids, not on roadmaps")
-        numbers = [n for n in value[:2] if isinstance(n, int) and not isinstance(n, bool) and n >= 0]
-        if len(numbers) != 2 or len(value) > 3 or (len(value) == 3 and value[2] not in HEADINGS):
-            self.fail(f"{place}/{key}", value, '[x, y] or [x, y, "N"]')
-        return tuple(numbers), value[2] if len(value) == 3 else None
+    def place(self, where, holder, key):
+        """(place, heading)"""
+        expected = '[x, y], [x, y, "N"], ["A"] or ["A", "B", k]'
+        value = self.key(where, holder, key, list, expected)
+        vertices = [v for v in value[:2] if isinstance(v, str)]
+        if len(value) in (2, 3, 5) and all(_is_number(n) and n >= 0 for n in value[:2]) and \
+                all(h in HEADINGS for h in value[2:4]):
+            return tuple(value[:2]), value[2] if len(value) == 3 else None
+        if (len(value) == len(vertices) == 1) or (len(value) in (3, 4) and len(vertices) == 2 and
+                                                  all(_is_number(n) for n in value[2:])):
+            return tuple(value), None
+        return self.fail(f"{where}/{key}", value, expected)
+
+    def at(self, where, holder):
+        if "at" not in holder:
+            return None
+        value = self.key(where, holder, "at", list, "[x, y] in metres")
+        if len(value) != 2 or not all(_is_number(n, (int, float)) and abs(n) < 1e9 for n in value):
+            self.fail(f"{where}/at", value, "[x, y] in metres")
+        return tuple(value)
+
+    def visits(self, where, holder):
+        expected = "a list of the ids of tasks"
+        value = self.key(where, holder, "visits", list, expected) if "visits" in holder else []
+        if not all(isinstance(task, str) for task in value):
+            self.fail(f"{where}/visits", value, expected)
+        return tuple(value)
 
     def after(self, place, holder):
         if "after" not in holder:
@@ -83,39 +108,47 @@ class _Reader:
         return (self.key(f"{place}/after", value, "robot", str, expected),
                 self.natural(f"{place}/after", value, "action"))
 
-    def action(self, place, holder, before, heading):
-        if not isinstance(holder, dict):
-            self.fail(place, holder, "an object")
-        kind = self.key(place, holder, "do", str, f"one of {', '.join(KINDS)}")
-        if kind not in KINDS:
-            self.fail(f"{place}/do", kind, f"one of {', '.join(KINDS)}")
-        cell = before
-        if kind != "work":
-            cell, heading = self.cell(place, holder, "to")
-            apart = abs(cell[0] - before[0]) + abs(cell[1] - before[1])
-            if apart != (1 if kind == "move" else 0):
-                self.fail(f"{place}/to", holder["to"], f"a neighbour of {list(before)}" if kind == "move"
-                          else f"the cell it is on, {list(before)}")
-            if kind == "turn" and heading is None:
-                self.fail(f"{place}/to", holder["to"], '[x, y, "N"]')
-        ring = self.natural(place, holder, "ring") if "ring" in holder else None
-        if ring is not None and kind != "move":
-            self.fail(f"{place}/ring", ring, "no ring: only moves are in rings")
-        task = self.key(place, holder, "task", str, "the id of a task") if kind == "work" else None
-        return Action(kind, cell, heading, self.natural(place, holder, "steps"),
-                      self.after(place, holder), ring, task)
+    def next_place(self, where, holder, kind, before):
+        """(place, heading) after a move or turn."""
+        place, heading = self.place(where, holder, "to")
+        if kind == "turn" and heading is None:
+            self.fail(f"{where}/to", holder["to"], '[x, y, "N"]')
+        if kind == "turn" and place != before:
+            self.fail(f"{where}/to", holder["to"], f"the cell it is on, {list(before)}")
+        if kind == "move" and (place == before or is_cell(place) != is_cell(before) or
+                               (is_cell(place) and sum(abs(a - b) for a, b in zip(place, before)) != 1)):
+            self.fail(f"{where}/to", holder["to"], f"a neighbour of {json.dumps(before)}")
+        return place, heading
 
-    def robot(self, place, holder):
+    def action(self, where, holder, before, heading, at_before):
         if not isinstance(holder, dict):
-            self.fail(place, holder, "an object")
-        name = self.key(place, holder, "id", str, "a text")
-        start = cell, heading = self.cell(place, holder, "start")
+            self.fail(where, holder, "an object")
+        kind = self.key(where, holder, "do", str, f"one of {', '.join(KINDS)}")
+        if kind not in KINDS:
+            self.fail(f"{where}/do", kind, f"one of {', '.join(KINDS)}")
+        place = before
+        if kind != "work":
+            place, heading = self.next_place(where, holder, kind, before)
+        ring = self.natural(where, holder, "ring") if "ring" in holder else None
+        if ring is not None and kind != "move":
+            self.fail(f"{where}/ring", ring, "no ring: only moves are in rings")
+        task = self.key(where, holder, "task", str, "the id of a task") if kind == "work" else None
+        return Action(kind, place, heading, self.at(where, holder) if kind == "move" else at_before,
+                      self.natural(where, holder, "steps"), self.after(where, holder), ring, task,
+                      self.visits(where, holder))
+
+    def robot(self, where, holder):
+        if not isinstance(holder, dict):
+            self.fail(where, holder, "an object")
+        name = self.key(where, holder, "id", str, "a text")
+        start = place, heading = self.place(where, holder, "start")
+        first = at = self.at(where, holder)
         actions = []
-        for i, each in enumerate(self.key(place, holder, "actions", list, "a list of actions")):
-            action = self.action(f"{place}/actions/{i}", each, cell, heading)
-            cell, heading = action.cell, action.heading
+        for i, each in enumerate(self.key(where, holder, "actions", list, "a list of actions")):
+            action = self.action(f"{where}/actions/{i}", each, place, heading, at)
+            place, heading, at = action.place, action.heading, action.at
             actions.append(action)
-        return Robot(name, *start, tuple(actions))
+        return Robot(name, *start, first, self.visits(where, holder), tuple(actions))
 
 
 def _check_names(reader, robots):
@@ -124,7 +157,7 @@ def _check_names(reader, robots):
         if robot.name in (r.name for r in robots[:i]):
             reader.fail(f"/robots/{i}/id", robot.name, "ids that differ")
         if robot.start in starts:
-            reader.fail(f"/robots/{i}/start", list(robot.start), f"another cell than {starts[robot.start]} starts on")
+            reader.fail(f"/robots/{i}/start", list(robot.start), f"another place than {starts[robot.start]} starts on")
         starts[robot.start] = robot.name
 
 
@@ -141,17 +174,17 @@ def _check_after(reader, robots):
 
 def _follow_each_other(robots, members):
     """The members of a ring, each before the one whose cell it enters; None if they are no ring."""
-    leaves = {robots[i].cell_before(k): (i, k) for i, k in members}
+    leaves = {robots[i].place_before(k): (i, k) for i, k in members}
     chain = [members[0]]
     while len(chain) <= len(members):
         i, k = chain[-1]
-        following = leaves.get(robots[i].actions[k].cell)
+        following = leaves.get(robots[i].actions[k].place)
         if following == chain[0]:
             break
         if following is None:
             return None
         chain.append(following)
-    return chain if len(chain) == len(members) >= 4 else None
+    return chain if len(chain) == len(members) >= 3 else None
 
 
 def _rings(reader, robots):
@@ -166,7 +199,7 @@ def _rings(reader, robots):
         if rings[ring] is None:
             i, k = those[0]
             reader.fail(f"/robots/{i}/actions/{k}/ring", ring,
-                        "moves into the cells that the others of the ring leave")
+                        "moves into the places that the others of the ring leave")
     return rings
 
 

@@ -4,9 +4,9 @@ import copy
 import json
 import unittest
 
-import plans
-from grove_toio.bad_input import BadInput
-from grove_toio.order import parse_order
+import orders
+from grove_driving.bad_input import BadInput
+from grove_driving.order import parse_order, read_order
 
 GOOD = {"format": "grove passing order 1",
         "robots": [{"id": "red", "start": [0, 0], "actions": [
@@ -26,18 +26,24 @@ class Reading(unittest.TestCase):
         red, blue = read(GOOD).robots
         self.assertEqual((red.name, red.start, red.heading, blue.heading), ("red", (0, 0), None, "W"))
         self.assertEqual([a.kind for a in red.actions + blue.actions], ["move", "work", "turn"])
-        self.assertEqual((red.actions[1].cell, red.actions[1].task, red.actions[1].steps), ((1, 0), "press", 5))
+        self.assertEqual((red.actions[1].place, red.actions[1].task, red.actions[1].steps), ((1, 0), "press", 5))
         self.assertEqual((blue.actions[0].heading, blue.actions[0].after), ("N", ("red", 1)))
 
     def test_a_ring_is_put_in_its_order(self):
-        order = plans.order("round")
+        order = read_order(orders.order_file("round"))
         (members,) = order.rings.values()
         self.assertEqual(len(members), 4)
         for (i, k), (j, m) in zip(members, members[1:] + members[:1]):
-            self.assertEqual(order.robots[i].actions[k].cell, order.robots[j].cell_before(m))
+            self.assertEqual(order.robots[i].actions[k].place, order.robots[j].place_before(m))
+
+    def test_roadmaps(self):
+        one, other = read_order(orders.order_file("roads")).robots
+        self.assertEqual((one.start, one.at, one.actions[0].place), (("W",), (0, 0), ("W", "C", 1)))
+        self.assertEqual([a.task for r in (one, other) for a in r.actions if a.kind == "work"], ["press", "press"])
+        self.assertEqual([a.visits for a in other.actions if a.visits], [("look",)])
 
     def test_all_kinds_of_orders_are_read(self):
-        kinds = {a.kind for name in ("crowd", "work", "round") for r in plans.order(name).robots for a in r.actions}
+        kinds = {a.kind for name in ("crowd", "work", "round") for r in read_order(orders.order_file(name)).robots for a in r.actions}
         self.assertEqual(kinds, {"move", "turn", "work"})
 
     def check(self, change, place, *said):
@@ -57,7 +63,11 @@ class Reading(unittest.TestCase):
         self.check(lambda o, r, a: o.update(robots=[3]), "/robots/0")
         self.check(lambda o, r, a: r.update(id="blue"), "/robots/1/id", "differ")
         self.check(lambda o, r, a: r.update(start=[3, 0]), "/robots/0/actions/0/to")
-        self.check(lambda o, r, a: r.update(start=["gate"]), "/robots/0/start", "not on roadmaps")
+        self.check(lambda o, r, a: r.update(start=["gate"]), "/robots/0/actions/0/to", "neighbour")
+        self.check(lambda o, r, a: r.update(start=["gate", "hall"]), "/robots/0/start")
+        self.check(lambda o, r, a: r.update(at=[1]), "/robots/0/at", "metres")
+        self.check(lambda o, r, a: a[0].update(at=[1, "x"]), "/robots/0/actions/0/at", "metres")
+        self.check(lambda o, r, a: a[0].update(visits=[1]), "/robots/0/actions/0/visits", "ids of tasks")
         self.check(lambda o, r, a: r.update(start=[0, -1]), "/robots/0/start")
         self.check(lambda o, r, a: r.update(start=[0, 0, "Q"]), "/robots/0/start")
         self.check(lambda o, r, a: r.pop("actions"), "/robots/0", "no key 'actions'")

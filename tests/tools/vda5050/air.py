@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: MIT
+"""Control, vehicles and one who looks on, without a broker and in virtual time: messages are delayed, overtake
+each other and get lost as the test wants it."""
+import functools
+import heapq
+import json
+import math
+import random
+
+import orders
+from grove_driving.order import read_order
+from grove_vda5050.control import Control, Limits
+from grove_vda5050.fleet import World
+from grove_vda5050.messages import Style
+from grove_vda5050.protocol import PROTOCOLS, Header, Topics
+from grove_vda5050.release import Releases
+from grove_vda5050.route import THETA, check_order, make_route
+from grove_vda5050.vehicle import SimulatedVehicle
+from grove_vda5050.watch import Watch
+
+TICK = 0.1
+HEARTBEAT = 10.0
+
+
+@functools.cache
+def order(name, following=True):
+    return read_order(orders.order_file(name, following))
+
+
+@functools.cache
+def routes(name, following=True):
+    check_order(name, order(name, following))
+    return {r.name: make_route(r, r.name) for r in order(name, following).robots}
+
+
+def style(version="2.1.0"):
+    return Style(PROTOCOLS[version], "map", 0.1, "work", "visit", 1.0)
+
+
+class Air:
+    def __init__(self, name, following=True, version="2.1.0", delayed=0.0, lost=0.0, seed=0, base=10, horizon=5,
+                 releases=Releases, stops=None):
+        self.now, self.number, self.due = 0.0, 0, []
+        self.random = random.Random(f"{name} {seed}")
+        self.delayed, self.lost = delayed, lost
+        self.stops = stops or {}                # robot: (begin, end)
+        self.topics = Topics(PROTOCOLS[version], "i", "m")
+        self.complaints = []
+        self.watch = Watch(self.topics, self.complaints.append)
+        self.world = World(1.0)
+        those = routes(name, following)
+        self.control = Control(releases(order(name, following), those), style(version), "an order",
+                               Limits(base, horizon), self.send, lambda: self.now)
+        self.headers = {robot: Header(PROTOCOLS[version], "m", robot) for robot in those}
+        self.vehicles, self.told = {}, {}
+        for robot in order(name, following).robots:
+            self.add(robot, those[robot.name], version)
+
+    def add(self, robot, route, version):
+        def tell(topic, message):
+            self.told[robot.name] = self.now
+            self.fly(self.hear, robot.name, topic, message)
+
+        speed = self.random.uniform(0.5, 3)
+        self.vehicles[robot.name] = SimulatedVehicle(PROTOCOLS[version], robot.name, "m", route.serial, route.nodes[0].at,
+                                                     THETA.get(robot.heading, 0.0), self.world, tell, speed, math.pi)
+        self.world.holders[route.nodes[0].id] = [self.vehicles[robot.name]]
+        self.vehicles[robot.name].tell_state()
+
+    # ---- messages
+
+    def fly(self, function, *arguments):
+        if self.random.random() < self.lost:
+            return
+        seconds = self.random.uniform(0, 20) if self.random.random() < self.delayed else 0.0
+        self.number += 1
+        heapq.heappush(self.due, (self.now + seconds, self.number, function, arguments))
+
+    def seen(self, serial, name, message):
+        """By the one who looks on, in the order in which the broker has them."""
+        self.watch.on_message(self.topics.topic(serial, name), json.dumps(message).encode())
+
+    def send(self, robot, content):
+        message = json.loads(json.dumps(self.headers[robot].message(content)))
+        self.seen(robot, "order", message)
+        self.fly(self.vehicles[robot].receive, message)
+
+    def hear(self, robot, name, message):
+        self.seen(robot, name, message)
+        self.control.on_state(robot, json.loads(json.dumps(message)))
+
+    # ---- the drive
+
+    def drive(self, seconds=3000):
+        """Is everything done?"""
+        while self.now < seconds and not self.control.completed:
+            self.now += TICK
+            while self.due and self.due[0][0] <= self.now:
+                _, _, function, arguments = heapq.heappop(self.due)
+                function(*arguments)
+            for robot, vehicle in self.vehicles.items():
+                begin, end = self.stops.get(robot, (0, 0))
+                vehicle.stopped = begin <= self.now < end
+                vehicle.tick(TICK)
+                if self.now - self.told[robot] > HEARTBEAT:
+                    vehicle.tell_state()
+            self.control.tick()
+        return self.control.completed

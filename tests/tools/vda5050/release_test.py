@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+"""What may be released: never a place that another may be on, and in the end everything."""
+import random
+import unittest
+
+import air
+from grove_vda5050.release import Releases
+
+NAMES = ("crowd", "work", "many", "narrow", "roads", "round")
+
+
+class _Eager(Releases):
+    """Wrong: does not wait for the last of what it has to."""
+
+    def waits_for(self, name):
+        after = super().waits_for(name)
+        return after if after and self.done[after[0]] < after[1] else None
+
+
+def walk(name, seed, kind=Releases):
+    """Vehicles complete in any order what they may. Returns (all done, places that two held)."""
+    order, routes = air.order(name, False), air.routes(name, False)
+    releases, draw = kind(order, routes), random.Random(seed)
+    reached = dict.fromkeys(routes, 0)
+    shared = 0
+    while True:
+        claims = [{n.place for n in routes[r].nodes[reached[r]:releases.allowed[r] + 1]} for r in routes]
+        shared += sum(map(len, claims)) - len(set().union(*claims))
+        able = [r for r in routes if reached[r] < releases.allowed[r]]
+        if not able:
+            break
+        robot = draw.choice(able)
+        reached[robot] += 1
+        node = routes[robot].nodes[reached[robot]]
+        releases.complete(robot, node.end if reached[robot] == routes[robot].last else node.begin)
+    return all(reached[r] == routes[r].last for r in routes), shared
+
+
+class Release(unittest.TestCase):
+    def test_any_order_of_arrivals(self):
+        for name in NAMES:
+            for seed in range(40):
+                self.assertEqual(walk(name, seed), (True, 0), (name, seed))
+
+    def test_this_test_sees_what_is_released_too_early(self):
+        self.assertGreater(sum(walk(name, seed, _Eager)[1] for name in NAMES for seed in range(3)), 0)
+
+    def test_who_waits_for_whom(self):
+        releases = Releases(air.order("narrow", False), air.routes("narrow", False))
+        waits = {name: releases.waits_for(name) for name in ("up", "down")}
+        self.assertTrue(any(waits.values()))
+        for name, after in waits.items():
+            if after:
+                self.assertNotEqual(after[0], name)
+                self.assertEqual(releases.complete(after[0], after[1]), [])
+                self.assertEqual(releases.complete(after[0], after[1] + 1), [name])

@@ -1,0 +1,15 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`grove vda5050`: all tests of this folder.
+
+    vda5050_test.py GROVE [TEST...]
+"""
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "driving"))
+
+import suite  # noqa: E402
+
+sys.exit(suite.run(__file__, ["route_test", "release_test", "messages_test", "vehicle_test", "control_test",
+                              "watch_test", "program_test"]))

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: MIT
+"""Passing orders that cubes can drive: on the cells of a grid."""
+import json
+
+from grove_driving.bad_input import at
+from grove_driving.order import is_cell, read_order
+
+HEADINGS = {"E": 0, "S": 90, "W": 180, "N": 270}  # as cubes count angles
+
+
+def read_cell_order(file):
+    order = read_order(file)
+    for i, robot in enumerate(order.robots):
+        if not is_cell(robot.start):
+            raise at(file, f"/robots/{i}/start", json.dumps(robot.start),
+                     "[x, y]: cubes drive on grids, not on roadmaps")
+    return order
+
+
+def size(order):
+    """Width and height of the cells in use."""
+    cells = [c for r in order.robots for c in (r.start, *(a.place for a in r.actions))]
+    return max(x for x, _ in cells) + 1, max(y for _, y in cells) + 1

@@ -1,0 +1,453 @@
+# SPDX-License-Identifier: MIT
+"""The command line of grove vda5050."""
+import contextlib
+import json
+import math
+import os
+import queue
+import signal
+import sys
+import time
+import uuid
+from pathlib import Path
+
+from grove_driving.arguments import (Parser, amount, integer, positive, robot_at_for, seed, share, wrong)
+from grove_driving.bad_input import BadInput
+from grove_driving.drive_log import DriveLog, open_log
+from grove_driving.frame import Frame
+from grove_driving.order import read_order
+from grove_driving.program import FAILURE, complain, exit_code
+
+from . import trial
+from .control import Control, Limits
+from .fleet import Fleet, Troubles
+from .messages import Style
+from .mqtt import Broker, Connection
+from .protocol import PROTOCOLS, Header, Topics
+from .release import Releases
+from .route import ALLOWED, THETA, check_order, make_route, readable
+from .watch import Watch
+
+TICK = 0.2
+PROGRAM = Path(sys.argv[0]).resolve()
+
+DESCRIPTION = """\
+Drives vehicles along a passing order, as 'grove execute INSTANCE PLAN --order ORDER.json' writes it, by
+VDA 5050 2.1.0 or 3.0.0: what of its way a vehicle may drive is released to it when the order lets it go
+there, however late anybody is. Needs plans without rings: grove solve --no-following."""
+
+EPILOG = """\
+  grove vda5050 orders ORDER.json -o FOLDER    first order of each vehicle, as files, to look at
+  grove vda5050 drive ORDER.json --broker ...  fleet control: drives the vehicles that are on a broker
+  grove vda5050 vehicles ORDER.json --broker ...  simulated vehicles, on their starts
+  grove vda5050 watch --broker ...             looks on: messages as the schemas want them, nothing released twice
+  grove vda5050 trial ORDER.json               all of these and a broker, on this machine
+
+Exit codes:
+  0    all vehicles have done everything (of watch: nothing is wrong)
+  1    not done within --time-limit, something is wrong, or internal failure
+  2    bad usage or input: one line on stderr says where, what was found and what was expected
+  130  stopped by Ctrl-C (143 by SIGTERM): vehicles stop where their bases end"""
+
+
+def _broker(text):
+    expected = "HOST or HOST:PORT"
+    host, colon, port = text.rpartition(":") if ":" in text else (text, "", "1883")
+    if not host or not port.isdigit() or not 0 < int(port) < 65536:
+        raise wrong(text, expected)
+    return host, int(port)
+
+
+def _protocol(text):
+    for version in PROTOCOLS:
+        if text == version or text == version.rpartition(".")[0]:
+            return PROTOCOLS[version]
+    raise wrong(text, "2.1 or 3.0")
+
+
+def _level(text):
+    if not text or not set(text) <= ALLOWED:
+        raise wrong(text, "letters, digits and _ - . :")
+    return text
+
+
+def _serial(text):
+    robot, equals, serial = text.rpartition("=")
+    if not robot or not equals:
+        raise wrong(text, "ROBOT=SERIAL")
+    return robot, _level(serial)
+
+
+def _count(text):
+    return integer(text, 1, 10 ** 6, "an integer of at least 1")
+
+
+def _count0(text):
+    return integer(text, 0, 10 ** 6, "an integer of at least 0")
+
+
+def _stop(text):
+    return robot_at_for(text, endless=False)
+
+
+def _add_protocol(add):
+    add("--protocol", type=_protocol, default=PROTOCOLS["2.1.0"], metavar="VERSION",
+        help="of VDA 5050: 2.1 or 3.0 (default: 2.1)")
+    add("--interface", type=_level, metavar="NAME", help="first level of topics (default: uagv; of 3.0: vda5050)")
+    add("--manufacturer", type=_level, default="grove", metavar="NAME", help="third level (default: grove)")
+    add("--serial", type=_serial, action="append", default=[], metavar="ROBOT=SERIAL",
+        help="serial number of a robot's vehicle (default: its id)")
+
+
+def _add_broker(add):
+    add("--broker", type=_broker, required=True, metavar="HOST[:PORT]", help="of MQTT (default port: 1883)")
+    add("--username", metavar="NAME", help="at the broker; the password is in the variable GROVE_MQTT_PASSWORD")
+    add("--tls", action="store_true", help="the broker speaks TLS")
+    add("--ca-file", metavar="FILE", help="with --tls: certificates to trust (default: those of the system)")
+
+
+def _add_style(add):
+    add("--base", type=_count, default=10, metavar="N", help="nodes released ahead of a vehicle, at most (default: 10)")
+    add("--horizon", type=_count0, default=5, metavar="N", help="nodes shown beyond the base (default: 5)")
+    add("--map-id", type=_level, default="map", metavar="ID", help="mapId of all nodes (default: map)")
+    add("--deviation", type=amount, default=0.1, metavar="METRES",
+        help="that a vehicle may be off a node it has reached (default: 0.1)")
+    add("--work-action", type=_level, default="work", metavar="TYPE", help="actionType of work (default: work)")
+    add("--visit-action", type=_level, default="visit", metavar="TYPE",
+        help="actionType of visits without duration (default: visit)")
+    add("--step-seconds", type=positive, default=1.0, metavar="S", help="that a step of work takes (default: 1)")
+
+
+def _add_drive(add):
+    add("--time-limit", type=positive, default=3600.0, metavar="S", help="give up after so long (default: 3600)")
+    add("--log", metavar="DRIVE.jsonl", help="write the drive, line by line, to this file (docs/drive-log.md)")
+    add("--quiet", action="store_true", help="say nothing but what went wrong")
+
+
+def _add_vehicles(add):
+    add("--speed", type=positive, default=1.0, metavar="M/S", help="of the vehicles (default: 1)")
+    add("--turn-speed", type=positive, default=90.0, metavar="DEG/S", help="(default: 90)")
+    add("--pace", type=positive, default=1.0, metavar="X", help="so many times as fast as real ones (default: 1)")
+    add("--delayed", type=share, default=0.0, metavar="SHARE", help="of messages that come late, each way (default: 0)")
+    add("--delay", type=amount, default=2.0, metavar="S", help="how late at most (default: 2)")
+    add("--lost", type=share, default=0.0, metavar="SHARE", help="of messages that are lost (default: 0)")
+    add("--stop", type=_stop, action="append", default=[], metavar="ROBOT@S=S",
+        help="a vehicle stands still, from a second on, for so many")
+    add("--seed", type=seed, default=0, metavar="N", help="of what happens by chance (default: 0)")
+
+
+def _parser():
+    parser = Parser(prog="grove vda5050", description=DESCRIPTION, epilog=EPILOG)
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+
+    def command(name, text, *groups, order=True):
+        one = commands.add_parser(name, help=text, description=text[:1].upper() + text[1:] + ".")
+        if order:
+            one.add_argument("order", metavar="ORDER.json", help="passing order")
+        for title, adds in groups:
+            group = one.add_argument_group(title) if title else one
+            for add in adds:
+                add(group.add_argument)
+        return one
+
+    protocol, style = ("the protocol", [_add_protocol]), ("the orders", [_add_style])
+    broker, vehicles = ("the broker", [_add_broker]), ("the vehicles", [_add_vehicles])
+    orders = command("orders", "writes the first order of each vehicle as a file", protocol, style)
+    orders.add_argument("-o", "--output", required=True, metavar="FOLDER", help="for ROBOT.order.json of each robot")
+    command("drive", "fleet control: drives the vehicles that are on a broker", (None, [_add_drive]), broker, protocol,
+            style)
+    command("vehicles", "simulated vehicles, each on its start, until Ctrl-C", broker, protocol, vehicles)
+    watch = command("watch", "looks on at a broker, until Ctrl-C", broker, protocol, order=False)
+    watch.add_argument("--seconds", type=positive, default=math.inf, metavar="S", help="end after so long")
+    command("trial", "broker, simulated vehicles, control and one who looks on, all on this machine",
+            (None, [_add_drive]), protocol, style, vehicles)
+    return parser
+
+
+class Setup:
+    """What the options say of topics, vehicles and orders."""
+
+    def __init__(self, a):
+        self.topics = Topics(a.protocol, a.interface or a.protocol.interface, a.manufacturer)
+        if "order" not in a:
+            return
+        self.order = read_order(a.order)
+        check_order(a.order, self.order)
+        names = [r.name for r in self.order.robots]
+        self.routes = {r.name: make_route(r, self._serial(a, r.name, names)) for r in self.order.robots}
+        serials = [route.serial for route in self.routes.values()]
+        for i, serial in enumerate(serials):
+            if serial in serials[:i]:
+                raise BadInput(f"--serial: found {serial} for {names[serials.index(serial)]} and {names[i]}; expected "
+                               "one for each")
+        self.robots = {route.serial: name for name, route in self.routes.items()}
+        self.frame = Frame(self.order)
+        if "base" in a:
+            self.style = Style(a.protocol, a.map_id, a.deviation, a.work_action, a.visit_action, a.step_seconds)
+
+    @staticmethod
+    def _serial(a, name, names):
+        given = dict(a.serial)
+        for robot in given:
+            if robot not in names:
+                raise BadInput(f"--serial: found robot '{robot}'; expected one of {', '.join(names)}")
+        return given.get(name, readable(name))
+
+    def headings(self):
+        """Of each robot at its start, radians; without headings they are drawn nowhere and may look anywhere."""
+        return {r.name: THETA.get(r.heading, 0.0) for r in self.order.robots}
+
+
+def _make_broker(a):
+    if a.ca_file and not a.tls:
+        raise BadInput("--ca-file: found without --tls; expected --tls (see 'grove vda5050 drive --help')")
+    if a.ca_file and not os.path.exists(a.ca_file):
+        raise BadInput(f"{a.ca_file}: cannot be read; expected a file of certificates")
+    return Broker(*a.broker, a.username, os.environ.get("GROVE_MQTT_PASSWORD"), a.ca_file, a.tls)
+
+
+def _say(a):
+    return (lambda text: None) if getattr(a, "quiet", False) else (lambda text: print(text, flush=True))
+
+
+# ---- orders
+
+def _orders(a):
+    setup = Setup(a)
+    releases = Releases(setup.order, setup.routes)
+    folder = Path(a.output)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadInput(f"{folder}: cannot be made: {error.strerror}") from None
+    for name, route in setup.routes.items():
+        released = min(releases.allowed[name], a.base)
+        content = setup.style.order(route, f"grove-{readable(name)}", 0, 0, released,
+                                    min(released + a.horizon, route.last))
+        message = Header(a.protocol, a.manufacturer, route.serial).message(content)
+        file = folder / f"{route.serial}.order.json"
+        file.write_text(json.dumps(message, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    print(f"{folder}: the first orders of {len(setup.routes)} vehicles, VDA 5050 {a.protocol.version}")
+    return 0
+
+
+# ---- drive
+
+class _Drive:
+    """Control on a connection."""
+
+    def __init__(self, a, setup, broker, log, say):
+        self.a, self.setup, self.say = a, setup, say
+        topics, begin = setup.topics, time.monotonic()
+        headers = {name: Header(a.protocol, a.manufacturer, route.serial) for name, route in setup.routes.items()}
+
+        def send(name, content):
+            self.connection.publish(topics.topic(setup.routes[name].serial, "order"), headers[name].message(content))
+
+        self.control = Control(Releases(setup.order, setup.routes), setup.style, str(uuid.uuid4()),
+                               Limits(a.base, a.horizon), send, lambda: time.monotonic() - begin, log, say)
+        # States first: a vehicle's connection is kept by the broker, and comes at once.
+        self.connection = Connection(broker, [(topics.topic("+", "state"), 0), (topics.topic("+", "connection"), 1)])
+
+    def step(self):
+        """Hears what there is, for some time, and says what is due. Is everything done?"""
+        until = time.monotonic() + TICK
+        while (left := until - time.monotonic()) > 0:
+            try:
+                message = self.connection.inbox.get(timeout=left)
+            except queue.Empty:
+                break
+            self._hear(message)
+        if self.connection.failure:
+            raise BadInput(f"--broker: refused: {self.connection.failure}")
+        self.control.tick()
+        return self.control.completed
+
+    def _hear(self, message):
+        serial, name = self.setup.topics.serial_and_name(message.topic)
+        robot = self.setup.robots.get(serial)
+        try:
+            content = json.loads(message.payload)
+            if robot and isinstance(content, dict):
+                (self.control.on_state if name == "state" else self.control.on_connection)(robot, content)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            self.say(f"{self.control.now():7.1f} s  {serial}: a {name} that cannot be read: {error}")
+
+    def run(self):
+        while not self.step():
+            if self.control.now() > self.a.time_limit:
+                return False
+        return True
+
+    def summary(self):
+        control = self.control
+        done = sum(control.releases.done.values())
+        yield f"Time          {control.now():.1f} s"
+        yield f"Vehicles      {sum(v.completed for v in control.vehicles.values())} of {len(control.vehicles)} done"
+        yield f"Actions       {done} of {sum(len(r.actions) for r in self.setup.order.robots)} of the passing order"
+        yield f"Orders        {control.messages} messages, {control.resent} of them again"
+
+    def failure(self):
+        reasons = list(self.control.reasons())
+        more = f"; and {len(reasons) - 8} more" if len(reasons) > 8 else ""
+        return f"not done within {self.a.time_limit:g} s: {'; '.join(reasons[:8])}{more}" if reasons else None
+
+
+def _describe(a, setup):
+    order = setup.order
+    yield f"Order         {os.path.basename(a.order)}: {len(order.robots)} robots, " \
+          f"{sum(len(r.actions) for r in order.robots)} actions"
+    yield f"Protocol      VDA 5050 {a.protocol.version}, topics {setup.topics.topic('...', '...')}"
+
+
+@contextlib.contextmanager
+def _log(a, setup):
+    """A function that writes a line, or None."""
+    if not a.log:
+        yield None
+        return
+    with open_log(a.log) as stream:
+        log = DriveLog(stream, os.path.basename(a.order), list(setup.routes), a.step_seconds)
+
+        def write(seconds, name, at, theta, done, state):
+            log.write(seconds, name, setup.frame.cells(at), None if theta is None else 90 - math.degrees(theta), done,
+                      state)
+        yield write
+
+
+def _drive(a):
+    setup = Setup(a)
+    broker, say = _make_broker(a), _say(a)
+    with _log(a, setup) as log:
+        drive = _Drive(a, setup, broker, log, say)
+        for line in _describe(a, setup):
+            say(line)
+        completed = drive.run()
+        drive.connection.close()
+    for line in drive.summary():
+        say(line)
+    if not completed:
+        complain(drive.failure())
+    return 0 if completed else FAILURE
+
+
+# ---- vehicles
+
+def _check_stops(a, setup):
+    for robot, *_ in a.stop:
+        if robot not in setup.routes:
+            raise BadInput(f"--stop: found robot '{robot}'; expected one of {', '.join(setup.routes)}")
+
+
+def _vehicles(a):
+    setup = Setup(a)
+    _check_stops(a, setup)
+    fleet = Fleet(_make_broker(a), setup.topics, setup.routes, setup.headings(), setup.frame.cell, a.speed,
+                  math.radians(a.turn_speed), Troubles(a.delayed, a.delay, a.lost, tuple(a.stop)), a.seed, a.pace)
+    print(f"{len(fleet.vehicles)} vehicles", flush=True)
+    with contextlib.suppress(KeyboardInterrupt, _Terminated):
+        fleet.run()
+    fleet.close()
+    world = fleet.world
+    print(f"Messages      {fleet.received} orders received, {sum(v.refused for v in fleet.vehicles)} refused; "
+          f"{fleet.delayed} messages late, {fleet.lost} lost")
+    print(f"Done          {sum(v.acted for v in fleet.vehicles)} works and visits")
+    if world.least_pair:
+        print(f"Distance      at least {world.least:.2f} m between centres, of {' and '.join(world.least_pair)}")
+    print("Places        " + (world.collisions[0] if world.collisions else "nobody drove to where another was"))
+    return FAILURE if world.collisions else 0
+
+
+# ---- watch
+
+def _hear_all(watch, connection, until):
+    while True:
+        left = until - time.monotonic()
+        if left <= 0 and connection.inbox.empty():
+            return
+        try:
+            message = connection.inbox.get(timeout=min(max(left, 0), 3600))
+        except queue.Empty:
+            continue
+        watch.on_message(message.topic, message.payload)
+
+
+def _watched(watch):
+    said = ", ".join(f"{count} {name}" for name, count in sorted(watch.messages.items())) or "none"
+    yield f"Watched       {said}; " + ("not checked by schemas: no python3-jsonschema" if watch.validators is None
+                                       else f"all checked by the schemas of {watch.topics.protocol.version}")
+    yield f"Released      {watch.violations or 'nothing'} wrong, {watch.actions} actions reported finished"
+
+
+def _watch(a):
+    topics = Setup(a).topics
+    watch = Watch(topics, lambda text: print(text, flush=True))
+    connection = trial.onlooker(_make_broker(a), topics)
+    with contextlib.suppress(KeyboardInterrupt, _Terminated):
+        _hear_all(watch, connection, time.monotonic() + a.seconds)
+    connection.close()
+    for line in _watched(watch):
+        print(line)
+    return FAILURE if watch.violations else 0
+
+
+# ---- trial
+
+def _vehicle_arguments(a, broker):
+    yield from (a.order, "--broker", str(broker), "--protocol", a.protocol.version, "--manufacturer", a.manufacturer)
+    if a.interface:
+        yield from ("--interface", a.interface)
+    for robot, serial in a.serial:
+        yield from ("--serial", f"{robot}={serial}")
+    for option in ("speed", "turn_speed", "pace", "delayed", "delay", "lost", "seed"):
+        yield from ("--" + option.replace("_", "-"), str(getattr(a, option)))
+    for robot, begin, seconds in a.stop:
+        yield from ("--stop", f"{robot}@{begin}={seconds}")
+
+
+def _trial(a):
+    setup, say = Setup(a), _say(a)
+    _check_stops(a, setup)
+    for line in _describe(a, setup):
+        say(line)
+    watch = Watch(setup.topics, say)
+    with trial.own_broker() as broker, _log(a, setup) as log:
+        onlooker = trial.onlooker(broker, setup.topics)
+        with trial.own_vehicles(PROGRAM, list(_vehicle_arguments(a, broker))) as process:
+            drive = _Drive(a, setup, broker, log, say)
+            completed = drive.run()
+            vehicles_code, vehicles_text = trial.end_vehicles(process)
+        drive.connection.close()
+        _hear_all(watch, onlooker, time.monotonic() + 1)
+        onlooker.close()
+    for line in (*drive.summary(), *vehicles_text.splitlines()[1:], *_watched(watch)):
+        say(line)
+    failures = [text for failed, text in ((not completed, drive.failure()), (vehicles_code, "vehicles collided"),
+                                          (watch.violations, "messages were wrong")) if failed]
+    if failures:
+        complain("; ".join(failures))
+    return FAILURE if failures else 0
+
+
+class _Terminated(BaseException):
+    pass
+
+
+def _terminate(number, frame):
+    raise _Terminated
+
+
+COMMANDS = {"orders": _orders, "drive": _drive, "vehicles": _vehicles, "watch": _watch, "trial": _trial}
+
+
+def _run(arguments):
+    a = _parser().parse_args(arguments)
+    signal.signal(signal.SIGTERM, _terminate)
+    try:
+        return COMMANDS[a.command](a)
+    except _Terminated:
+        return 128 + signal.SIGTERM
+
+
+def main(arguments):
+    return exit_code(_run, arguments)

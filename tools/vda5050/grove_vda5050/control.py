@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: MIT
+"""Fleet control: sends each vehicle along its route, as far as the passing order lets it.
+
+Messages get lost, come late and overtake each other. So nothing is concluded from a single one but what stays
+true: a node once reported stays reached, an action once finished stays finished, an update once held was
+received. To a vehicle there is one update under way at a time: the next continues the base that it is known
+to hold, and it is sent again until the vehicle's state names it."""
+from .route import actions_done
+
+RESEND_SECONDS = 3.0
+SILENT_SECONDS = 40.0       # vehicles say something every 30
+
+
+class Limits:
+    """How many nodes a vehicle's base reaches beyond the one that it is on, and the horizon beyond that."""
+
+    def __init__(self, base, horizon):
+        self.base, self.horizon = base, horizon
+
+
+class Vehicle:
+    def __init__(self, route):
+        self.route = route
+        self.online = False
+        self.heard = None           # seconds
+        self.reached = -1           # node; -1: it has taken no order yet
+        self.finished = set()       # ids of works
+        self.failed = {}            # id of a work: why
+        self.update = -1            # the last one sent, with the base up to there
+        self.released = -1
+        self.confirmed = -1
+        self.message = None
+        self.sent = None            # when
+        self.timestamp = ""         # of the latest state; older ones are no news of what follows
+        self.errors = ()
+        self.driving = self.working = self.lost = False
+        self.at = self.theta = None
+
+    @property
+    def completed(self):
+        return self.reached == self.route.last and all(w.id in self.finished for n in self.route.nodes
+                                                       for w in n.works)
+
+
+class Control:
+    """send(vehicle, content) publishes an order; now() are seconds since the begin."""
+
+    def __init__(self, releases, style, order_id, limits, send, now, log=None, say=lambda text: None):
+        self.releases, self.style, self.order_id, self.limits = releases, style, order_id, limits
+        self.send, self.now, self.log, self.say = send, now, log, say
+        self.vehicles = {name: Vehicle(route) for name, route in releases.routes.items()}
+        self.messages = self.resent = 0
+
+    # ---- what vehicles say
+
+    def on_connection(self, name, message):
+        vehicle = self.vehicles[name]
+        state = message.get("connectionState")
+        if state == self.style.protocol.lost and not vehicle.lost:
+            self.say(f"{self.now():7.1f} s  {name} has lost its connection")
+        vehicle.online, vehicle.lost = state == "ONLINE", state == self.style.protocol.lost
+        self.log_line(name)
+        self.extend(name)
+
+    def on_state(self, name, message):
+        vehicle = self.vehicles[name]
+        vehicle.heard, vehicle.online, vehicle.lost = self.now(), True, False
+        if message.get("timestamp", "") >= vehicle.timestamp:
+            vehicle.timestamp = message.get("timestamp", "")
+            self._hear_errors(name, message.get("errors", []))
+            self._see(vehicle, message)
+        if message.get("orderId") == self.order_id:
+            self._hear_progress(name, message)
+        self.log_line(name)
+        self.extend(name)
+
+    def _hear_progress(self, name, message):
+        vehicle = self.vehicles[name]
+        update = message.get("orderUpdateId", -1)
+        if vehicle.confirmed < update <= vehicle.update:
+            vehicle.confirmed = update
+        sequence = message.get("lastNodeSequenceId", 0)
+        if sequence % 2 == 0 and sequence // 2 <= vehicle.released:
+            vehicle.reached = max(vehicle.reached, sequence // 2)
+        for action in message.get("actionStates", []):
+            if action.get("actionStatus") == "FINISHED":
+                vehicle.finished.add(action.get("actionId"))
+            elif action.get("actionStatus") == "FAILED" and action.get("actionId") not in vehicle.failed:
+                vehicle.failed[action.get("actionId")] = True
+                self.say(f"{self.now():7.1f} s  {name}: action {action.get('actionId')} failed")
+        if vehicle.reached >= 0:
+            done = actions_done(vehicle.route, vehicle.reached, vehicle.finished)
+            for other in self.releases.complete(name, done):
+                self.extend(other)
+
+    def _hear_errors(self, name, errors):
+        """Each is said once."""
+        vehicle = self.vehicles[name]
+        said = tuple(f"{e.get('errorType')}" + (f": {e['errorDescription']}" if e.get("errorDescription") else "")
+                     for e in errors)
+        for each in said:
+            if each not in vehicle.errors:
+                self.say(f"{self.now():7.1f} s  {name}: {each}")
+        vehicle.errors = said
+
+    def _see(self, vehicle, message):
+        position = message.get(self.style.protocol.position)
+        if position and position.get(self.style.protocol.localized):
+            vehicle.at, vehicle.theta = (position["x"], position["y"]), position["theta"]
+        vehicle.driving = bool(message.get("driving"))
+        vehicle.working = any(a.get("actionStatus") in ("INITIALIZING", "RUNNING")
+                              for a in message.get("actionStates", []))
+
+    # ---- what they are told
+
+    def extend(self, name):
+        """Sends what may be released now, unless an update is under way."""
+        vehicle = self.vehicles[name]
+        if not vehicle.online or vehicle.confirmed < vehicle.update:
+            return
+        released = min(self.releases.allowed[name], max(vehicle.reached, 0) + self.limits.base)
+        if released <= vehicle.released:
+            return
+        vehicle.update += 1
+        vehicle.message = self.style.order(vehicle.route, self.order_id, vehicle.update, max(vehicle.released, 0),
+                                           released, min(released + self.limits.horizon, vehicle.route.last))
+        vehicle.released = released
+        self._publish(name)
+
+    def _publish(self, name):
+        vehicle = self.vehicles[name]
+        vehicle.sent = self.now()
+        self.messages += 1
+        self.send(name, vehicle.message)
+
+    def tick(self):
+        """To be called some times a second."""
+        for name, vehicle in self.vehicles.items():
+            if vehicle.confirmed < vehicle.update and self.now() - vehicle.sent > RESEND_SECONDS:
+                self.resent += 1
+                self._publish(name)
+
+    # ---- how it goes
+
+    @property
+    def completed(self):
+        return all(vehicle.completed for vehicle in self.vehicles.values())
+
+    def state_of(self, name):
+        vehicle = self.vehicles[name]
+        if vehicle.completed:
+            return "done"
+        if vehicle.lost or (vehicle.heard is not None and self.now() - vehicle.heard > SILENT_SECONDS):
+            return "lost"
+        return "working" if vehicle.working else "moving" if vehicle.driving else "waiting"
+
+    def log_line(self, name):
+        vehicle = self.vehicles[name]
+        if self.log and vehicle.reached >= 0:
+            self.log(self.now(), name, vehicle.at or vehicle.route.nodes[vehicle.reached].at, vehicle.theta,
+                     self.releases.done[name], self.state_of(name))
+
+    def reasons(self):
+        """Why those who are not done are not."""
+        for name, vehicle in self.vehicles.items():
+            if vehicle.completed:
+                continue
+            node = vehicle.route.nodes[max(vehicle.reached, 0)].id
+            if vehicle.heard is None:
+                yield f"{name} ({vehicle.route.serial}) was not heard of"
+            elif vehicle.reached < 0:
+                yield f"{name} has not taken its order, to begin on {node}" + "".join(f" ({e})" for e in vehicle.errors)
+            elif vehicle.failed:
+                yield f"{name} on {node}: action {next(iter(vehicle.failed))} failed"
+            elif vehicle.reached == vehicle.released and self.releases.waits_for(name):
+                yield f"{name} on {node} waits for {self.releases.waits_for(name)[0]}"
+            else:
+                yield f"{name} is between {node} and {vehicle.route.nodes[vehicle.released].id}"

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: MIT
+"""Simulated vehicles, each with a connection of its own, in a hall that sees where they truly are."""
+import heapq
+import itertools
+import json
+import math
+import random
+import time
+from typing import NamedTuple
+
+from .mqtt import Connection
+from .protocol import Header
+from .vehicle import SimulatedVehicle
+
+TICK = 0.02
+HEARTBEAT = 10.0            # seconds between states when nothing changes; 30 at most
+NEAR = 1.5                  # cells: vehicles further apart are not measured
+
+
+class Troubles(NamedTuple):
+    delayed: float = 0.0    # share of messages, each way
+    delay: float = 2.0      # seconds, at most
+    lost: float = 0.0       # share of messages that never arrive
+    stops: tuple = ()       # (robot, begin, how long): it stands still
+
+
+class World:
+    """Who holds which place: a vehicle on the way holds both ends."""
+
+    def __init__(self, cell):
+        self.cell = cell
+        self.holders = {}               # node: vehicles
+        self.collisions = []
+        self.least = math.inf           # metres between two centres
+        self.least_pair = None
+
+    def enter(self, vehicle, node):
+        for other in self.holders.get(node, ()):
+            if other is not vehicle:
+                self.collisions.append(f"{vehicle.name} drove to {node}, where {other.name} was")
+        self.holders.setdefault(node, []).append(vehicle)
+
+    def leave(self, vehicle, node):
+        if vehicle in self.holders.get(node, ()):
+            self.holders[node].remove(vehicle)
+
+    def measure(self, vehicles):
+        bins = {}
+        size = NEAR * self.cell
+        for vehicle in vehicles:
+            bins.setdefault((vehicle.x // size, vehicle.y // size), []).append(vehicle)
+        for (i, j), those in bins.items():
+            near = [v for di, dj in ((0, 0), (0, 1), (1, -1), (1, 0), (1, 1)) for v in bins.get((i + di, j + dj), ())]
+            for one in those:
+                for other in near:
+                    if one is not other:
+                        self._measure_pair(one, other)
+
+    def _measure_pair(self, one, other):
+        apart = math.hypot(one.x - other.x, one.y - other.y)
+        if apart < self.least:
+            self.least, self.least_pair = apart, (one.name, other.name)
+
+
+class Fleet:
+    """All vehicles of an order, each on its start."""
+
+    def __init__(self, broker, topics, routes, headings, cell, speed, turn_speed, troubles, seed, pace):
+        self.topics, self.troubles, self.pace = topics, troubles, pace
+        self.random = random.Random(f"vehicles {seed}")
+        self.world = World(cell)
+        self.due = []                   # (when, number, function, arguments)
+        self.numbers = itertools.count()
+        self.vehicles, self.connections = [], []
+        self.told = {}                  # vehicle: when it last said something
+        self.delayed = self.lost = self.received = 0
+        for route in routes.values():
+            self._add(broker, route, headings[route.robot], speed, turn_speed)
+
+    def _add(self, broker, route, theta, speed, turn_speed):
+        protocol = self.topics.protocol
+
+        def topic(name):
+            return self.topics.topic(route.serial, name)
+
+        def state(text):
+            return topic("connection"), header.message({"connectionState": text})
+
+        def tell(name, message):
+            self.told[vehicle] = time.monotonic()
+            self._by_radio(lambda: connection.publish(topic(name), message))
+
+        header = Header(protocol, self.topics.manufacturer, route.serial)
+        connection = Connection(broker, [(topic("order"), 0)], will=state(protocol.lost), hello=state("ONLINE"))
+        vehicle = SimulatedVehicle(protocol, route.robot, self.topics.manufacturer, route.serial, route.nodes[0].at,
+                                   theta, self.world, tell, speed, turn_speed)
+        connection.offline = state("OFFLINE")
+        self.world.holders[route.nodes[0].id] = [vehicle]
+        self.vehicles.append(vehicle)
+        self.connections.append(connection)
+        self._later(self.random.random(), vehicle.tell_state)
+
+    # ---- messages take their time
+
+    def _later(self, seconds, function, *arguments):
+        heapq.heappush(self.due, (time.monotonic() + seconds, next(self.numbers), function, arguments))
+
+    def _by_radio(self, function, *arguments):
+        drawn = self.random.random()
+        if drawn < self.troubles.lost:
+            self.lost += 1
+        elif drawn < self.troubles.lost + self.troubles.delayed:
+            self.delayed += 1
+            self._later(self.random.uniform(0, self.troubles.delay), function, *arguments)
+        else:
+            function(*arguments)
+
+    def _receive(self, vehicle, payload):
+        self.received += 1
+        try:
+            order = json.loads(payload)
+        except ValueError:
+            order = None
+        vehicle.receive(order)
+
+    # ---- the run
+
+    def run(self):
+        """Until an exception ends it."""
+        begin = then = time.monotonic()
+        while True:
+            time.sleep(TICK)
+            now = time.monotonic()
+            self._deliver(now)
+            self._stop_and_go(now - begin)
+            for vehicle in self.vehicles:
+                vehicle.tick((now - then) * self.pace)
+                if now - self.told.get(vehicle, now) > HEARTBEAT:
+                    vehicle.tell_state()
+            self.world.measure(self.vehicles)
+            then = now
+
+    def _deliver(self, now):
+        for vehicle, connection in zip(self.vehicles, self.connections):
+            while not connection.inbox.empty():
+                self._by_radio(self._receive, vehicle, connection.inbox.get().payload)
+        while self.due and self.due[0][0] <= now:
+            _, _, function, arguments = heapq.heappop(self.due)
+            function(*arguments)
+
+    def _stop_and_go(self, now):
+        for robot, begin, seconds in self.troubles.stops:
+            vehicle = next(v for v in self.vehicles if v.name == robot)
+            vehicle.stopped = begin <= now < begin + seconds
+
+    def close(self):
+        for connection in self.connections:
+            connection.publish(*connection.offline, qos=1, retain=True)
+            connection.close()
