@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
