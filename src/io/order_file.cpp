@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "grove/io/order_file.h"
 
-#include <map>
 #include <nlohmann/json.hpp>
 
+#include "grove/execution/visits.h"
 #include "json_writer.h"
 #include "path_entry.h"
 
@@ -41,28 +41,6 @@ OrderedJson point_json(const Instance& instance, const Frame& frame, State state
   return {at.x, at.y};
 }
 
-// By robot: its tasks without duration that it has yet to come by.
-using Visits = std::vector<std::multimap<Place, TaskIndex>>;
-
-Visits visits_to_make(const Instance& instance) {
-  Visits visits(instance.agent_count());
-  for (TaskIndex t = 0; t < instance.task_count(); ++t) {
-    const Task& task = instance.task(t);
-    if (task.duration > 0) continue;
-    for (const AgentIndex agent : task.agents) visits[agent].emplace(task.cell, t);
-  }
-  return visits;
-}
-
-// Tasks that the robot visits when it first is on the place.
-void add_visits(OrderedJson& json, const Instance& instance, std::multimap<Place, TaskIndex>& left,
-                State state) {
-  const auto [begin, end] = left.equal_range(instance.world().place(state));
-  for (auto task = begin; task != end; ++task)
-    json["visits"].push_back(instance.task(task->second).id);
-  left.erase(begin, end);
-}
-
 OrderedJson action_json(const Instance& instance, const PassingOrder& order, const Frame& frame,
                         ActionIndex index, int ring) {
   const Action& action = order.actions()[index];
@@ -88,18 +66,22 @@ OrderedJson action_json(const Instance& instance, const PassingOrder& order, con
 
 std::string order_text(const Instance& instance, const PassingOrder& order, const Frame& frame) {
   const std::vector<int> rings = rings_of(order);
-  Visits visits = visits_to_make(instance);
+  const std::vector<std::vector<TaskVisit>> visits = task_visits(instance, order);
   OrderedJson robots = OrderedJson::array();
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
     const Agent& a = instance.agent(agent);
     OrderedJson robot{{"id", a.id},
                       {"start", pose_json(instance.map(), a.motion, instance.pose_of(a.start))},
                       {"at", point_json(instance, frame, a.start)}};
-    add_visits(robot, instance, visits[agent], a.start);
     OrderedJson actions = OrderedJson::array();
-    for (ActionIndex i = order.begin_of(agent); i < order.end_of(agent); ++i) {
+    for (ActionIndex i = order.begin_of(agent); i < order.end_of(agent); ++i)
       actions.push_back(action_json(instance, order, frame, i, rings[i]));
-      add_visits(actions.back(), instance, visits[agent], order.actions()[i].to);
+    for (const TaskVisit& visit : visits[agent]) {
+      const Task& task = instance.task(visit.task);
+      if (task.duration > 0) continue;  // the action says so
+      const bool is_at_start = visit.action == kNoAction;
+      (is_at_start ? robot : actions[visit.action - order.begin_of(agent)])["visits"].push_back(
+          task.id);
     }
     robot["actions"] = std::move(actions);
     robots.push_back(std::move(robot));

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
@@ -29,6 +30,19 @@ void replace_process(const std::string& program, std::vector<std::string> argume
 }
 
 }  // namespace
+
+void become_standard_input(std::string_view text) {
+  // A file without a name: nothing is left behind, however this ends.
+  std::FILE* file = std::tmpfile();
+  const bool is_written = file != nullptr &&
+                          std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
+                          std::fflush(file) == 0;
+  if (!is_written)
+    throw InputError("a temporary file", "",
+                     fmt::format("cannot be written: {}", std::strerror(errno)));
+  std::rewind(file);
+  ::dup2(::fileno(file), STDIN_FILENO);
+}
 
 void become(const std::string& companion, const std::vector<std::string>& arguments) {
   const std::string program = (own_folder() / companion).string();

@@ -4,9 +4,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace grove {
+
+// What standard input then holds, in this program and in the one that it becomes. Throws
+// InputError.
+void become_standard_input(std::string_view text);
 
 // Becomes that program; returns never. Throws InputError if it is not there or cannot be run.
 [[noreturn]] void become(const std::string& companion, const std::vector<std::string>& arguments);

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 # Writes OUTPUT, which defines what page_parts.h declares of the page NAME: the texts of the files
-# STYLE and PROGRAM.
-file(READ ${STYLE} style)
+# STYLES, one after the other, and of PROGRAM.
+foreach(file IN LISTS STYLES)
+  file(READ ${file} text)
+  string(APPEND style "${text}")
+endforeach()
 file(READ ${PROGRAM} program)
 file(WRITE ${OUTPUT} "// Made by embed.cmake.
 #include \"tools/view/page_parts.h\"

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// grove-follow LOG: what `grove view --run LOG --follow` becomes.
+// grove-follow LOG: what `grove view --follow` becomes. The page comes by standard input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <string>
 
 #include "tools/common/options.h"
 #include "tools/common/program.h"
 #include "tools/common/signals.h"
 #include "tools/view/browser.h"
 #include "tools/view/follow_server.h"
-#include "tools/view/page.h"
 
 namespace grove {
 namespace {
@@ -32,22 +34,21 @@ void follow(const FollowArguments& arguments) {
     std::fflush(stdout);
     if (arguments.open) open_in_browser(address);
   };
-  serve({arguments.log, following_page(arguments.log.filename().string())},
-        static_cast<int>(arguments.port), begun, [] { return interrupted.load(); });
+  const std::string page{std::istreambuf_iterator<char>(std::cin),
+                         std::istreambuf_iterator<char>()};
+  serve({arguments.log, page}, static_cast<int>(arguments.port), begun,
+        [] { return interrupted.load(); });
 }
 
 }  // namespace
 }  // namespace grove
 
 int main(int argc, char** argv) {
-  CLI::App app("Show the log of a run while it grows: grove view --run LOG --follow",
-               "grove-follow");
+  CLI::App app("Show a log while it grows: the end of grove view --follow", "grove-follow");
   grove::FollowArguments arguments;
   grove::prepare_program(app);
   app.require_subcommand(0);
-  app.add_option("LOG", arguments.log, "log of a run; need not exist yet")
-      ->required()
-      ->type_name("");
+  app.add_option("LOG", arguments.log, "need not exist yet")->required()->type_name("");
   grove::add_integer(app, "--port", arguments.port, grove::kPorts, "0: one that is free");
   app.add_flag("--open", arguments.open, "show the page in the browser");
   app.callback([&] { grove::follow(arguments); });

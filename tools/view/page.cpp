@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
+
 #include "tools/view/page_parts.h"
 
 namespace grove {
@@ -39,10 +41,22 @@ std::string without_markup(std::string_view json) {
   return safe;
 }
 
-// The policy allows what is in the page and nothing else, but for what `more` says: no requests, no
+struct Data {
+  const char* id;
+  std::string_view text;  // without markup
+};
+
+// May the page ask the server that it came from?
+enum class Asks { kNobody, kItsServer };
+
+// The policy allows what is in the page and nothing else, but for what it may ask: no requests, no
 // scripts of others.
-std::string html(std::string_view title, const PageParts& parts, std::string_view id,
-                 std::string_view data, std::string_view more = "", std::string_view body = "") {
+std::string html(std::string_view title, const PageParts& parts, std::initializer_list<Data> all,
+                 Asks asks = Asks::kNobody) {
+  std::string data;
+  for (const auto& [id, text] : all)
+    data += fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, text);
+  const bool is_followed = asks == Asks::kItsServer;
   return fmt::format(
       R"(<!doctype html>
 <html lang="en">
@@ -55,26 +69,38 @@ std::string html(std::string_view title, const PageParts& parts, std::string_vie
 </head>
 <body{}>
 <noscript>This page is a program: it needs JavaScript.</noscript>
-<script type="application/json" id="{}">{}</script>
-<script>{}</script>
+{}<script>{}</script>
 </body>
 </html>
 )",
-      more, escaped(title), parts.style, body, id, data, parts.program);
+      is_followed ? "; connect-src 'self'" : "", escaped(title), parts.style,
+      is_followed ? " data-follow" : "", data, parts.program);
 }
 
 }  // namespace
 
 std::string plan_page(std::string_view title, std::string_view data) {
-  return html(title, plan_page_parts(), "grove-data", data);
+  return html(title, plan_page_parts(), {{"grove-data", data}});
 }
 
 std::string run_page(std::string_view title, std::string_view log) {
-  return html(title, run_page_parts(), "grove-log", without_markup(log));
+  return html(title, run_page_parts(), {{"grove-log", without_markup(log)}});
 }
 
 std::string following_page(std::string_view title) {
-  return html(title, run_page_parts(), "grove-log", "", "; connect-src 'self'", " data-follow");
+  return html(title, run_page_parts(), {{"grove-log", ""}}, Asks::kItsServer);
+}
+
+std::string drive_page(std::string_view title, std::string_view data, std::string_view order,
+                       std::string_view log) {
+  return html(title, drive_page_parts(),
+              {{"grove-data", data}, {"grove-order", order}, {"grove-log", without_markup(log)}});
+}
+
+std::string following_drive_page(std::string_view title, std::string_view data,
+                                 std::string_view order) {
+  return html(title, drive_page_parts(),
+              {{"grove-data", data}, {"grove-order", order}, {"grove-log", ""}}, Asks::kItsServer);
 }
 
 }  // namespace grove

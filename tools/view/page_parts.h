@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Style and program of the pages, as the build makes them of page/ and run/.
+// Style and program of the pages, as the build makes them of page/, run/ and drive/.
 #pragma once
 
 #include <string_view>
@@ -14,5 +14,6 @@ struct PageParts {
 
 PageParts plan_page_parts();
 PageParts run_page_parts();
+PageParts drive_page_parts();
 
 }  // namespace grove

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "grove/execution/passing_order.h"
 #include "grove/io/atomic_file.h"
 #include "grove/io/input_error.h"
 #include "grove/io/plan_import.h"
@@ -19,6 +22,7 @@
 #include "tools/common/options.h"
 #include "tools/common/own_files.h"
 #include "tools/view/browser.h"
+#include "tools/view/drive_file.h"
 #include "tools/view/page.h"
 #include "tools/view/page_data.h"
 #include "tools/view/picture/picture.h"
@@ -36,6 +40,9 @@ by itself what is wrong with it: collisions, jumps, tasks left out.
 PLAN is a plan file, or what other solvers write: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2
 (--outputPaths) or the text of lacam and pibt. Without any, the page shows the instance.
 
+--drive shows robots that drive the plan, from the log of their drive (docs/drive-log.md): where they
+are, what each does, how far it is and for whom it waits. With --follow while they drive.
+
 --run shows what a search did instead, from its log for programs: bound and best plan over time, where
 each came from, splits, memory, ranks, and with --log-tree the trees. With --follow it is shown while
 the run goes on, to browsers on this machine.
@@ -48,7 +55,8 @@ Examples:
   grove view my.cts.json my.plan.json --svg strip.svg --at 0,10,20,30
   grove view my.cts.json ours.plan.json theirs.txt -o both.html
   grove solve my.cts.json --quiet --log run.jsonl --log-format jsonl --log-tree 1000
-  grove view --run run.jsonl)";
+  grove view --run run.jsonl
+  grove view hall.cts.json hall.plan.json --drive drive.jsonl --follow --open)";
 
 constexpr IntegerRange kWidths{16, 10'000};
 constexpr std::size_t kMostPlans = 2;  // on a page
@@ -59,7 +67,8 @@ struct ViewArguments {
   std::vector<std::string> plans;
   std::string output;
   bool open = false;
-  std::string run;  // a log, in place of an instance
+  std::string run;    // a log, in place of an instance
+  std::string drive;  // a log, of the first plan
   bool follow = false;
   std::int64_t port = 0;
   std::string svg;
@@ -122,20 +131,44 @@ void write_pictures(const ViewArguments& arguments, const Instance& instance,
   if (!arguments.gif.empty()) write(arguments.gif, gif_picture(drawing, width, arguments.speed));
 }
 
-[[noreturn]] void follow(const ViewArguments& arguments) {
-  std::vector<std::string> words{arguments.run, "--port", std::to_string(arguments.port)};
+// What is to be shown, with the log as it grows, goes on as standard input.
+[[noreturn]] void follow(const ViewArguments& arguments, const std::string& log,
+                         std::string_view page) {
+  become_standard_input(page);
+  std::vector<std::string> words{log, "--port", std::to_string(arguments.port)};
   if (arguments.open) words.emplace_back("--open");
   become("grove-follow", words);
 }
 
-void show_run(const ViewArguments& arguments) {
-  if (arguments.follow) follow(arguments);
-  const std::string log = read_run_log(arguments.run);
-  const std::string output = arguments.output.empty()
-                                 ? fs::path(arguments.run).stem().string() + ".html"
-                                 : arguments.output;
-  write(output, run_page(name_of(arguments.run), log));
+// The page of a log: called like it, unless somebody says otherwise.
+void write_log_page(const ViewArguments& arguments, const std::string& log,
+                    const std::string& page) {
+  const std::string output =
+      arguments.output.empty() ? fs::path(log).stem().string() + ".html" : arguments.output;
+  write(output, page);
   if (arguments.open) open_in_browser(fs::absolute(output).string());
+}
+
+void show_run(const ViewArguments& arguments) {
+  const std::string& log = arguments.run;
+  if (arguments.follow) follow(arguments, log, following_page(name_of(log)));
+  write_log_page(arguments, log, run_page(name_of(log), read_run_log(log)));
+}
+
+void show_drive(const ViewArguments& arguments, const Instance& instance, const NamedPlan& plan) {
+  const Solution& solution = plan.claimed.solution;
+  const auto wrong = check(instance, solution, 1);
+  if (!solution.plan || !wrong.empty())
+    throw InputError(plan.name, wrong.empty() ? "" : wrong.front().place,
+                     (wrong.empty() ? "holds no plan" : wrong.front().message) +
+                         "; expected the valid plan that is driven");
+  const std::string name = name_of(arguments.instance.name());
+  const std::string data = page_data(name, instance, std::span(&plan, 1));
+  const std::string order = order_data(instance, PassingOrder(instance, *solution.plan));
+  const std::string& log = arguments.drive;
+  if (arguments.follow) follow(arguments, log, following_drive_page(name_of(log), data, order));
+  write_log_page(arguments, log,
+                 drive_page(name_of(log), data, order, read_drive_log(log, instance)));
 }
 
 // It is shown all the same: the page says what is wrong, a picture shows it red.
@@ -162,6 +195,7 @@ void run(const ViewArguments& arguments) {
   for (const std::string& file : arguments.plans)
     plans.push_back({fs::path(file).filename().string(),
                      read_plan_of_any_tool(file, loaded.instance, &warnings)});
+  if (!arguments.drive.empty()) return show_drive(arguments, loaded.instance, plans.front());
   for (const NamedPlan& plan : plans) note_what_is_wrong(loaded.instance, plan, warnings);
   if (arguments.wants_pictures() && plans.size() > 1)
     warnings.push_back("pictures show the first plan alone");
@@ -173,23 +207,32 @@ void run(const ViewArguments& arguments) {
   if (!page_file(arguments).empty()) write_page(arguments, loaded.instance, plans);
 }
 
-void add_run_options(CLI::App& command, ViewArguments& arguments) {
+void add_log_options(CLI::App& command, ViewArguments& arguments) {
+  command
+      .add_option("--drive", arguments.drive,
+                  "log of a drive of the plan, to show robots as they drive")
+      ->type_name("LOG.jsonl");
   command.add_option("--run", arguments.run, "log of a run to show, in place of an instance")
       ->type_name("LOG.jsonl");
-  command.add_flag("--follow", arguments.follow, "with --run: show it while it grows");
+  command.add_flag("--follow", arguments.follow, "with --run or --drive: show it while it grows");
   add_integer(command, "--port", arguments.port, kPorts, "of --follow; 0: one that is free");
 }
 
 // (CLI11 would say the same, and write it into every line of the help.)
 void require_fit(const CLI::App& command) {
   const auto given = [&](const char* name) { return !command.get_option(name)->empty(); };
-  if (given("--follow") && !given("--run")) throw CLI::RequiresError("--follow", "--run");
+  if (given("--follow") && !given("--run") && !given("--drive"))
+    throw CLI::RequiresError("--follow", "--run or --drive");
   if (!given("INSTANCE") && !given("--run"))
     throw CLI::RequiredError("INSTANCE, or --run LOG.jsonl");
   if (given("--port") && !given("--follow")) throw CLI::RequiresError("--port", "--follow");
   for (const char* other :
-       {"INSTANCE", "PLAN", "--svg", "--png", "--gif", "--at", "--width", "--speed"})
+       {"INSTANCE", "PLAN", "--drive", "--svg", "--png", "--gif", "--at", "--width", "--speed"})
     if (given("--run") && given(other)) throw CLI::ExcludesError("--run", other);
+  for (const char* other : {"--svg", "--png", "--gif", "--at", "--width", "--speed"})
+    if (given("--drive") && given(other)) throw CLI::ExcludesError("--drive", other);
+  if (given("--drive") && command.get_option("PLAN")->count() != 1)
+    throw CLI::RequiresError("--drive", "PLAN, the one that is driven");
 }
 
 }  // namespace
@@ -219,7 +262,7 @@ void add_view_command(CLI::App& app) {
       ->check(CLI::Range(0.1, 50.0).description(""))
       ->type_name("X")
       ->capture_default_str();
-  add_run_options(*command, *arguments);
+  add_log_options(*command, *arguments);
   command->get_option("INSTANCE")->required(false);
   command->callback([command, arguments] {
     require_fit(*command);

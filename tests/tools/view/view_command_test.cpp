@@ -220,6 +220,36 @@ TEST_F(ViewCommand, RefusesWhatIsNoLog) {
     EXPECT_EQ(run_grove(words).exit_code, 2) << words.back();
 }
 
+TEST_F(ViewCommand, RefusesWhatIsNoDriveOfThePlan) {
+  const std::string instance = data("first.cts.json");
+  const std::string plan = plan_of("first");
+  const std::string log = directory_ / "drive.jsonl";
+  const auto complaint = [](const std::vector<std::string>& words) {
+    const ProcessResult done = run_grove(words);
+    EXPECT_EQ(done.exit_code, 2) << done.out;
+    return done.err;
+  };
+  const auto of = [&](const std::string& text) {
+    directory_.write("drive.jsonl", text);
+    return complaint({"view", instance, plan, "--drive", log});
+  };
+  for (const char* text : {"", "red\n", "{\"format\": \"grove drive 2\"}\n",
+                           "{\"format\": \"grove drive 1\", \"robots\": 3}\n"})
+    EXPECT_THAT(of(text), HasSubstr("drive.jsonl: line 1: expected the log of a drive")) << text;
+  EXPECT_THAT(of("{\"format\": \"grove drive 1\", \"robots\": [\"red\", \"r2\"]}\n"),
+              HasSubstr("line 1: /robots/1: found \"r2\"; expected a robot of the instance"));
+  EXPECT_THAT(complaint({"view", instance, "--drive", log}),
+              HasSubstr("--drive requires PLAN, the one that is driven"));
+  EXPECT_THAT(complaint({"view", instance, plan, plan, "--drive", log}), HasSubstr("PLAN"));
+  EXPECT_THAT(complaint({"view", instance, plan, "--drive", log, "--svg", "x"}),
+              HasSubstr("--svg"));
+  EXPECT_THAT(complaint({"view", instance, plan, "--drive", directory_ / "none.jsonl"}),
+              HasSubstr("none.jsonl"));
+  directory_.write("bad.plan.json", "{\"status\": \"bounded\", \"cost\": 0, \"agents\": []}");
+  EXPECT_THAT(complaint({"view", instance, directory_ / "bad.plan.json", "--drive", log}),
+              HasSubstr("bad.plan.json"));
+}
+
 TEST_F(ViewCommand, RefusesWhatItDoesNotUnderstand) {
   const auto complaint = [](const ProcessResult& result) {
     EXPECT_EQ(result.exit_code, 2) << result.out;

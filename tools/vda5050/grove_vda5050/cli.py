@@ -238,6 +238,7 @@ class _Drive:
 
     def __init__(self, a, setup, broker, log, say):
         self.a, self.setup, self.say = a, setup, say
+        self.seconds = 0.0
         topics, begin = setup.topics, time.monotonic()
         headers = {name: Header(a.protocol, a.manufacturer, route.serial) for name, route in setup.routes.items()}
 
@@ -274,15 +275,17 @@ class _Drive:
             self.say(f"{self.control.now():7.1f} s  {serial}: a {name} that cannot be read: {error}")
 
     def run(self):
-        while not self.step():
-            if self.control.now() > self.a.time_limit:
-                return False
-        return True
+        """Is everything done?"""
+        completed = self.step()
+        while not completed and self.control.now() <= self.a.time_limit:
+            completed = self.step()
+        self.seconds = self.control.now()
+        return completed
 
     def summary(self):
         control = self.control
         done = sum(control.releases.done.values())
-        yield f"Time          {control.now():.1f} s"
+        yield f"Time          {self.seconds:.1f} s"
         yield f"Vehicles      {sum(v.completed for v in control.vehicles.values())} of {len(control.vehicles)} done"
         yield f"Actions       {done} of {sum(len(r.actions) for r in self.setup.order.robots)} of the passing order"
         yield f"Orders        {control.messages} messages, {control.resent} of them again"

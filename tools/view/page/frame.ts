@@ -6,8 +6,9 @@ import type { Violation } from "./check";
 import { Doing, type PlanFacts } from "./facts";
 import { Faults } from "./faults";
 import type { Model, Plan } from "./model";
+import type { RobotsNow } from "./robots_now";
 
-export class Frame {
+export class Frame implements RobotsNow {
   time = 0;
   readonly count: number;
   readonly xs: Float32Array; // in the world's units
@@ -69,18 +70,6 @@ export class Frame {
     }
     this.findCollisions(part);
     this.faults.mark(this.violations, time, this.colliding);
-  }
-
-  // The robot nearest to a point of the world, closer than `reach`; -1: none.
-  nearest(x: number, y: number, reach: number): number {
-    let best = -1;
-    let least = reach;
-    for (let i = 0; i < this.count; ++i) {
-      if (this.missing[i]) continue;
-      const distance = Math.hypot(this.xs[i] - x, this.ys[i] - y);
-      if (distance < least) [best, least] = [i, distance];
-    }
-    return best;
   }
 
   private enter(step: number): void {

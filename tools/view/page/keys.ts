@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The keyboard alone is enough.
 
-import type { App } from "./app";
 import type { Camera } from "./camera";
 import type { Help } from "./panels/help";
+import type { Player } from "./player";
+import type { Choice } from "./stage";
 
 export interface Keys {
-  app: App;
+  app: Choice & { readonly player: Player; changed(): void };
   cameras: Camera[];
   search: HTMLElement;
   help: Help;

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 // A link names a moment and a robot or a task: #t=37&agent=a4.
 
-import type { App } from "./app";
+import type { Player } from "./player";
+import type { Choice } from "./stage";
 
-export function readLink(app: App, hash: string): void {
+type Linked = Choice & { readonly player: Player };
+
+export function readLink(app: Linked, hash: string): void {
   const parameters = new URLSearchParams(hash.replace(/^#/, ""));
   const time = Number(parameters.get("t"));
   if (parameters.has("t") && Number.isFinite(time)) app.player.go(time);
   const agent = app.model.agents.findIndex((a) => a.id === parameters.get("agent"));
   const task = app.model.tasks.findIndex((t) => t.id === parameters.get("task"));
-  if (agent >= 0) app.chosen = agent;
-  else if (task >= 0) app.chosenTask = task;
-  app.changed();
+  if (task >= 0 && agent < 0) app.chooseTask(task);
+  else app.choose(agent >= 0 ? agent : app.chosen);
 }
 
-export function linkOf(app: App): string {
+export function linkOf(app: Linked): string {
   const parameters = new URLSearchParams();
   parameters.set("t", String(Math.round(app.player.time)));
   if (app.chosen >= 0) parameters.set("agent", app.model.agents[app.chosen].id);

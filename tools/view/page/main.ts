@@ -7,12 +7,13 @@ import { el } from "./dom";
 import { listenToKeys } from "./keys";
 import { linkOf, readLink } from "./link";
 import { Chart } from "./panels/chart";
-import { Controls } from "./panels/controls";
+import { Controls, kSteps } from "./panels/controls";
 import { Details } from "./panels/details";
 import { Help } from "./panels/help";
 import { legend } from "./panels/legend";
 import { Lists } from "./panels/lists";
 import { Strip } from "./panels/strip";
+import { instanceScene, planScene } from "./plan_scene";
 import { readModel } from "./read";
 import { Stage } from "./stage";
 
@@ -48,14 +49,15 @@ function say(title: string, text: string, kind = "failure"): void {
 }
 
 function run(app: App): void {
-  const help = new Help();
+  const help = new Help(kSteps.unit);
   const strip = new Strip(app);
-  const controls = new Controls(app, () => help.toggle());
+  const controls = new Controls(app, kSteps, () => help.toggle());
   const chart = new Chart(app);
   const details = new Details(app);
   const lists = new Lists(app);
   const stages = app.viewed.length > 0
-    ? app.viewed.map((viewed) => new Stage(app, viewed)) : [new Stage(app, null)];
+    ? app.viewed.map((viewed) => new Stage(app, planScene(app, viewed)))
+    : [new Stage(app, instanceScene(app))];
   const side = el("aside", { class: "side" }, details.element, lists.element);
   const time = app.viewed.length > 0 ? [controls.element, chart.element] : [];
   const foot = el("footer", { class: "foot" }, ...time, legend(app));

@@ -4,9 +4,9 @@
 import { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { el } from "./dom";
-import type { Frame } from "./frame";
 import type { Model } from "./model";
 import { CanvasRobots } from "./robots_canvas";
+import type { RobotsNow } from "./robots_now";
 import { Scenery, type Shown } from "./scenery";
 
 const kLonger = 140; // pixels, the longer side
@@ -53,7 +53,7 @@ export class Minimap {
     this.element.style.height = `${world.height * scale}px`;
   }
 
-  paint(frame: Frame, shown: Shown, colors: Colors, ratio: number): void {
+  paint(frame: RobotsNow, shown: Shown, colors: Colors, ratio: number): void {
     this.element.hidden = this.seen.isFitted;
     if (this.element.hidden) return;
     for (const canvas of [this.ground, this.top]) {

@@ -31,6 +31,7 @@ export interface World {
   vertexNames: string[];
   mayMove(from: number, to: number): boolean; // in one step
   place(place: number): string; // for people
+  drawn(x: number, y: number): Point; // of cells (centres are whole), or metres of the file
 }
 
 export interface Agent {

@@ -2,11 +2,10 @@
 // The path of the robot chosen: all of it pale, what lies ahead strong, its visits numbered in
 // their order; and, dashed, its path in the other plan.
 
-import type { Viewed } from "./app";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { visitsOf } from "./facts";
-import type { Model, World } from "./model";
+import type { Model, Plan, World } from "./model";
 import { outlined } from "./text";
 import type { Track } from "./track";
 
@@ -25,8 +24,8 @@ export class Paths {
 
   constructor(
     private readonly model: Model,
-    private readonly viewed: Viewed,
-    private readonly other: Viewed | null,
+    private readonly viewed: { readonly plan: Plan },
+    private readonly other: { readonly plan: Plan } | null,
   ) {}
 
   paint(

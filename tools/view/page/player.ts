@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Time: which moment is shown, and how it goes on.
 
-export const kSpeeds = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64]; // steps a second
+export const kSpeeds = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64]; // steps (of a drive: seconds) a second
 
 export class Player {
   time = 0; // in steps; between two of them while it plays
@@ -9,7 +9,12 @@ export class Player {
   loop = false;
   speed = 4;
 
-  constructor(readonly end: number) {}
+  constructor(public end: number) {}
+
+  // Does time go on by itself?
+  get running(): boolean {
+    return this.playing;
+  }
 
   toggle(): void {
     if (!this.playing && this.time >= this.end) this.time = 0;

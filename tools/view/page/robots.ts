@@ -2,13 +2,12 @@
 // Whoever paints robots, and what is painted over them: their ids, a ring around the one chosen,
 // and a dashed one where that robot is in the other plan.
 
-import type { Viewed } from "./app";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { Doing } from "./facts";
-import type { Frame } from "./frame";
 import type { Model, Point } from "./model";
 import { labelsOf, shortened } from "./names";
+import type { RobotsNow } from "./robots_now";
 import { isOutside, type Shown } from "./scenery";
 import { outlined } from "./text";
 
@@ -20,7 +19,7 @@ const kLongestTag = 14;
 
 // Paints all robots of a frame on a canvas of its own, which lies over the scenery.
 export interface RobotPainter {
-  paint(camera: Camera, frame: Frame, colors: Colors, ratio: number): void;
+  paint(camera: Camera, frame: RobotsNow, colors: Colors, ratio: number): void;
 }
 
 export class Labels {
@@ -30,12 +29,12 @@ export class Labels {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly model: Model,
-    private readonly other: Viewed | null, // the plan beside this one
+    private readonly elsewhere: (robot: number, time: number) => Point | null, // in the plan beside this one
   ) {
     this.ids = labelsOf(model.agents.map(({ name }) => name), kLongestLabel);
   }
 
-  paint(camera: Camera, frame: Frame, shown: Shown, colors: Colors, ratio: number): void {
+  paint(camera: Camera, frame: RobotsNow, shown: Shown, colors: Colors, ratio: number): void {
     const step = this.model.world.unit * camera.scale;
     const seen = shown.labels ? this.inSight(camera, frame, step) : [];
     const nothing = seen.length === 0 && shown.chosen < 0;
@@ -52,7 +51,7 @@ export class Labels {
   }
 
   // Those that have their ids: none if there are too many for so little room.
-  private inSight(camera: Camera, frame: Frame, step: number): number[] {
+  private inSight(camera: Camera, frame: RobotsNow, step: number): number[] {
     const most = step >= kLeastLabeled ? Infinity : kMostTags;
     const seen: number[] = [];
     for (let i = 0; i < frame.count; ++i) {
@@ -65,7 +64,7 @@ export class Labels {
   }
 
   private paintIds(
-    c: CanvasRenderingContext2D, camera: Camera, frame: Frame, seen: number[], step: number,
+    c: CanvasRenderingContext2D, camera: Camera, frame: RobotsNow, seen: number[], step: number,
     radius: number, colors: Colors,
   ): void {
     c.font = `600 ${Math.min(24, Math.max(8, 0.3 * step))}px system-ui, sans-serif`;
@@ -80,7 +79,7 @@ export class Labels {
   }
 
   private paintTag(
-    c: CanvasRenderingContext2D, camera: Camera, frame: Frame, robot: number, radius: number,
+    c: CanvasRenderingContext2D, camera: Camera, frame: RobotsNow, robot: number, radius: number,
     colors: Colors, color = colors.text,
   ): void {
     const p = camera.toView(frame.xs[robot], frame.ys[robot]);
@@ -94,27 +93,17 @@ export class Labels {
   }
 
   private paintChosen(
-    c: CanvasRenderingContext2D, camera: Camera, frame: Frame, robot: number, step: number,
+    c: CanvasRenderingContext2D, camera: Camera, frame: RobotsNow, robot: number, step: number,
     colors: Colors,
   ): void {
     const radius = Math.max(7, Math.max(1.5, kRadius * step) + 3);
-    const elsewhere = this.inOtherPlan(robot, frame.time);
+    const elsewhere = this.elsewhere(robot, frame.time);
     if (elsewhere)
       paintRing(c, camera.toView(elsewhere.x, elsewhere.y), radius, colors.text, [4, 3]);
     if (frame.missing[robot]) return;
     const p = camera.toView(frame.xs[robot], frame.ys[robot]);
     paintRing(c, p, radius, colors.chosen, []);
     if (step < kLeastLabeled) this.paintTag(c, camera, frame, robot, radius, colors, colors.chosen);
-  }
-
-  private inOtherPlan(robot: number, time: number): Point | null {
-    const track = this.other?.plan.agents[robot].track;
-    if (!track || track.isEmpty) return null;
-    const { xs, ys } = this.model.world;
-    const step = Math.floor(time);
-    const [a, b] = [track.place(step), track.place(step + 1)];
-    const part = time - step;
-    return { x: xs[a] + (xs[b] - xs[a]) * part, y: ys[a] + (ys[b] - ys[a]) * part };
   }
 }
 

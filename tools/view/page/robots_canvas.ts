@@ -4,9 +4,9 @@
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { Doing } from "./facts";
-import type { Frame } from "./frame";
 import type { World } from "./model";
 import { kRadius, type RobotPainter } from "./robots";
+import type { RobotsNow } from "./robots_now";
 import { isOutside } from "./scenery";
 
 export class CanvasRobots implements RobotPainter {
@@ -16,7 +16,7 @@ export class CanvasRobots implements RobotPainter {
     private readonly least = 1.5, // radius, in pixels
   ) {}
 
-  paint(camera: Camera, frame: Frame, colors: Colors, ratio: number): void {
+  paint(camera: Camera, frame: RobotsNow, colors: Colors, ratio: number): void {
     const c = this.canvas.getContext("2d")!;
     c.setTransform(1, 0, 0, 1, 0, 0);
     c.clearRect(0, 0, this.canvas.width, this.canvas.height);

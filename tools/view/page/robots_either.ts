@@ -5,11 +5,11 @@
 
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
-import type { Frame } from "./frame";
 import type { World } from "./model";
 import type { RobotPainter } from "./robots";
 import { CanvasRobots } from "./robots_canvas";
 import { GlRobots } from "./robots_gl";
+import type { RobotsNow } from "./robots_now";
 
 const kSlow = 6; // milliseconds of a frame
 const kFrames = 30; // that are slow, on the mean, before anything is changed
@@ -29,7 +29,7 @@ export class EitherRobots implements RobotPainter {
     this.painter = new CanvasRobots(plain, world);
   }
 
-  paint(camera: Camera, frame: Frame, colors: Colors, ratio: number): void {
+  paint(camera: Camera, frame: RobotsNow, colors: Colors, ratio: number): void {
     const begin = performance.now();
     this.painter.paint(camera, frame, colors, ratio);
     if (this.isSettled) return;

@@ -4,9 +4,9 @@
 
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
-import type { Frame } from "./frame";
 import type { World } from "./model";
 import { kRadius, type RobotPainter } from "./robots";
+import type { RobotsNow } from "./robots_now";
 
 const kNumbers = 4; // for each robot: x, y, angle, what it does (4: collides; +8: it turns)
 const kColliding = 4;
@@ -100,7 +100,7 @@ export class GlRobots implements RobotPainter {
     return !/swiftshader|llvmpipe|software|basic render/i.test(name);
   }
 
-  paint(camera: Camera, frame: Frame, colors: Colors, ratio: number): void {
+  paint(camera: Camera, frame: RobotsNow, colors: Colors, ratio: number): void {
     const { gl, uniforms } = this;
     const count = this.gather(frame);
     gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
@@ -119,7 +119,7 @@ export class GlRobots implements RobotPainter {
   }
 
   // Those that collide come last, so that they are seen. How many there are.
-  private gather(frame: Frame): number {
+  private gather(frame: RobotsNow): number {
     let at = 0;
     for (let pass = 0; pass < 2; ++pass)
       for (let i = 0; i < frame.count; ++i) {

@@ -4,10 +4,9 @@
 
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
-import { visitsBy, type PlanFacts } from "./facts";
+import { visitsBy, type TaskFacts } from "./facts";
 import type { Model, World } from "./model";
 import { labelsOf } from "./names";
-import type { Paths } from "./paths";
 import { kTaskRadius, paintTasks } from "./tasks_canvas";
 import { outlined } from "./text";
 
@@ -16,11 +15,17 @@ const kLeastOwned = 34; // pixels of a step from which on destinations say whose
 const kLongestOwner = 9;
 const kRoomOfName = 5000; // square pixels, on the mean, if vertices are to have their names
 
+export interface PathPainter {
+  paint(
+    c: CanvasRenderingContext2D, camera: Camera, agent: number, time: number, colors: Colors,
+  ): void;
+}
+
 export interface Shown {
   chosen: number; // a robot; -1: none
   chosenTask: number;
   heat: Float32Array | null; // by place, 0 .. 1
-  paths: Paths | null; // of the robot chosen
+  paths: PathPainter | null; // of the robot chosen
   labels: boolean;
 }
 
@@ -37,7 +42,7 @@ export class Scenery {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly model: Model,
-    private readonly facts: PlanFacts | null,
+    private readonly facts: { readonly tasks: TaskFacts[] } | null,
   ) {
     this.goals = new Set(model.agents.map(({ goal }) => goal));
     this.owners = labelsOf(model.agents.map(({ name }) => name), kLongestOwner);

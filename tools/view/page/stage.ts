@@ -1,60 +1,76 @@
 // SPDX-License-Identifier: MIT
-// One plan in its place on the page: canvases one over the other (scenery, robots, labels), with
+// A scene in its place on the page: canvases one over the other (scenery, robots, labels), with
 // their camera and, where not all of the world is seen, a map of it.
 
-import type { App, Viewed } from "./app";
 import { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { el } from "./dom";
-import { planFacts } from "./facts";
-import { Frame } from "./frame";
+import type { TaskFacts } from "./facts";
 import { listen } from "./gestures";
-import { heatMap } from "./heat";
 import { Minimap } from "./minimap";
-import { Paths } from "./paths";
+import type { Model, Point } from "./model";
 import { Labels, type RobotPainter } from "./robots";
 import { EitherRobots } from "./robots_either";
-import { Scenery, type Shown } from "./scenery";
-import { standing } from "./standing";
+import { nearest, type RobotsNow } from "./robots_now";
+import { Scenery, type PathPainter, type Shown } from "./scenery";
+
+// What the page shows, and what can be chosen.
+export interface Choice {
+  readonly model: Model;
+  readonly player: { readonly time: number };
+  readonly chosen: number; // a robot; -1: none
+  readonly chosenTask: number;
+  readonly labels: boolean;
+  following: boolean;
+  choose(agent: number): void;
+  chooseTask(task: number): void;
+}
+
+// What there is to see.
+export interface Scene {
+  readonly frame: RobotsNow;
+  readonly facts: { readonly tasks: TaskFacts[] } | null; // which visits are made by when
+  readonly paths: PathPainter | null;
+  readonly label: string; // for those who do not see it
+  readonly caption: string; // empty: none
+  heat(): Float32Array | null; // by place, 0 .. 1
+  elsewhere(robot: number, time: number): Point | null; // in the plan beside this one
+}
 
 export class Stage {
   readonly element: HTMLElement;
   readonly camera: Camera;
-  readonly frame: Frame;
   private readonly canvases: HTMLCanvasElement[];
   private readonly scenery: Scenery;
   private readonly robots: RobotPainter;
   private readonly labels: Labels;
   private readonly minimap: Minimap;
-  private readonly paths: Paths | null;
-  private heat: { key: string; map: Float32Array } | null = null;
   private dirty = true; // something other than time has changed
   private step = -1; // the last one that the scenery shows
 
-  constructor(private readonly app: App, readonly viewed: Viewed | null) {
+  constructor(private readonly app: Choice, private readonly scene: Scene) {
     const { model } = app;
     const { world } = model;
     this.camera = new Camera(world.width, world.height, world.unit);
-    const plan = viewed ? viewed.plan : standing(model);
-    this.frame = new Frame(model, plan, viewed ? viewed.facts : planFacts(model, plan),
-      viewed ? viewed.checker.violations : []);
-    const other = app.viewed.find((v) => v !== viewed) ?? null;
-    this.paths = viewed ? new Paths(model, viewed, other) : null;
     const [ground, plain, fast] = [el("canvas"), el("canvas"), el("canvas")];
     const top = el("canvas", { tabindex: 0 });
     this.canvases = [ground, plain, fast, top];
-    this.scenery = new Scenery(ground, model, viewed ? viewed.facts : null);
+    this.scenery = new Scenery(ground, model, scene.facts);
     this.robots = new EitherRobots(plain, fast, world);
-    this.labels = new Labels(top, model, viewed ? other : null);
+    this.labels = new Labels(top, model, (robot, time) => scene.elsewhere(robot, time));
     this.minimap = new Minimap(model, this.camera, () => this.cameraMoved());
-    top.setAttribute("aria-label", viewed ? `The plan ${viewed.plan.name}` : "The instance");
+    top.setAttribute("aria-label", scene.label);
     top.setAttribute("role", "img");
-    const caption = viewed && other ? el("div", { class: "caption" }, viewed.plan.name) : null;
+    const caption = scene.caption === "" ? null : el("div", { class: "caption" }, scene.caption);
     this.element = el("div", { class: "stage" }, ...this.canvases, caption, this.minimap.element);
     listen(top, this.camera, {
       moved: () => this.cameraMoved(),
       clicked: (x, y) => this.click(x, y),
     });
+  }
+
+  get frame(): RobotsNow {
+    return this.scene.frame;
   }
 
   onCamera: () => void = () => {};
@@ -75,7 +91,7 @@ export class Stage {
     const { world } = model;
     const p = this.camera.toWorld(x, y);
     const reach = Math.max(0.5 * world.unit, 10 / this.camera.scale);
-    const robot = this.frame.nearest(p.x, p.y, reach);
+    const robot = nearest(this.frame, p.x, p.y, reach);
     if (robot >= 0) return this.app.choose(robot);
     const isHere = (place: number) =>
       place >= 0 && Math.hypot(world.xs[place] - p.x, world.ys[place] - p.y) < reach;
@@ -125,15 +141,6 @@ export class Stage {
 
   private shown(): Shown {
     const { chosen, chosenTask, labels } = this.app;
-    return { chosen, chosenTask, labels, heat: this.heatNow(), paths: this.paths };
-  }
-
-  private heatNow(): Float32Array | null {
-    const { heat } = this.app;
-    if (heat === "none" || !this.viewed) return null;
-    const key = `${heat} ${this.viewed.waits.done}`;
-    if (this.heat?.key !== key)
-      this.heat = { key, map: heatMap(this.app.model, this.viewed, heat) };
-    return this.heat.map;
+    return { chosen, chosenTask, labels, heat: this.scene.heat(), paths: this.scene.paths };
   }
 }

@@ -39,6 +39,7 @@ function readGrid(data: Value): World {
       return (by === 1 && to % width !== 0) || (by === -1 && from % width !== 0);
     },
     place: (place) => `[${place % width}, ${Math.floor(place / width)}]`,
+    drawn: (x, y) => ({ x: x + 0.5, y: y + 0.5 }),
   };
 }
 
@@ -91,6 +92,7 @@ function readRoadmap(data: Value): World {
   });
   layRoads(roads, xs, ys, unit);
   const margin = kMargin * unit;
+  const [first] = vertices;
   return {
     kind: "roadmap", places, unit, xs, ys, columns: 0, roads,
     width: shiftToZero(xs, margin),
@@ -99,6 +101,7 @@ function readRoadmap(data: Value): World {
     vertexNames: vertices.map((vertex) => vertex.name),
     mayMove: movesOnRoads(roads, vertices.length),
     place: (place) => nameOnRoads(place, vertices, roads),
+    drawn: (x, y) => ({ x: x - first.x + xs[0], y: -y - first.y + ys[0] }),
   };
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A log that grows: asks the server that the page came from, and nobody else, for what is new.
 
-const kPause = 1000; // milliseconds
+const kPause = 1000; // milliseconds, where nobody says another
 
 export interface Listener {
   begin(): void; // the log is another one now, or begins anew
@@ -14,12 +14,12 @@ export class Follower {
   private offset = 0;
   private file = "";
 
-  constructor(private readonly listener: Listener) {}
+  constructor(private readonly listener: Listener, private readonly pause = kPause) {}
 
   async run(): Promise<void> {
     for (;;) {
       const more = await this.ask();
-      if (!more) await new Promise((resolve) => setTimeout(resolve, kPause));
+      if (!more) await new Promise((resolve) => setTimeout(resolve, this.pause));
     }
   }
 

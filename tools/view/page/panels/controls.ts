@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Play, pause, step, speed, loop; the time as a slider and as a number.
 
-import type { App } from "../app";
 import { el, icon, setText } from "../dom";
+import type { Player } from "../player";
 
 const kIcons = {
   play: "M4 2l10 6-10 6z",
@@ -14,6 +14,29 @@ const kIcons = {
   loop: "M8 2a6 6 0 1 0 6 6h-2a4 4 0 1 1-4-4v3l5-4-5-4z",
 };
 
+interface Played {
+  readonly player: Player;
+  changed(): void;
+}
+
+// How moments are written.
+export interface TimeWords {
+  readonly label: string;
+  readonly unit: string;
+  clock(player: Player): string;
+  spoken(player: Player): string;
+}
+
+export const kSteps: TimeWords = {
+  label: "Time in steps",
+  unit: "step",
+  clock: ({ playing, time, end }) => {
+    const whole = playing || Number.isInteger(time);
+    return `${whole ? Math.floor(time) : time.toFixed(1)} / ${end}`;
+  },
+  spoken: ({ time, end }) => `step ${Math.floor(time)} of ${end}`,
+};
+
 export class Controls {
   readonly element: HTMLElement;
   private readonly playButton: HTMLButtonElement;
@@ -23,7 +46,10 @@ export class Controls {
   private readonly speed: HTMLElement;
   private readonly loop: HTMLButtonElement;
 
-  constructor(private readonly app: App, help: () => void) {
+  constructor(
+    private readonly app: Played, private readonly words: TimeWords, help: () => void,
+    ...more: HTMLElement[]
+  ) {
     const { player } = app;
     const button = (face: SVGElement | string, title: string, act: () => void) => {
       const click = () => this.act(act);
@@ -35,7 +61,7 @@ export class Controls {
       () => (player.loop = !player.loop));
     this.slider = el("input", {
       type: "range", min: 0, max: player.end, step: "any", value: 0, class: "time",
-      "aria-label": "Time in steps",
+      "aria-label": words.label,
       input: () => this.act(() => player.go(Number(this.slider.value))),
     });
     this.clock = el("output", { class: "clock" });
@@ -44,9 +70,9 @@ export class Controls {
       "div",
       { class: "controls" },
       button(icon(kIcons.begin), "To the beginning (Home)", () => player.go(0)),
-      button(icon(kIcons.back), "A step back (left arrow)", () => player.step(-1)),
+      button(icon(kIcons.back), `A ${words.unit} back (left arrow)`, () => player.step(-1)),
       this.playButton,
-      button(icon(kIcons.on), "A step on (right arrow)", () => player.step(1)),
+      button(icon(kIcons.on), `A ${words.unit} on (right arrow)`, () => player.step(1)),
       button(icon(kIcons.end), "To the end (End)", () => player.go(player.end)),
       this.slider,
       this.clock,
@@ -54,6 +80,7 @@ export class Controls {
       this.speed,
       button("+", "Faster (full stop)", () => player.faster(1)),
       this.loop,
+      ...more,
       button("?", "All keys (?)", help),
     );
   }
@@ -65,14 +92,13 @@ export class Controls {
 
   update(): void {
     const { player } = this.app;
-    this.playFace.setAttribute("d", player.playing ? kIcons.pause : kIcons.play);
-    const whole = player.playing || Number.isInteger(player.time);
-    const time = whole ? Math.floor(player.time) : player.time.toFixed(1);
-    setText(this.clock, `${time} / ${player.end}`);
+    this.playFace.setAttribute("d", player.running ? kIcons.pause : kIcons.play);
+    setText(this.clock, this.words.clock(player));
     setText(this.speed, `${player.speed} /s`);
     this.loop.setAttribute("aria-pressed", String(player.loop));
-    if (document.activeElement !== this.slider || player.playing)
+    if (this.slider.max !== String(player.end)) this.slider.max = String(player.end);
+    if (document.activeElement !== this.slider || player.running)
       this.slider.value = String(player.time);
-    this.slider.setAttribute("aria-valuetext", `step ${Math.floor(player.time)} of ${player.end}`);
+    this.slider.setAttribute("aria-valuetext", this.words.spoken(player));
   }
 }

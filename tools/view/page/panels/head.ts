@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The head of what is chosen: its name, and how to have done with it.
 
-import type { App } from "../app";
 import { el, setText } from "../dom";
+import type { Choice } from "../stage";
 
-export function head(app: App, title: string, ...buttons: HTMLElement[]): HTMLElement {
+export function head(app: Pick<Choice, "choose">, title: string, ...buttons: HTMLElement[]): HTMLElement {
   const close = el("button", {
     type: "button", "aria-label": "Choose nothing", title: "Choose nothing (Esc)",
     click: () => app.choose(-1),

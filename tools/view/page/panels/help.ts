@@ -3,10 +3,10 @@
 
 import { el } from "../dom";
 
-const kKeys: [string, string][] = [
+const kKeys = (unit: string): [string, string][] => [
   ["space", "play, pause"],
-  ["← →", "a step back, a step on"],
-  ["page up, page down", "ten steps back, ten on"],
+  ["← →", `a ${unit} back, a ${unit} on`],
+  ["page up, page down", `ten ${unit}s back, ten on`],
   ["home, end", "to the beginning, to the end"],
   [", .", "slower, faster"],
   ["L", "begin again at the end, or not"],
@@ -23,8 +23,8 @@ const kKeys: [string, string][] = [
 export class Help {
   readonly element: HTMLDialogElement;
 
-  constructor() {
-    const rows = kKeys.map(([keys, what]) =>
+  constructor(unit: string) {
+    const rows = kKeys(unit).map(([keys, what]) =>
       el("tr", {}, el("th", { scope: "row" }, keys), el("td", {}, what)));
     const close = el("button", { type: "button", click: () => this.element.close() }, "Close");
     this.element = el("dialog", { "aria-label": "Keys" }, el("h2", {}, "Keys"),

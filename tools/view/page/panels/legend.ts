@@ -4,12 +4,15 @@
 import type { App } from "../app";
 import { el } from "../dom";
 import type { Heat } from "../heat";
+import type { Model } from "../model";
 
-const kRobots: [string, string][] = [
+type Entry = [string, string]; // kind and words
+
+const kRobots: Entry[] = [
   ["moving", "moving"], ["waiting", "waiting"], ["working", "at work"], ["resting", "at rest"],
   ["collision", "collision or wrong"],
 ];
-const kTasks: [string, string][] = [
+const kTasks: Entry[] = [
   ["task", "open task"], ["task begun", "begun"], ["task done", "done"],
 ];
 const kHeats: [Heat, string][] = [
@@ -18,13 +21,13 @@ const kHeats: [Heat, string][] = [
   ["waits", "heat: waits"],
   ["yields", "heat: conflicts avoided"],
 ];
-const kGoals: [string, string][] = [["goal", "destination"]];
+const kGoals: Entry[] = [["goal", "destination"]];
 
 // Of what there is nothing of, nothing is said.
-function entriesOf({ model, viewed }: App): [string, string][] {
+export function entriesOf(model: Model, robots: Entry[]): Entry[] {
   const hasWork = model.tasks.some(({ duration }) => duration > 0);
   return [
-    ...(viewed.length > 0 ? kRobots.filter(([kind]) => kind !== "working" || hasWork) : []),
+    ...robots.filter(([kind]) => kind !== "working" || hasWork),
     ...(model.tasks.length > 0 ? kTasks : []),
     ...(model.agents.some(({ goal }) => goal >= 0) ? kGoals : []),
   ];
@@ -34,8 +37,12 @@ export function legend(app: App): HTMLElement {
   const heat: HTMLSelectElement = el("select", {
     "aria-label": "Heat map", change: () => app.set({ heat: heat.value as Heat }),
   }, ...kHeats.map(([value, text]) => el("option", { value }, text)));
+  const hasPlans = app.viewed.length > 0;
+  return legendOf(entriesOf(app.model, hasPlans ? kRobots : []), ...(hasPlans ? [heat] : []));
+}
+
+export function legendOf(entries: Entry[], ...more: HTMLElement[]): HTMLElement {
   return el("section", { class: "legend", "aria-label": "Legend" },
-    ...entriesOf(app).map(([kind, text]) =>
-      el("span", { class: "entry" }, el("i", { class: kind }), text)),
-    ...(app.viewed.length > 0 ? [heat] : []));
+    ...entries.map(([kind, text]) => el("span", { class: "entry" }, el("i", { class: kind }), text)),
+    ...more);
 }

@@ -25,7 +25,7 @@ export function rowElement(row: Row): { element: HTMLElement; note: HTMLElement 
 
 // A moment to jump to.
 export function momentButton(
-  time: number, act: () => void, title = `Go to step ${time}`,
+  time: number | string, act: () => void, title = `Go to step ${time}`,
 ): HTMLElement {
   return el("button", { type: "button", class: "moment", title, click: act }, String(time));
 }

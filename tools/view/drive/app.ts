@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What the page shows now: the drive, a moment of it, and what is chosen.
+
+import type { TaskFacts } from "../page/facts";
+import type { Model } from "../page/model";
+import type { Choice } from "../page/stage";
+import type { Drive } from "./drive";
+import type { Order } from "./order";
+import { DrivePlayer } from "./player";
+
+export class DriveApp implements Choice {
+  readonly player: DrivePlayer;
+  readonly tasks: TaskFacts[]; // in seconds of the drive
+  chosen = -1;
+  chosenTask = -1;
+  following = false;
+  labels = true;
+  private readonly listeners: (() => void)[] = [];
+
+  constructor(
+    readonly model: Model, readonly order: Order, public drive: Drive,
+    isFollowed: boolean, // may the log still grow?
+  ) {
+    this.player = new DrivePlayer(isFollowed);
+    this.tasks = model.tasks.map(({ agents }) => ({ agents, times: [], begin: Infinity }));
+    this.take(drive);
+  }
+
+  // The log has grown, or is another one.
+  take(drive: Drive): void {
+    this.drive = drive;
+    this.player.end = drive.end;
+    for (const task of this.tasks) {
+      task.times = [];
+      task.begin = Infinity;
+    }
+    this.model.agents.forEach((_, agent) => {
+      for (const { task, action } of this.order.visits(agent)) {
+        const time = this.visitTime(agent, action);
+        if (time < Infinity) this.tasks[task].times.push(time);
+      }
+    });
+    for (const task of this.tasks) {
+      task.times.sort((a, b) => a - b);
+      task.begin = task.times[0] ?? Infinity;
+    }
+    this.changed();
+  }
+
+  // Infinity: not yet.
+  visitTime(agent: number, action: number): number {
+    return action < 0 ? 0 : this.drive.completedAt[agent][action] ?? Infinity;
+  }
+
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  changed(): void {
+    for (const listener of this.listeners) listener();
+  }
+
+  choose(agent: number): void {
+    this.chosen = agent;
+    this.chosenTask = -1;
+    if (agent < 0) this.following = false;
+    this.changed();
+  }
+
+  chooseTask(task: number): void {
+    this.chosenTask = task;
+    this.chosen = -1;
+    this.following = false;
+    this.changed();
+  }
+
+  go(time: number): void {
+    this.player.go(time);
+    this.changed();
+  }
+}

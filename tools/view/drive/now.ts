@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Where all robots of a drive are at a moment. Between two sightings a robot that was moving went
+// straight; one that stood still did so until shortly before the next one.
+
+import { Doing } from "../page/facts";
+import type { Model } from "../page/model";
+import type { RobotsNow } from "../page/robots_now";
+import { kStates, needsHelp, type Drive, type State } from "./drive";
+
+const kBrief = 0.15; // seconds: what the log leaves out at most, of what changes
+const kLongest = 10; // seconds between sightings of one that moves
+
+const kDoing: Record<State, Doing> = {
+  waiting: Doing.kWaiting, moving: Doing.kMoving, working: Doing.kWorking, done: Doing.kResting,
+  lifted: Doing.kWaiting, lost: Doing.kWaiting,
+};
+
+export class DriveNow implements RobotsNow {
+  time = 0;
+  readonly count: number;
+  readonly xs: Float32Array;
+  readonly ys: Float32Array;
+  readonly angles: Float32Array;
+  readonly doing: Uint8Array;
+  readonly colliding: Uint8Array; // needs help
+  readonly missing: Uint8Array; // (all are drawn: those not seen yet, at their starts)
+
+  constructor(private readonly model: Model, public drive: Drive) {
+    this.count = model.agents.length;
+    this.xs = new Float32Array(this.count);
+    this.ys = new Float32Array(this.count);
+    this.angles = new Float32Array(this.count);
+    this.doing = new Uint8Array(this.count);
+    this.colliding = new Uint8Array(this.count);
+    this.missing = new Uint8Array(this.count);
+  }
+
+  update(time: number): void {
+    this.time = time;
+    for (let i = 0; i < this.count; ++i) {
+      if (this.drive.robots[i].count > 0) this.place(i, time);
+      else this.placeAtStart(i);
+      const state = this.drive.stateAt(i, time);
+      this.doing[i] = kDoing[kStates[state]];
+      this.colliding[i] = needsHelp(state) ? 1 : 0;
+    }
+  }
+
+  private place(i: number, time: number): void {
+    const robot = this.drive.robots[i];
+    const at = robot.at(time);
+    const next = Math.min(at + 1, robot.count - 1);
+    const part = next > at ? this.partGone(i, at, time) : 0;
+    this.xs[i] = robot.xs[at] + (robot.xs[next] - robot.xs[at]) * part;
+    this.ys[i] = robot.ys[at] + (robot.ys[next] - robot.ys[at]) * part;
+    const turn = turnBetween(robot.angles[at], robot.angles[next]);
+    this.angles[i] = robot.angles[at] + (Number.isNaN(turn) ? 0 : turn * part);
+  }
+
+  // Of the way to the next sighting.
+  private partGone(i: number, at: number, time: number): number {
+    const { times, states } = this.drive.robots[i];
+    const end = times[at + 1];
+    const longest = kStates[states[at]] === "moving" ? kLongest : kBrief;
+    const begin = Math.max(times[at], end - longest);
+    return end > begin ? Math.min(1, Math.max(0, (time - begin) / (end - begin))) : 1;
+  }
+
+  private placeAtStart(i: number): void {
+    const { start, turnSteps, startAngle } = this.model.agents[i];
+    this.xs[i] = this.model.world.xs[start];
+    this.ys[i] = this.model.world.ys[start];
+    this.angles[i] = turnSteps > 0 ? (startAngle.steps * Math.PI) / (2 * turnSteps) : NaN;
+  }
+}
+
+// The shorter way round.
+function turnBetween(from: number, to: number): number {
+  const turn = (to - from) % (2 * Math.PI);
+  return turn > Math.PI ? turn - 2 * Math.PI : turn < -Math.PI ? turn + 2 * Math.PI : turn;
+}

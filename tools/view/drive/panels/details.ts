@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The robot or the task chosen: what it does, how far it is, its visits.
+
+import { el, setText } from "../../page/dom";
+import { head } from "../../page/panels/head";
+import { momentButton } from "../../page/panels/rows";
+import type { DriveApp } from "../app";
+import { clockText, doingText, progressText } from "../words";
+
+export class Details {
+  readonly element = el("section", { class: "details", "aria-label": "What is chosen" });
+  private readonly now = el("p", { class: "now" });
+  private readonly progress = el("p");
+  private readonly follow: HTMLElement;
+  private shown = "";
+
+  constructor(private readonly app: DriveApp) {
+    this.follow = el("button", {
+      type: "button", title: "Keep it in the middle (F)",
+      click: () => {
+        app.following = !app.following;
+        app.changed();
+      },
+    }, "Follow");
+  }
+
+  update(): void {
+    const { chosen, chosenTask, following } = this.app;
+    const key = [chosen, chosenTask, this.known()].join();
+    if (key !== this.shown) {
+      this.shown = key;
+      this.element.replaceChildren(...(chosen >= 0 ? this.robot(chosen)
+        : chosenTask >= 0 ? this.task(chosenTask) : this.nothing()));
+    }
+    this.follow.setAttribute("aria-pressed", String(following));
+    if (chosen >= 0) this.tell(chosen);
+  }
+
+  // How many visits of what is chosen the log tells of.
+  private known(): number {
+    const { app } = this;
+    if (app.chosen >= 0)
+      return app.order.visits(app.chosen).filter(({ action }) =>
+        app.visitTime(app.chosen, action) < Infinity).length;
+    return app.chosenTask >= 0 ? app.tasks[app.chosenTask].times.length : 0;
+  }
+
+  private tell(agent: number): void {
+    const { app } = this;
+    const { time } = app.player;
+    const completed = app.drive.actionsAt(agent, time);
+    const last = app.order.planTime(agent, app.order.actions(agent));
+    setText(this.now, `Now: ${doingText(app, agent, time)}`);
+    setText(this.progress, `${progressText(app, agent, time)} actions done: step ` +
+      `${app.order.planTime(agent, completed)} of ${last} of the plan.`);
+  }
+
+  private robot(agent: number): HTMLElement[] {
+    const { app } = this;
+    const visits = app.order.visits(agent).map(({ task, action }) =>
+      this.visit(app.visitTime(agent, action), `${task + 1}: ${app.model.tasks[task].name}`));
+    return [head(app, app.model.agents[agent].name, this.follow), this.now, this.progress,
+      ...(visits.length > 0 ? [el("h4", {}, "Visits"), el("ul", { class: "moments" }, ...visits)] : [])];
+  }
+
+  private task(task: number): HTMLElement[] {
+    const { app } = this;
+    const { name, agents, place } = app.model.tasks[task];
+    const visits = agents.map((agent) => {
+      const visit = app.order.visits(agent).find((v) => v.task === task);
+      return this.visit(visit ? app.visitTime(agent, visit.action) : Infinity,
+        app.model.agents[agent].name);
+    });
+    return [head(app, `${task + 1}: ${name}`), el("p", {}, `On ${app.model.world.place(place)}.`),
+      el("h4", {}, "Visited by"), el("ul", { class: "moments" }, ...visits)];
+  }
+
+  private visit(time: number, text: string): HTMLElement {
+    const moment = time < Infinity
+      ? momentButton(clockText(time), () => this.app.go(time), `Go to ${clockText(time)}`)
+      : el("span", { class: "moment faint" }, "–");
+    return el("li", {}, moment, " ", el("span", { dir: "auto" }, text));
+  }
+
+  private nothing(): HTMLElement[] {
+    return [el("p", { class: "faint" },
+      "Choose a robot or a task: click it, or search for a robot. Press ? for all keys.")];
+  }
+}

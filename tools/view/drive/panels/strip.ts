@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The line at the top: what is driven, how far it is, and whether that is how it is now.
+
+import { el, plural, setText } from "../../page/dom";
+import type { DriveApp } from "../app";
+import { counts } from "../words";
+
+export class Strip {
+  readonly element: HTMLElement;
+  private readonly state = el("span", { class: "state", role: "status" });
+  private readonly counts = el("span", { class: "claim" });
+  private readonly help = el("strong", { class: "bad" });
+  private readonly failure = el("span", { class: "bad", role: "alert" });
+  private isAnswering = true;
+
+  constructor(private readonly app: DriveApp) {
+    const { model } = app;
+    this.element = el("header", { class: "strip" },
+      el("h1", {}, `${model.instance}: a drive`),
+      el("span", { class: "faint" },
+        `${plural(model.agents.length, "robot")}, ${plural(model.tasks.length, "task")}`),
+      this.state, this.counts, this.help, this.failure);
+  }
+
+  answers(isAnswering: boolean): void {
+    this.isAnswering = isAnswering;
+  }
+
+  fail(why: string): void {
+    setText(this.failure, why);
+  }
+
+  update(): void {
+    const { app } = this;
+    const { done, waiting, help } = counts(app, app.player.time);
+    setText(this.state, this.stateNow());
+    setText(this.counts, `${done} of ${app.model.agents.length} done, ${waiting} waiting`);
+    setText(this.help, help > 0 ? `⚠ ${help} to look after` : "");
+    this.element.classList.toggle("live", app.player.live);
+  }
+
+  private stateNow(): string {
+    const { drive, player } = this.app;
+    if (drive.isOver) return "The drive has ended.";
+    if (!player.isFollowed) return "The log ends before everybody is done.";
+    if (!this.isAnswering) return "The server does not answer any more.";
+    if (drive.order === "") return "Waiting for the drive to begin.";
+    return player.live ? "Live." : "It goes on; this is what was.";
+  }
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// How the page says what it shows.
+
+import type { TimeWords } from "../page/panels/controls";
+import type { DriveApp } from "./app";
+import { kDone, kStates, kWaiting, needsHelp } from "./drive";
+
+const kStateWords = {
+  waiting: "waiting", moving: "moving", working: "at work", lifted: "lifted off", lost: "lost",
+  done: "done",
+};
+
+// "4:05", or "1:00:07".
+export function clockText(seconds: number): string {
+  const whole = Math.floor(seconds);
+  const two = (number: number) => String(number).padStart(2, "0");
+  const [hours, minutes] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60];
+  return hours > 0 ? `${hours}:${two(minutes)}:${two(whole % 60)}` : `${minutes}:${two(whole % 60)}`;
+}
+
+export const kSeconds: TimeWords = {
+  label: "Time in seconds",
+  unit: "second",
+  clock: ({ time, end }) => `${clockText(time)} / ${clockText(end)}`,
+  spoken: ({ time, end }) => `${clockText(time)} of ${clockText(end)}`,
+};
+
+export function stateText(state: number): string {
+  return kStateWords[kStates[state]];
+}
+
+// Whom a robot lets pass that has completed so many actions; empty: nobody.
+export function waitText(app: DriveApp, agent: number, time: number): string {
+  const wait = app.order.wait(agent, app.drive.actionsAt(agent, time));
+  if (!wait || app.drive.actionsAt(wait.agent, time) > wait.action) return "";
+  return app.model.agents[wait.agent].name;
+}
+
+// "moving", "waiting for blue".
+export function doingText(app: DriveApp, agent: number, time: number): string {
+  const state = app.drive.stateAt(agent, time);
+  const whom = state === kWaiting ? waitText(app, agent, time) : "";
+  return stateText(state) + (whom === "" ? "" : ` for ${whom}`);
+}
+
+export function progressText(app: DriveApp, agent: number, time: number): string {
+  return `${app.drive.actionsAt(agent, time)} of ${app.order.actions(agent)}`;
+}
+
+export interface Counts {
+  done: number;
+  waiting: number;
+  help: number;
+}
+
+export function counts(app: DriveApp, time: number): Counts {
+  const all = { done: 0, waiting: 0, help: 0 };
+  app.model.agents.forEach((_, agent) => {
+    const state = app.drive.stateAt(agent, time);
+    if (state === kDone) ++all.done;
+    else if (needsHelp(state)) ++all.help;
+    else if (state === kWaiting) ++all.waiting;
+  });
+  return all;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// All robots at a moment, as those who paint them see it: of a plan (frame.ts), or of a drive.
+
+export interface RobotsNow {
+  readonly time: number;
+  readonly count: number;
+  readonly xs: Float32Array; // in the world's units
+  readonly ys: Float32Array;
+  readonly angles: Float32Array; // clockwise from up, in radians; NaN: turns freely
+  readonly doing: Uint8Array; // of facts.ts
+  readonly colliding: Uint8Array; // or else something is wrong with it
+  readonly missing: Uint8Array; // not drawn
+  update(time: number): void;
+}
+
+// The robot nearest to a point of the world, closer than `reach`; -1: none.
+export function nearest(robots: RobotsNow, x: number, y: number, reach: number): number {
+  let best = -1;
+  let least = reach;
+  for (let i = 0; i < robots.count; ++i) {
+    if (robots.missing[i]) continue;
+    const distance = Math.hypot(robots.xs[i] - x, robots.ys[i] - y);
+    if (distance < least) [best, least] = [i, distance];
+  }
+  return best;
+}
