@@ -7,13 +7,13 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "grove/io/map_file.h"
-#include "grove/io/scenario_file.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/scenario_file.h"
 #include "src/primal/configuration_search.h"
 #include "src/primal/visit_orders.h"
 #include "tools/generate/instance_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using std::filesystem::path;
@@ -59,4 +59,4 @@ void BM_Crowd(benchmark::State& state) {
 BENCHMARK(BM_Crowd)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail

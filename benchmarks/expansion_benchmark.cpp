@@ -9,14 +9,14 @@
 #include <filesystem>
 #include <string>
 
-#include "grove/io/map_file.h"
-#include "grove/io/scenario_file.h"
-#include "grove/search/expander.h"
-#include "grove/search/frontier.h"
-#include "grove/search/sequence_forest.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/scenario_file.h"
+#include "grove/detail/search/expander.h"
+#include "grove/detail/search/frontier.h"
+#include "grove/detail/search/sequence_forest.h"
 #include "tools/generate/instance_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 struct Source {
@@ -108,4 +108,4 @@ BENCHMARK(BM_Expansions)
     ->Iterations(100'000);
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail

@@ -18,11 +18,11 @@
 #include <random>
 #include <string>
 
-#include "grove/io/map_file.h"
-#include "grove/planning/free_low_level_search.h"
-#include "grove/planning/low_level_search.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/planning/free_low_level_search.h"
+#include "grove/detail/planning/low_level_search.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kSide = 32;
@@ -258,4 +258,4 @@ const bool kRegistered = [] {
 }();
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail

@@ -16,14 +16,14 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/map_file.h"
-#include "grove/io/scenario_file.h"
-#include "grove/planning/free_low_level_search.h"
-#include "grove/planning/optimal_paths.h"
-#include "grove/planning/pair_dependency.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/scenario_file.h"
+#include "grove/detail/planning/free_low_level_search.h"
+#include "grove/detail/planning/optimal_paths.h"
+#include "grove/detail/planning/pair_dependency.h"
 #include "tools/generate/instance_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kMostNodes = 20'000;
@@ -168,4 +168,4 @@ const bool kRegistered = [] {
 }();
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail

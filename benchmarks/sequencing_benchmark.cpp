@@ -8,13 +8,13 @@
 #include <random>
 #include <string>
 
-#include "grove/sequencing/cost_matrix.h"
-#include "grove/sequencing/k_best_joint_sequences.h"
-#include "grove/sequencing/k_best_sequences.h"
-#include "grove/sequencing/sequence_dag.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/k_best_joint_sequences.h"
+#include "grove/detail/sequencing/k_best_sequences.h"
+#include "grove/detail/sequencing/sequence_dag.h"
 #include "src/sequencing/path_relaxation.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // One agent with n tasks on a grid with a fifth of its cells blocked, always the same one for a
@@ -128,4 +128,4 @@ BENCHMARK(joint)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail

@@ -50,7 +50,7 @@ endfunction()
 
 # grove_layer(<name> [HOT | UNHURRIED] [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])
 # One layer of the design as the static library grove_<name>, alias grove::<name>. Its interface is
-# include/grove/<name>/, its text src/<name>/. `cmake --build --preset release --target grove_<name>`
+# include/grove/detail/<name>/, its text src/<name>/. `cmake --build --preset release --target grove_<name>`
 # builds it alone.
 function(grove_layer name)
   cmake_parse_arguments(LAYER "" "" "DEPENDS;LINK_PUBLIC;LINK_PRIVATE" ${ARGN})

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // What a rank with these open nodes can spare of its best bound; see Frontier::take_spare().
@@ -68,4 +68,4 @@ std::optional<Broker::Gift> Broker::next() {
   return gift;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,10 +8,10 @@
 #include <tuple>
 #include <vector>
 
-#include "grove/model/tuning.h"
+#include "grove/detail/model/tuning.h"
 #include "mpi/messages.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Matches ranks that have nothing to expand, or nothing as good as others, with those that have
 // most to spare. Decides nothing that an answer depends on. Of one thread.
@@ -54,4 +54,4 @@ class Broker {
   std::set<Want> wants_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

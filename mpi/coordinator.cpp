@@ -35,7 +35,7 @@
 #include <string>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kNodesEntrusted = 200;  // at a time
@@ -194,4 +194,4 @@ Survey Coordinator::survey() const {
   return survey;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,16 +6,16 @@
 #include <optional>
 #include <vector>
 
-#include "grove/engine/run_observer.h"
-#include "grove/engine/run_state.h"
-#include "grove/search/node_pool.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/run_state.h"
+#include "grove/detail/search/node_pool.h"
 #include "mpi/broker.h"
 #include "mpi/gathering.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Holds the ledger, checks plans, brings trees, keeps ranks at work and ends the run. On rank 0, by
 // whose transport it speaks. The protocol and why it is sound: coordinator.cpp. Of one thread.
@@ -79,4 +79,4 @@ class Coordinator {
   std::vector<std::optional<Account>> accounts_;  // by rank; the last one
 };
 
-}  // namespace grove
+}  // namespace grove::detail

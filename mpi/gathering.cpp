@@ -15,9 +15,9 @@
 #include <new>
 #include <stdexcept>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 
 Gathering::Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport)
     : checkpoints_(checkpoints), run_(run), transport_(transport), trees_(run.trees().count()) {
@@ -73,4 +73,4 @@ void Gathering::ask_next() {
   done_ = true;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "grove/engine/checkpoint.h"
-#include "grove/engine/run_state.h"
+#include "grove/detail/engine/checkpoint.h"
+#include "grove/detail/engine/run_state.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // All ranks look at their nodes while search goes on; then one after the other sends them. Why no
 // node is missed: gathering.cpp. Of one thread.
@@ -48,4 +48,4 @@ class Gathering {
   CheckpointReport report_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/ledger_copy.h"
 
-namespace grove {
+namespace grove::detail {
 
 std::optional<Plan> LedgerCopy::plan_below(Cost cost) const {
   if (cutoff_ >= cost) return std::nullopt;
@@ -33,4 +33,4 @@ void LedgerCopy::end() {
   limits_.end_work();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "grove/engine/ledger.h"
-#include "grove/model/limits.h"
-#include "grove/search/frontier.h"
+#include "grove/detail/engine/ledger.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/search/frontier.h"
 
-namespace grove {
+namespace grove::detail {
 
 // What was last heard of the ledger, and the plans that it has yet to hear of. What workers ask may
 // be asked from any thread; the rest is for the thread that speaks for this rank.
@@ -52,4 +52,4 @@ class LedgerCopy : public Ledger {
   std::optional<Found> found_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 
 Member::Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
                RunObserver& observer, Transport& transport, const AgentStopsStore& stops)
@@ -28,4 +28,4 @@ bool Member::converse(double now) {
   return heard;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

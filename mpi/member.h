@@ -4,12 +4,12 @@
 
 #include <memory>
 
-#include "grove/engine/run_observer.h"
+#include "grove/detail/engine/run_observer.h"
 #include "mpi/coordinator.h"
 #include "mpi/rank.h"
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // A rank, and on rank 0 the coordinator beside it, which share a transport. Of one thread, but for
 // what Rank says otherwise.
@@ -39,4 +39,4 @@ class Member {
   std::unique_ptr<Coordinator> coordinator_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,7 +3,7 @@
 
 #include <cereal/types/variant.hpp>
 
-namespace grove {
+namespace grove::detail {
 
 template <class Archive>
 void serialize(Archive& archive, Frontier::Level& level) {
@@ -124,4 +124,4 @@ void tell_all(Transport& transport, const message::Message& message) {
   for (int rank = 0; rank < transport.ranks(); ++rank) transport.send(rank, bytes);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

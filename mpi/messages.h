@@ -10,17 +10,17 @@
 #include <variant>
 #include <vector>
 
-#include "grove/engine/serialise.h"
-#include "grove/engine/survey.h"
-#include "grove/model/limits.h"
-#include "grove/primal/plan_source.h"
-#include "grove/search/findings.h"
-#include "grove/search/frontier.h"
-#include "grove/search/node_record.h"
-#include "grove/search/tree_record.h"
+#include "grove/detail/engine/serialise.h"
+#include "grove/detail/engine/survey.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/primal/plan_source.h"
+#include "grove/detail/search/findings.h"
+#include "grove/detail/search/frontier.h"
+#include "grove/detail/search/node_record.h"
+#include "grove/detail/search/tree_record.h"
 #include "mpi/transport.h"
 
-namespace grove::message {
+namespace grove::detail::message {
 
 // Rank to coordinator: where it stands. Covers the nodes it holds, those it has given away that
 // nobody was said to have taken over, and the least bound of those it has given up.
@@ -47,13 +47,13 @@ struct Found {
 
 // Rank to coordinator, now and then: what it has done so far, for who looks on.
 struct Account {
-  grove::Account account;
+  grove::detail::Account account;
 };
 
 // Rank to coordinator, after End: what it did, and how many batches it has sent to whom. It sends
 // nothing more.
 struct Farewell {
-  grove::Account account;
+  grove::detail::Account account;
   std::vector<std::pair<std::int32_t, std::int64_t>> batches;
 };
 
@@ -135,11 +135,11 @@ using Message =
 std::string bytes_of(const Message& message);
 Message message_of(std::string_view bytes);
 
-}  // namespace grove::message
+}  // namespace grove::detail::message
 
-namespace grove {
+namespace grove::detail {
 
 // Sends a message to every rank, this one included.
 void tell_all(Transport& transport, const message::Message& message);
 
-}  // namespace grove
+}  // namespace grove::detail

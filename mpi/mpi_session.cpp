@@ -9,7 +9,7 @@
 
 #include "mpi/mpi_transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 MpiSession::MpiSession(int& argc, char**& argv) {
   int provided = 0;
@@ -54,4 +54,4 @@ void MpiSession::abort(int exit_code) const {
   std::abort();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

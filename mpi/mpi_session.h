@@ -9,7 +9,7 @@
 
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // One per process, made by the thread that is to speak, which is the only one that may use this and
 // the transports. What all ranks must call together is marked so.
@@ -35,4 +35,4 @@ class MpiSession {
   int ranks_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kTag = 0;
@@ -58,4 +58,4 @@ void MpiTransport::forget_sent() {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,7 +9,7 @@
 
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Over a communicator of its own, a duplicate of the one given, so that nobody else's messages are
 // taken for its own. Of the thread that initialised MPI. All ranks make it, and destroy it, at the
@@ -37,4 +37,4 @@ class MpiTransport : public Transport {
   std::list<Sending> sending_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kLevels = 4;
@@ -255,4 +255,4 @@ void Rank::send(int to, const message::Message& message) {
   transport_.send(to, message::bytes_of(message));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "grove/engine/local_nodes.h"
-#include "grove/engine/shared_search.h"
-#include "grove/engine/solve.h"
-#include "grove/planning/agent_stops_store.h"
-#include "grove/search/problem.h"
-#include "grove/search/tree_record.h"
+#include "grove/detail/engine/local_nodes.h"
+#include "grove/detail/engine/shared_search.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/planning/agent_stops_store.h"
+#include "grove/detail/search/problem.h"
+#include "grove/detail/search/tree_record.h"
 #include "mpi/ledger_copy.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The nodes that a rank holds, for its workers, and all that is said about them to the coordinator
 // and to other ranks. The protocol is told at the head of coordinator.cpp. search() and what it
@@ -112,4 +112,4 @@ class Rank {
   std::optional<std::int64_t> batches_to_come_;  // altogether; known at the very end
 };
 
-}  // namespace grove
+}  // namespace grove::detail

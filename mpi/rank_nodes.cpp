@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 
 RankNodes::RankNodes(Transport& transport)
     : transport_(transport),
@@ -101,4 +101,4 @@ void RankNodes::restart(std::span<const NodePtr> roots, Cost proven) {
   for (const NodePtr& root : roots) push(root);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,12 +7,12 @@
 #include <set>
 #include <vector>
 
-#include "grove/engine/live_nodes.h"
-#include "grove/engine/survey.h"
+#include "grove/detail/engine/live_nodes.h"
+#include "grove/detail/engine/survey.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // What the coordinator knows of them: the latest status of each rank, and what it has
 // entrusted to one and is still under way. Why that bounds all plans is told at the head of
@@ -57,4 +57,4 @@ class RankNodes : public LiveNodes {
   std::set<std::uint32_t> told_;  // trees
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 
 class SimulatedNetwork::End : public Transport {
  public:
@@ -59,4 +59,4 @@ std::optional<Parcel> SimulatedNetwork::receive(int rank) {
   return parcel;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

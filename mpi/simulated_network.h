@@ -13,7 +13,7 @@
 
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Delivers each message when its time has come, which depends on the delay that the caller gives
 // it: messages of different pairs overtake each other, those of one pair never. Of one thread.
@@ -59,4 +59,4 @@ class SimulatedNetwork {
   std::int64_t serial_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

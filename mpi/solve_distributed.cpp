@@ -8,11 +8,11 @@
 #include <thread>
 #include <vector>
 
-#include "grove/engine/multicore.h"
-#include "grove/engine/worker.h"
+#include "grove/detail/engine/multicore.h"
+#include "grove/detail/engine/worker.h"
 #include "mpi/member.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -96,4 +96,4 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   return member.coordinator()->conclude();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,12 +5,12 @@
 #include <functional>
 #include <optional>
 
-#include "grove/engine/run_observer.h"
-#include "grove/engine/solve.h"
-#include "grove/search/problem.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/search/problem.h"
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Solves with all ranks of `transport`, each of which calls this with the same problem and options
 // but for its own number of threads; the calling thread speaks, others search. Rank 0 returns the
@@ -23,4 +23,4 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
                                           RunObserver& observer,
                                           const std::function<void()>& meanwhile);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 
 // A message and where it comes from.
 struct Parcel {
@@ -47,4 +47,4 @@ class Transport {
   std::int64_t bytes_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

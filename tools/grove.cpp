@@ -5,7 +5,7 @@
 #include "tools/common/commands.h"
 #include "tools/common/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kDescription =
@@ -38,8 +38,8 @@ int main(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail
 
 int main(int argc, char** argv) {
-  return grove::main(argc, argv);
+  return grove::detail::main(argc, argv);
 }

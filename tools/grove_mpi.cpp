@@ -12,7 +12,7 @@
 #include "tools/mpi/mpi_commands.h"
 #include "tools/mpi/together.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kDescription =
@@ -45,8 +45,8 @@ int main(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail
 
 int main(int argc, char** argv) {
-  return grove::main(argc, argv);
+  return grove::detail::main(argc, argv);
 }

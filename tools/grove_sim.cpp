@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/engine/run_observer.h"
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/primal/primal_search.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/primal/primal_search.h"
 #include "mpi/simulator/scaling_table.h"
 #include "mpi/simulator/simulation.h"
 #include "tools/common/commands.h"
@@ -23,7 +23,7 @@
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/start_plan.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -243,8 +243,8 @@ int main(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail
 
 int main(int argc, char** argv) {
-  return grove::main(argc, argv);
+  return grove::detail::main(argc, argv);
 }

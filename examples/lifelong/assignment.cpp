@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-namespace grove::lifelong {
+namespace grove::detail::lifelong {
 
 std::vector<std::pair<AgentIndex, Errand>> Assignment::give(const Instance& now) {
   std::vector<std::pair<AgentIndex, Errand>> given;
@@ -29,4 +29,4 @@ std::vector<std::pair<AgentIndex, Errand>> Assignment::give(const Instance& now)
   return given;
 }
 
-}  // namespace grove::lifelong
+}  // namespace grove::detail::lifelong

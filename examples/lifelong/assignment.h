@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "examples/lifelong/errands.h"
-#include "grove/model/distance_field.h"
-#include "grove/model/instance.h"
+#include "grove/detail/model/distance_field.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove::lifelong {
+namespace grove::detail::lifelong {
 
 // Greedily: the oldest errand first, each to the nearest robot that has none. An errand on a cell
 // that another robot is on its way to waits: a robot rests on its last errand, as far as its plan
@@ -31,4 +31,4 @@ class Assignment {
   std::deque<Errand> open_;
 };
 
-}  // namespace grove::lifelong
+}  // namespace grove::detail::lifelong

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "grove/model/random.h"
+#include "grove/detail/model/random.h"
 
-namespace grove::lifelong {
+namespace grove::detail::lifelong {
 namespace {
 
 std::vector<Cell> passable_cells(const Grid& grid) {
@@ -35,4 +35,4 @@ std::vector<Cell> random_starts(const Grid& grid, int robots, std::uint64_t seed
   return cells;
 }
 
-}  // namespace grove::lifelong
+}  // namespace grove::detail::lifelong

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/grid.h"
+#include "grove/detail/model/grid.h"
 
-namespace grove::lifelong {
+namespace grove::detail::lifelong {
 
 // A robot has to be on the cell once, from then on.
 struct Errand {
@@ -24,4 +24,4 @@ std::vector<Errand> random_errands(const Grid& grid, int count, Time steps, std:
 // Distinct passable cells for robots to start on.
 std::vector<Cell> random_starts(const Grid& grid, int robots, std::uint64_t seed);
 
-}  // namespace grove::lifelong
+}  // namespace grove::detail::lifelong

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "examples/lifelong/assignment.h"
-#include "grove/engine/session.h"
-#include "grove/io/input_error.h"
-#include "grove/io/map_file.h"
+#include "grove/detail/engine/session.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/map_file.h"
 
-namespace grove::lifelong {
+namespace grove::detail::lifelong {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -76,6 +76,8 @@ class Loop {
   }
 
  private:
+  using Given = std::vector<std::pair<AgentIndex, Errand>>;
+
   static SolveOptions options() {
     SolveOptions options;
     options.omega = Omega::parse("0.01");
@@ -83,9 +85,22 @@ class Loop {
   }
 
   void decide() {
-    const auto given = assignment_.give(session_.instance());
+    Given given = assignment_.give(session_.instance());
+    give_back(given, at_once_);
     if (given.empty()) return;
     const auto start = Clock::now();
+    take_on(given);
+    const bool is_planned = solve(start);
+    if (!is_planned) do_without(given);
+    // So many new ways at a time as are found in time.
+    at_once_ =
+        is_planned ? at_once_ + at_once_ / 4 + 1 : std::max<std::size_t>(1, given.size() / 2);
+    at_once_ = std::min<std::size_t>(at_once_, static_cast<std::size_t>(asked_.robots));
+    ++report_.decisions;
+    report_.seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+
+  void take_on(const Given& given) {
     InstanceChange change;
     for (const auto& [robot, errand] : given) {
       const std::string id = std::to_string(errand.id);
@@ -93,9 +108,12 @@ class Loop {
       arrived_[id] = errand.arrives;
     }
     session_.change(change);
-    if (!solve(start)) give_back(given);
-    ++report_.decisions;
-    report_.seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+
+  // All but the first `kept`, for another time.
+  void give_back(Given& given, std::size_t kept) {
+    for (std::size_t i = kept; i < given.size(); ++i) assignment_.add(given[i].second);
+    given.resize(std::min(kept, given.size()));
   }
 
   bool solve(Clock::time_point start) {
@@ -106,7 +124,7 @@ class Loop {
   }
 
   // Nobody knew a way in time: another time.
-  void give_back(const std::vector<std::pair<AgentIndex, Errand>>& given) {
+  void do_without(const Given& given) {
     ++report_.without_plan;
     InstanceChange change;
     for (const auto& [robot, errand] : given) {
@@ -141,6 +159,7 @@ class Loop {
   const std::vector<Errand> errands_;
   std::size_t next_ = 0;
   Assignment assignment_;
+  std::size_t at_once_ = 1'000'000;  // errands given in one decision, at most
   Session session_;
   Time now_ = 0;
   std::map<std::string, Time> arrived_;  // by task
@@ -191,8 +210,8 @@ int main(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace grove::lifelong
+}  // namespace grove::detail::lifelong
 
 int main(int argc, char** argv) {
-  return grove::lifelong::main(argc, argv);
+  return grove::detail::lifelong::main(argc, argv);
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 void BatchState::count(const Row& row) {
   solving_s += row.wall_s;
@@ -44,4 +44,4 @@ ProgressText progress_text(const BatchState& state) {
   return {state.done(), state.total, std::move(text)};
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -5,10 +5,10 @@
 #include <limits>
 #include <optional>
 
-#include "grove/batch/progress.h"
-#include "grove/batch/row.h"
+#include "grove/detail/batch/progress.h"
+#include "grove/detail/batch/row.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 // A batch at one moment. Instances that earlier runs finished count as done.
 struct BatchState {
@@ -35,4 +35,4 @@ std::optional<double> seconds_left(const BatchState& state);
 // "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, about 4:10 left"
 ProgressText progress_text(const BatchState& state);
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

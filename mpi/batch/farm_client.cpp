@@ -7,9 +7,9 @@
 #include <utility>
 #include <variant>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 constexpr int kMaster = 0;  // of the world
@@ -162,4 +162,4 @@ std::optional<FarmMessage> FarmClient::receive_from_group() {
   return parcel ? std::optional(decode(parcel->bytes)) : std::nullopt;
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -8,13 +8,13 @@
 #include <optional>
 #include <string>
 
-#include "grove/batch/batch_clock.h"
-#include "grove/batch/entry.h"
+#include "grove/detail/batch/batch_clock.h"
+#include "grove/detail/batch/entry.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/batch/farm_messages.h"
 #include "mpi/transport.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 // Solves an instance; called on all ranks of the group together. What it says in `row` - facts,
 // outcome, plan file - counts on the leader, which is rank 0 of the group. It writes the plan file
@@ -70,4 +70,4 @@ class FarmClient {
   std::exception_ptr broken_;  // what poll() threw
 };
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 constexpr double kCsvInterval_s = 10;  // the whole file is written each time
@@ -144,4 +144,4 @@ std::optional<FarmMessage> FarmMaster::take_own() {
   return message;
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

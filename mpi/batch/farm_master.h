@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "grove/batch/batch_clock.h"
-#include "grove/batch/entry.h"
-#include "grove/batch/result_table.h"
+#include "grove/detail/batch/batch_clock.h"
+#include "grove/detail/batch/entry.h"
+#include "grove/detail/batch/result_table.h"
 #include "mpi/batch/batch_progress.h"
 #include "mpi/batch/farm_messages.h"
 #include "mpi/batch/grouping.h"
 #include "mpi/transport.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 struct MasterOptions {
   Settings settings;  // of all runs
@@ -98,4 +98,4 @@ class FarmMaster {
   double next_csv_s_ = 0;
 };
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -3,9 +3,9 @@
 
 #include <cereal/types/variant.hpp>
 
-#include "grove/engine/serialise.h"
+#include "grove/detail/engine/serialise.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 template <typename Archive>
 void serialize(Archive& archive, Entry& entry) {
@@ -42,4 +42,4 @@ FarmMessage decode(std::string_view bytes) {
   return from_bytes<FarmMessage>(bytes);
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -17,10 +17,10 @@
 #include <string_view>
 #include <variant>
 
-#include "grove/batch/entry.h"
-#include "grove/batch/row.h"
+#include "grove/detail/batch/entry.h"
+#include "grove/detail/batch/row.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 // The group has nothing to do.
 struct AskForWork {
@@ -60,4 +60,4 @@ std::string encode(const FarmMessage& message);
 // Throws std::invalid_argument when `bytes` are no message.
 FarmMessage decode(std::string_view bytes);
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "grove/engine/serialise.h"
+#include "grove/detail/engine/serialise.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -37,4 +37,4 @@ std::vector<std::string> gather(Transport& transport, const std::string& mine,
   return texts;
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -8,7 +8,7 @@
 
 #include "mpi/transport.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 // All ranks of `transport`: what each of them says, by rank. For what may fail on some of them only
 // (reading a file, say) before they do something that none can do alone. Nothing else may go over
@@ -16,4 +16,4 @@ namespace grove::batch {
 std::vector<std::string> gather(Transport& transport, const std::string& mine,
                                 const std::function<void()>& wait);
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

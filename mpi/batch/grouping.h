@@ -2,7 +2,7 @@
 // Which ranks solve an instance together.
 #pragma once
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 // The ranks of the world in groups of `per_group` consecutive ones; the last may be smaller. The
 // first of each leads. Both numbers at least 1.
@@ -15,4 +15,4 @@ struct Grouping {
   int rank_in_group(int rank) const { return rank % per_group; }
 };
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

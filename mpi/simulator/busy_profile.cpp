@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 
 void BusyProfile::add(double from, double to) {
   while (to >= width_ * static_cast<double>(bins_.size())) coarsen();
@@ -32,4 +32,4 @@ std::vector<double> BusyProfile::means(double end, int parts) const {
   return means;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 
 // Adds up stretches of time. Of one thread.
 class BusyProfile {
@@ -22,4 +22,4 @@ class BusyProfile {
   std::vector<double> bins_ = std::vector<double>(std::size_t{1} << 16);
 };
 
-}  // namespace grove
+}  // namespace grove::detail

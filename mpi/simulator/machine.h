@@ -2,7 +2,7 @@
 // The machine that a simulation takes for granted.
 #pragma once
 
-namespace grove {
+namespace grove::detail {
 
 // Messages as in LogGP (Alexandrov et al., SPAA 1995): whoever sends or receives one is busy for
 // `message_cost` and the time its bytes take, one message after the other, and `latency` passes in
@@ -18,4 +18,4 @@ struct Machine {
   double seconds_per_work = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,7 +3,7 @@
 
 #include <ctime>
 
-namespace grove {
+namespace grove::detail {
 
 double processor_time() {
   timespec time{};
@@ -11,4 +11,4 @@ double processor_time() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

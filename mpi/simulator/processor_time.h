@@ -2,9 +2,9 @@
 // The clock of one thread.
 #pragma once
 
-namespace grove {
+namespace grove::detail {
 
 // Seconds that the calling thread has had a processor.
 double processor_time();
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 std::int64_t nodes_of(const SimulatedRun& run) {
@@ -98,4 +98,4 @@ std::string csv_line(const ScalingRow& r) {
       r.first_node_s, r.ranks_without_node);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,7 +8,7 @@
 
 #include "mpi/simulator/simulation.h"
 
-namespace grove {
+namespace grove::detail {
 
 // One run beside the one of a single rank. Values.
 struct ScalingRow {
@@ -48,4 +48,4 @@ ScalingRow scaling_row(const SimulatedRun& run, const SimulatedRun& alone);
 std::string scaling_header();
 std::string csv_line(const ScalingRow& row);
 
-}  // namespace grove
+}  // namespace grove::detail

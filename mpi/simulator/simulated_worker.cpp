@@ -3,7 +3,7 @@
 
 #include "mpi/simulator/processor_time.h"
 
-namespace grove {
+namespace grove::detail {
 
 void SimulatedWorker::begin(double now, Expander& expander) {
   turn_ = worker_.choose();
@@ -38,4 +38,4 @@ void SimulatedWorker::abandon(double now) {
   end();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

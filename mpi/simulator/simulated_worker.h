@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "grove/engine/worker.h"
+#include "grove/detail/engine/worker.h"
 #include "mpi/simulator/machine.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Plays a worker's turns on a simulated clock: between what a turn chooses and does and what others
 // see of it time passes, by its work. Of one thread.
@@ -48,4 +48,4 @@ class SimulatedWorker {
   Tally tally_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

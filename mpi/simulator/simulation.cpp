@@ -17,14 +17,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/engine/techniques_of.h"
+#include "grove/detail/engine/techniques_of.h"
 #include "mpi/member.h"
 #include "mpi/simulated_network.h"
 #include "mpi/simulator/busy_profile.h"
 #include "mpi/simulator/processor_time.h"
 #include "mpi/simulator/timed_transport.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kNotDue = std::numeric_limits<double>::infinity();
@@ -226,4 +226,4 @@ SimulatedRun simulate(const Problem& problem, const SolveOptions& options, const
   return Simulation(setting, ranks).run();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/engine/solve.h"
-#include "grove/search/problem.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/search/problem.h"
 #include "mpi/simulator/machine.h"
 #include "mpi/simulator/simulated_worker.h"
 
-namespace grove {
+namespace grove::detail {
 
 // What became of it. Times are seconds of the simulated clock, which starts when all ranks are
 // ready, unless they are said to be of a processor here.
@@ -41,4 +41,4 @@ struct SimulatedRun {
 SimulatedRun simulate(const Problem& problem, const SolveOptions& options, const Limits& limits,
                       int ranks, const Machine& machine);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 
 std::optional<Parcel> TimedTransport::receive() {
   const double arrival = network_.next_arrival(rank());
@@ -21,4 +21,4 @@ void TimedTransport::do_send(int to, std::string bytes) {
   end_.send(to, std::move(bytes));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -11,7 +11,7 @@
 #include "mpi/simulator/machine.h"
 #include "mpi/transport.h"
 
-namespace grove {
+namespace grove::detail {
 
 // What a rank says and hears at one go, which begins at the network's present time. A value.
 struct Talk {
@@ -51,4 +51,4 @@ class TimedTransport : public Transport {
   double waited_s_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

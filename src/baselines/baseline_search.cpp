@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace grove {
+namespace grove::detail {
 
 PathOutcome BaselineSearch::find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
                                  Path& path) {
@@ -18,4 +18,4 @@ PathOutcome BaselineSearch::find(FreeGoals& goals, const PathQuery& query, const
   return search(goals.stops(), query, limits, path);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

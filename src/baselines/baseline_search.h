@@ -2,9 +2,9 @@
 // What the low levels of published methods have in common: what they cannot do.
 #pragma once
 
-#include "grove/planning/agent_planner.h"
+#include "grove/detail/planning/agent_planner.h"
 
-namespace grove {
+namespace grove::detail {
 
 class BaselineSearch : public AgentPlanner {
  public:
@@ -17,4 +17,4 @@ class BaselineSearch : public AgentPlanner {
                              Path& path) = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,13 +7,13 @@
 #include <limits>
 #include <span>
 
-#include "grove/model/limits.h"
-#include "grove/model/plan.h"
-#include "grove/planning/constraint.h"
-#include "grove/planning/free_goals.h"
-#include "grove/planning/safe_intervals.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/model/plan.h"
+#include "grove/detail/planning/constraint.h"
+#include "grove/detail/planning/free_goals.h"
+#include "grove/detail/planning/safe_intervals.h"
 
-namespace grove {
+namespace grove::detail {
 
 // As many labels as their numbers can tell apart; who needs more throws std::bad_alloc, as one does
 // who is refused memory.
@@ -49,4 +49,4 @@ class Legs {
   virtual std::int64_t expanded() const = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

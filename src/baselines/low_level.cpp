@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "grove/baselines/low_level.h"
+#include "grove/detail/baselines/low_level.h"
 
 #include <stdexcept>
 
-#include "grove/planning/free_low_level_search.h"
+#include "grove/detail/planning/free_low_level_search.h"
 #include "space_time_legs.h"
 #include "time_interval_forest.h"
 #include "visited_set_search.h"
 #include "visiting_order_search.h"
 
-namespace grove {
+namespace grove::detail {
 
 std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const World& world) {
   switch (low_level) {
@@ -26,4 +26,4 @@ std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const World
   throw std::invalid_argument("no low level");
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <span>
 
-#include "grove/planning/constraint.h"
-#include "grove/planning/safe_intervals.h"
+#include "grove/detail/planning/constraint.h"
+#include "grove/detail/planning/safe_intervals.h"
 
-namespace grove {
+namespace grove::detail {
 
 // How often the searches look at the limits: every tenth of a millisecond or so.
 inline constexpr std::int64_t kExpansionsPerPoll = 512;
@@ -49,4 +49,4 @@ void for_each_step(const World& world, const SafeIntervals& intervals, Cell from
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,7 +10,7 @@
 
 #include "space_time.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::int32_t kNone = -1;
@@ -89,4 +89,4 @@ Time SpaceTimeLegs::distance(Cell cell, int goal) const {
   return goal == stops_->count() ? stops_->to_rest(cell) : stops_->distances_from(cell)[goal];
 }
 
-}  // namespace grove
+}  // namespace grove::detail

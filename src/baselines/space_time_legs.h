@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/planning/bucket_queue.h"
+#include "grove/detail/planning/bucket_queue.h"
 #include "legs.h"
 
-namespace grove {
+namespace grove::detail {
 
 class SpaceTimeLegs : public Legs {
  public:
@@ -53,4 +53,4 @@ class SpaceTimeLegs : public Legs {
   std::uint32_t stamp_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace grove {
+namespace grove::detail {
 
 SpanningTreeBound::SpanningTreeBound(const AgentStops& stops)
     : stops_(stops),
@@ -48,4 +48,4 @@ Time SpanningTreeBound::distance(int from, int to) const {
   return to == destination_ ? stops_.to_rest(cell) : stops_.distances_from(cell)[to];
 }
 
-}  // namespace grove
+}  // namespace grove::detail

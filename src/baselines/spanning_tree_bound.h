@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "grove/planning/free_goals.h"
-#include "grove/sequencing/sequence_dag.h"
+#include "grove/detail/planning/free_goals.h"
+#include "grove/detail/sequencing/sequence_dag.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The least spanning tree of the goals that an agent has yet to visit, by shortest distances: a
 // path through all of them is a spanning tree, so none is shorter. Consistent: a leg from i to j
@@ -35,4 +35,4 @@ class SpanningTreeBound {
   std::vector<Time> nearest_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kPiecesPerPoll = 512;
@@ -173,4 +173,4 @@ const TimeIntervalForest::Piece* TimeIntervalForest::find(const Tree& tree, Cell
   return time <= piece.end ? &piece : nullptr;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,7 +8,7 @@
 
 #include "legs.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The essay is at the head of time_interval_forest.cpp.
 class TimeIntervalForest : public Legs {
@@ -77,4 +77,4 @@ class TimeIntervalForest : public Legs {
   std::vector<std::int32_t> first_gap_;  // by cell
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -19,7 +19,7 @@
 
 #include "space_time.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::int32_t kNoLabel = -1;
@@ -114,4 +114,4 @@ void VisitedSetSearch::write_path(std::int32_t finish, Path& path) const {
     path[labels_[id].time] = labels_[id].cell;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

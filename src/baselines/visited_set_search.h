@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "baseline_search.h"
-#include "grove/planning/bucket_queue.h"
-#include "grove/planning/safe_intervals.h"
-#include "grove/sequencing/sequence_dag.h"
+#include "grove/detail/planning/bucket_queue.h"
+#include "grove/detail/planning/safe_intervals.h"
+#include "grove/detail/sequencing/sequence_dag.h"
 #include "spanning_tree_bound.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The essay is at the head of visited_set_search.cpp.
 class VisitedSetSearch : public BaselineSearch {
@@ -54,4 +54,4 @@ class VisitedSetSearch : public BaselineSearch {
   std::vector<Label> labels_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

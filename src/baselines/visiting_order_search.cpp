@@ -27,7 +27,7 @@
 #include <new>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 
 VisitingOrderSearch::VisitingOrderSearch(const World& world, std::unique_ptr<Legs> legs)
     : intervals_(world), legs_(std::move(legs)) {}
@@ -147,4 +147,4 @@ void VisitingOrderSearch::write_path(std::int32_t finish, Path& path) {
     legs_->append(path.back(), labels_[chain[i - 1]].time, targets_[column_of(chain[i])], path);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "baseline_search.h"
-#include "grove/planning/bucket_queue.h"
-#include "grove/planning/safe_intervals.h"
-#include "grove/sequencing/sequence_dag.h"
+#include "grove/detail/planning/bucket_queue.h"
+#include "grove/detail/planning/safe_intervals.h"
+#include "grove/detail/sequencing/sequence_dag.h"
 #include "legs.h"
 #include "spanning_tree_bound.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The essay is at the head of visiting_order_search.cpp.
 class VisitingOrderSearch : public BaselineSearch {
@@ -68,4 +68,4 @@ class VisitingOrderSearch : public BaselineSearch {
   std::vector<Label> labels_;   // row by row
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/batch_clock.h"
+#include "grove/detail/batch/batch_clock.h"
 
 #include <fmt/chrono.h>
 
 #include <chrono>
 #include <ctime>
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 BatchClock machine_clock() {
   using Clock = std::chrono::steady_clock;
@@ -14,4 +14,4 @@ BatchClock machine_clock() {
           [] { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }};
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

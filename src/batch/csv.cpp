@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "csv.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -10,4 +10,4 @@ std::string csv_quoted(const std::string& text) {
   return result + "\"";
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -4,9 +4,9 @@
 
 #include <string>
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 // `text` as a cell: in quotes where it must be.
 std::string csv_quoted(const std::string& text);
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/folder.h"
+#include "grove/detail/batch/folder.h"
 
 #include <fcntl.h>
 
 #include <system_error>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -24,4 +24,4 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
                      "is in use by another run; expected a folder that no other run writes to");
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "grove/model/fingerprint.h"
+#include "grove/detail/model/fingerprint.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 constexpr std::uint64_t kPrime = 0x100000001b3;
@@ -28,4 +28,4 @@ std::string instance_digest(const Instance& instance) {
   return fmt::format("{:016x}", hash);
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

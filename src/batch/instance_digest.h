@@ -4,13 +4,13 @@
 
 #include <string>
 
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 // 64 bits in hexadecimal digits: fingerprint() and the ids of agents and tasks, which plans name.
 // The same wherever the files are and however they are laid out. Tells a change; does not withstand
 // forgery (FNV-1a).
 std::string instance_digest(const Instance& instance);
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

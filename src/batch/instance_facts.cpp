@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/instance_facts.h"
+#include "grove/detail/batch/instance_facts.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
 
-#include "grove/model/parse_number.h"
+#include "grove/detail/model/parse_number.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ InstanceFacts facts_of(const Entry& entry, const LoadedInstance& loaded) {
           .problem = problem_of(instance)};
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

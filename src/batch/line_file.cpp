@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/line_file.h"
+#include "grove/detail/batch/line_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <utility>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 
 std::vector<std::string_view> whole_lines(std::string_view text) {
   return split_lines(text.substr(0, text.rfind('\n') + 1));
@@ -28,4 +28,4 @@ void LineFile::flush() {
   if (::fsync(file_.get()) != 0) fail_to_write(path_);
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

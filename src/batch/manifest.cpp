@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/manifest.h"
+#include "grove/detail/batch/manifest.h"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 #include <string_view>
 #include <system_error>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
-#include "grove/model/parse_number.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
+#include "grove/detail/model/parse_number.h"
 #include "instance_digest.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -215,4 +215,4 @@ std::vector<Entry> read_manifest(const fs::path& manifest_or_folder) {
   return ManifestReader(manifest_or_folder).read();
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

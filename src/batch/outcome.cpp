@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/outcome.h"
+#include "grove/detail/batch/outcome.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <array>
 #include <string_view>
 
-#include "grove/io/input_error.h"
-#include "grove/model/check.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/check.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 template <typename Map>
@@ -66,4 +66,4 @@ Outcome outcome_of(const Instance& instance, const Solution& solution) {
   return outcome;
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

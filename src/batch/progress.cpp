@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/progress.h"
+#include "grove/detail/batch/progress.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 constexpr double kBarInterval_s = 0.2;
@@ -60,4 +60,4 @@ void ProgressDisplay::draw(const ProgressText& text) {
                                : text.line + "\n");
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/result_table.h"
+#include "grove/detail/batch/result_table.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -198,4 +198,4 @@ std::string plan_file(const std::string& id) {
   return fmt::format("plans/{}.plan.json", id);
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

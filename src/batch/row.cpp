@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/row.h"
+#include "grove/detail/batch/row.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "csv.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -182,4 +182,4 @@ std::string csv_line(const Row& row) {
   return fmt::format("{}\n", fmt::join(cells, ","));
 }
 
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Two arrays hold who is where now and one step ago, as a list per place; entries carry a stamp
 // that grows for ever, so nothing is ever cleared.
-#include "grove/conflicts/conflict.h"
+#include "grove/detail/conflicts/conflict.h"
 
 #include <algorithm>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 
 Split split(const Conflict& c) {
   GROVE_ASSERT(c.first >= 0 && c.first < c.second, "two agents conflict");
@@ -92,4 +92,4 @@ void ConflictFinder::follow_all(std::span<const Path> paths, AgentIndex agent, T
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,13 +10,13 @@
 //
 // The path at hand obeys the first side, so no split on sequences raises the cost of both sides.
 // What it does is to take away ties: with the order settled, the conflicts left are dearer.
-#include "grove/conflicts/sequence_split.h"
+#include "grove/detail/conflicts/sequence_split.h"
 
 #include <bit>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 
 Split sequence_split(AgentIndex agent, const AgentStops& stops, const SequenceClass& work,
                      const Sequence& sequence) {
@@ -34,4 +34,4 @@ bool leaves_choice(const AgentStops& stops, const SequenceClass& work) {
   return left - std::popcount(work.forbidden_next) > 1;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -12,9 +12,9 @@
 // *No plan is lost*: the two are each other's negation, whatever the agents' orders of visits and
 // whether a has a destination or may end on any of its tasks. *Both children differ from the
 // parent*: a's path breaks the first, b's what follows from the second.
-#include "grove/conflicts/reasoning.h"
+#include "grove/detail/conflicts/reasoning.h"
 
-namespace grove {
+namespace grove::detail {
 
 std::optional<Split> target_split(const Conflict& conflict, std::span<const Path> paths,
                                   const World& world, const Chains& /*chains*/) {
@@ -32,4 +32,4 @@ std::optional<Split> target_split(const Conflict& conflict, std::span<const Path
   return Split{demand(ConstraintKind::kNoRestBy), demand(ConstraintKind::kRestBy)};
 }
 
-}  // namespace grove
+}  // namespace grove::detail

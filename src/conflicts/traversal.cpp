@@ -27,9 +27,9 @@
 #include <algorithm>
 #include <array>
 
-#include "grove/conflicts/reasoning.h"
+#include "grove/detail/conflicts/reasoning.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // An agent's way through a chain.
@@ -109,4 +109,4 @@ std::optional<Split> traversal_split(const Conflict& conflict, std::span<const P
   return std::nullopt;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

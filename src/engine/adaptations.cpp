@@ -24,7 +24,7 @@
 #include "destinations.h"
 #include "stop_text.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kShareOfFirst = 2.0 / 3;  // of the time, paper, section V-B
@@ -255,4 +255,4 @@ Solution solve_with_destinations_first(const Instance& instance, const SolveOpti
   return solution;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,10 +3,10 @@
 // must have an agent without a destination.
 #pragma once
 
-#include "grove/engine/run_observer.h"
-#include "grove/engine/solve.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/solve.h"
 
-namespace grove {
+namespace grove::detail {
 
 // B: one task of each agent is made its destination.
 Solution solve_with_destinations(const Instance& instance, const SolveOptions& options,
@@ -21,4 +21,4 @@ Solution solve_with_destinations_last(const Instance& instance, const SolveOptio
 Solution solve_with_destinations_first(const Instance& instance, const SolveOptions& options,
                                        const Limits& limits, RunObserver& observer);
 
-}  // namespace grove
+}  // namespace grove::detail

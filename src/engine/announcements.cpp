@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/announcements.h"
+#include "grove/detail/engine/announcements.h"
 
-namespace grove {
+namespace grove::detail {
 
 void Announcements::expanded(const NodePtr& node, const Expansion& expansion, int worker) {
   const std::lock_guard lock(mutex_);
@@ -47,4 +47,4 @@ void Announcements::checkpoint(const CheckpointReport& report) {
   observer_.on_checkpoint(report);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

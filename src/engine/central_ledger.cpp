@@ -13,13 +13,13 @@
 // instantiate one: nodes come from live nodes and from new trees alone (central_trees.cpp).
 //
 // *Pruning.* An incumbent is in the gate, checked, before anybody prunes by it.
-#include "grove/engine/central_ledger.h"
+#include "grove/detail/engine/central_ledger.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 
 std::optional<Plan> CentralLedger::plan_below(Cost cost) const {
   if (cutoff() >= cost) return std::nullopt;
@@ -64,4 +64,4 @@ void CentralLedger::resume_at(Cost lower_bound) {
   announcements_.bound_is_known(lower_bound);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What the bound asks of the order in which things are done here is at the head of
 // central_ledger.cpp.
-#include "grove/engine/central_trees.h"
+#include "grove/detail/engine/central_trees.h"
 
 #include <algorithm>
 #include <optional>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr Cost kNoTree = -1;
@@ -135,4 +135,4 @@ bool CentralTrees::begin_anew() {
   return true;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 // nor lost, doubled or reordered; but for the checksums before it, since what is followed by its
 // own CRC has the same one, whatever it was. One head, then blocks of trees, then blocks of nodes,
 // then the end with their number, and nothing behind it: a file cut short anywhere has no end.
-#include "grove/engine/checkpoint.h"
+#include "grove/detail/engine/checkpoint.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -18,10 +18,10 @@
 #include <system_error>
 #include <utility>
 
-#include "grove/engine/serialise.h"
-#include "grove/io/input_error.h"
+#include "grove/detail/engine/serialise.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -325,4 +325,4 @@ void CheckpointReader::read_end(std::string_view content) {
   ended_ = true;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/checkpoints.h"
+#include "grove/detail/engine/checkpoints.h"
 
-namespace grove {
+namespace grove::detail {
 
 bool CheckpointTimer::due() {
   if (checkpoints_.directory.empty()) return false;
@@ -13,4 +13,4 @@ bool CheckpointTimer::due() {
   return true;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -21,13 +21,13 @@
 
 #include <algorithm>
 
-#include "grove/sequencing/assignment.h"
-#include "grove/sequencing/completions.h"
-#include "grove/sequencing/cost_matrix.h"
-#include "grove/sequencing/rtsp.h"
-#include "grove/sequencing/sum_of_best_sequences.h"
+#include "grove/detail/sequencing/assignment.h"
+#include "grove/detail/sequencing/completions.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/rtsp.h"
+#include "grove/detail/sequencing/sum_of_best_sequences.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr Time kFirstReach = 8;  // beyond the best end, in steps
@@ -200,4 +200,4 @@ Plan without_destinations(const Instance& instance, const Destinations& destinat
   return plan;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "grove/model/limits.h"
-#include "grove/model/plan.h"
-#include "grove/search/problem.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/model/plan.h"
+#include "grove/detail/search/problem.h"
 
-namespace grove {
+namespace grove::detail {
 
 inline constexpr TaskIndex kNoTask = -1;
 
@@ -35,4 +35,4 @@ Instance with_destinations(const Instance& instance, const Destinations& destina
 // the last task visited at the end.
 Plan without_destinations(const Instance& instance, const Destinations& destinations, Plan plan);
 
-}  // namespace grove
+}  // namespace grove::detail

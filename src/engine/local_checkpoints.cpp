@@ -9,9 +9,9 @@
 #include <chrono>
 #include <new>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 
 void LocalCheckpoints::write_if_due() {
   const std::unique_lock lock(mutex_, std::try_to_lock);
@@ -57,4 +57,4 @@ bool restore(CheckpointReader& checkpoint, const Instance& instance, RunState& r
   return true;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,12 +4,12 @@
 
 #include <mutex>
 
-#include "grove/engine/checkpoint.h"
-#include "grove/engine/checkpoints.h"
-#include "grove/engine/local_nodes.h"
-#include "grove/engine/run_state.h"
+#include "grove/detail/engine/checkpoint.h"
+#include "grove/detail/engine/checkpoints.h"
+#include "grove/detail/engine/local_nodes.h"
+#include "grove/detail/engine/run_state.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Writes them. May be used from any thread.
 class LocalCheckpoints {
@@ -38,4 +38,4 @@ class LocalCheckpoints {
 bool restore(CheckpointReader& checkpoint, const Instance& instance, RunState& run,
              LocalNodes& nodes);
 
-}  // namespace grove
+}  // namespace grove::detail

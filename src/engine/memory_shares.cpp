@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
@@ -44,4 +44,4 @@ void MemoryShares::settled() {
   alarm_ = std::max(alarm_, limit - room(limit) / 2);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

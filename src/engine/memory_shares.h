@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
-#include "grove/model/limits.h"
+#include "grove/detail/model/limits.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Budgets for what the search can give up. Of one thread; the rule is at the head of the .cpp.
 class MemoryShares {
@@ -34,4 +34,4 @@ class MemoryShares {
   std::size_t for_expanders_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/method.h"
+#include "grove/detail/engine/method.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "adaptations.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 struct Row {
@@ -130,4 +130,4 @@ Solution solve_by(Method method, bool anytime, const Instance& instance,
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,7 +9,7 @@
 // who is awake: where ranks share a search, nodes come from elsewhere, and none of those who push
 // them there calls anybody; and a node may be live that nobody here has in hand, for it is in
 // custody.
-#include "grove/engine/multicore.h"
+#include "grove/detail/engine/multicore.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
@@ -24,7 +24,7 @@
 
 #include "tasks.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kMostTurnsInARound = 4;
@@ -168,4 +168,4 @@ void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSea
   });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

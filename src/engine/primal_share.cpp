@@ -15,7 +15,7 @@
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 PrimalShare::PrimalShare(int agents, const Tuning& tuning)
     : agents_(agents), tuning_(tuning), ratio_(tuning.most_primal) {}
 
@@ -55,4 +55,4 @@ double PrimalShare::most_ratio_now() const {
   return std::clamp(tuning_.most_primal * part, tuning_.most_primal_at_first, tuning_.most_primal);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

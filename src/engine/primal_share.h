@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "grove/primal/primal_search.h"
+#include "grove/detail/primal/primal_search.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Counts work, not seconds, so that a run can be repeated. The rule is at the head of the .cpp.
 class PrimalShare {
@@ -32,4 +32,4 @@ class PrimalShare {
   double ratio_;       // and for each unit that the tree does
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/run_state.h"
+#include "grove/detail/engine/run_state.h"
 
 #include <algorithm>
 #include <string>
 
-#include "grove/io/input_error.h"
-#include "grove/model/fingerprint.h"
-#include "grove/search/sequence_forest.h"
-#include "grove/search/single_tree.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/fingerprint.h"
+#include "grove/detail/search/sequence_forest.h"
+#include "grove/detail/search/single_tree.h"
 #include "stop_text.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 bool same_sequences(const Tree& a, const Tree& b) {
@@ -128,4 +128,4 @@ Solution RunState::conclude() const {
   return solution;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,19 +5,19 @@
 // same steps; so on these actions its passing order is the same. Robots that carry out some of them
 // while the new plan is being found, in whatever order of time the old one allows, have done what
 // the new one allows, too.
-#include "grove/engine/session.h"
+#include "grove/detail/engine/session.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/engine/run_observer.h"
-#include "grove/execution/advance.h"
-#include "grove/model/assert.h"
-#include "grove/primal/repair.h"
-#include "grove/search/feasibility.h"
-#include "grove/search/problem.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/execution/advance.h"
+#include "grove/detail/model/assert.h"
+#include "grove/detail/primal/repair.h"
+#include "grove/detail/search/feasibility.h"
+#include "grove/detail/search/problem.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // Shows the plans of what comes after the committed steps as whole ones.
@@ -131,7 +131,7 @@ std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affect
 Solution solve_from(const Plan* plan, const std::vector<bool>& affected, const Problem& problem,
                     SolveOptions options, const Limits& limits, RunObserver& observer) {
   options.start = plan ? start_from(*plan, affected, problem, options, limits) : std::nullopt;
-  return grove::solve(problem, options, limits, &observer);
+  return grove::detail::solve(problem, options, limits, &observer);
 }
 
 }  // namespace
@@ -152,7 +152,7 @@ class Session::Impl {
     const Plan driven =
         late.empty() ? *plan_
                      : late_plan(instance_, *plan_, PassingOrder(instance_, *plan_), steps, late);
-    Remainder rest = grove::advance(instance_, driven, steps);
+    Remainder rest = grove::detail::advance(instance_, driven, steps);
     instance_ = std::move(rest.instance);
     plan_ = old_ = std::move(rest.plan);
   }
@@ -199,7 +199,7 @@ class Session::Impl {
     require_open(commit);
     std::optional<Remainder> rest;
     try {
-      rest = grove::advance(instance_, *old_, commit, Rests::kWhereItMust);
+      rest = grove::detail::advance(instance_, *old_, commit, Rests::kWhereItMust);
     } catch (const InstanceError& error) {
       return unknown(options, error.what());
     }
@@ -245,4 +245,4 @@ Solution Session::solve(const SolveOptions& options, const Limits& limits, RunOb
   return impl_->solve(options, limits, observer ? *observer : silent, commit);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

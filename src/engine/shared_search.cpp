@@ -9,17 +9,17 @@
 // not worth a node above. Then it is best first as with w = 0.
 //
 // A node is live, and counts in the ledger, until all that it led to has been pushed.
-#include "grove/engine/shared_search.h"
+#include "grove/detail/engine/shared_search.h"
 
 #include <malloc.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/engine/techniques_of.h"
+#include "grove/detail/engine/techniques_of.h"
 #include "memory_shares.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // bytes of what was found out
@@ -133,4 +133,4 @@ MemoryUse SharedSearch::memory_use() const {
           .groups = static_cast<std::int64_t>(known->excesses.bytes())};
 }
 
-}  // namespace grove
+}  // namespace grove::detail

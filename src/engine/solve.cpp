@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
 // From an instance to an answer: what is evident is said without a search; else workers share one.
-#include "grove/engine/solve.h"
+#include "grove/detail/engine/solve.h"
 
 #include <new>
 #include <string>
 
-#include "grove/engine/checkpoint.h"
-#include "grove/engine/local_nodes.h"
-#include "grove/engine/multicore.h"
-#include "grove/engine/run_observer.h"
-#include "grove/engine/run_state.h"
-#include "grove/engine/shared_search.h"
-#include "grove/engine/worker.h"
-#include "grove/search/feasibility.h"
-#include "grove/search/gate.h"
+#include "grove/detail/engine/checkpoint.h"
+#include "grove/detail/engine/local_nodes.h"
+#include "grove/detail/engine/multicore.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/run_state.h"
+#include "grove/detail/engine/shared_search.h"
+#include "grove/detail/engine/worker.h"
+#include "grove/detail/search/feasibility.h"
+#include "grove/detail/search/gate.h"
 #include "local_checkpoints.h"
 #include "stop_text.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // The first tree, or all that a checkpoint knows. False: there is nothing to search.
@@ -164,4 +164,4 @@ Solution solve(const Instance& instance, const SolveOptions& options, const Limi
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "grove/model/limits.h"
+#include "grove/detail/model/limits.h"
 
-namespace grove {
+namespace grove::detail {
 
 inline std::string stop_text(StopReason reason) {
   switch (reason) {
@@ -22,4 +22,4 @@ inline std::string stop_text(StopReason reason) {
   return "";
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/survey.h"
+#include "grove/detail/engine/survey.h"
 
-namespace grove {
+namespace grove::detail {
 
 void add(const Account& part, Account& sum) {
   for (const auto& [name, count] : part.counts) sum.counts[name] += count;
@@ -12,4 +12,4 @@ void add(const Account& part, Account& sum) {
   sum.memory.groups += part.memory.groups;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

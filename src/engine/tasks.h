@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 
 #ifdef __SANITIZE_THREAD__
 // The thread sanitizer cannot see how TBB hands a task from one thread to another. It is shown by a
@@ -52,4 +52,4 @@ class Tasks {
   tbb::task_group group_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/worker.h"
+#include "grove/detail/engine/worker.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "grove/engine/techniques_of.h"
+#include "grove/detail/engine/techniques_of.h"
 #include "primal_share.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
@@ -171,4 +171,4 @@ void Worker::add_counts(Stats& stats) const {
   counts["primal_low_level_expanded"] += primal.low_level_expanded;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

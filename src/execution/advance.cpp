@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/execution/advance.h"
+#include "grove/detail/execution/advance.h"
 
 #include <algorithm>
 #include <optional>
@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // From when on nothing changes and nothing is left to do.
@@ -209,4 +209,4 @@ Plan joined(const Instance& instance, const Plan& plan, Time time, const Instanc
   return whole;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/execution/change.h"
+#include "grove/detail/execution/change.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // A map with some ways closed, and what became of its places.
@@ -230,4 +230,4 @@ Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& 
   return Applying(instance, plan, change).run();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/execution/drive.h"
+#include "grove/detail/execution/drive.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 Time end_of(const Drive& drive, ActionIndex action) {
@@ -114,4 +114,4 @@ std::vector<Stuck> stuck(const PassingOrder& order, const Drive& drive) {
   return stuck;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

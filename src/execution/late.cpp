@@ -5,14 +5,14 @@
 // for along the others begins never fall.) So no two are on one place at one time. Two that swapped
 // places would each come to a place after the other there: in `plan`, too, their moves would have
 // to be one step, a swap.
-#include "grove/execution/late.h"
+#include "grove/detail/execution/late.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // When actions would begin if nobody were in the way.
@@ -82,4 +82,4 @@ Plan late_plan(const Instance& instance, const Plan& plan, const PassingOrder& o
   return driven_plan(instance, plan, order, drive);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

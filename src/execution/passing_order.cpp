@@ -25,7 +25,7 @@
 // completed with it, then a is completed when x may begin: the wait says nothing more. For 16
 // robots at a time one pass over all steps, in order, finds the last action of each that must be
 // completed before each action can be.
-#include "grove/execution/passing_order.h"
+#include "grove/detail/execution/passing_order.h"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kCollides = "a passing order is of a plan without collisions";
@@ -181,4 +181,4 @@ void PassingOrder::leave_out_transitive() {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

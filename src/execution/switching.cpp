@@ -10,7 +10,7 @@
 // whatever waits for it stays behind it. The joint step of a ring counts as one action: what it
 // waits for inside is not looked at, and if somebody comes between two robots of a ring it waits
 // for itself, which is no order.
-#include "grove/execution/switching.h"
+#include "grove/detail/execution/switching.h"
 
 #include <algorithm>
 #include <functional>
@@ -18,7 +18,7 @@
 #include <queue>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr Time kLongest = 64;  // times its patience: who waits for one that may be dead
@@ -364,4 +364,4 @@ SwitchedDrive drive_switching(const World& world, const Plan& plan, const Passin
   return Switching(world, plan, order, duration, patience).run();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/execution/visits.h"
+#include "grove/detail/execution/visits.h"
 
 #include <map>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // Tasks without duration that an agent has yet to come by.
@@ -43,4 +43,4 @@ std::vector<std::vector<TaskVisit>> task_visits(const Instance& instance,
   return visits;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

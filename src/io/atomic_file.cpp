@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/atomic_file.h"
+#include "grove/detail/io/atomic_file.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -15,10 +15,10 @@
 #include <system_error>
 #include <utility>
 
-#include "grove/io/descriptor.h"
-#include "grove/io/input_error.h"
+#include "grove/detail/io/descriptor.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,4 +173,4 @@ void require_distinct_files(const fs::path& file, const fs::path& other,
                      fmt::format("is {}; expected another file to write to", what_other));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/change_file.h"
+#include "grove/detail/io/change_file.h"
 
 #include "json_value.h"
 #include "path_entry.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 NewTask read_task(const JsonValue& json, const Instance& instance, UnknownKeys& unknown) {
@@ -38,4 +38,4 @@ std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const In
   return tasks;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

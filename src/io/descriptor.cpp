@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/descriptor.h"
+#include "grove/detail/io/descriptor.h"
 
 #include <cerrno>
 
-namespace grove {
+namespace grove::detail {
 
 std::string host_name() {
   char name[256] = {};
@@ -29,4 +29,4 @@ LockResult lock(int fd) {
   return errno == EAGAIN || errno == EACCES ? LockResult::kHeld : LockResult::kUnsupported;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/expressible.h"
+#include "grove/detail/io/expressible.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 std::string agent_field(AgentIndex agent) {
@@ -186,4 +186,4 @@ Instance with_default_agent_ids(const Instance& instance) {
   return std::move(builder).build();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/file_lock.h"
+#include "grove/detail/io/file_lock.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -8,10 +8,10 @@
 #include <ctime>
 #include <string>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,4 +38,4 @@ FileLock::FileLock(const fs::path& path) : file_(path, O_RDWR | O_CREAT) {
   if (::ftruncate(file_.get(), 0) != 0 || !write_all(file_.get(), who_i_am())) fail_to_write(path);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

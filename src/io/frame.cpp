@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/frame.h"
+#include "grove/detail/io/frame.h"
 
-namespace grove {
+namespace grove::detail {
 
 Point metres(const Map& map, const Frame& frame, Place place) {
   if (const auto* roadmap = std::get_if<Roadmap>(&map)) return roadmap->at(place);
@@ -11,4 +11,4 @@ Point metres(const Map& map, const Frame& frame, Place place) {
           frame.origin.y + (grid.height() - p.y - 0.5) * frame.cell_size};
 }
 
-}  // namespace grove
+}  // namespace grove::detail

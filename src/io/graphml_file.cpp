@@ -2,7 +2,7 @@
 // pugixml parses, without recursion, and knows only the five entities of XML itself: others stay as
 // they are written. It does not check what it has no use for, so what would be misread is refused
 // here.
-#include "grove/io/graphml_file.h"
+#include "grove/detail/io/graphml_file.h"
 
 #include <fmt/format.h>
 
@@ -16,13 +16,13 @@
 #include <span>
 #include <unordered_map>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
-#include "grove/model/parse_number.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
+#include "grove/detail/model/parse_number.h"
 #include "line_starts.h"
 #include "utf8.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using pugi::xml_node;
@@ -353,4 +353,4 @@ RoadNetwork read_graphml(const std::filesystem::path& path, std::vector<std::str
   return parse_graphml(read_text(path), path.string(), warnings);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

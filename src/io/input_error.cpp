@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
 #include <fmt/format.h>
 
 #include <system_error>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kLongest = 400;
@@ -62,4 +62,4 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

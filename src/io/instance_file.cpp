@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/instance_file.h"
+#include "grove/detail/io/instance_file.h"
 
 #include <fmt/format.h>
 
 #include <initializer_list>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/expressible.h"
-#include "grove/io/input_error.h"
-#include "grove/io/map_file.h"
-#include "grove/io/roadmap_file.h"
-#include "grove/io/scenario_file.h"
-#include "grove/io/text_file.h"
-#include "grove/model/distance_field.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/roadmap_file.h"
+#include "grove/detail/io/scenario_file.h"
+#include "grove/detail/io/text_file.h"
+#include "grove/detail/model/distance_field.h"
 #include "json_value.h"
 #include "json_writer.h"
 #include "path_entry.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -311,4 +311,4 @@ void write_instance(const std::filesystem::path& path, const Instance& instance,
       outlives);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

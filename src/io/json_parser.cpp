@@ -7,10 +7,10 @@
 
 #include <vector>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Json = nlohmann::json;
@@ -133,4 +133,4 @@ nlohmann::json parse_json(std::string_view text, const std::string& file) {
   return builder.take();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

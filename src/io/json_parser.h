@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-namespace grove {
+namespace grove::detail {
 
 // Parses `text`. Throws InputError, naming `file`, for anything that is not one JSON value, for a
 // key repeated within one object, and for nesting beyond what any of Grove's formats needs.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,11 +8,11 @@
 #include <limits>
 #include <utility>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 #include "json_parser.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Json = nlohmann::json;
@@ -172,4 +172,4 @@ void UnknownKeys::look_at(const JsonValue& object, std::initializer_list<std::st
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/model/grid.h"
+#include "grove/detail/model/grid.h"
 
-namespace grove {
+namespace grove::detail {
 
 // A value inside a JsonDocument, which must outlive it. Every getter throws InputError when the
 // value is not what it asks for.
@@ -92,4 +92,4 @@ class UnknownKeys {
   std::set<std::string> seen_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

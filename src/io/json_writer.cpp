@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "json_writer.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -32,4 +32,4 @@ std::string dump_by_lines(const OrderedJson& document) {
   return dump_lines(document, " ", dump_member) + "\n";
 }
 
-}  // namespace grove
+}  // namespace grove::detail

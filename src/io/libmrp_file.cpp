@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/libmrp_file.h"
+#include "grove/detail/io/libmrp_file.h"
 
 #include <fmt/format.h>
 
 #include <iterator>
 #include <optional>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/expressible.h"
-#include "grove/io/input_error.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/input_error.h"
 #include "waypoints.h"
 #include "yaml_text.h"
 #include "yaml_value.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // --- reading ---
@@ -175,4 +175,4 @@ void write_mgcbs_instance(const std::filesystem::path& path, const Instance& ins
   write_file_atomically(path, text);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,13 +3,13 @@
 
 #include <iterator>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/expressible.h"
-#include "grove/io/plan_export.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/plan_export.h"
 #include "plan_steps.h"
 #include "yaml_text.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // "  key: value" if the run counted `name`.
@@ -65,4 +65,4 @@ void write_libmrp_schedule(const std::filesystem::path& path, const Instance& in
   write_file_atomically(path, text);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

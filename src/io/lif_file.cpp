@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/lif_file.h"
+#include "grove/detail/io/lif_file.h"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 #include "json_value.h"
 #include "nurbs.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kHighestDegree = 16;  // of curves that anybody drives along
@@ -295,4 +295,4 @@ RoadNetwork read_lif(const std::filesystem::path& path, const LifChoice& choice,
   return parse_lif(read_text(path), path.string(), choice, warnings);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "grove/io/text_file.h"
+#include "grove/detail/io/text_file.h"
 
-namespace grove {
+namespace grove::detail {
 
 LineStarts::LineStarts(std::string_view text) : starts_{0} {
   for (std::size_t end = text.find('\n'); end != std::string_view::npos;
@@ -18,4 +18,4 @@ std::string LineStarts::place(std::size_t offset) const {
   return line_and_column(static_cast<std::size_t>(line), offset - starts_[line - 1] + 1);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 
 // Where the lines of a text begin: for who asks for many places in it, as line_and_column_at()
 // counts from the beginning each time.
@@ -20,4 +20,4 @@ class LineStarts {
   std::vector<std::size_t> starts_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/map_file.h"
+#include "grove/detail/io/map_file.h"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <optional>
 #include <string_view>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
-#include "grove/model/parse_number.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
+#include "grove/detail/model/parse_number.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::string_view kPassable = ".GSE";
@@ -165,4 +165,4 @@ void write_map(const std::filesystem::path& path, const Grid& grid) {
   write_file_atomically(path, text);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

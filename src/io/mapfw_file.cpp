@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/mapfw_file.h"
+#include "grove/detail/io/mapfw_file.h"
 
 #include <fmt/format.h>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/expressible.h"
-#include "grove/io/input_error.h"
-#include "grove/io/map_file.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/map_file.h"
 #include "json_value.h"
 #include "json_writer.h"
 #include "waypoints.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -151,4 +151,4 @@ void write_mapfw_problem(const std::filesystem::path& path, const Instance& inst
                                              {"waypoints", waypoints}}));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kPartsOfSpan = 64;
@@ -45,4 +45,4 @@ double length_of(const Nurbs& curve) {
   return length;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

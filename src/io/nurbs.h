@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "grove/model/roadmap.h"
+#include "grove/detail/model/roadmap.h"
 
-namespace grove {
+namespace grove::detail {
 
 // A non-uniform rational B-spline. `knots` does not decrease and has one more than the degree more
 // entries than `points`, of which there are more than the degree; weights are positive.
@@ -20,4 +20,4 @@ struct Nurbs {
 // bends.
 double length_of(const Nurbs& curve);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/order_file.h"
+#include "grove/detail/io/order_file.h"
 
 #include <nlohmann/json.hpp>
 
-#include "grove/execution/visits.h"
+#include "grove/detail/execution/visits.h"
 #include "json_writer.h"
 #include "path_entry.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -89,4 +89,4 @@ std::string order_text(const Instance& instance, const PassingOrder& order, cons
   return dump_by_lines({{"format", "grove passing order 1"}, {"robots", std::move(robots)}});
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::string_view kOnARoadmap =
@@ -139,4 +139,4 @@ Place read_start(const Roadmap& roadmap, const JsonValue& value) {
   return value.json().is_string() ? read_vertex(roadmap, value) : read_place(roadmap, value);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

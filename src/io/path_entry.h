@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 #include "json_value.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Throw InputError at `value` if it is none of this map, or not of this motion. (A cell may be
 // blocked.)
@@ -23,4 +23,4 @@ Place read_vertex(const Roadmap& roadmap, const JsonValue& value);
 // The same of a start: a vertex is written as its id alone.
 Place read_start(const Roadmap& roadmap, const JsonValue& value);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,12 +3,12 @@
 
 #include <iterator>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/expressible.h"
-#include "grove/io/plan_export.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/plan_export.h"
 #include "plan_steps.h"
 
-namespace grove {
+namespace grove::detail {
 
 void write_path_lists(const std::filesystem::path& path, const Instance& instance,
                       const Solution& solution) {
@@ -25,4 +25,4 @@ void write_path_lists(const std::filesystem::path& path, const Instance& instanc
   write_file_atomically(path, text);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

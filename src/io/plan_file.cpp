@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/plan_file.h"
+#include "grove/detail/io/plan_file.h"
 
 #include <fmt/format.h>
 
@@ -7,14 +7,14 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 #include "json_value.h"
 #include "json_writer.h"
 #include "path_entry.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -206,4 +206,4 @@ Solution parse_solution(std::string_view text, const std::string& name, const In
   return solution;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/plan_import.h"
+#include "grove/detail/io/plan_import.h"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include <system_error>
 #include <utility>
 
-#include "grove/io/input_error.h"
-#include "grove/io/plan_file.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/io/text_file.h"
 #include "plan_steps.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Paths = std::vector<Path>;  // by AgentIndex
@@ -197,4 +197,4 @@ ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Insta
   return plan;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <span>
 
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The path up to when the agent comes to rest: without the waits at its end. Not empty unless the
 // path is.
@@ -23,4 +23,4 @@ inline Time makespan(const Plan& plan) {
   return last == 0 ? 0 : static_cast<Time>(last - 1);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

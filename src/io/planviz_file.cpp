@@ -3,14 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/expressible.h"
-#include "grove/io/plan_export.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/plan_export.h"
 #include "json_writer.h"
 #include "plan_steps.h"
 #include "visits.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -126,4 +126,4 @@ void write_planviz(const std::filesystem::path& path, const Instance& instance,
   write_file_atomically(path, dump_by_lines(document));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/road_network.h"
+#include "grove/detail/io/road_network.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <tuple>
 #include <utility>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // 1.2 / 0.4 is a little less than 3, 2.1 / 0.7 could be a little more; lengths that were computed
@@ -145,4 +145,4 @@ std::vector<Road> with_merged_lanes(const std::vector<Road>& roads) {
   return left;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/roadmap_file.h"
+#include "grove/detail/io/roadmap_file.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "grove/io/text_file.h"
+#include "grove/detail/io/text_file.h"
 #include "json_value.h"
 #include "json_writer.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -106,4 +106,4 @@ void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap, Ou
   write_file_atomically(path, dump_by_lines({{"vertices", vertices}, {"edges", edges}}), outlives);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/plan_export.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/plan_export.h"
 #include "visits.h"
 #include "yaml_text.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 struct Waypoint {
@@ -150,4 +150,4 @@ void write_nav_paths(const std::filesystem::path& path, const Instance& instance
   write_file_atomically(path, text);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

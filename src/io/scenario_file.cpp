@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/scenario_file.h"
+#include "grove/detail/io/scenario_file.h"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <limits>
 #include <string_view>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
-#include "grove/model/parse_number.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
+#include "grove/detail/model/parse_number.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
@@ -143,4 +143,4 @@ void write_scenario(const std::filesystem::path& path, const std::vector<Scenari
   write_file_atomically(path, text);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

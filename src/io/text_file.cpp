@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/text_file.h"
+#include "grove/detail/io/text_file.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{1} << 30;  // also ends the reading of /dev/zero
@@ -58,4 +58,4 @@ std::string line_and_column_at(std::string_view text, std::size_t offset) {
   return line_and_column(line, before.size() - line_start + 1);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

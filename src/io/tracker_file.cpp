@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/tracker_file.h"
+#include "grove/detail/io/tracker_file.h"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/expressible.h"
-#include "grove/model/parse_number.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/model/parse_number.h"
 #include "plan_steps.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -119,4 +119,4 @@ void write_tracker_row(const std::filesystem::path& path, const Instance& instan
   write_file_atomically(path, layout == TrackerLayout::kJson ? json_text(row) : csv_text(row));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

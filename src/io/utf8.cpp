@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace grove {
+namespace grove::detail {
 
 bool is_utf8(const std::string& text) {
   try {
@@ -13,4 +13,4 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 
 // Whether JSON files can hold `text`.
 bool is_utf8(const std::string& text);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 
-namespace grove {
+namespace grove::detail {
 
 // When the agent visits, or completes, each task of its sequence, in that order: each as early as
 // may be. The plan must be a valid one.
@@ -28,4 +28,4 @@ inline std::vector<Time> visit_times(const Instance& instance, const AgentPlan& 
   return times;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

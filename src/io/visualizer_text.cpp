@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <iterator>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/expressible.h"
-#include "grove/io/plan_export.h"
-#include "grove/model/distance_field.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/plan_export.h"
+#include "grove/detail/model/distance_field.h"
 #include "plan_steps.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // mapf-visualizer finds only positions that are followed by a comma.
@@ -80,4 +80,4 @@ void write_visualizer_text(const std::filesystem::path& path, const Instance& in
   write_file_atomically(path, text);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,10 +5,10 @@
 
 #include <cstdlib>
 
-#include "grove/io/expressible.h"
-#include "grove/io/input_error.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 std::uint64_t key_of(Position p) {
@@ -48,4 +48,4 @@ void Waypoints::add_to(InstanceBuilder& builder) const {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,9 +6,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Collects cells; then makes tasks of them, one per cell, for all agents that list it, with the
 // default ids. The agents must be in the builder by then.
@@ -34,4 +34,4 @@ class Waypoints {
   std::unordered_map<std::uint64_t, std::size_t> stop_by_cell_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,7 +9,7 @@
 #include <cctype>
 #include <string_view>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // What YAML 1.1 takes for a truth value or for nothing, in any case.
@@ -41,4 +41,4 @@ std::string yaml_text(const std::string& text) {
   return emitter.c_str();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

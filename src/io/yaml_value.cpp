@@ -8,12 +8,12 @@
 #include <limits>
 #include <sstream>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
-#include "grove/model/parse_number.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
+#include "grove/detail/model/parse_number.h"
 #include "utf8.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // The parser's nodes take some 150 times the bytes of the text. This is a million obstacles and
@@ -158,4 +158,4 @@ void UnknownYamlKeys::look_at(const YamlValue& map, std::initializer_list<std::s
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/model/grid.h"
+#include "grove/detail/model/grid.h"
 
-namespace grove {
+namespace grove::detail {
 
 // A value inside a YamlDocument, which must outlive it. Every getter throws InputError when the
 // value is not what it asks for.
@@ -77,4 +77,4 @@ class UnknownYamlKeys {
   std::set<std::string> seen_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

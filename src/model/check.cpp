@@ -5,7 +5,7 @@
 // agents are moved through time together on one map of who is where, so that the work grows with
 // agents * time and not with agents^2. Last, the claims: a plan's cost is what its paths add up to,
 // and its status is what cost, bound and omega deserve.
-#include "grove/model/check.h"
+#include "grove/detail/model/check.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include <utility>
 #include <variant>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // Violations found so far; silently full after `limit`.
@@ -506,4 +506,4 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
   return report.take();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

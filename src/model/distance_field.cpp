@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/distance_field.h"
+#include "grove/detail/model/distance_field.h"
 
 #include <algorithm>
 #include <map>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // What the agents of an instance must reach, each set of states once.
@@ -149,4 +149,4 @@ Time most_from(const World& world, Place place, int kind, const DistanceField& d
   return *std::max_element(distance.begin() + bases.first, distance.begin() + bases.end);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

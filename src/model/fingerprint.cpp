@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fowler-Noll-Vo, variant 1a, over numbers of 8 bytes, low bytes first.
-#include "grove/model/fingerprint.h"
+#include "grove/detail/model/fingerprint.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 class Fnv1a {
@@ -60,4 +60,4 @@ std::uint64_t fingerprint(const Instance& instance) {
   return hash.hash();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

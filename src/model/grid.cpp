@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/grid.h"
+#include "grove/detail/model/grid.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 void require_valid_size(int width, int height, std::size_t cells) {
@@ -50,4 +50,4 @@ std::string Grid::name(State state) const {
   return fmt::format("[{}, {}]", p.x, p.y);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 void require_new_id(const std::string& id, bool is_new) {
@@ -303,4 +303,4 @@ void InstanceBuilder::make_world() {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

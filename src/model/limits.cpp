@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/limits.h"
+#include "grove/detail/model/limits.h"
 
 #include <unistd.h>
 
@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr Limits::Clock::duration kMemoryLookInterval = std::chrono::milliseconds(5);
@@ -71,4 +71,4 @@ void Limits::stop(StopReason reason) const {
   reason_.compare_exchange_strong(expected, reason);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -2,7 +2,7 @@
 // Base states of a kind with turns on one place, in this order: the four headings; then for each
 // heading the states within its turn to the right, and for each heading those within its turn to
 // the left.
-#include "grove/model/motion_world.h"
+#include "grove/detail/model/motion_world.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::string_view kLetters = "NESW";
@@ -228,4 +228,4 @@ std::string MotionWorld::name(State state) const {
   return name + "]";
 }
 
-}  // namespace grove
+}  // namespace grove::detail

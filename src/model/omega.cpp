@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/omega.h"
+#include "grove/detail/model/omega.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "grove/model/parse_number.h"
+#include "grove/detail/model/parse_number.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kLargest = 1e6;
@@ -41,4 +41,4 @@ std::string Omega::to_string() const {
   return is_infinite() ? "inf" : fmt::format("{}", value());
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::array<std::pair<Status, std::string_view>, 5> kNames{{
@@ -122,4 +122,4 @@ Status status_of(std::optional<Cost> cost, Cost lower_bound, Omega omega) {
   return Status::kFeasible;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

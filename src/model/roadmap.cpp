@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/roadmap.h"
+#include "grove/detail/model/roadmap.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 void require_roads_between(const std::vector<Road>& roads, std::size_t vertices) {
@@ -115,4 +115,4 @@ std::string Roadmap::name(State state) const {
                      spot.steps, twin);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/tuning.h"
+#include "grove/detail/model/tuning.h"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,15 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "grove/model/parse_number.h"
+#include "grove/detail/model/parse_number.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr Tunable kTunables[] = {
 #define GROVE_TUNABLE(type, name, value, least, most, what, measured) \
   {#name, &Tuning::name, least, most, what, measured},
-#include "grove/model/tunables.def"
+#include "grove/detail/model/tunables.def"
 #undef GROVE_TUNABLE
 };
 
@@ -56,4 +56,4 @@ void set(Tuning& tuning, std::string_view text) {
       tunable->place);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

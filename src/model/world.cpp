@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/world.h"
+#include "grove/detail/model/world.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // Who leads to whom, the other way round; lists in ascending order.
@@ -119,4 +119,4 @@ int World::rank_of(State state) const {
   return before + (state - kinds_[kind].first) % kinds_[kind].on_a_place;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

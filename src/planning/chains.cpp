@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/chains.h"
+#include "grove/detail/planning/chains.h"
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 bool is_inner(const World& world, Place place) {
@@ -59,4 +59,4 @@ void Chains::number_inner_places(int chain) {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/conflict_avoidance_table.h"
+#include "grove/detail/planning/conflict_avoidance_table.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kMostWaitConflicts = 1 << 20;
@@ -145,4 +145,4 @@ int ConflictAvoidanceTable::conflicts_of(const Path& path) const {
          conflicts_of_resting(world_.place(path.back()), static_cast<Time>(path.size()) - 1);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/constraint.h"
+#include "grove/detail/planning/constraint.h"
 
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 
-#include "grove/model/assert.h"
-#include "grove/planning/chains.h"
+#include "grove/detail/model/assert.h"
+#include "grove/detail/planning/chains.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 struct Named {
@@ -95,4 +95,4 @@ std::optional<Constraint> demand_on(AgentIndex agent, const AgentConstraint& add
   return Constraint{c.cell, kNoCell, c.end, kNever};
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,13 +5,13 @@
 // alone: so the fewest from each node to the end come from the layer after it, last layer first.
 // What is asked of the table once for a node - who else is there, who comes there next - serves all
 // its steps.
-#include "grove/planning/fewest_conflicts.h"
+#include "grove/detail/planning/fewest_conflicts.h"
 
 #include <limits>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 
 void FewestConflicts::find(const OptimalPaths& paths, const ConflictAvoidanceTable& others,
                            Path& path) {
@@ -51,4 +51,4 @@ FewestConflicts::Best FewestConflicts::best_step(const OptimalPaths& paths, Node
   return best;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

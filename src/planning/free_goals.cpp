@@ -43,16 +43,16 @@
 // within a turn; they have no ports): so a path that counts u pays at least dist(state, port) +
 // onward(port) for the port that it is in then. A port does not rule out another of a stop that
 // takes time: who is at work there in one heading would have to begin anew in the other.
-#include "grove/planning/free_goals.h"
+#include "grove/detail/planning/free_goals.h"
 
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
 #include <utility>
 
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 StopSet bit(int stop) {
@@ -294,4 +294,4 @@ Sequence realized_sequence(const FreeGoals& goals, const Path& path) {
   return sequence;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

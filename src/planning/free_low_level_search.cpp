@@ -44,7 +44,7 @@
 // Measured on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
 // call in microseconds; n = 5, 10, 20): 6, 14, 24 without constraints; 17, 35, 57 with 20 of them
 // on the paths found; 34, 64, 138 with 60. A fixed sequence takes 5, 8, 15; 12, 14, 22; 21, 24, 31.
-#include "grove/planning/free_low_level_search.h"
+#include "grove/detail/planning/free_low_level_search.h"
 
 #include <algorithm>
 #include <optional>
@@ -54,7 +54,7 @@
 #include "safe_interval_search.h"
 #include "visit_check.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // After so many in one call, or before the completions are widened a second time, it is worth
@@ -222,4 +222,4 @@ bool FreeLowLevelSearch::Workspace::price_anew() {
   return late != nullptr;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

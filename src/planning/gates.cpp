@@ -26,7 +26,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace grove {
+namespace grove::detail {
 
 void Gates::begin_search() {
   for (const StageId stage : stages_) by_stage_[stage] = kNone;
@@ -71,4 +71,4 @@ Time Gates::least_cost(const FreeGoals& goals, StageId stage, State state, Time 
   return least;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

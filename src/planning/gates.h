@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/model/plan.h"
-#include "grove/planning/free_goals.h"
+#include "grove/detail/model/plan.h"
+#include "grove/detail/planning/free_goals.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The gates of one search, by state and onward way (FreeGoals::onward). What a gate is, and why it
 // loses no path: gates.cpp.
@@ -47,4 +47,4 @@ class Gates {
   std::vector<Gate> gates_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/goal_sequence.h"
+#include "grove/detail/planning/goal_sequence.h"
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 
 GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& distances,
                            AgentIndex agent, const std::vector<TaskIndex>& stops)
@@ -39,4 +39,4 @@ Time GoalSequence::longest_finish(Place place) const {
   return longest;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

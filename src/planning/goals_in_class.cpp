@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "goals_in_class.h"
 
-namespace grove {
+namespace grove::detail {
 
 bool GoalsInClass::assign(FreeGoals& goals, SafeIntervals& intervals, int greed_percent) {
   goals_ = &goals;
@@ -66,4 +66,4 @@ Time GoalsInClass::put_off_by_gates(Progress id, State state, Time time, Time la
   return put_off;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -32,10 +32,10 @@
 #include <vector>
 
 #include "gates.h"
-#include "grove/planning/free_goals.h"
+#include "grove/detail/planning/free_goals.h"
 #include "safe_interval_search.h"
 
-namespace grove {
+namespace grove::detail {
 
 class GoalsInClass {
  public:
@@ -113,4 +113,4 @@ class GoalsInClass {
   bool outside_ = false;  // one was whose state the completions do not know
 };
 
-}  // namespace grove
+}  // namespace grove::detail

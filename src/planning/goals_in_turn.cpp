@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace grove {
+namespace grove::detail {
 
 bool GoalsInTurn::assign(const World& world, const GoalSequence& goals,
                          const SafeIntervals& intervals) {
@@ -50,4 +50,4 @@ void GoalsInTurn::close_gate(State, Progress, Progress progress, Time time, Time
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -36,10 +36,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/planning/goal_sequence.h"
+#include "grove/detail/planning/goal_sequence.h"
 #include "safe_interval_search.h"
 
-namespace grove {
+namespace grove::detail {
 
 class GoalsInTurn {
  public:
@@ -107,4 +107,4 @@ class GoalsInTurn {
   Time first_rest_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

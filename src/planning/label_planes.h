@@ -10,10 +10,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "grove/model/assert.h"
-#include "grove/model/limits.h"
+#include "grove/detail/model/assert.h"
+#include "grove/detail/model/limits.h"
 
-namespace grove {
+namespace grove::detail {
 
 // One *plane* of labels, by slot, for each state that a search touches; planes are made when first
 // needed and reused from search to search. Nothing is cleared: what an earlier search wrote has an
@@ -104,4 +104,4 @@ class LabelPlanes {
   bool exhausted_ = false;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -23,7 +23,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 class LateCosts {
@@ -149,4 +149,4 @@ std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& in
   return LateCosts(world, intervals, stops).raise(least_cost);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

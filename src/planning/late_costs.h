@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include "grove/planning/free_goals.h"
-#include "grove/planning/safe_intervals.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/planning/free_goals.h"
+#include "grove/detail/planning/safe_intervals.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Legs that every path under these intervals takes at least, if it is on the stops in the order of
 // a sequence that costs `least_cost` or more by the plain matrix. None: that is the plain matrix.
@@ -16,4 +16,4 @@ namespace grove {
 std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& intervals,
                                            const AgentStops& stops, Time least_cost);
 
-}  // namespace grove
+}  // namespace grove::detail

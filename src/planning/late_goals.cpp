@@ -6,7 +6,7 @@
 
 #include "late_costs.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // At most what any sequence of the class costs, by the completions.
@@ -32,4 +32,4 @@ FreeGoals* LateGoals::over(FreeGoals& plain, const Limits& limits) {
   return least_cost(*goals_) > plain_cost ? &*goals_ : nullptr;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

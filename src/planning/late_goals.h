@@ -4,10 +4,10 @@
 
 #include <optional>
 
-#include "grove/planning/free_goals.h"
-#include "grove/planning/safe_intervals.h"
+#include "grove/detail/planning/free_goals.h"
+#include "grove/detail/planning/safe_intervals.h"
 
-namespace grove {
+namespace grove::detail {
 
 class LateGoals {
  public:
@@ -25,4 +25,4 @@ class LateGoals {
   std::optional<FreeGoals> goals_;  // over these
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/low_level_search.h"
+#include "grove/detail/planning/low_level_search.h"
 
 #include <stdexcept>
 
 #include "goals_in_turn.h"
 #include "safe_interval_search.h"
 
-namespace grove {
+namespace grove::detail {
 
 class LowLevelSearch::Workspace : public SafeIntervalSearch<GoalsInTurn> {
   using SafeIntervalSearch::SafeIntervalSearch;
@@ -46,4 +46,4 @@ std::int64_t LowLevelSearch::expanded() const {
   return workspace_->expanded();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -25,15 +25,15 @@
 // Measured against layers made forward, time by time, and cleared of dead ends afterwards: those
 // met four nodes for each that they kept, and an instance of the paper's data set that takes Grove
 // seconds took half as long again.
-#include "grove/planning/optimal_paths.h"
+#include "grove/detail/planning/optimal_paths.h"
 
 #include <algorithm>
 
-#include "grove/planning/bucket_queue.h"
-#include "grove/planning/safe_intervals.h"
+#include "grove/detail/planning/bucket_queue.h"
+#include "grove/detail/planning/safe_intervals.h"
 #include "label_planes.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kExpansionsPerPoll = 512;  // of limits: some tenth of a millisecond
@@ -334,4 +334,4 @@ void OptimalPathsBuilder::Workspace::write_successors(const Label& label, Time t
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,14 +10,14 @@
 // begins. From the last contact on nothing can collide any more: a pair that has come that far
 // proves that the agents are compatible, since every node leads to the end. And without such a pair
 // all are dead: dependent.
-#include "grove/planning/pair_dependency.h"
+#include "grove/detail/planning/pair_dependency.h"
 
 #include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kPairsPerPoll = 1024;
@@ -209,4 +209,4 @@ void PairDependency::Workspace::expand(const Pair& pair) {
     }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

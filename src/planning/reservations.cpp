@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/reservations.h"
+#include "grove/detail/planning/reservations.h"
 
 #include <algorithm>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // Calls see(place, stay) for each stay of a path.
@@ -61,4 +61,4 @@ AgentIndex Reservations::agent_at(Place place, Time time) const {
   return std::prev(after)->agent;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

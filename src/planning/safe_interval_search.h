@@ -40,13 +40,13 @@
 #include <cstdint>
 #include <limits>
 
-#include "grove/model/limits.h"
-#include "grove/planning/bucket_queue.h"
-#include "grove/planning/path_query.h"
-#include "grove/planning/safe_intervals.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/planning/bucket_queue.h"
+#include "grove/detail/planning/path_query.h"
+#include "grove/detail/planning/safe_intervals.h"
 #include "label_planes.h"
 
-namespace grove {
+namespace grove::detail {
 
 // In place of a layer: the label is not needed.
 inline constexpr Time kDropped = std::numeric_limits<Time>::max();
@@ -244,4 +244,4 @@ void SafeIntervalSearch<Goals>::write_path(Path& path) {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/safe_intervals.h"
+#include "grove/detail/planning/safe_intervals.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <tuple>
 
-namespace grove {
+namespace grove::detail {
 
 SafeIntervals::SafeIntervals(const World& world)
     : world_(world),
@@ -272,4 +272,4 @@ Time SafeIntervals::last_move(int from_slot, Place to, Time latest) const {
   return latest;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/sequence_constraints.h"
+#include "grove/detail/planning/sequence_constraints.h"
 
 #include <algorithm>
 #include <bit>
 #include <optional>
 #include <stdexcept>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 Stop stop_of(const Constraint& c, const AgentStops& stops, const SequenceClass& work) {
@@ -65,4 +65,4 @@ SequenceClass narrowed(SequenceClass work, const AgentStops& stops,
   return work;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

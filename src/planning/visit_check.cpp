@@ -7,9 +7,9 @@
 
 #include <algorithm>
 
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 
-namespace grove {
+namespace grove::detail {
 
 Time VisitCheck::least_cost(const AgentStops& stops, Time least, const Limits& limits) {
   stops_ = &stops;
@@ -77,4 +77,4 @@ void VisitCheck::reach(int slot, State state, Time time, bool visited) {
        .progress = static_cast<std::uint8_t>(visited)});
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,12 +4,12 @@
 
 #include <vector>
 
-#include "grove/model/limits.h"
-#include "grove/planning/bucket_queue.h"
-#include "grove/planning/free_goals.h"
-#include "grove/planning/safe_intervals.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/planning/bucket_queue.h"
+#include "grove/detail/planning/free_goals.h"
+#include "grove/detail/planning/safe_intervals.h"
 
-namespace grove {
+namespace grove::detail {
 
 // When can an agent come to rest, having been on one of its stops? What it must visit besides only
 // makes it later: so each stop bounds its cost. Polynomial where the question for all stops
@@ -45,4 +45,4 @@ class VisitCheck {
   Time after_via_ = 0;  // from there to where the agent may rest, at least
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -15,7 +15,7 @@
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 
 ConfigurationGenerator::ConfigurationGenerator(const World& world, std::vector<VisitStages>& agents)
     : world_(world),
@@ -120,4 +120,4 @@ void ConfigurationGenerator::clear() {
     if (state != kNoState) later_[world_.place(state)] = kNobody;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,7 +9,7 @@
 #include "dice.h"
 #include "swaps.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Where an agent is told to be after the step.
 struct Order {
@@ -57,4 +57,4 @@ class ConfigurationGenerator {
   Dice* dice_ = nullptr;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -11,7 +11,7 @@
 
 #include "lacam.h"
 
-namespace grove {
+namespace grove::detail {
 
 class ConfigurationSearch::Search {
  public:
@@ -79,4 +79,4 @@ std::int64_t ConfigurationSearch::configurations() const {
   return search_->configurations();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,13 +7,13 @@
 #include <optional>
 #include <span>
 
-#include "grove/model/limits.h"
-#include "grove/model/plan.h"
-#include "grove/model/tuning.h"
-#include "grove/search/problem.h"
-#include "grove/sequencing/sequence.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/model/plan.h"
+#include "grove/detail/model/tuning.h"
+#include "grove/detail/search/problem.h"
+#include "grove/detail/sequencing/sequence.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Searches for any valid plan, in slices as short as one likes; cheap plans are not its business.
 // Begins anew when it takes long. The same arguments make the same plan, however the work is
@@ -54,4 +54,4 @@ class ConfigurationSearch {
   std::unique_ptr<Search> search_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

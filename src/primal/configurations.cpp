@@ -5,7 +5,7 @@
 
 #include "dice.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 std::uint64_t hash_of(std::span<const Standing> places) {
@@ -57,4 +57,4 @@ void Configurations::rehash() {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,7 +10,7 @@
 
 #include "visit_stages.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Where one agent is and what it has still to visit.
 struct Standing {
@@ -75,4 +75,4 @@ class Configurations {
   std::vector<Id> slots_;              // open addressing, at most half full
 };
 
-}  // namespace grove
+}  // namespace grove::detail

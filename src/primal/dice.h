@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace grove {
+namespace grove::detail {
 
 // The finaliser of SplitMix64 (Steele, Lea and Flood, 2014): flipping one bit flips about half.
 inline std::uint64_t scramble(std::uint64_t x) {
@@ -33,4 +33,4 @@ class Dice {
   std::uint64_t state_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -2,9 +2,9 @@
 // Who of those planned would be run into.
 #pragma once
 
-#include "grove/planning/reservations.h"
+#include "grove/detail/planning/reservations.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Calls visit(agent) for each one, other than `agent` itself, that it would run into on `path`,
 // begun `late` steps late, resting at its end included; for some more than once. Ends when visit()
@@ -30,4 +30,4 @@ void visit_those_in_the_way(const World& world, const Reservations& reservations
     if (stay.last >= end - margin && ends_at(stay.agent)) return;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -46,7 +46,7 @@
 #include <utility>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kMemoryToSpare = 1 << 20;
@@ -221,4 +221,4 @@ Plan Lacam::make_plan(Id end) {
   return plan;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -11,7 +11,7 @@
 #include "configuration_search.h"
 #include "configurations.h"
 
-namespace grove {
+namespace grove::detail {
 
 class Lacam {
  public:
@@ -89,4 +89,4 @@ class Lacam {
   std::vector<State> next_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
@@ -89,4 +89,4 @@ void NeighborhoodSearch::restore(const std::vector<AgentIndex>& agents) {
   for (std::size_t i = 0; i < agents.size(); ++i) paths_.put(agents[i], std::move(old_paths_[i]));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

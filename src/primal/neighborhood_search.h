@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/model/random.h"
-#include "grove/model/tuning.h"
+#include "grove/detail/model/random.h"
+#include "grove/detail/model/tuning.h"
 #include "neighborhoods.h"
 #include "path_set.h"
 #include "router.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Takes the paths of a few agents away and plans them anew, one after the other, in random order.
 // The new paths stay if they cost no more together. (MAPF-LNS: Li et al., IJCAI 2021; the low level
@@ -60,4 +60,4 @@ class NeighborhoodSearch {
   std::int64_t steps_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

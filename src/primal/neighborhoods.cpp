@@ -10,7 +10,7 @@
 
 #include "in_the_way.h"
 
-namespace grove {
+namespace grove::detail {
 
 const std::vector<AgentIndex>& Neighborhoods::choose() {
   const int agents = problem_.instance.agent_count();
@@ -112,4 +112,4 @@ void Neighborhoods::add_visitors(Place place, Time time) {
       add(stay.agent);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/model/random.h"
-#include "grove/model/tuning.h"
-#include "grove/search/problem.h"
+#include "grove/detail/model/random.h"
+#include "grove/detail/model/tuning.h"
+#include "grove/detail/search/problem.h"
 #include "path_set.h"
 #include "router.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Chooses neighbourhoods of a few agents, of three kinds, each as often as it did well of late
 // (adaptive large neighbourhood search: Ropke and Pisinger 2006; for MAPF: Li et al., IJCAI 2021).
@@ -56,4 +56,4 @@ class Neighborhoods {
   std::int32_t search_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "grove/model/assert.h"
-#include "grove/planning/reservations.h"
+#include "grove/detail/model/assert.h"
+#include "grove/detail/planning/reservations.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Paths that do not collide, by AgentIndex; an agent without one has an empty path.
 class PathSet {
@@ -57,4 +57,4 @@ class PathSet {
   std::int64_t steps_moved_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -27,7 +27,7 @@
 // these find ways around those that rest. Measured on maps of 64x64 cells and den312d, with 100
 // agents and 300 tasks: first plans 0.7-8 % above the sum of own costs; in random order 8-14 %, the
 // dearest first 12-18 %. Later rounds sort by costs with some noise.
-#include "grove/primal/primal_search.h"
+#include "grove/detail/primal/primal_search.h"
 
 #include <algorithm>
 #include <limits>
@@ -35,15 +35,15 @@
 #include <vector>
 
 #include "configuration_search.h"
-#include "grove/model/random.h"
-#include "grove/search/work.h"
+#include "grove/detail/model/random.h"
+#include "grove/detail/search/work.h"
 #include "neighborhood_search.h"
 #include "path_set.h"
 #include "prioritized_planning.h"
 #include "router.h"
 #include "visit_orders.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
@@ -340,4 +340,4 @@ PrimalSearch::Counts PrimalSearch::counts() const {
   return impl_->counts();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 
 void PrioritizedPlanning::begin(std::vector<AgentIndex> order) {
   order_ = std::move(order);
@@ -60,4 +60,4 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   return Outcome::kWorking;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,12 +6,12 @@
 #include <limits>
 #include <vector>
 
-#include "grove/model/random.h"
-#include "grove/model/tuning.h"
+#include "grove/detail/model/random.h"
+#include "grove/detail/model/tuning.h"
 #include "path_set.h"
 #include "router.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Plans the agents in an order, each around those before it, and begins again in another order when
 // one of them has no path. The argument for the other order is at the head of the .cpp.
@@ -54,4 +54,4 @@ class PrioritizedPlanning {
   Path path_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

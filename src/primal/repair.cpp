@@ -4,17 +4,17 @@
 // of its own best path lose theirs and join the queue at its end. Two that shut out each other
 // would take turns for ever: so after many failures an agent also pushes away those that it would
 // run into if it were late, and the number of failures is limited.
-#include "grove/primal/repair.h"
+#include "grove/detail/primal/repair.h"
 
 #include <algorithm>
 #include <deque>
 
-#include "grove/model/random.h"
+#include "grove/detail/model/random.h"
 #include "in_the_way.h"
 #include "path_set.h"
 #include "router.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kFailuresPerAgent = 4;
@@ -121,4 +121,4 @@ Cost sum_of_own_costs(const Problem& problem, AgentStopsStore& stops, const Limi
   return sum;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,9 +3,9 @@
 
 #include <stdexcept>
 
-#include "grove/search/node.h"
+#include "grove/detail/search/node.h"
 
-namespace grove {
+namespace grove::detail {
 
 Router::Router(const Problem& problem, AgentStopsStore& stops)
     : problem_(problem),
@@ -52,4 +52,4 @@ Plan Router::plan(const std::vector<Path>& paths) {
   return plan;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,12 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "grove/planning/agent_stops_store.h"
-#include "grove/planning/free_low_level_search.h"
-#include "grove/search/problem.h"
-#include "grove/search/work.h"
+#include "grove/detail/planning/agent_stops_store.h"
+#include "grove/detail/planning/free_low_level_search.h"
+#include "grove/detail/search/problem.h"
+#include "grove/detail/search/work.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The low level with what it needs of every agent. Each agent chooses the order of its tasks.
 class Router {
@@ -52,4 +52,4 @@ class Router {
   std::int64_t calls_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

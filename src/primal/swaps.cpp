@@ -22,7 +22,7 @@
 // worlds.
 #include "swaps.h"
 
-namespace grove {
+namespace grove::detail {
 
 AgentIndex Swaps::partner(AgentIndex agent, State wish, std::span<const Standing> from) const {
   const State here = from[agent].state;
@@ -89,4 +89,4 @@ int Swaps::ways_on(Pair pair, std::span<const Standing> from, State& way) const 
   return ways;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,7 +7,7 @@
 
 #include "configurations.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Sees which pairs of neighbours must change places and where. A view of one configuration.
 class Swaps {
@@ -50,4 +50,4 @@ class Swaps {
   const std::vector<State>& to_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

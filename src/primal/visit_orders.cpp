@@ -9,10 +9,10 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "grove/sequencing/cost_matrix.h"
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/rtsp.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 Sequence listed_order(const CostMatrix& matrix) {
@@ -99,4 +99,4 @@ void separate_ends(const Instance& instance, std::vector<Sequence>& orders) {
     if (!instance.agent(agent).goal) last_stops.place(agent);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "grove/search/problem.h"
-#include "grove/sequencing/sequence.h"
+#include "grove/detail/search/problem.h"
+#include "grove/detail/sequencing/sequence.h"
 
-namespace grove {
+namespace grove::detail {
 
 // A complete sequence per agent, by AgentIndex: its cheapest one, except for what separate_ends()
 // changes. An agent that cannot reach all its stops keeps them in the order of the instance. None
@@ -20,4 +20,4 @@ std::optional<std::vector<Sequence>> cheapest_orders(const Problem& problem, con
 // elsewhere do so after the stops before it.
 void separate_ends(const Instance& instance, std::vector<Sequence>& orders);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 bool is_complete(Sequence order, std::size_t stops) {
@@ -56,4 +56,4 @@ VisitStages::Stage VisitStages::make(StopSet left) {
   return stage;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "grove/search/problem.h"
-#include "grove/sequencing/sequence.h"
-#include "grove/sequencing/sequence_dag.h"
+#include "grove/detail/search/problem.h"
+#include "grove/detail/sequencing/sequence.h"
+#include "grove/detail/sequencing/sequence_dag.h"
 
-namespace grove {
+namespace grove::detail {
 
 // What an agent has still to visit, as numbered stages, made when first met. For one thread.
 class VisitStages {
@@ -80,4 +80,4 @@ class VisitStages {
   StopSetIndex index_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

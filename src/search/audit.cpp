@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 template <class... Args>
@@ -70,4 +70,4 @@ void audit(const Problem& problem, const ConflictAvoidanceTable& table,
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

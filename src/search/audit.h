@@ -5,10 +5,10 @@
 
 #include <span>
 
-#include "grove/planning/conflict_avoidance_table.h"
-#include "grove/search/node.h"
+#include "grove/detail/planning/conflict_avoidance_table.h"
+#include "grove/detail/search/node.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The node's cost is the sum of its paths' lengths; each path is a walk from the agent's start that
 // visits its tasks and ends where the agent may, and in scope it obeys all that the node demands of
@@ -20,4 +20,4 @@ void audit(const Problem& problem, const Node& node, std::span<const AgentIndex>
 void audit(const Problem& problem, const ConflictAvoidanceTable& table,
            std::span<const Path> paths);
 
-}  // namespace grove
+}  // namespace grove::detail

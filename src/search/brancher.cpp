@@ -22,7 +22,7 @@
 // conflict.cpp, target.cpp, traversal.cpp), whichever of them is chosen and whatever the paths. A
 // side is closed only if its demand, with the node's, makes single agents so dear that the sum -
 // each other agent costing at least what it costs at the node - reaches the cutoff.
-#include "grove/search/brancher.h"
+#include "grove/detail/search/brancher.h"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@
 #include "audit.h"
 #include "splits.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // A hash of the pair (the finaliser of SplitMix64, Steele et al. 2014).
@@ -241,4 +241,4 @@ NodePtr Brancher::child(const NodeView& view, const NodePtr& parent, const Agent
   return Node::child(parent, change);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

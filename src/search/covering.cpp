@@ -9,15 +9,15 @@
 // The greedy bound takes statements in turn that share no agent with those taken: their sum is due,
 // whatever the solution. Where it is large - a statement may say "infinitely much" - it is near
 // enough: the search is as deep as B is large.
-#include "grove/search/covering.h"
+#include "grove/detail/search/covering.h"
 
 #include <algorithm>
 #include <functional>
 #include <numeric>
 
-#include "grove/model/omega.h"
+#include "grove/detail/model/omega.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr Cost kMostSearched = 256;
@@ -158,4 +158,4 @@ Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps,
   return sum;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -39,14 +39,14 @@
 // *Groups.* Where no pair must cost more, three and more agents may still be in each other's way
 // whatever they do; or they are not, and splits move one conflict from pair to pair for ever. The
 // same search over a connected group of such agents tells, and is remembered in the same way.
-#include "grove/search/dependencies.h"
+#include "grove/detail/search/dependencies.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <numeric>
 
-namespace grove {
+namespace grove::detail {
 
 Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
                            PathPlanner& planner, Memory& memory)
@@ -268,4 +268,4 @@ void Dependencies::splits(NodeView& view, std::vector<Split>& splits) {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

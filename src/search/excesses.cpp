@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/excesses.h"
+#include "grove/detail/search/excesses.h"
 
 #include <algorithm>
 #include <mutex>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kBytesPerPair = 64;  // about
@@ -71,4 +71,4 @@ void Excesses::groups(std::vector<std::vector<AgentIndex>>& groups) const {
   groups.insert(groups.end(), groups_.begin(), groups_.end());
 }
 
-}  // namespace grove
+}  // namespace grove::detail

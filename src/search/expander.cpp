@@ -2,7 +2,7 @@
 // Algorithm 1 of the paper, lines 9-22: validate the node's paths; if they conflict, first see what
 // more can be said about the node's bound - a node whose bound rises goes back to the frontier,
 // where others may now be better - then branch.
-#include "grove/search/expander.h"
+#include "grove/detail/search/expander.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <functional>
 #include <numeric>
 
-#include "grove/search/work.h"
+#include "grove/detail/search/work.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // It is made of nothing but counts.
@@ -159,4 +159,4 @@ ExpansionCounts Expander::counts() const {
   return counts;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -17,7 +17,7 @@
 // other would have to share a cell or swap. So the order along the corridor never changes; an agent
 // with r agents on one side is never nearer than r cells to that end, and destinations lie in the
 // order of the starts.
-#include "grove/search/feasibility.h"
+#include "grove/detail/search/feasibility.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@
 #include <map>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // The cells that an agent must stand on at some time, its start aside.
@@ -186,4 +186,4 @@ std::optional<std::string> evident_infeasibility(const Problem& problem) {
   return stuck_in_a_corridor(problem);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,7 +7,7 @@
 // *Claim: a finding is as true there as here.* It speaks of agents under sets of constraints, of
 // which both sides have the same text, and of nothing else; see dependencies.cpp. Its numbers of
 // situations differ, so agents and a node stand for them.
-#include "grove/search/findings.h"
+#include "grove/detail/search/findings.h"
 
 #include <algorithm>
 #include <functional>
@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Id = Situations::Id;
@@ -131,4 +131,4 @@ void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes,
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -13,15 +13,15 @@
 // the nodes of one bound alone are too many for the memory, each run raises the bound by one:
 // iterative deepening (Korf 1985), whose last run costs more than all before together where each
 // bound has twice as many nodes as the one before.
-#include "grove/search/frontier.h"
+#include "grove/detail/search/frontier.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 
 void Frontier::push(NodePtr node) {
   const std::lock_guard lock(mutex_);
@@ -220,4 +220,4 @@ std::size_t Frontier::live() const {
   return open_count_ + in_hand_.size();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

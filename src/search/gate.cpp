@@ -19,7 +19,7 @@
 // The paper's "OPEN is empty" must mean that no live node exists at all, the popped one included,
 // or every instance would get a needless second root. With w = inf only the first tree is ever
 // built (S-CBS).
-#include "grove/search/gate.h"
+#include "grove/detail/search/gate.h"
 
 #include <fmt/format.h>
 
@@ -27,9 +27,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/model/check.h"
+#include "grove/detail/model/check.h"
 
-namespace grove {
+namespace grove::detail {
 
 bool Gate::post(Plan plan) {
   {
@@ -96,4 +96,4 @@ bool Gate::needs_new_tree(Cost best_live, std::optional<Cost> last_tree_cost) co
   return !omega_.accepts(best_live, *last_tree_cost);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

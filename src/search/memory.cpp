@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/memory.h"
+#include "grove/detail/search/memory.h"
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 
 void CommonMemory::learn(const FoundOut& found) {
   for (const auto& [id, known] : found.costs) situations.learn(id, known);
@@ -70,4 +70,4 @@ void Memory::groups(std::vector<std::vector<AgentIndex>>& groups) const {
   for (const FoundOut::Group& group : found_.groups) groups.push_back(group.agents);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

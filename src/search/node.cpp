@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/node.h"
+#include "grove/detail/search/node.h"
 
 #include <algorithm>
 #include <numeric>
 #include <ranges>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 Cost cost_of_root(const Tree& tree) {
@@ -112,4 +112,4 @@ GoalSequence goals_in_order(const Problem& problem, AgentIndex agent, const Sequ
   return GoalSequence(problem.instance, problem.distances, agent, stops);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/node_pool.h"
+#include "grove/detail/search/node_pool.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 18;
@@ -54,4 +54,4 @@ double NodePool::mean_bytes() const {
   return made_ == 0 ? 0 : static_cast<double>(made_bytes_) / static_cast<double>(made_);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

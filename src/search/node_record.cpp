@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/node_record.h"
+#include "grove/detail/search/node_record.h"
 
 #include <algorithm>
 #include <ranges>
 
 #include "require.h"
 
-namespace grove {
+namespace grove::detail {
 void check(const NodeRecord& record, const Node& root, const Instance& instance) {
   const auto is_agent = [&](AgentIndex agent) {
     return agent >= 0 && agent < instance.agent_count();
@@ -75,4 +75,4 @@ NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& i
   return Node::child(node, change);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

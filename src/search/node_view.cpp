@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/node_view.h"
+#include "grove/detail/search/node_view.h"
 
 #include <algorithm>
 
 #include "audit.h"
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 
 NodeView::NodeView(const Problem& problem, const SearchOptions& options, Memory& memory)
     : problem_(problem),
@@ -76,4 +76,4 @@ NodePtr NodeView::node_as_routed() const {
   return Node::child(node_, change);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

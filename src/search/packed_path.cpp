@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Code 0 is a wait. On a plain grid the others say by how much the cell's number changes, which
 // costs no look at the map; elsewhere code k + 1 is move k of the state.
-#include "grove/search/packed_path.h"
+#include "grove/detail/search/packed_path.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // By code. On a grid one column wide left and up are the same offset; either code gives back the
@@ -120,4 +120,4 @@ bool PackedSteps::is_walk(const World& world, State start) const {
   });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

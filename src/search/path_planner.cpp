@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/path_planner.h"
+#include "grove/detail/search/path_planner.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "grove/conflicts/sequence_split.h"
-#include "grove/planning/free_low_level_search.h"
-#include "grove/planning/sequence_constraints.h"
+#include "grove/detail/conflicts/sequence_split.h"
+#include "grove/detail/planning/free_low_level_search.h"
+#include "grove/detail/planning/sequence_constraints.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kMostClassesKept = 4;  // of an agent, with their states
@@ -54,7 +54,7 @@ std::optional<Split> PathPlanner::sequence_split(AgentIndex agent, const AgentOr
   const FreeGoals& goals = free_goals(agent, order, constraints);
   const SequenceClass& work = goals.sequence_class();
   if (!leaves_choice(goals.stops(), work)) return std::nullopt;
-  return grove::sequence_split(agent, goals.stops(), work, realized_sequence(goals, path));
+  return grove::detail::sequence_split(agent, goals.stops(), work, realized_sequence(goals, path));
 }
 
 // Those that are not about the sequence; until the next call.
@@ -85,4 +85,4 @@ FreeGoals& PathPlanner::free_goals(AgentIndex agent, const SequenceClass& work) 
   return *kept.front();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

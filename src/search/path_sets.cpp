@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/path_sets.h"
+#include "grove/detail/search/path_sets.h"
 
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kMostNodesKept = 4'000'000;
@@ -50,4 +50,4 @@ std::size_t PathSets::bytes() const {
   return nodes_ * kBytesPerNode + sets_ * kBytesPerSet;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/prices.h"
+#include "grove/detail/search/prices.h"
 
-namespace grove {
+namespace grove::detail {
 // With time windows, which is what cells barred for ever make, the low level is NP-hard, and one
 // call could take all the time there is.
 Prices::Outcome Prices::increase(NodeView& view, const AgentConstraint& demand, Cost slack,
@@ -56,4 +56,4 @@ Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint&
   return Outcome::kDone;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,11 +3,11 @@
 
 #include <stdexcept>
 
-namespace grove {
+namespace grove::detail {
 
 // What a record from elsewhere must be to be believed.
 inline void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

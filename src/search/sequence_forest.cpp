@@ -2,15 +2,15 @@
 // A root's paths are shortest for its sequences and independent of the constraints, so they are
 // planned once per (agent, rank) and shared by all trees that use them; the first to use one plans
 // it around the other agents' paths known then, which spares the tree conflicts that are mere ties.
-#include "grove/search/sequence_forest.h"
+#include "grove/detail/search/sequence_forest.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 std::vector<CostMatrix> cost_matrices(const Problem& problem) {
@@ -103,4 +103,4 @@ void SequenceForest::avoid(AgentIndex agent, const PackedSteps& path) {
   others_.add(path_);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,14 +3,14 @@
 // orders of its stops under its constraints; splitting a conflict loses no plan whatever the
 // orders. So the tree of the empty-prefixed classes is plain CBS whose low level solves a larger
 // problem, and it holds every plan there is.
-#include "grove/search/single_tree.h"
+#include "grove/detail/search/single_tree.h"
 
 #include <stdexcept>
 #include <utility>
 
-#include "grove/planning/free_low_level_search.h"
+#include "grove/detail/planning/free_low_level_search.h"
 
-namespace grove {
+namespace grove::detail {
 
 SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
                        const Limits& limits, std::unique_ptr<AgentPlanner> planner)
@@ -46,4 +46,4 @@ NodePtr SingleTree::next_root() {
   return Node::root(tree);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/situations.h"
+#include "grove/detail/search/situations.h"
 
 #include <algorithm>
 #include <tuple>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr Situations::Id kFree = -1;
@@ -111,4 +111,4 @@ std::size_t Situations::Part::bytes() const {
          table.capacity() * sizeof(Id);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,9 +4,9 @@
 #include <array>
 #include <optional>
 
-#include "grove/conflicts/reasoning.h"
+#include "grove/detail/conflicts/reasoning.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 struct Rule {
@@ -31,4 +31,4 @@ void splits_of(const Conflict& conflict, std::span<const Path> paths, const Prob
         splits.push_back(*split);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,15 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "grove/conflicts/conflict.h"
-#include "grove/search/problem.h"
-#include "grove/search/techniques.h"
+#include "grove/detail/conflicts/conflict.h"
+#include "grove/detail/search/problem.h"
+#include "grove/detail/search/techniques.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Appends the splits that the conflict, which is one of `paths` (by AgentIndex), allows with these
 // techniques: the plain one of CBS, then those that reason further, the best to take unseen first.
 void splits_of(const Conflict& conflict, std::span<const Path> paths, const Problem& problem,
                Techniques techniques, std::vector<Split>& splits);
 
-}  // namespace grove
+}  // namespace grove::detail

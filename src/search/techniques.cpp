@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/techniques.h"
+#include "grove/detail/search/techniques.h"
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 
 Techniques Techniques::all() {
   Techniques set;
@@ -24,4 +24,4 @@ std::optional<Technique> parse_technique(std::string_view name) {
   return named == kTechniques.end() ? std::nullopt : std::optional(named->technique);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -2,15 +2,15 @@
 // A root's cost is the first bound of its tree, so what comes from elsewhere is checked: a path that
 // takes the least time for the order in which it visits its stops. For a fixed order that proves the
 // bound again. Mostly the distances settle it at once; where agents turn, they may be too small.
-#include "grove/search/tree_record.h"
+#include "grove/detail/search/tree_record.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/planning/low_level_search.h"
+#include "grove/detail/planning/low_level_search.h"
 #include "require.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 TreeRecord::Order record_of(const World& world, const AgentOrder& order) {
@@ -108,4 +108,4 @@ AgentOrder Trees::made(AgentIndex agent, const TreeRecord::Order& record) {
           PackedPath(instance.world(), path)};
 }
 
-}  // namespace grove
+}  // namespace grove::detail

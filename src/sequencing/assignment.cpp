@@ -2,13 +2,13 @@
 // The Hungarian method in the form of shortest augmenting paths (Kuhn 1955; Jonker and Volgenant
 // 1987): rows enter one by one, each by a shortest path in reduced costs, which prices of rows and
 // columns keep from being negative.
-#include "grove/sequencing/assignment.h"
+#include "grove/detail/sequencing/assignment.h"
 
 #include <algorithm>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kNone = -1;
@@ -107,4 +107,4 @@ std::optional<std::vector<int>> least_cost_assignment(
   return assignment.columns_of_rows();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

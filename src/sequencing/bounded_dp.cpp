@@ -16,12 +16,12 @@
 //
 // Measured on 32x32 maps and den312d, CTS and MG, one core: the best of 36 stops in 2 to 120 ms,
 // from graphs of at most 2,800 states.
-#include "grove/sequencing/sequence_dag.h"
+#include "grove/detail/sequencing/sequence_dag.h"
 #include "path_relaxation.h"
 #include "rtsp_backends.h"
 #include "sequence_class.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 class BoundedDp : public RtspSolver {
@@ -80,4 +80,4 @@ std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limi
   return std::make_unique<BoundedDp>(matrix, limits);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -40,7 +40,7 @@
 #include "rtsp_backends.h"
 #include "sequence_class.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kIntegral = 1e-5;  // further from an integer is a failure of the solver
@@ -319,4 +319,4 @@ std::unique_ptr<RtspSolver> make_cbc_rtsp(const CostMatrix& matrix, const Limits
   return std::make_unique<CbcRtsp>(matrix, limits);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

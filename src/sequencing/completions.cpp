@@ -3,19 +3,19 @@
 // each time more is asked: far enough to let in about as many states as it had, so that all builds
 // together cost little more than the last. Each build holds every sequence up to its reach, so a
 // greater reach never has a smaller beyond().
-#include "grove/sequencing/completions.h"
+#include "grove/detail/sequencing/completions.h"
 
 #include <utility>
 
-#include "grove/model/assert.h"
-#include "grove/sequencing/cost_matrix.h"
-#include "grove/sequencing/rtsp.h"
-#include "grove/sequencing/sequence_dag.h"
+#include "grove/detail/model/assert.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/rtsp.h"
+#include "grove/detail/sequencing/sequence_dag.h"
 #include "held_karp_table.h"
 #include "path_relaxation.h"
 #include "rtsp_backends.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Immutable, so that any number of Completions may share one.
 class Completions::Store {
@@ -121,4 +121,4 @@ bool Completions::widen(Time reach, const Limits& limits) {
   return true;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

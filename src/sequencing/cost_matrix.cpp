@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 
 #include <algorithm>
 
 #include "stop_set.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // What keeps the distances to an agent's ports below 16 MB.
@@ -90,4 +90,4 @@ Time sequence_cost(const CostMatrix& matrix, const Sequence& sequence) {
   return add_costs(cost, matrix.to_end(last));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -20,7 +20,7 @@
 #include "rtsp_backends.h"
 #include "sequence_class.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 template <class Entry>
@@ -61,4 +61,4 @@ std::unique_ptr<RtspSolver> make_held_karp(const CostMatrix& matrix, const Limit
   return std::make_unique<HeldKarp<std::int32_t>>(matrix, limits);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

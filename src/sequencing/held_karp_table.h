@@ -9,11 +9,11 @@
 #include <new>
 #include <vector>
 
-#include "grove/model/limits.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 #include "stop_set.h"
 
-namespace grove {
+namespace grove::detail {
 
 inline constexpr int kMostTableStops = 26;  // 3.5 GB; a table beyond is nobody's wish
 
@@ -128,4 +128,4 @@ class HeldKarpTable {
   std::unique_ptr<Entry[]> table_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

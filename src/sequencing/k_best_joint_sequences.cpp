@@ -14,15 +14,15 @@
 // entry is brought up to date, resolved as far as its key, and returned only if its cost is known
 // and is the key. So the order is right, and the top's key is a proven lower bound on the next
 // cost.
-#include "grove/sequencing/k_best_joint_sequences.h"
+#include "grove/detail/sequencing/k_best_joint_sequences.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 #include "keyed_stacks.h"
 
-namespace grove {
+namespace grove::detail {
 
 class KBestJointSequences::Queue {
  public:
@@ -149,4 +149,4 @@ std::int64_t KBestJointSequences::rtsp_calls() const {
   return queue_->rtsp_calls();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

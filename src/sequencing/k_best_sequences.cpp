@@ -17,18 +17,18 @@
 // true optimum of their class, and only an exact one is returned, when no key is smaller: so the
 // order is right, the top's key bounds whatever comes next, and the back ends never prove more than
 // the order requires. At equal keys exact classes go first: they need no more work.
-#include "grove/sequencing/k_best_sequences.h"
+#include "grove/detail/sequencing/k_best_sequences.h"
 
 #include <algorithm>
 #include <deque>
 #include <utility>
 
-#include "grove/model/assert.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/model/assert.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 #include "keyed_stacks.h"
 #include "stop_set.h"
 
-namespace grove {
+namespace grove::detail {
 
 class KBestSequences::Partition {
  public:
@@ -148,4 +148,4 @@ std::int64_t KBestSequences::rtsp_calls() const {
   return partition_->rtsp_calls();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 
 // Pops an entry of the least key; among equals the last one pushed.
 template <class Key, class Entry>
@@ -28,4 +28,4 @@ class KeyedStacks {
   std::map<Key, std::vector<Entry>> stacks_;  // none is empty
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -42,10 +42,10 @@
 #include <array>
 #include <cmath>
 
-#include "grove/sequencing/cost_matrix.h"
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/rtsp.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kSteps = 400;
@@ -305,4 +305,4 @@ Time relaxation_bound(const CostMatrix& matrix) {
   return PathRelaxation(matrix).root_bound();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/model/grid.h"
+#include "grove/detail/model/grid.h"
 #include "stop_set.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Immutable once built; holds its own copy of the costs.
 class PathRelaxation {
@@ -77,4 +77,4 @@ class PathRelaxation {
   Time root_bound_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

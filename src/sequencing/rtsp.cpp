@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/sequencing/rtsp.h"
 
 #include <stdexcept>
 
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 #include "rtsp_backends.h"
 
-namespace grove {
+namespace grove::detail {
 std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatrix& matrix,
                                              const Limits& limits) {
   switch (backend) {
@@ -23,4 +23,4 @@ std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatr
   throw std::invalid_argument("unknown rTSP back end");
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -2,9 +2,9 @@
 // The back ends behind make_rtsp_solver, each in the file of its name.
 #pragma once
 
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/sequencing/rtsp.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Up to here a table takes less than a millisecond and 0.5 MB (four times that with ports);
 // sequence graphs take about as long from here on, stay small, and only deep lists come from them
@@ -15,4 +15,4 @@ std::unique_ptr<RtspSolver> make_held_karp(const CostMatrix& matrix, const Limit
 std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limits& limits);
 std::unique_ptr<RtspSolver> make_cbc_rtsp(const CostMatrix& matrix, const Limits& limits);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,12 +3,12 @@
 // from the exact costs of completing (the "completion" of a stop, given what is left after it).
 #pragma once
 
-#include "grove/model/assert.h"
-#include "grove/sequencing/cost_matrix.h"
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/model/assert.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/rtsp.h"
 #include "stop_set.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Where the members of a class part: after its prefix.
 struct ClassRoot {
@@ -67,4 +67,4 @@ Sequence best_member(const CostMatrix& matrix, const SequenceClass& work,
   return sequence;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -24,17 +24,17 @@
 // On a grid all ways between two cells have the same parity, so all complete sequences have the
 // same one too, and so they have with work that takes time. Where the matrix shows that (verified,
 // not assumed), g + b is rounded up to that parity.
-#include "grove/sequencing/sequence_dag.h"
+#include "grove/detail/sequencing/sequence_dag.h"
 
 #include <array>
 #include <bit>
 
-#include "grove/model/assert.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/model/assert.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 #include "path_relaxation.h"
 #include "stop_set.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kPollInterval = 32;     // sets; each takes a few microseconds
@@ -316,4 +316,4 @@ std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,
   return SequenceDagBuilder<4>(matrix, relaxation, reach, limits).build();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

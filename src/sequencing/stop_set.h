@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "grove/model/grid.h"
-#include "grove/sequencing/sequence.h"
+#include "grove/detail/model/grid.h"
+#include "grove/detail/sequencing/sequence.h"
 
-namespace grove {
+namespace grove::detail {
 
 constexpr StopSet bit(int stop) {
   return StopSet{1} << stop;
@@ -25,4 +25,4 @@ constexpr Time add_costs(Time a, Time b) {
   return std::min(a + (b - kNever), 0) + kNever;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

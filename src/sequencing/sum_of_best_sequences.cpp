@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/sequencing/sum_of_best_sequences.h"
+#include "grove/detail/sequencing/sum_of_best_sequences.h"
 
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 
-namespace grove {
+namespace grove::detail {
 
 RtspAnswer best_sequence_cost(const Instance& instance, AgentIndex agent,
                               const DistanceFields& distances, const Limits& limits) {
@@ -25,4 +25,4 @@ std::optional<Cost> sum_of_best_sequences(const Instance& instance, const Limits
   return sum;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -2,7 +2,7 @@
 // The low levels of published methods: where they are easily wrong; against the definition, on tiny
 // problems (GROVE_FUZZ_FACTOR multiplies their number); and on problems too large for that, where
 // they must agree with Grove's own.
-#include "grove/baselines/low_level.h"
+#include "grove/detail/baselines/low_level.h"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,13 @@
 #include <random>
 #include <stdexcept>
 
-#include "grove/planning/free_low_level_search.h"
+#include "grove/detail/planning/free_low_level_search.h"
 #include "tests/planning/free_problems.h"
 #include "tests/planning/free_reference.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace low_level_test {
 
 using testing::FreeProblem;
@@ -222,4 +222,4 @@ INSTANTIATE_TEST_SUITE_P(, Baselines,
                          });
 
 }  // namespace low_level_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace csv_test {
 
 TEST(CsvCells, AreQuotedOnlyWhereTheyMust) {
@@ -16,4 +16,4 @@ TEST(CsvCells, AreQuotedOnlyWhereTheyMust) {
 }
 
 }  // namespace csv_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/folder.h"
+#include "grove/detail/batch/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace folder_test {
 
 TEST(Folders, AreMadeWithThoseAbove) {
@@ -33,4 +33,4 @@ TEST(FolderLocks, KeepOthersOutWhileTheyLive) {
 }
 
 }  // namespace folder_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

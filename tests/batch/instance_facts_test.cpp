@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/instance_facts.h"
+#include "grove/detail/batch/instance_facts.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/instances.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace instance_facts_test {
 
-using grove::testing::AgentSpec;
-using grove::testing::instance_of;
+using grove::detail::testing::AgentSpec;
+using grove::detail::testing::instance_of;
 
 InstanceFacts facts(const std::string& id, const std::vector<AgentSpec>& agents) {
   return facts_of({.id = id, .path = ""},
@@ -46,4 +46,4 @@ TEST(InstanceFacts, KnowAScenarioWhenTheySeeOne) {
 }
 
 }  // namespace instance_facts_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

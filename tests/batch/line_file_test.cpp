@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/line_file.h"
+#include "grove/detail/batch/line_file.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace line_file_test {
 
 using Lines = std::vector<std::string_view>;
@@ -34,4 +34,4 @@ TEST(LineFiles, AreReadWithoutATornLine) {
 }
 
 }  // namespace line_file_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

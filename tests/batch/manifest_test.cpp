@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/manifest.h"
+#include "grove/detail/batch/manifest.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace manifest_test {
 
 namespace fs = std::filesystem;
@@ -186,4 +186,4 @@ TEST_F(Manifests, TellWhenAnInstanceHasChanged) {
 }
 
 }  // namespace manifest_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/outcome.h"
+#include "grove/detail/batch/outcome.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/instances.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace outcome_test {
 
 class Outcomes : public ::testing::Test {
@@ -28,7 +28,7 @@ class Outcomes : public ::testing::Test {
   Outcome outcome() const { return outcome_of(instance_, solution_); }
 
   const Instance instance_ =
-      grove::testing::instance_of({"...."}, {{{0, 0}, Position{3, 0}, {{1, 0}}}});
+      grove::detail::testing::instance_of({"...."}, {{{0, 0}, Position{3, 0}, {{1, 0}}}});
   Solution solution_;
 };
 
@@ -101,4 +101,4 @@ TEST_F(Outcomes, SeeWhatWasStoppedFromOutside) {
 }
 
 }  // namespace outcome_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/progress.h"
+#include "grove/detail/batch/progress.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace progress_test {
 
 TEST(Estimates, AreWhatTheRestTakesAtThisPace) {
@@ -70,4 +70,4 @@ TEST(Displays, SayALineNowAndThenElsewhere) {
 }
 
 }  // namespace progress_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

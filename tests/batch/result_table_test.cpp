@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/result_table.h"
+#include "grove/detail/batch/result_table.h"
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,13 @@
 #include "tests/support/result_rows.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace result_table_test {
 
 namespace fs = std::filesystem;
 
-using grove::testing::failed_row;
-using grove::testing::solved_row;
+using grove::detail::testing::failed_row;
+using grove::detail::testing::solved_row;
 using Positions = std::vector<std::size_t>;
 
 class Tables : public ::testing::Test {
@@ -253,4 +253,4 @@ TEST_F(Tables, PutLastWhatNeverEnded) {
 }
 
 }  // namespace result_table_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/batch/row.h"
+#include "grove/detail/batch/row.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 
 #include "tests/support/result_rows.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace row_test {
 
-using grove::testing::failed_row;
-using grove::testing::solved_row;
+using grove::detail::testing::failed_row;
+using grove::detail::testing::solved_row;
 using nlohmann::json;
 
 Row limited_row() {
@@ -146,4 +146,4 @@ TEST(Rows, RefuseWhatIsNone) {
 }
 
 }  // namespace row_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

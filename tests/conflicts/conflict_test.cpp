@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/conflicts/conflict.h"
+#include "grove/detail/conflicts/conflict.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "tests/support/obeys.h"
 
-namespace grove {
+namespace grove::detail {
 namespace conflict_test {
 
 using testing::obeys;
@@ -163,4 +163,4 @@ TEST_P(RandomPaths, CollisionsAreFoundAndSplitLosesNone) {
 }
 
 }  // namespace conflict_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,11 +6,11 @@
 #include <array>
 #include <random>
 
-#include "grove/conflicts/reasoning.h"
+#include "grove/detail/conflicts/reasoning.h"
 #include "tests/support/instances.h"
 #include "tests/support/obeys.h"
 
-namespace grove {
+namespace grove::detail {
 namespace splits_test {
 
 using testing::obeys;
@@ -88,4 +88,4 @@ INSTANTIATE_TEST_SUITE_P(Maps, SplitsTest,
                                            std::vector<std::string>{".....", "@@.@@", "....."}));
 
 }  // namespace splits_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is proven and found, whoever is at work at the moment it is asked.
-#include "grove/engine/central_ledger.h"
+#include "grove/detail/engine/central_ledger.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "small_search.h"
 
-namespace grove {
+namespace grove::detail {
 namespace central_ledger_test {
 
 // Nodes of which is known what the test says.
@@ -156,4 +156,4 @@ TEST_F(CentralLedgerTest, ResumesWithoutRepeatingWhatIsKnown) {
 }
 
 }  // namespace central_ledger_test
-}  // namespace grove
+}  // namespace grove::detail

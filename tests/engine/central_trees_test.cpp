@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // When trees are instantiated, and in which order the ledger hears of it.
-#include "grove/engine/central_trees.h"
+#include "grove/detail/engine/central_trees.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "small_search.h"
 
-namespace grove {
+namespace grove::detail {
 namespace central_trees_test {
 
 // Trees of the costs that the test says, as roots that cost so much.
@@ -204,4 +204,4 @@ TEST_F(CentralTreesTest, ResumesWithTheTreesThatItWasGiven) {
 }
 
 }  // namespace central_trees_test
-}  // namespace grove
+}  // namespace grove::detail

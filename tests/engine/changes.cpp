@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "grove/engine/run_observer.h"
-#include "grove/engine/session.h"
-#include "grove/io/instance_file.h"
-#include "grove/io/plan_file.h"
-#include "grove/model/check.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/session.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/model/check.h"
 #include "tests/engine/random_change.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -194,8 +194,8 @@ int main(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail
 
 int main(int argc, char** argv) {
-  return grove::main(argc, argv);
+  return grove::detail::main(argc, argv);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/checkpoint.h"
+#include "grove/detail/engine/checkpoint.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -12,16 +12,16 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/engine/serialise.h"
-#include "grove/model/fingerprint.h"
-#include "grove/search/expander.h"
-#include "grove/search/sequence_forest.h"
+#include "grove/detail/engine/serialise.h"
+#include "grove/detail/model/fingerprint.h"
+#include "grove/detail/search/expander.h"
+#include "grove/detail/search/sequence_forest.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace checkpoint_test {
 
 using Names = std::vector<std::string>;
@@ -380,4 +380,4 @@ TEST_F(DamagedCheckpoint, OfAnotherInstanceOrPolicyIsRefused) {
 }
 
 }  // namespace checkpoint_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <random>
 
-#include "grove/model/distance_field.h"
-#include "grove/model/tuning.h"
+#include "grove/detail/model/distance_field.h"
+#include "grove/detail/model/tuning.h"
 #include "src/sequencing/rtsp_backends.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace destinations_test {
 
 constexpr int kTasks = 15;
@@ -96,4 +96,4 @@ TEST(Destinations, OfManyTasksAreTheCheapestDistinctOnes) {
 }
 
 }  // namespace destinations_test
-}  // namespace grove
+}  // namespace grove::detail

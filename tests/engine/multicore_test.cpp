@@ -9,12 +9,12 @@
 #include <tuple>
 #include <vector>
 
-#include "grove/engine/run_observer.h"
-#include "grove/engine/solve.h"
-#include "grove/model/check.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/model/check.h"
 #include "tests/primal/crowd.h"
 
-namespace grove {
+namespace grove::detail {
 namespace multicore_test {
 
 using testing::Crowd;
@@ -157,4 +157,4 @@ TEST(Multicore, WhatAnObserverThrowsArrives) {
 }
 
 }  // namespace multicore_test
-}  // namespace grove
+}  // namespace grove::detail

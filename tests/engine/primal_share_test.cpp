@@ -12,7 +12,7 @@
 #include "tests/primal/crowd.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace primal_share_test {
 
 constexpr std::int64_t kLong = 6'400'000;  // work of a tree that is long
@@ -123,4 +123,4 @@ TEST(PrimalShare, ASearchThatHasNothingLeftToDoIsNeverDue) {
 }
 
 }  // namespace primal_share_test
-}  // namespace grove
+}  // namespace grove::detail

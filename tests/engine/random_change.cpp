@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 constexpr Time kLatest = 12;
@@ -53,4 +53,4 @@ InstanceChange random_change(const Instance& instance, Random& random) {
   return change;
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

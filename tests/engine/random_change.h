@@ -4,11 +4,11 @@
 
 #include <vector>
 
-#include "grove/execution/change.h"
-#include "grove/execution/late.h"
-#include "grove/model/random.h"
+#include "grove/detail/execution/change.h"
+#include "grove/detail/execution/late.h"
+#include "grove/detail/model/random.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // One robot, or two, late by a few steps; nobody now and then.
 std::vector<Late> random_lateness(const Instance& instance, Random& random);
@@ -17,4 +17,4 @@ std::vector<Late> random_lateness(const Instance& instance, Random& random);
 // these, of which some cannot be (a robot is there).
 InstanceChange random_change(const Instance& instance, Random& random);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -6,15 +6,15 @@
 #include <chrono>
 #include <memory>
 
-#include "grove/engine/checkpoint.h"
-#include "grove/engine/run_observer.h"
-#include "grove/engine/solve.h"
-#include "grove/model/check.h"
-#include "grove/model/fingerprint.h"
+#include "grove/detail/engine/checkpoint.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/model/check.h"
+#include "grove/detail/model/fingerprint.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace resume_test {
 
 using testing::random_crowd;
@@ -150,4 +150,4 @@ TEST(Resume, WhatWasProvenIsSaidEvenIfThereIsNoTimeToSearch) {
 }
 
 }  // namespace resume_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/serialise.h"
+#include "grove/detail/engine/serialise.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace grove {
+namespace grove::detail {
 namespace serialise_test {
 
 NodeRecord a_node() {
@@ -143,4 +143,4 @@ TEST(Bytes, ThatAreNoTruthValueOrKindAreRefused) {
 }
 
 }  // namespace serialise_test
-}  // namespace grove
+}  // namespace grove::detail

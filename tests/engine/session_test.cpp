@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/session.h"
+#include "grove/detail/engine/session.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,15 @@
 #include <chrono>
 #include <string>
 
-#include "grove/execution/advance.h"
-#include "grove/model/check.h"
+#include "grove/detail/execution/advance.h"
+#include "grove/detail/model/check.h"
 #include "tests/engine/random_change.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace session_test {
 
 using testing::AgentSpec;
@@ -232,7 +232,7 @@ TEST(SessionFuzz, EveryAnswerHoldsAndKeepsWhatIsCommitted) {
         ASSERT_EQ(wrong_with(session.instance(), best), "") << seed;
         // Nothing that is proven is refuted by what another search finds.
         Limits limits;
-        const Solution anew = grove::solve(session.instance(), with_omega(Omega()),
+        const Solution anew = grove::detail::solve(session.instance(), with_omega(Omega()),
                                            within(limits, std::chrono::milliseconds(100)));
         ASSERT_LE(best.lower_bound, anew.plan ? anew.plan->cost : best.plan->cost) << seed;
         ASSERT_GE(best.plan->cost, anew.lower_bound) << seed;
@@ -270,4 +270,4 @@ TEST(SessionFuzz, TheBoundOfWhatIsCommittedIsReached) {
 }
 
 }  // namespace session_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which node a worker is given, and what becomes of it.
-#include "grove/engine/shared_search.h"
+#include "grove/detail/engine/shared_search.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "small_search.h"
 
-namespace grove {
+namespace grove::detail {
 namespace shared_search_test {
 
 class SharedSearchTest : public ::testing::Test, public testing::SmallSearch {
@@ -133,4 +133,4 @@ TEST_F(SharedSearchTest, WithoutABudgetNothingIsGivenUp) {
 }
 
 }  // namespace shared_search_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "grove/engine/ledger.h"
-#include "grove/engine/local_nodes.h"
-#include "grove/engine/tree_source.h"
-#include "grove/engine/turn_observer.h"
-#include "grove/search/single_tree.h"
+#include "grove/detail/engine/ledger.h"
+#include "grove/detail/engine/local_nodes.h"
+#include "grove/detail/engine/tree_source.h"
+#include "grove/detail/engine/turn_observer.h"
+#include "grove/detail/search/single_tree.h"
 #include "tests/support/instances.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // Two agents that must pass each other in a bay: their own paths cost 8 together, the optimum 11.
 inline Instance two_in_a_bay() {
@@ -97,4 +97,4 @@ struct CountingObserver : TurnObserver {
   std::vector<Cost> evicted_bounds;
 };
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/engine/solve.h"
+#include "grove/detail/engine/solve.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "grove/engine/run_observer.h"
-#include "grove/model/check.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/model/check.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace solve_test {
 
 using testing::AgentSpec;
@@ -360,4 +360,4 @@ TEST(Solve, AnInvalidStartPlanIsRefused) {
 }
 
 }  // namespace solve_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a worker finds to do, and what others see of it.
-#include "grove/engine/worker.h"
+#include "grove/detail/engine/worker.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "small_search.h"
 #include "tests/primal/crowd.h"
 
-namespace grove {
+namespace grove::detail {
 namespace worker_test {
 
 using Job = Worker::Turn::Job;
@@ -195,4 +195,4 @@ TEST(Worker, SolvesAlone) {
 }
 
 }  // namespace worker_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "grove/execution/advance.h"
+#include "grove/detail/execution/advance.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
 
-#include "grove/engine/solve.h"
-#include "grove/model/check.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/model/check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace advance_test {
 
 using testing::AgentSpec;
@@ -69,4 +69,4 @@ TEST(Advance, WhatIsLeftIsAPlanOfWhatIsLeft) {
 }
 
 }  // namespace advance_test
-}  // namespace grove
+}  // namespace grove::detail

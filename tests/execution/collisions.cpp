@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 struct Stay {
@@ -60,4 +60,4 @@ std::string collision(const World& world, const PassingOrder& order, const Drive
   return "";
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

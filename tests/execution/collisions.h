@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/execution/drive.h"
+#include "grove/detail/execution/drive.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // A robot is on its place until it has left it and on the next one from the begin of its move: two
 // robots on one place at one time collide. But one may enter a place exactly while the other leaves
@@ -16,4 +16,4 @@ namespace grove::testing {
 std::string collision(const World& world, const PassingOrder& order, const Drive& drive,
                       const std::vector<State>& starts);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "grove/model/random.h"
+#include "grove/detail/model/random.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 double part(std::mt19937_64& dice) {
@@ -43,4 +43,4 @@ Time Delays::operator()(ActionIndex action, Time) {
   return static_cast<Time>(std::ceil(duration));
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

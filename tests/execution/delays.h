@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "grove/execution/drive.h"
+#include "grove/detail/execution/drive.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // One schedule: actions that take longer now and then, slower robots, long stops, and with
 // `may_die` robots that stop for good. The same seed makes the same one, whenever actions begin.
@@ -30,4 +30,4 @@ class Delays {
   bool dies_ = false;
 };
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

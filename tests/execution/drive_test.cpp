@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "grove/execution/drive.h"
+#include "grove/detail/execution/drive.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 
-#include "grove/engine/solve.h"
-#include "grove/model/check.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/model/check.h"
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
 
-namespace grove {
+namespace grove::detail {
 namespace drive_test {
 
 using testing::collision;
@@ -107,4 +107,4 @@ TEST(Drive, UndisturbedItTakesNoLongerThanAPlanWithoutFollowing) {
 }
 
 }  // namespace drive_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,17 +8,17 @@
 #include <chrono>
 #include <cstdint>
 
-#include "grove/engine/solve.h"
-#include "grove/execution/drive.h"
-#include "grove/execution/switching.h"
-#include "grove/io/instance_file.h"
-#include "grove/io/plan_file.h"
-#include "grove/model/random.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/execution/drive.h"
+#include "grove/detail/execution/switching.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/model/random.h"
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using testing::collision;
@@ -152,10 +152,10 @@ void print(const Counts& c) {
 }
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail
 
 int main(int argc, char** argv) {
-  using namespace grove;
+  using namespace grove::detail;
   CLI::App app("Random plans, or one, driven with random troubles", "grove-drives");
   int plans = 100;
   std::int64_t drives = 100;

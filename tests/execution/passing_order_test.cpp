@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/execution/passing_order.h"
+#include "grove/detail/execution/passing_order.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,11 +7,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "grove/engine/solve.h"
+#include "grove/detail/engine/solve.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace passing_order_test {
 
 using testing::AgentSpec;
@@ -199,4 +199,4 @@ TEST(PassingOrder, SaysWhatTheDefinitionSaysAndNothingTwice) {
 }
 
 }  // namespace passing_order_test
-}  // namespace grove
+}  // namespace grove::detail

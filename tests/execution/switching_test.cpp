@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "grove/execution/switching.h"
+#include "grove/detail/execution/switching.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 
-#include "grove/engine/solve.h"
-#include "grove/model/check.h"
-#include "grove/model/random.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/model/check.h"
+#include "grove/detail/model/random.h"
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace switching_test {
 
 using testing::AgentSpec;
@@ -150,4 +150,4 @@ TEST(Switching, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
 }
 
 }  // namespace switching_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -16,18 +16,18 @@
 #include <set>
 #include <stdexcept>
 
-#include "grove/engine/solve.h"
-#include "grove/model/check.h"
-#include "grove/search/expander.h"
-#include "grove/search/feasibility.h"
-#include "grove/search/single_tree.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/model/check.h"
+#include "grove/detail/search/expander.h"
+#include "grove/detail/search/feasibility.h"
+#include "grove/detail/search/single_tree.h"
 #include "tests/fuzz/planted_optimum.h"
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/fuzz/tiny_instance.h"
 #include "tests/oracle/joint_oracle.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 using Rows = std::vector<std::string>;
@@ -655,8 +655,8 @@ int main_of(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz
 
 int main(int argc, char** argv) {
-  return grove::fuzz::main_of(argc, argv);
+  return grove::detail::fuzz::main_of(argc, argv);
 }

@@ -9,7 +9,7 @@
 
 #include "tests/fuzz/shrink.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 constexpr std::chrono::seconds kShrinkingTime{60};
@@ -128,4 +128,4 @@ std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solv
   return std::nullopt;
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

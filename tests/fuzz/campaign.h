@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
-#include "grove/model/limits.h"
+#include "grove/detail/model/limits.h"
 #include "tests/fuzz/run_case.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
 struct Tally {
   std::int64_t passed = 0;
@@ -58,4 +58,4 @@ std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solv
 Failure explain(const FuzzCase& fuzz_case, const Solver& solver,
                 std::chrono::milliseconds patience = kPatience);
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

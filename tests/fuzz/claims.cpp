@@ -5,9 +5,9 @@
 
 #include <utility>
 
-#include "grove/model/check.h"
+#include "grove/detail/model/check.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 class Claims {
@@ -98,4 +98,4 @@ std::vector<std::string> false_claims(const Instance& instance, const oracle::An
   return Claims(instance, truth, omega, solution, stopped).examine();
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 #include "tests/oracle/joint_oracle.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
 // Everything that is false in `solution`, or that it owes; empty: nothing. `truth` must not be
 // kTooLarge. `omega` is what was asked for; `stopped`: a limit struck before the end.
 std::vector<std::string> false_claims(const Instance& instance, const oracle::Answer& truth,
                                       Omega omega, const Solution& solution, bool stopped);
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

@@ -17,7 +17,7 @@
 #include "tests/fuzz/planted_optimum.h"
 #include "tests/oracle/joint_oracle.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 constexpr int kWrong = 1;
@@ -94,8 +94,8 @@ int main_of(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz
 
 int main(int argc, char** argv) {
-  return grove::fuzz::main_of(argc, argv);
+  return grove::detail::fuzz::main_of(argc, argv);
 }

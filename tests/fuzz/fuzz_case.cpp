@@ -13,7 +13,7 @@
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_instance.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 template <typename T, std::size_t N>
@@ -220,4 +220,4 @@ FuzzCase random_case(std::uint64_t seed) {
   return fuzz_case;
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

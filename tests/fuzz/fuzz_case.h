@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "grove/engine/solve.h"
+#include "grove/detail/engine/solve.h"
 #include "tests/fuzz/tiny_instance.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
 // What may strike during a run.
 enum class Strike : std::uint8_t {
@@ -51,4 +51,4 @@ struct FuzzCase {
 // A random instance with random options. The same seed makes the same case.
 FuzzCase random_case(std::uint64_t seed);
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

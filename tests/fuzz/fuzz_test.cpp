@@ -12,7 +12,7 @@
 #include "tests/fuzz/shrink.h"
 #include "tests/oracle/joint_oracle.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace fuzz_test {
 
 using ::testing::Contains;
@@ -223,4 +223,4 @@ TEST(FuzzCase, SurvivesItsText) {
 }
 
 }  // namespace fuzz_test
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

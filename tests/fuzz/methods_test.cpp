@@ -7,15 +7,15 @@
 #include <chrono>
 #include <random>
 
-#include "grove/engine/method.h"
-#include "grove/engine/run_observer.h"
+#include "grove/detail/engine/method.h"
+#include "grove/detail/engine/run_observer.h"
 #include "src/engine/destinations.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace methods_test {
 
 // With agents that may end on any of their tasks, if they have one.
@@ -413,4 +413,4 @@ TEST(Method, RefusesInstancesItIsNotFor) {
 }
 
 }  // namespace methods_test
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

@@ -10,7 +10,7 @@
 
 #include "tests/support/obeys.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 bool may_be_next(const SequenceClass& sequences, const Sequence& so_far, Stop stop) {
@@ -153,4 +153,4 @@ void PlantedOptimum::on_infeasible(std::string_view reason) {
   complaints_.push_back(fmt::format("'{}', but a plan of cost {} exists", reason, optimum_.cost));
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

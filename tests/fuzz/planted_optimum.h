@@ -7,10 +7,10 @@
 #include <unordered_set>
 #include <vector>
 
-#include "grove/engine/run_observer.h"
-#include "grove/model/plan.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/model/plan.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
 // Follows the nodes that hold a given optimal plan: those whose tree allows its orders of visits
 // and whose constraints it obeys. From the first root that holds it on, some live node must,
@@ -56,4 +56,4 @@ class PlantedOptimum : public RunObserver {
 bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
                std::span<const Constraint> constraints, const Path& path);
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

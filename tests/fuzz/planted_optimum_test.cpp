@@ -5,13 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "grove/engine/solve.h"
-#include "grove/search/sequence_forest.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/search/sequence_forest.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/oracle/joint_oracle.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace planted_optimum_test {
 
 using ::testing::Contains;
@@ -217,4 +217,4 @@ TEST(PlantedOptimum, SurvivesSearchesThatGiveNodesUp) {
 }
 
 }  // namespace planted_optimum_test
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

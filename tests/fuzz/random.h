@@ -4,13 +4,13 @@
 
 #include <vector>
 
-#include "grove/model/random.h"
+#include "grove/detail/model/random.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
-class Random : public grove::Random {
+class Random : public grove::detail::Random {
  public:
-  using grove::Random::Random;
+  using grove::detail::Random::Random;
 
   // One of low .. high.
   int between(int low, int high) { return low + below(high - low + 1); }
@@ -22,4 +22,4 @@ class Random : public grove::Random {
   }
 };
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

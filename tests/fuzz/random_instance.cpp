@@ -7,7 +7,7 @@
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_map.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 // Joint moves an instance may have about: keeps the oracle quick even when there is no plan.
@@ -193,4 +193,4 @@ TinyInstance random_roads(std::uint64_t seed) {
   return Maker(seed, 0, true).make();
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

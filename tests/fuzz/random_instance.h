@@ -6,7 +6,7 @@
 
 #include "tests/fuzz/tiny_instance.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
 // Always a valid instance; not always one that can be solved. The same seed makes the same one.
 TinyInstance random_instance(std::uint64_t seed);
@@ -23,4 +23,4 @@ TinyInstance random_world(std::uint64_t seed);
 // This instance with agents that turn and the like, however large it is.
 TinyInstance with_motions(TinyInstance instance, std::uint64_t seed);
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

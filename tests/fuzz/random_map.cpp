@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 using Rows = std::vector<std::string>;
@@ -137,4 +137,4 @@ std::vector<std::string> random_map(Shape shape, Random& random) {
   return random.percent(50) ? turned(rows) : rows;
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

@@ -7,7 +7,7 @@
 
 #include "tests/fuzz/random.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
 enum class Shape {
   kOpen,       // no obstacle
@@ -25,4 +25,4 @@ inline constexpr int kShapeCount = 9;
 // Rows of '.' and '@'; 4 to 14 passable cells.
 std::vector<std::string> random_map(Shape shape, Random& random);
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

@@ -5,7 +5,7 @@
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_instance.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 // Joint states an instance may have about: keeps the oracle quick.
@@ -158,4 +158,4 @@ TinyInstance with_motions(TinyInstance instance, std::uint64_t seed) {
   return Decorator(std::move(instance), seed).make();
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

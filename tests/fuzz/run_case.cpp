@@ -12,7 +12,7 @@
 #include "tests/fuzz/claims.h"
 #include "tests/oracle/joint_oracle.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 using Clock = Limits::Clock;
@@ -115,4 +115,4 @@ CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver,
   return result;
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/engine/solve.h"
+#include "grove/detail/engine/solve.h"
 #include "tests/fuzz/fuzz_case.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
 // Any engine, or a liar.
 using Solver = std::function<Solution(const Instance&, const SolveOptions&, const Limits&)>;
@@ -32,4 +32,4 @@ inline constexpr std::chrono::milliseconds kPatience{2000};
 CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver,
                     std::chrono::milliseconds patience = kPatience);
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

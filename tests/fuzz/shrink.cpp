@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 TinyInstance without_task(TinyInstance instance, std::size_t task) {
@@ -254,4 +254,4 @@ FuzzCase shrink(FuzzCase fuzz_case, const std::function<bool(const FuzzCase&)>& 
   return fuzz_case;
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

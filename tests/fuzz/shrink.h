@@ -5,10 +5,10 @@
 #include <functional>
 #include <vector>
 
-#include "grove/model/limits.h"
+#include "grove/detail/model/limits.h"
 #include "tests/fuzz/fuzz_case.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
 // Every valid case that is one step simpler: an agent, a task, a share in a task, a passable cell,
 // a row or a column less, or a plainer option. Most drastic first.
@@ -19,4 +19,4 @@ std::vector<FuzzCase> simpler_cases(const FuzzCase& fuzz_case);
 FuzzCase shrink(FuzzCase fuzz_case, const std::function<bool(const FuzzCase&)>& fails,
                 const Limits& limits);
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace {
 
 Grid grid_of(const std::vector<std::string>& rows) {
@@ -272,4 +272,4 @@ bool in_use(const TinyInstance& instance, Position p) {
          std::ranges::any_of(instance.tasks, [&](const auto& t) { return t.cell == p; });
 }
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 
 // Agents and tasks are named by their positions: agent 0 is "a0", task 0 is "t0".
 //
@@ -91,4 +91,4 @@ std::vector<Position> passable_cells(const std::vector<std::string>& rows);
 // Is some agent's start, destination or task on `p`?
 bool in_use(const TinyInstance& instance, Position p);
 
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

@@ -8,7 +8,7 @@
 
 #include "tests/fuzz/random_instance.h"
 
-namespace grove::fuzz {
+namespace grove::detail::fuzz {
 namespace tiny_instance_test {
 
 TEST(TinyInstance, ReadsWhatAPersonWrites) {
@@ -91,4 +91,4 @@ TEST(RandomInstance, TurnsUpWhatHurts) {
 }
 
 }  // namespace tiny_instance_test
-}  // namespace grove::fuzz
+}  // namespace grove::detail::fuzz

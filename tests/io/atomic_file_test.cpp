@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/atomic_file.h"
+#include "grove/detail/io/atomic_file.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -15,7 +15,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace atomic_file_test {
 
 namespace fs = std::filesystem;
@@ -226,4 +226,4 @@ TEST(RequireWritable, LeavesNothingBehind) {
 }
 
 }  // namespace atomic_file_test
-}  // namespace grove
+}  // namespace grove::detail

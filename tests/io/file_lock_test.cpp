@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/file_lock.h"
+#include "grove/detail/io/file_lock.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -14,7 +14,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace file_lock_test {
 
 std::string locking(const std::string& path) {
@@ -65,4 +65,4 @@ TEST(FileLock, RefusesAFileThatCannotBeWritten) {
 }
 
 }  // namespace file_lock_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/graphml_file.h"
+#include "grove/detail/io/graphml_file.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace graphml_file_test {
 
 // As networkx writes an undirected graph: a key for each type of number, data in any order.
@@ -295,4 +295,4 @@ TEST(GraphmlFile, BrokenTextsAreReadOrRefused) {
 }
 
 }  // namespace graphml_file_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
 #include <gtest/gtest.h>
 
-namespace grove {
+namespace grove::detail {
 namespace input_error_test {
 
 TEST(InputError, NamesFilePlaceAndMessage) {
@@ -29,4 +29,4 @@ TEST(OneLine, CutsOffWhatNobodyReads) {
 }
 
 }  // namespace input_error_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/instance_file.h"
+#include "grove/detail/io/instance_file.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace instance_file_test {
 
 const std::string kAgents =
@@ -241,4 +241,4 @@ TEST_F(InstanceFile, IsAFile) {
 }
 
 }  // namespace instance_file_test
-}  // namespace grove
+}  // namespace grove::detail

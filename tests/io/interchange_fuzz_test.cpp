@@ -8,15 +8,15 @@
 #include <array>
 #include <random>
 
-#include "grove/io/expressible.h"
-#include "grove/io/input_error.h"
-#include "grove/io/libmrp_file.h"
-#include "grove/io/mapfw_file.h"
-#include "grove/model/fingerprint.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/libmrp_file.h"
+#include "grove/detail/io/mapfw_file.h"
+#include "grove/detail/model/fingerprint.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace interchange_fuzz_test {
 
 const std::string kMapf =
@@ -142,4 +142,4 @@ TEST(InterchangeFuzz, MapfwProblems) {
 }
 
 }  // namespace interchange_fuzz_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/libmrp_file.h"
+#include "grove/detail/io/libmrp_file.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/io/expressible.h"
+#include "grove/detail/io/expressible.h"
 #include "tests/support/instances.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace libmrp_file_test {
 
 // . @ . . .   Wider than high, and the same neither mirrored nor turned round.
@@ -270,4 +270,4 @@ TEST_F(LibmrpFile, WhatTheToolsCannotSayIsNotWritten) {
 }
 
 }  // namespace libmrp_file_test
-}  // namespace grove
+}  // namespace grove::detail

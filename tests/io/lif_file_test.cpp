@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/lif_file.h"
+#include "grove/detail/io/lif_file.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace lif_file_test {
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -265,4 +265,4 @@ TEST(LifFile, BrokenTextsAreReadOrRefused) {
 }
 
 }  // namespace lif_file_test
-}  // namespace grove
+}  // namespace grove::detail

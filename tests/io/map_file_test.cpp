@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/map_file.h"
+#include "grove/detail/io/map_file.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace map_file_test {
 
 class MapFile : public ::testing::Test {
@@ -115,4 +115,4 @@ TEST_F(MapFile, RoundTrips) {
 }
 
 }  // namespace map_file_test
-}  // namespace grove
+}  // namespace grove::detail

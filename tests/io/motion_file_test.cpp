@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/instance_file.h"
-#include "grove/io/plan_file.h"
-#include "grove/model/check.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/model/check.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace motion_file_test {
 
 const std::string kRoads = R"({
@@ -238,4 +238,4 @@ TEST_F(MotionFile, APlanTellsOfHeadingsAndWork) {
 }
 
 }  // namespace motion_file_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "grove/io/instance_file.h"
-#include "grove/io/scenario_file.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/io/scenario_file.h"
 
-namespace grove {
+namespace grove::detail {
 namespace movingai_test {
 
 TEST(MovingAi, FilesAreReadWithoutAWarning) {
@@ -24,4 +24,4 @@ TEST(MovingAi, FilesAreReadWithoutAWarning) {
 }
 
 }  // namespace movingai_test
-}  // namespace grove
+}  // namespace grove::detail

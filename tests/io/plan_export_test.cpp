@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Plans in the formats of other tools, byte by byte.
-#include "grove/io/plan_export.h"
+#include "grove/detail/io/plan_export.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/io/expressible.h"
-#include "grove/io/tracker_file.h"
-#include "grove/model/check.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/tracker_file.h"
+#include "grove/detail/model/check.h"
 #include "tests/support/instances.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace plan_export_test {
 
 // . @ . . .   Wider than high, and the same neither mirrored nor turned round.
@@ -275,4 +275,4 @@ TEST_F(PlanExport, PlanVizKnowsOneWayToTurn) {
 }
 
 }  // namespace plan_export_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/plan_file.h"
+#include "grove/detail/io/plan_file.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace plan_file_test {
 
 Instance instance() {
@@ -186,4 +186,4 @@ TEST_F(PlanFile, CannotBeWrittenWhereThereIsNoFolder) {
 }
 
 }  // namespace plan_file_test
-}  // namespace grove
+}  // namespace grove::detail

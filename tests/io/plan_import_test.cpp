@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/plan_import.h"
+#include "grove/detail/io/plan_import.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "grove/io/input_error.h"
-#include "grove/io/plan_export.h"
-#include "grove/io/plan_file.h"
-#include "grove/model/check.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_export.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/model/check.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace plan_import_test {
 
 using Words = std::vector<std::string>;
@@ -193,4 +193,4 @@ TEST_F(PlanImport, SurvivesBrokenFiles) {
 }
 
 }  // namespace plan_import_test
-}  // namespace grove
+}  // namespace grove::detail

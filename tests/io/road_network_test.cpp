@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/road_network.h"
+#include "grove/detail/io/road_network.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/refusal.h"
 
-namespace grove {
+namespace grove::detail {
 namespace road_network_test {
 
 RoadNetwork network(const std::vector<Link>& links) {
@@ -95,4 +95,4 @@ TEST(RoadNetwork, OppositeRoadsOfAsManyStepsAreMerged) {
 }
 
 }  // namespace road_network_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Roadmaps, instances on them, and their plans, as files.
-#include "grove/io/roadmap_file.h"
+#include "grove/detail/io/roadmap_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/instance_file.h"
-#include "grove/io/plan_file.h"
-#include "grove/model/check.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/model/check.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace roadmap_file_test {
 
 const std::string kRoads = R"({
@@ -252,4 +252,4 @@ TEST_F(RoadmapFile, WrongPathEntriesAreRefused) {
 }
 
 }  // namespace roadmap_file_test
-}  // namespace grove
+}  // namespace grove::detail

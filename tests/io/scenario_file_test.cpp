@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/io/scenario_file.h"
+#include "grove/detail/io/scenario_file.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/io/instance_file.h"
+#include "grove/detail/io/instance_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace scenario_file_test {
 
 const std::string kVersion = "version 1\n";
@@ -123,4 +123,4 @@ TEST_F(ScenarioFile, RefusesMoreAgentsThanRows) {
 }
 
 }  // namespace scenario_file_test
-}  // namespace grove
+}  // namespace grove::detail

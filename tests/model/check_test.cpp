@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Every test takes a valid plan and breaks it in one way.
-#include "grove/model/check.h"
+#include "grove/detail/model/check.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 namespace check_test {
 
 using Ids = std::vector<std::string>;
@@ -296,4 +296,4 @@ TEST(Check, StopsAtTheLimit) {
 }
 
 }  // namespace check_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/distance_field.h"
+#include "grove/detail/model/distance_field.h"
 
 #include <gtest/gtest.h>
 
-namespace grove {
+namespace grove::detail {
 namespace distance_field_test {
 
 TEST(DistanceField, WalksAroundWalls) {
@@ -33,4 +33,4 @@ TEST(DistanceFields, HoldsTasksAndDestinations) {
 }
 
 }  // namespace distance_field_test
-}  // namespace grove
+}  // namespace grove::detail

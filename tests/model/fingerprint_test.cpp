@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/fingerprint.h"
+#include "grove/detail/model/fingerprint.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace fingerprint_test {
 
 using Rows = std::vector<std::string>;
@@ -56,4 +56,4 @@ TEST(Fingerprint, DoesNotCountNames) {
 }
 
 }  // namespace fingerprint_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/grid.h"
+#include "grove/detail/model/grid.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-namespace grove {
+namespace grove::detail {
 namespace grid_test {
 
 TEST(Grid, NumbersCellsRowByRowFromTheTopLeft) {
@@ -44,4 +44,4 @@ TEST(Grid, RefusesSizesThatDoNotFit) {
 }
 
 }  // namespace grid_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-namespace grove {
+namespace grove::detail {
 namespace instance_test {
 
 using Ids = std::vector<std::string>;
@@ -113,4 +113,4 @@ TEST(InstanceBuilder, StopsStandForAllTasksOnAPlace) {
 }
 
 }  // namespace instance_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/limits.h"
+#include "grove/detail/model/limits.h"
 
 #include <gtest/gtest.h>
 
-namespace grove {
+namespace grove::detail {
 namespace limits_test {
 
 TEST(Limits, NeverStopsWithoutALimit) {
@@ -45,4 +45,4 @@ TEST(ResidentBytes, AreThoseOfARunningProcess) {
 }
 
 }  // namespace limits_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/omega.h"
+#include "grove/detail/model/omega.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-namespace grove {
+namespace grove::detail {
 namespace omega_test {
 
 TEST(Omega, ZeroAcceptsOnlyTheBoundItself) {
@@ -49,4 +49,4 @@ TEST(Omega, RefusesWhatItCannotHold) {
 }
 
 }  // namespace omega_test
-}  // namespace grove
+}  // namespace grove::detail

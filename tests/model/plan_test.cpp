@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace grove {
+namespace grove::detail {
 namespace plan_test {
 
 TEST(Status, FollowsFromCostBoundAndOmega) {
@@ -68,4 +68,4 @@ TEST(WalkedPath, KeepsTheWorkOfAPlan) {
 }
 
 }  // namespace plan_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/random.h"
+#include "grove/detail/model/random.h"
 
 #include <gtest/gtest.h>
 
-namespace grove {
+namespace grove::detail {
 namespace random_test {
 
 TEST(Random, DrawsTheSameEverywhere) {
@@ -35,4 +35,4 @@ TEST(Random, DrawsAgainWhereTheLowestNumbersWouldComeTooOften) {
 }
 
 }  // namespace random_test
-}  // namespace grove
+}  // namespace grove::detail

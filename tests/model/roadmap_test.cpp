@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "grove/model/roadmap.h"
+#include "grove/detail/model/roadmap.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "grove/model/distance_field.h"
+#include "grove/detail/model/distance_field.h"
 
-namespace grove {
+namespace grove::detail {
 namespace roadmap_test {
 
 using ::testing::ElementsAre;
@@ -84,4 +84,4 @@ TEST(Roadmap, RefusesWhatIsNone) {
 }
 
 }  // namespace roadmap_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // That each number is used somewhere: tests/structure. That none makes a wrong answer: tests/fuzz.
-#include "grove/model/tuning.h"
+#include "grove/detail/model/tuning.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 namespace tuning_test {
 
 using ::testing::HasSubstr;
@@ -68,4 +68,4 @@ TEST(Tuning, TakesBothEndsOfARangeAndNothingBeyond) {
 }
 
 }  // namespace tuning_test
-}  // namespace grove
+}  // namespace grove::detail

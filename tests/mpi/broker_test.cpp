@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace grove {
+namespace grove::detail {
 namespace broker_test {
 
 message::Status with(std::vector<Frontier::Level> levels) {
@@ -65,4 +65,4 @@ TEST(Broker, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
 }
 
 }  // namespace broker_test
-}  // namespace grove
+}  // namespace grove::detail

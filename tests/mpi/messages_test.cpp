@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace grove {
+namespace grove::detail {
 namespace messages_test {
 
 message::Status some_status() {
@@ -67,4 +67,4 @@ TEST(Messages, NoiseIsRefusedOrTakenForOtherValues) {
 }
 
 }  // namespace messages_test
-}  // namespace grove
+}  // namespace grove::detail

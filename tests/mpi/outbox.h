@@ -10,7 +10,7 @@
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // One rank's side of a network that delivers nothing: it keeps what is sent. For one thread.
 class Outbox : public Transport {
@@ -48,4 +48,4 @@ class Outbox : public Transport {
   std::vector<std::pair<int, std::string>> sent_;
 };
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

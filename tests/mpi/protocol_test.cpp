@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "grove/engine/run_observer.h"
-#include "grove/search/single_tree.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/search/single_tree.h"
 #include "mpi/coordinator.h"
 #include "mpi/rank.h"
 #include "mpi/rank_nodes.h"
@@ -16,7 +16,7 @@
 #include "tests/primal/crowd.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace protocol_test {
 
 using testing::Outbox;
@@ -156,4 +156,4 @@ TEST(CoordinatorAlone, TellsAllAtOnceToLookForACheckpoint) {
 }
 
 }  // namespace protocol_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,11 +8,11 @@
 #include <random>
 #include <vector>
 
-#include "grove/engine/worker.h"
+#include "grove/detail/engine/worker.h"
 #include "mpi/member.h"
 #include "mpi/simulated_network.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 constexpr double kTick = 1e-4;   // about what a step may take
@@ -182,4 +182,4 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
   return coordinator.conclude();
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <functional>
 
-#include "grove/engine/run_observer.h"
-#include "grove/engine/solve.h"
-#include "grove/model/instance.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 struct Schedule {
   int ranks = 2;
@@ -38,4 +38,4 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
                                const Schedule& schedule, RunObserver& observer,
                                const std::function<bool(Cost)>& look, ScheduleCounts& counts);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

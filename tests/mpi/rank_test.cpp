@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "grove/engine/run_observer.h"
-#include "grove/engine/techniques_of.h"
-#include "grove/search/expander.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/techniques_of.h"
+#include "grove/detail/search/expander.h"
 #include "mpi/coordinator.h"
 #include "tests/mpi/outbox.h"
 #include "tests/primal/crowd.h"
 
-namespace grove {
+namespace grove::detail {
 namespace rank_test {
 
 // A rank that has been given the root of a tree, and an incumbent of `excess` over its bound.
@@ -120,4 +120,4 @@ TEST(Rank, SaysAtOnceThatItHasFarMoreToSpare) {
 }
 
 }  // namespace rank_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 
 #include "tests/mpi/try_schedule.h"
 
-namespace grove {
+namespace grove::detail {
 namespace schedule_test {
 
 using testing::ScheduleTally;
@@ -22,4 +22,4 @@ TEST(Schedules, NeverSayMoreThanIsTrue) {
 }
 
 }  // namespace schedule_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -13,10 +13,10 @@ int main(int argc, char** argv) {
   app.add_option("--seed", seed, "The first seed")->capture_default_str();
   app.add_option("--count", count, "How many")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  grove::testing::ScheduleTally tally;
+  grove::detail::testing::ScheduleTally tally;
   int failed = 0;
   for (std::uint64_t i = seed; i < seed + count; ++i)
-    for (const std::string& what : grove::testing::try_schedule(i, tally)) {
+    for (const std::string& what : grove::detail::testing::try_schedule(i, tally)) {
       fmt::print("seed {}: {}\n", i, what);
       ++failed;
     }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace grove {
+namespace grove::detail {
 namespace simulated_network_test {
 
 TEST(SimulatedNetwork, DeliversWhenTheTimeHasCome) {
@@ -35,4 +35,4 @@ TEST(SimulatedNetwork, KeepsTheOrderOfEachPairOnly) {
 }
 
 }  // namespace simulated_network_test
-}  // namespace grove
+}  // namespace grove::detail

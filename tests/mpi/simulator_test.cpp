@@ -7,14 +7,14 @@
 #include <numeric>
 #include <vector>
 
-#include "grove/model/check.h"
+#include "grove/detail/model/check.h"
 #include "mpi/simulator/busy_profile.h"
 #include "mpi/simulator/scaling_table.h"
 #include "mpi/simulator/simulation.h"
 #include "mpi/simulator/timed_transport.h"
 #include "tests/primal/crowd.h"
 
-namespace grove {
+namespace grove::detail {
 namespace simulator_test {
 
 using testing::random_crowd;
@@ -220,4 +220,4 @@ TEST(TimedTransport, MessagesLeaveOneAfterTheOther) {
 }
 
 }  // namespace simulator_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "grove/engine/run_observer.h"
-#include "grove/engine/solve.h"
-#include "grove/search/problem.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/search/problem.h"
 #include "mpi/solve_distributed.h"
 #include "tests/primal/crowd.h"
 
-namespace grove {
+namespace grove::detail {
 namespace threads_test {
 
 using testing::random_crowd;
@@ -152,4 +152,4 @@ TEST(Threads, FindTheOptimumInManyTrees) {
 }
 
 }  // namespace threads_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/engine/checkpoint.h"
-#include "grove/model/fingerprint.h"
+#include "grove/detail/engine/checkpoint.h"
+#include "grove/detail/model/fingerprint.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/fuzz/random.h"
@@ -21,7 +21,7 @@
 #include "tests/primal/crowd.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 using oracle::Answer;
@@ -209,4 +209,4 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   return wrong;
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

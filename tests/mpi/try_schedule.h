@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 struct ScheduleTally {
   std::int64_t tried = 0;  // instances small enough for the truth
@@ -23,4 +23,4 @@ struct ScheduleTally {
 // What was false; empty: nothing. The same seed makes the same run.
 std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -5,7 +5,7 @@
 
 #include "tests/oracle/steps.h"
 
-namespace grove::oracle {
+namespace grove::detail::oracle {
 namespace {
 
 constexpr std::size_t kMaxStates = std::size_t{1} << 20;
@@ -128,4 +128,4 @@ void AgentStates::settle_costs() {
   }
 }
 
-}  // namespace grove::oracle
+}  // namespace grove::detail::oracle

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <vector>
 
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove::oracle {
+namespace grove::detail::oracle {
 
 // Where an agent is and what it is doing there, said from the instance alone.
 struct Standing {
@@ -69,4 +69,4 @@ class AgentStates {
   std::vector<Time> to_go_;
 };
 
-}  // namespace grove::oracle
+}  // namespace grove::detail::oracle

@@ -21,7 +21,7 @@
 
 #include "tests/oracle/agent_states.h"
 
-namespace grove::oracle {
+namespace grove::detail::oracle {
 namespace {
 
 using Key = std::uint64_t;
@@ -254,4 +254,4 @@ Answer solve_jointly(const Instance& instance, std::size_t state_cap) {
   return JointSearch(instance, state_cap).run();
 }
 
-}  // namespace grove::oracle
+}  // namespace grove::detail::oracle

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 
-namespace grove::oracle {
+namespace grove::detail::oracle {
 
 enum class Verdict : std::uint8_t {
   kSolved,
@@ -25,4 +25,4 @@ struct Answer {
 // The optimum of `instance` as docs/design.md, section 1, defines it.
 Answer solve_jointly(const Instance& instance, std::size_t state_cap = 2'000'000);
 
-}  // namespace grove::oracle
+}  // namespace grove::detail::oracle

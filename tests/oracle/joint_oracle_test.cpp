@@ -5,11 +5,11 @@
 
 #include <cstdlib>
 
-#include "grove/model/check.h"
+#include "grove/detail/model/check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/layered_search.h"
 
-namespace grove::oracle {
+namespace grove::detail::oracle {
 namespace joint_oracle_test {
 
 Answer solve_text(const char* text) {
@@ -139,4 +139,4 @@ TEST(JointOracle, AgreesWithASearchByLayersOfTime) {
 }
 
 }  // namespace joint_oracle_test
-}  // namespace grove::oracle
+}  // namespace grove::detail::oracle

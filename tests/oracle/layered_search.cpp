@@ -15,7 +15,7 @@
 
 #include "tests/oracle/steps.h"
 
-namespace grove::oracle {
+namespace grove::detail::oracle {
 namespace {
 
 // An agent, and what is left of the tasks it has still to do: steps of work, 0 for being there.
@@ -184,4 +184,4 @@ std::optional<Cost> solve_two_agents(const Instance& instance) {
   return best;
 }
 
-}  // namespace grove::oracle
+}  // namespace grove::detail::oracle

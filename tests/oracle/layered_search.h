@@ -4,12 +4,12 @@
 
 #include <optional>
 
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 
-namespace grove::oracle {
+namespace grove::detail::oracle {
 
 // The optimal cost of an instance with exactly two agents; none when there is no plan. Slow, plain,
 // and built on another idea than the joint oracle, with which it shares no text.
 std::optional<Cost> solve_two_agents(const Instance& instance);
 
-}  // namespace grove::oracle
+}  // namespace grove::detail::oracle

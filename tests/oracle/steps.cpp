@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <variant>
 
-namespace grove::oracle {
+namespace grove::detail::oracle {
 namespace {
 
 std::vector<std::vector<Place>> steps(const Grid& grid) {
@@ -75,4 +75,4 @@ std::vector<Pose> next_poses(const Instance& instance, const Agent& agent,
   return poses;
 }
 
-}  // namespace grove::oracle
+}  // namespace grove::detail::oracle

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove::oracle {
+namespace grove::detail::oracle {
 
 // By place: the places one move away; waits are not among them.
 std::vector<std::vector<Place>> steps_on(const Map& map);
@@ -16,4 +16,4 @@ std::vector<std::vector<Place>> steps_on(const Map& map);
 std::vector<Pose> next_poses(const Instance& instance, const Agent& agent,
                              const std::vector<std::vector<Place>>& steps, const Pose& pose);
 
-}  // namespace grove::oracle
+}  // namespace grove::detail::oracle

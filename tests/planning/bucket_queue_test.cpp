@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/bucket_queue.h"
+#include "grove/detail/planning/bucket_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace bucket_queue_test {
 
 BucketQueue::Entry entry(std::int32_t slot, std::uint16_t conflicts) {
@@ -72,4 +72,4 @@ TEST(BucketQueue, AgreesWithASortedMap) {
 }
 
 }  // namespace bucket_queue_test
-}  // namespace grove
+}  // namespace grove::detail

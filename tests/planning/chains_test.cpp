@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/chains.h"
+#include "grove/detail/planning/chains.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/planning/single_agent.h"
 
-namespace grove {
+namespace grove::detail {
 namespace chains_test {
 
 using testing::grid_of;
@@ -94,4 +94,4 @@ TEST(Chains, AreMaximalRowsOfCellsWithTwoNeighbors) {
 }
 
 }  // namespace chains_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/conflict_avoidance_table.h"
+#include "grove/detail/planning/conflict_avoidance_table.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 
-namespace grove {
+namespace grove::detail {
 namespace conflict_avoidance_table_test {
 
 using testing::grid_of;
@@ -93,4 +93,4 @@ TEST(ConflictAvoidanceTable, ManyPathsOnOneCellAreManyEvenAfterRemovals) {
 }
 
 }  // namespace conflict_avoidance_table_test
-}  // namespace grove
+}  // namespace grove::detail

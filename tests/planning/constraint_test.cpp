@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a constraint asks of a path is written twice, in the library and in tests/support/obeys: the
 // two must agree.
-#include "grove/planning/constraint.h"
+#include "grove/detail/planning/constraint.h"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,12 @@
 #include <random>
 #include <vector>
 
-#include "grove/planning/chains.h"
+#include "grove/detail/planning/chains.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/obeys.h"
 
-namespace grove {
+namespace grove::detail {
 namespace constraint_test {
 
 constexpr std::array kOnPaths{ConstraintKind::kBar, ConstraintKind::kNoRestBy,
@@ -92,4 +92,4 @@ TEST(Constraint, ConcernsItsAgentAndOfRestsTheOthersToo) {
 }
 
 }  // namespace constraint_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/fewest_conflicts.h"
+#include "grove/detail/planning/fewest_conflicts.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "tests/planning/random_matter.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace fewest_conflicts_test {
 
 // The fewest conflicts of any way, by trying all.
@@ -68,4 +68,4 @@ TEST(FewestConflicts, WaitsInPocketsOfACorridor) {
 }
 
 }  // namespace fewest_conflicts_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,16 +9,16 @@
 #include <random>
 #include <stdexcept>
 
-#include "grove/planning/free_low_level_search.h"
-#include "grove/planning/low_level_search.h"
-#include "grove/sequencing/k_best_sequences.h"
+#include "grove/detail/planning/free_low_level_search.h"
+#include "grove/detail/planning/low_level_search.h"
+#include "grove/detail/sequencing/k_best_sequences.h"
 #include "tests/planning/free_problems.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/fuzz_factor.h"
 
-namespace grove {
+namespace grove::detail {
 namespace free_low_level_test {
 
 using Outcome = PathOutcome;
@@ -425,4 +425,4 @@ TEST(FreeLowLevel, APathOutsideTheClassRealizesNothing) {
 }
 
 }  // namespace free_low_level_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,7 +6,7 @@
 
 #include "tests/support/instances.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 Grid FreeProblems::grid() {
   return conditional_ && below(3) > 0 ? random_corridor_map(random_) : random_small_map(random_);
@@ -47,4 +47,4 @@ Constraint FreeProblems::constraint(const FreeProblem& problem, const Path& path
   return random_bar(*problem.grid, path, goals, random_);
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -4,11 +4,11 @@
 
 #include <random>
 
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/random_matter.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // The seed settles what comes. `conditional`: constraints of all kinds, not bars alone.
 class FreeProblems {
@@ -32,4 +32,4 @@ class FreeProblems {
   const bool conditional_;
 };
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

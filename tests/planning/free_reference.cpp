@@ -11,7 +11,7 @@
 #include "tests/planning/reference_search.h"
 #include "tests/planning/step_rules.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 struct FreePlace {
@@ -131,4 +131,4 @@ std::vector<Sequence> members_of(const SequenceClass& work, int n) {
   return members;
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/distance_field.h"
-#include "grove/model/instance.h"
-#include "grove/model/plan.h"
-#include "grove/planning/constraint.h"
-#include "grove/planning/free_goals.h"
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/model/distance_field.h"
+#include "grove/detail/model/instance.h"
+#include "grove/detail/model/plan.h"
+#include "grove/detail/planning/constraint.h"
+#include "grove/detail/planning/free_goals.h"
+#include "grove/detail/sequencing/rtsp.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 struct FreeProblem {
   const Grid* grid = nullptr;
@@ -55,4 +55,4 @@ std::string path_error(const FreeProblem& problem, const Sequence& sequence, con
 // All members of a class of n stops.
 std::vector<Sequence> members_of(const SequenceClass& work, int n);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/goal_sequence.h"
+#include "grove/detail/planning/goal_sequence.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/planning/single_agent.h"
 
-namespace grove {
+namespace grove::detail {
 namespace goal_sequence_test {
 
 using testing::grid_of;
@@ -52,4 +52,4 @@ TEST(GoalSequence, WithNothingToDoAnAgentRestsAnywhere) {
 }
 
 }  // namespace goal_sequence_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <random>
 
-#include "grove/planning/low_level_search.h"
+#include "grove/detail/planning/low_level_search.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/fuzz_factor.h"
 
-namespace grove {
+namespace grove::detail {
 namespace late_costs_test {
 
 using testing::grid_of;
@@ -149,4 +149,4 @@ TEST(LateCosts, NoPathCostsLess) {
 }
 
 }  // namespace late_costs_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <random>
 
-#include "grove/planning/low_level_search.h"
+#include "grove/detail/planning/low_level_search.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/fuzz_factor.h"
 
-namespace grove {
+namespace grove::detail {
 namespace low_level_fuzz_test {
 
 using testing::NaiveConflicts;
@@ -145,4 +145,4 @@ INSTANTIATE_TEST_SUITE_P(, LowLevelFuzz, ::testing::Bool(),
                          [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
 }  // namespace low_level_fuzz_test
-}  // namespace grove
+}  // namespace grove::detail

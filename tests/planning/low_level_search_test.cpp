@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Each case is a trap in which some low level has been caught.
-#include "grove/planning/low_level_search.h"
+#include "grove/detail/planning/low_level_search.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "tests/planning/single_agent.h"
 
-namespace grove {
+namespace grove::detail {
 namespace low_level_search_test {
 
 using Outcome = PathOutcome;
@@ -263,4 +263,4 @@ TEST(LowLevelSearch, StopsInTheMiddleOfALongProof) {
 }
 
 }  // namespace low_level_search_test
-}  // namespace grove
+}  // namespace grove::detail

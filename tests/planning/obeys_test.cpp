@@ -5,7 +5,7 @@
 
 #include "tests/planning/single_agent.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace obeys_test {
 
 TEST(Obeys, CountsTheRestForEver) {
@@ -66,4 +66,4 @@ TEST(Obeys, KnowsATraversalOfALoop) {
 }
 
 }  // namespace obeys_test
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -7,7 +7,7 @@
 #include "tests/planning/single_agent.h"
 #include "tests/support/obeys.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 int below(std::mt19937& random, int bound) {
@@ -136,4 +136,4 @@ Constraint random_conditional_constraint(const Grid& grid, const Path& path,
   return {cell, kNoCell, 0, end, ConstraintKind::kRestBy};
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -5,10 +5,10 @@
 #include <random>
 #include <vector>
 
-#include "grove/model/plan.h"
-#include "grove/planning/constraint.h"
+#include "grove/detail/model/plan.h"
+#include "grove/detail/planning/constraint.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // A small map with doors, corridors, dead ends or loops.
 Grid random_corridor_map(std::mt19937& random);
@@ -32,4 +32,4 @@ Constraint random_bar(const Grid& grid, const Path& path, const std::vector<Cell
 Constraint random_conditional_constraint(const Grid& grid, const Path& path,
                                          const std::vector<Cell>& goals, std::mt19937& random);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -9,7 +9,7 @@
 #include "tests/planning/step_rules.h"
 #include "tests/support/obeys.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 constexpr int kUnreached = std::numeric_limits<int>::max();
@@ -173,4 +173,4 @@ int NaiveConflicts::conflicts(const Path& path) const {
   return count + conflicts_of_resting(path.back(), static_cast<Time>(path.size() - 1));
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

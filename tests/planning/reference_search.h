@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/plan.h"
-#include "grove/planning/constraint.h"
+#include "grove/detail/model/plan.h"
+#include "grove/detail/planning/constraint.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // One agent's problem in plain terms: the goals include the destination.
 struct Problem {
@@ -42,4 +42,4 @@ struct NaiveConflicts {
 // The fewest conflicts of any path of exactly `cost`, which must be the cost of a cheapest path.
 int reference_conflicts(const Problem& problem, const NaiveConflicts& others, Time cost);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

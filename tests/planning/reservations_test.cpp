@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reservations, and the free low level around them against the same search under the constraints
 // that say the same. GROVE_FUZZ_FACTOR multiplies the number of cases.
-#include "grove/planning/reservations.h"
+#include "grove/detail/planning/reservations.h"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "grove/planning/free_low_level_search.h"
+#include "grove/detail/planning/free_low_level_search.h"
 #include "tests/planning/random_matter.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace reservations_test {
 
 using testing::random_cell;
@@ -233,4 +233,4 @@ TEST(Reservations, AnEffortIsLimited) {
 }
 
 }  // namespace reservations_test
-}  // namespace grove
+}  // namespace grove::detail

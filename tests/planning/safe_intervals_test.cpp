@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/safe_intervals.h"
+#include "grove/detail/planning/safe_intervals.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace safe_intervals_test {
 
 using Intervals = std::vector<std::pair<Time, Time>>;
@@ -191,4 +191,4 @@ TEST_F(SafeIntervalsTest, RejectsWhatIsNotOnTheGrid) {
 }
 
 }  // namespace safe_intervals_test
-}  // namespace grove
+}  // namespace grove::detail

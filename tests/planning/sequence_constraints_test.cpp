@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/planning/sequence_constraints.h"
+#include "grove/detail/planning/sequence_constraints.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/planning/single_agent.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace sequence_constraints_test {
 
 using testing::grid_of;
@@ -23,7 +23,7 @@ class SequenceConstraints : public ::testing::Test {
   }
   SequenceClass narrowed(const std::vector<Constraint>& constraints,
                          SequenceClass work = {}) const {
-    return grove::narrowed(std::move(work), stops_, constraints);
+    return grove::detail::narrowed(std::move(work), stops_, constraints);
   }
 
   Grid grid_ = grid_of({"........"});
@@ -64,4 +64,4 @@ TEST_F(SequenceConstraints, ThatMakeNoClassAreRefused) {
 }
 
 }  // namespace sequence_constraints_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 Instance instance_of(const Grid& grid, Cell start, const std::vector<Cell>& tasks,
@@ -33,4 +33,4 @@ SingleAgent::SingleAgent(const Grid& grid, Cell start, const std::vector<Cell>& 
       distances(instance),
       goals(instance, distances, 0, all_tasks(instance)) {}
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

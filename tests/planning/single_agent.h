@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "grove/planning/goal_sequence.h"
+#include "grove/detail/planning/goal_sequence.h"
 #include "tests/support/instances.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // One agent with a start, tasks in the order to visit, and perhaps a destination.
 struct SingleAgent {
@@ -20,4 +20,4 @@ struct SingleAgent {
   GoalSequence goals;
 };
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

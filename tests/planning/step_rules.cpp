@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 bool covers(const Constraint& c, Time time) {
@@ -52,4 +52,4 @@ Time StepRules::last_change() const {
   return last;
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

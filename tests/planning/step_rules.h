@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "grove/planning/constraint.h"
+#include "grove/detail/planning/constraint.h"
 #include "tests/support/obeys.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // Besides where it is and when, an agent must know by which mouth it came into the chain it is in
 // (none: not in one, or inside since time 0), and whether it came to where it is late.
@@ -33,4 +33,4 @@ class StepRules {
   const std::vector<Constraint>& constraints_;
 };
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

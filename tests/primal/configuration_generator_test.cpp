@@ -10,7 +10,7 @@
 #include "src/primal/visit_orders.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace configuration_generator_test {
 
 using testing::instance_of;
@@ -116,4 +116,4 @@ TEST(ConfigurationGenerator, BacksOffToTheJunctionWhereTwoMustPass) {
 }
 
 }  // namespace configuration_generator_test
-}  // namespace grove
+}  // namespace grove::detail

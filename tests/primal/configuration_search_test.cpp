@@ -9,14 +9,14 @@
 #include <numeric>
 
 #include "crowd.h"
-#include "grove/model/check.h"
+#include "grove/detail/model/check.h"
 #include "src/primal/visit_orders.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace configuration_search_test {
 
 using testing::AgentSpec;
@@ -245,4 +245,4 @@ TEST(ConfigurationSearch, StopsAtADeadline) {
 }
 
 }  // namespace configuration_search_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/distance_field.h"
-#include "grove/model/instance.h"
+#include "grove/detail/model/distance_field.h"
+#include "grove/detail/model/instance.h"
 #include "tests/fuzz/random.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 struct Crowd {
   int size = 12;       // of the square map
@@ -84,4 +84,4 @@ inline Instance random_crowd(const Crowd& crowd, std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -10,7 +10,7 @@
 #include "src/primal/prioritized_planning.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace neighborhoods_test {
 
 // `count` agents that cross an open square from left to right, each one row up or down.
@@ -61,4 +61,4 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
 INSTANTIATE_TEST_SUITE_P(Agents, NeighborhoodsTest, ::testing::Values(2, 3, 12));
 
 }  // namespace neighborhoods_test
-}  // namespace grove
+}  // namespace grove::detail

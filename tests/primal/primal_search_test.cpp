@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/primal/primal_search.h"
+#include "grove/detail/primal/primal_search.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "crowd.h"
-#include "grove/model/check.h"
-#include "grove/search/feasibility.h"
+#include "grove/detail/model/check.h"
+#include "grove/detail/search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/instances.h"
 #include "tests/support/sanitizers.h"
 
-namespace grove {
+namespace grove::detail {
 namespace primal_search_test {
 
 using testing::instance_of;
@@ -309,4 +309,4 @@ TEST(PrimalSearch, TakesOverABetterPlan) {
 }
 
 }  // namespace primal_search_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,11 +6,11 @@
 #include <set>
 
 #include "crowd.h"
-#include "grove/sequencing/cost_matrix.h"
-#include "grove/sequencing/k_best_sequences.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/k_best_sequences.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace visit_orders_test {
 
 using testing::instance_of;
@@ -60,4 +60,4 @@ TEST(CheapestOrders, StopAtALimit) {
 }
 
 }  // namespace visit_orders_test
-}  // namespace grove
+}  // namespace grove::detail

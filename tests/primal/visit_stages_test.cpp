@@ -9,7 +9,7 @@
 #include "tests/fuzz/random.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace visit_stages_test {
 
 using testing::instance_of;
@@ -78,4 +78,4 @@ TEST(Configurations, AreFoundAgain) {
 }
 
 }  // namespace visit_stages_test
-}  // namespace grove
+}  // namespace grove::detail

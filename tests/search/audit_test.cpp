@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "grove/model/assert.h"
+#include "grove/detail/model/assert.h"
 #include "tests/search/node_at_hand.h"
 
-namespace grove {
+namespace grove::detail {
 namespace audit_test {
 
 struct TwoAgents : testing::NodeAtHand {
@@ -74,4 +74,4 @@ TEST(Assertion, SeesAStepThatIsNone) {
 #endif
 
 }  // namespace audit_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/brancher.h"
+#include "grove/detail/search/brancher.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/search/node_at_hand.h"
 
-namespace grove {
+namespace grove::detail {
 namespace brancher_test {
 
 using testing::AgentSpec;
@@ -228,4 +228,4 @@ TEST(NodeView, TellsWhomADemandDisturbs) {
 }
 
 }  // namespace brancher_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/covering.h"
+#include "grove/detail/search/covering.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-namespace grove {
+namespace grove::detail {
 namespace covering_test {
 
 // The least sum by trying every assignment of at most `most` each.
@@ -86,4 +86,4 @@ TEST(CoveringBound, StaysABoundWhereTheSumIsLarge) {
 }
 
 }  // namespace covering_test
-}  // namespace grove
+}  // namespace grove::detail

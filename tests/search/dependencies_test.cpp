@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/dependencies.h"
+#include "grove/detail/search/dependencies.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/search/node_at_hand.h"
 
-namespace grove {
+namespace grove::detail {
 namespace dependencies_test {
 
 using testing::AgentSpec;
@@ -126,4 +126,4 @@ TEST(Dependencies, HelpUntilNothingIsLeft) {
 }
 
 }  // namespace dependencies_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/expander.h"
+#include "grove/detail/search/expander.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/search/sequence_forest.h"
-#include "grove/search/single_tree.h"
+#include "grove/detail/search/sequence_forest.h"
+#include "grove/detail/search/single_tree.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace expander_test {
 
 using testing::AgentSpec;
@@ -144,4 +144,4 @@ TEST(Expander, IsAPureFunctionOfTheNode) {
 }
 
 }  // namespace expander_test
-}  // namespace grove
+}  // namespace grove::detail

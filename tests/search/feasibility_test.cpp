@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/feasibility.h"
+#include "grove/detail/search/feasibility.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace feasibility_test {
 
 using testing::AgentSpec;
@@ -73,4 +73,4 @@ TEST(EvidentInfeasibility, WalksBentCorridorsAndLeavesRingsAlone) {
 }
 
 }  // namespace feasibility_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // What is told about nodes is what was found out, and whoever is told expands them alike with less
 // work.
-#include "grove/search/findings.h"
+#include "grove/detail/search/findings.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "grove/search/expander.h"
-#include "grove/search/single_tree.h"
+#include "grove/detail/search/expander.h"
+#include "grove/detail/search/single_tree.h"
 #include "tests/primal/crowd.h"
 
-namespace grove {
+namespace grove::detail {
 namespace findings_test {
 
 constexpr Cost kSlack = 20;
@@ -140,4 +140,4 @@ TEST(Findings, RefusesWhatCannotBe) {
 }
 
 }  // namespace findings_test
-}  // namespace grove
+}  // namespace grove::detail

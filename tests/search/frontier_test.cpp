@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/frontier.h"
+#include "grove/detail/search/frontier.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace frontier_test {
 
 // Roots whose bound is the length of one agent's walk.
@@ -185,4 +185,4 @@ TEST_F(FrontierTest, BeginsAnewWithTheProvenBoundNewestFirst) {
 }
 
 }  // namespace frontier_test
-}  // namespace grove
+}  // namespace grove::detail

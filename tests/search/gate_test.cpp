@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/gate.h"
+#include "grove/detail/search/gate.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace gate_test {
 
 // One agent in a corridor: walking straight costs 4, each wait one more.
@@ -108,4 +108,4 @@ TEST(Gate, AsksForTreesAsAlgorithm4Does) {
 }
 
 }  // namespace gate_test
-}  // namespace grove
+}  // namespace grove::detail

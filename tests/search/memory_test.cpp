@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/memory.h"
+#include "grove/detail/search/memory.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/search/node_at_hand.h"
 
-namespace grove {
+namespace grove::detail {
 namespace memory_test {
 
 using Known = Excesses::Known;
@@ -123,4 +123,4 @@ TEST(Memory, MakesASetOfPathsOnce) {
 }
 
 }  // namespace memory_test
-}  // namespace grove
+}  // namespace grove::detail

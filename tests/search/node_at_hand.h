@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "grove/search/memory.h"
-#include "grove/search/node_view.h"
-#include "grove/search/single_tree.h"
+#include "grove/detail/search/memory.h"
+#include "grove/detail/search/node_view.h"
+#include "grove/detail/search/single_tree.h"
 #include "tests/support/instances.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 struct NodeAtHand {
   NodeAtHand(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents,
@@ -60,4 +60,4 @@ struct NodeAtHand {
   std::vector<AgentIndex> all;
 };
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/node_record.h"
+#include "grove/detail/search/node_record.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "grove/search/expander.h"
-#include "grove/search/single_tree.h"
+#include "grove/detail/search/expander.h"
+#include "grove/detail/search/single_tree.h"
 #include "tests/primal/crowd.h"
 
-namespace grove {
+namespace grove::detail {
 namespace node_record_test {
 
 // Nodes of a real search, some levels deep.
@@ -92,4 +92,4 @@ TEST_F(NodeRecords, OfPathsThroughWallsAreRefused) {
 }
 
 }  // namespace node_record_test
-}  // namespace grove
+}  // namespace grove::detail

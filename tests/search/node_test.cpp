@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/node.h"
+#include "grove/detail/search/node.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace node_test {
 
 TEST(PackedPath, UnpacksWhatWasPacked) {
@@ -149,4 +149,4 @@ TEST_F(NodeTest, WhereOneRestsTheOthersAreBarred) {
 }
 
 }  // namespace node_test
-}  // namespace grove
+}  // namespace grove::detail

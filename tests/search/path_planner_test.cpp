@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/path_planner.h"
+#include "grove/detail/search/path_planner.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <random>
 #include <set>
 
-#include "grove/search/problem.h"
+#include "grove/detail/search/problem.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace path_planner_test {
 
 using testing::instance_of;
@@ -93,4 +93,4 @@ INSTANTIATE_TEST_SUITE_P(Agents, SplitClasses, ::testing::Bool(), [](const auto&
 });
 
 }  // namespace path_planner_test
-}  // namespace grove
+}  // namespace grove::detail

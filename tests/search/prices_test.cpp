@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/prices.h"
+#include "grove/detail/search/prices.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/search/node_at_hand.h"
 
-namespace grove {
+namespace grove::detail {
 namespace prices_test {
 
 using testing::NodeAtHand;
@@ -62,4 +62,4 @@ TEST_F(PricesTest, RiseByWhatTheDemandCosts) {
 }
 
 }  // namespace prices_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/sequence_forest.h"
+#include "grove/detail/search/sequence_forest.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace sequence_forest_test {
 
 class ForestTest : public ::testing::Test {
@@ -72,4 +72,4 @@ TEST_F(ForestTest, ALimitLosesNoTree) {
 }
 
 }  // namespace sequence_forest_test
-}  // namespace grove
+}  // namespace grove::detail

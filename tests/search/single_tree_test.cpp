@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/single_tree.h"
+#include "grove/detail/search/single_tree.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/search/expander.h"
-#include "grove/search/sequence_forest.h"
+#include "grove/detail/search/expander.h"
+#include "grove/detail/search/sequence_forest.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace single_tree_test {
 
 class SingleTreeTest : public ::testing::Test {
@@ -56,4 +56,4 @@ TEST_F(SingleTreeTest, ItsPlansNameTheSequencesThatWereChosen) {
 }
 
 }  // namespace single_tree_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/situations.h"
+#include "grove/detail/search/situations.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <thread>
 #include <tuple>
 
-namespace grove {
+namespace grove::detail {
 namespace situations_test {
 
 std::vector<Constraint> random_constraints(std::mt19937& random) {
@@ -93,4 +93,4 @@ TEST(Situations, CanonicalListsHaveOneOrderAndNoRepeats) {
 }
 
 }  // namespace situations_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/search/tree_record.h"
+#include "grove/detail/search/tree_record.h"
 
 #include <gtest/gtest.h>
 
@@ -8,14 +8,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/search/expander.h"
-#include "grove/search/node_record.h"
-#include "grove/search/sequence_forest.h"
-#include "grove/search/single_tree.h"
+#include "grove/detail/search/expander.h"
+#include "grove/detail/search/node_record.h"
+#include "grove/detail/search/sequence_forest.h"
+#include "grove/detail/search/single_tree.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace tree_record_test {
 
 // What add() says of a record.
@@ -234,4 +234,4 @@ TEST_F(SmallTreeRecords, OfDetoursAreRefused) {
 }
 
 }  // namespace tree_record_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/sequencing/assignment.h"
+#include "grove/detail/sequencing/assignment.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-namespace grove {
+namespace grove::detail {
 namespace assignment_test {
 
 using Costs = std::vector<std::vector<std::int64_t>>;
@@ -51,4 +51,4 @@ TEST(Assignment, IsTheBestOfAll) {
 }
 
 }  // namespace assignment_test
-}  // namespace grove
+}  // namespace grove::detail

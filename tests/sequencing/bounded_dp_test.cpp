@@ -9,14 +9,14 @@
 #include <numeric>
 
 #include "brute_force.h"
-#include "grove/sequencing/completions.h"
-#include "grove/sequencing/k_best_sequences.h"
-#include "grove/sequencing/sequence_dag.h"
+#include "grove/detail/sequencing/completions.h"
+#include "grove/detail/sequencing/k_best_sequences.h"
+#include "grove/detail/sequencing/sequence_dag.h"
 #include "matrices.h"
 #include "src/sequencing/path_relaxation.h"
 #include "tests/support/fuzz_factor.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace bounded_dp_test {
 
 std::vector<CostMatrix> matrices_of(int n, Variant variant, Random& random) {
@@ -293,4 +293,4 @@ TEST(BoundedDp, FindsThePlantedOptimumOfSixtyFourStops) {
 }
 
 }  // namespace bounded_dp_test
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

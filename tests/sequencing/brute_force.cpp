@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <numeric>
 
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 std::int64_t plain_cost(const CostMatrix& matrix, const Sequence& sequence) {
@@ -47,4 +47,4 @@ bool is_complete(const CostMatrix& matrix, const Sequence& sequence) {
   return std::ssize(sequence) == matrix.stops() && seen == matrix.all();
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Costs to go against every order, and, where there are too many, against the Held-Karp table.
-#include "grove/sequencing/completions.h"
+#include "grove/detail/sequencing/completions.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <chrono>
 #include <numeric>
 
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/sequencing/rtsp.h"
 #include "tests/sequencing/matrices.h"
 #include "tests/support/fuzz_factor.h"
 
-namespace grove {
+namespace grove::detail {
 namespace completions_test {
 
 using testing::fuzz_rounds;
@@ -160,4 +160,4 @@ TEST(Completions, ALimitChangesNothing) {
 }
 
 }  // namespace completions_test
-}  // namespace grove
+}  // namespace grove::detail

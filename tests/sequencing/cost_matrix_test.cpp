@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 namespace cost_matrix_test {
 
 // A row of cells, one of them blocked:  0 1 2 3 # 5
@@ -65,4 +65,4 @@ TEST(CostMatrix, HoldsSixtyFourStops) {
 }
 
 }  // namespace cost_matrix_test
-}  // namespace grove
+}  // namespace grove::detail

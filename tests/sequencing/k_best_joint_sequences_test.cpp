@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/sequencing/k_best_joint_sequences.h"
+#include "grove/detail/sequencing/k_best_joint_sequences.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "matrices.h"
 #include "tests/support/fuzz_factor.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace k_best_joint_sequences_test {
 
 // Matrices stay where they are: solvers keep references to them.
@@ -134,4 +134,4 @@ TEST(KBestJointSequences, CountsItsRtsps) {
 }
 
 }  // namespace k_best_joint_sequences_test
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/sequencing/k_best_sequences.h"
+#include "grove/detail/sequencing/k_best_sequences.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "matrices.h"
 #include "tests/support/fuzz_factor.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace k_best_sequences_test {
 
 KBestSequences list_of(const CostMatrix& matrix, RtspBackend backend, const Limits& limits) {
@@ -151,4 +151,4 @@ TEST_F(BackendsAgree, AllThreeOnTheFirst200UpTo22Stops) {
 }
 
 }  // namespace k_best_sequences_test
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

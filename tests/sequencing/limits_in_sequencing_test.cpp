@@ -7,10 +7,10 @@
 #include <thread>
 
 #include "brute_force.h"
-#include "grove/sequencing/k_best_joint_sequences.h"
+#include "grove/detail/sequencing/k_best_joint_sequences.h"
 #include "matrices.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace limits_in_sequencing_test {
 
 using std::chrono::milliseconds;
@@ -154,4 +154,4 @@ TEST(Cbc, ServesThreadsOneAtATime) {
 }
 
 }  // namespace limits_in_sequencing_test
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

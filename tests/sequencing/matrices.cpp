@@ -9,7 +9,7 @@
 
 #include "tests/support/movingai.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 int below(int bound, Random& random) {
@@ -136,4 +136,4 @@ SequenceClass random_class(int n, Random& random) {
   return work;
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -6,11 +6,11 @@
 #include <random>
 #include <string>
 
-#include "grove/model/instance.h"
-#include "grove/sequencing/cost_matrix.h"
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/model/instance.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/rtsp.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 using Random = std::mt19937;
 
@@ -40,4 +40,4 @@ inline constexpr const char* kMaps[] = {"empty-32-32", "random-32-32-20", "room-
 // A class of sequences of n stops: a random prefix and a random set forbidden after it.
 SequenceClass random_class(int n, Random& random);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The three back ends against all permutations, on random classes with random cutoffs.
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/sequencing/rtsp.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "matrices.h"
 #include "tests/support/fuzz_factor.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace rtsp_test {
 
 std::string name_of(const ::testing::TestParamInfo<RtspBackend>& info) {
@@ -166,4 +166,4 @@ TEST(RelaxationBound, IsExactForUpToTwoStops) {
 }
 
 }  // namespace rtsp_test
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

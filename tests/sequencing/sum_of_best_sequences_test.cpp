@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "grove/sequencing/sum_of_best_sequences.h"
+#include "grove/detail/sequencing/sum_of_best_sequences.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "grove/model/distance_field.h"
+#include "grove/detail/model/distance_field.h"
 #include "tests/support/instances.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace sum_of_best_sequences_test {
 
 Time distance(const Instance& instance, Cell from, Cell to) {
@@ -64,4 +64,4 @@ TEST(SumOfBestSequences, IsNotKnownWhenALimitStrikes) {
 }
 
 }  // namespace sum_of_best_sequences_test
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

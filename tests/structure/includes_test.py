@@ -65,11 +65,11 @@ def standard_names(code):
 def other_names(code):
     """Identifiers, but for those of members, other namespaces and tests."""
     code = re.sub(r"\b\w*TEST\w*\(\s*\w+,\s*\w+", "", code)
-    return set(re.findall(r"(?:(?<![.>\w:])|\bgrove::)(\w+)", code))
+    return set(re.findall(r"(?:(?<![.>\w:])|\bgrove::(?:detail::)?)(\w+)", code))
 
 
 def declared_names(code):
-    return set(re.findall(r"\b(?:enum class|class|struct|enum|using|typename)\s+(\w+)", code))
+    return set(re.findall(r"\b(?:enum class|class|struct|enum|using|typename)\s+(?:GROVE_API\s+)?(\w+)", code))
 
 
 class Tree:
@@ -82,7 +82,7 @@ class Tree:
         self.declared = {path: declared_names(code) for path, code in self.code.items()}
         self.defined_in = {}
         for path in texts:
-            for name in named_types(texts[path], True) if path.suffix == ".h" else []:
+            for name in named_types(texts[path], True) if path.suffix in (".h", ".hpp") else []:
                 self.defined_in.setdefault(name.split("::")[-1], set()).add(path)
 
     def included(self, path):

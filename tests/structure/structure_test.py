@@ -12,9 +12,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 # Lowest first; each may use only those before it.
 LAYERS = ["model", "execution", "io", "sequencing", "planning", "conflicts", "search", "primal", "baselines",
-          "engine", "batch", "mpi", "tools"]
+          "engine", "batch", "api", "mpi", "tools"]
 CODE_FOLDERS = ["include", "src", "mpi", "cluster", "examples", "tools", "tests", "benchmarks"]
-CPP = {".h", ".cpp"}
+CPP = {".h", ".hpp", ".cpp"}
 FORBIDDEN_IN_LIBRARIES = {
     "ends the process": r"(?<![.>\w])(?:exit|_exit|_Exit|quick_exit|abort|terminate)\s*\(",
     "prints": r"\bstd::(?:cout|cerr|clog)\b|\b(?:printf|puts|putchar)\s*\(|\bstd(?:out|err)\b"
@@ -37,7 +37,7 @@ def without_comments_and_strings(text):
 
 def includes(text):
     """The layers whose headers `text` includes."""
-    return set(re.findall(r'^\s*#\s*include\s*[<"]grove/(\w+)/', text, re.M))
+    return set(re.findall(r'^\s*#\s*include\s*[<"]grove/(?:detail/)?(\w+)/', text, re.M))
 
 
 def points_back(layer, included):
@@ -84,7 +84,7 @@ def named_types(text, is_header):
             found.append("::".join([*scopes, alias.group(1)]))
         if token.group() == "{":
             namespace = re.search(r"\bnamespace\s+([\w:]+)$", head)
-            defined = re.search(r"(?:^|[>\s])(?:class|struct|union|enum(?:\s+class)?)\s+([\w:]+)"
+            defined = re.search(r"(?:^|[>\s])(?:class|struct|union|enum(?:\s+class)?)\s+(?:GROVE_API\s+)?([\w:]+)"
                                 r"(?:\s+final)?(?:\s*:[^{]*)?$", head)
             if defined and in_namespace:
                 found.append("::".join([*scopes, defined.group(1)]))
@@ -118,7 +118,7 @@ class TheTree(unittest.TestCase):
                     yield path, path.read_text(encoding="utf-8")
 
     def layer_sources(self, layer):
-        return self.sources(f"include/grove/{layer}", f"src/{layer}")
+        return self.sources(f"include/grove/detail/{layer}", f"src/{layer}")
 
     def declared(self):
         result = {}
@@ -133,13 +133,13 @@ class TheTree(unittest.TestCase):
 
     def test_every_tunable_is_used(self):
         names = re.findall(r"^GROVE_TUNABLE\(\w+, (\w+),",
-                           (ROOT / "include/grove/model/tunables.def").read_text(), re.M)
+                           (ROOT / "include/grove/detail/model/tunables.def").read_text(), re.M)
         code = "".join(text for _, text in self.sources("src", "mpi"))
         self.assertTrue(names)
         self.assertEqual([n for n in names if not re.search(rf"\btuning_?\.{n}\b", code)], [])
 
     def test_every_folder_is_a_known_layer(self):
-        for folder in [*(ROOT / "include/grove").iterdir(), *(ROOT / "src").iterdir()]:
+        for folder in [*(ROOT / "include/grove/detail").iterdir(), *(ROOT / "src").iterdir()]:
             if folder.is_dir():
                 self.assertIn(folder.name, LAYERS, folder)
 
@@ -167,7 +167,7 @@ class TheTree(unittest.TestCase):
     def test_no_two_files_define_one_type(self):
         defined_in = {}
         for path, text in self.sources("include", "src", "mpi", "tools", "tests", "benchmarks"):
-            for name in named_types(text, path.suffix == ".h"):
+            for name in named_types(text, path.suffix != ".cpp"):
                 self.assertEqual(defined_in.setdefault(name, path), path, name)
 
     def test_libraries_neither_end_the_process_nor_print(self):

@@ -5,7 +5,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 
-namespace grove {
+namespace grove::detail {
 
 // Ignores SIGXFSZ and lets no file grow beyond some bytes, while it lives.
 class FileSizeLimit {
@@ -25,4 +25,4 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
-}  // namespace grove
+}  // namespace grove::detail

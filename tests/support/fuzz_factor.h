@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument if that is no int of
 // at least 1.
@@ -25,4 +25,4 @@ inline int fuzz_rounds(int rounds) {
   return rounds * times;
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

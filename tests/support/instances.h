@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // A grid from rows of '.' and '@'.
 inline Grid grid_of(const std::vector<std::string>& rows) {
@@ -45,4 +45,4 @@ inline Instance instance_of(const std::vector<std::string>& rows,
   return std::move(builder).build();
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 
 // The folder that the environment variable GROVE_MOVINGAI names, or the one beside the project.
 inline std::filesystem::path movingai_directory() {
@@ -23,4 +23,4 @@ inline std::string movingai_missing() {
   return "no Moving AI maps in " + movingai_directory().string() + " (set GROVE_MOVINGAI)";
 }
 
-}  // namespace grove
+}  // namespace grove::detail

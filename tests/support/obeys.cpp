@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 Cell at(const Path& path, Time time) {
@@ -75,4 +75,4 @@ bool obeys(const World& grid, const Path& walked, const Constraint& c) {
   throw std::invalid_argument("a constraint on the sequence is not about the path");
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

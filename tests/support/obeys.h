@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "grove/model/plan.h"
-#include "grove/planning/constraint.h"
+#include "grove/detail/model/plan.h"
+#include "grove/detail/planning/constraint.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // Does `path`, its rest for ever included, obey `constraint`?
 bool obeys(const World& grid, const Path& path, const Constraint& constraint);
@@ -22,4 +22,4 @@ struct Mouth {
 // Is this a move from an end of a chain into it?
 bool is_mouth(const World& grid, Cell end, Cell inner);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

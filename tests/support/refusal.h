@@ -4,9 +4,9 @@
 #include <functional>
 #include <string>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 
 // What the InputError thrown by `act` says, without the folder of its file; "accepted" if none is.
 inline std::string refusal(const std::function<void()>& act) {
@@ -21,4 +21,4 @@ inline std::string refusal(const std::function<void()>& act) {
   return "accepted";
 }
 
-}  // namespace grove
+}  // namespace grove::detail

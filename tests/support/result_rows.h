@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "grove/batch/row.h"
+#include "grove/detail/batch/row.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 using batch::Row;
 
@@ -49,4 +49,4 @@ inline Row failed_row(const std::string& instance = "i", const std::string& meth
   return row;
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -100,4 +100,4 @@ ProcessResult run_program(const std::vector<std::string>& command, const Process
   return result;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

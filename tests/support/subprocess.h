@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 
 struct ProcessResult {
   int exit_code = -1;  // as a shell tells it: 128 + the signal that ended it
@@ -32,4 +32,4 @@ struct ProcessOptions {
 ProcessResult run_program(const std::vector<std::string>& command,
                           const ProcessOptions& options = {});
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
-namespace grove {
+namespace grove::detail {
 
 namespace fs = std::filesystem;
 
@@ -45,4 +45,4 @@ std::string file_content(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-}  // namespace grove
+}  // namespace grove::detail

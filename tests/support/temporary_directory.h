@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 
 // Made on construction, removed with all its files on destruction.
 class TemporaryDirectory {
@@ -32,4 +32,4 @@ class TemporaryDirectory {
 // The bytes of a file; throws std::runtime_error when there is none.
 std::string file_content(const std::filesystem::path& path);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,7 +8,7 @@
 
 #include "tests/support/subprocess.h"
 
-namespace grove {
+namespace grove::detail {
 
 inline ProcessResult run_grove(std::vector<std::string> arguments,
                                const ProcessOptions& options = {}) {
@@ -29,4 +29,4 @@ inline std::string complaint(const ProcessResult& result) {
   return result.err.substr(start.size(), result.err.size() - start.size() - 1);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <memory>
 
-#include "grove/batch/manifest.h"
-#include "grove/batch/result_table.h"
+#include "grove/detail/batch/manifest.h"
+#include "grove/detail/batch/result_table.h"
 #include "tools/bench/bench_methods.h"
 #include "tools/bench/bench_run.h"
 #include "tools/bench/rehearsal.h"
@@ -20,7 +20,7 @@
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kShareOfMemory = 0.8;
@@ -151,4 +151,4 @@ void add_bench_command(CLI::App& root) {
   app->callback([app, a] { run(*app, *a); });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

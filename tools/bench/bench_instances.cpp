@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace grove::bench {
+namespace grove::detail::bench {
 
 std::vector<BenchInstance> balanced(const std::vector<batch::Entry>& entries) {
   std::vector<BenchInstance> instances;
@@ -15,4 +15,4 @@ std::vector<BenchInstance> balanced(const std::vector<batch::Entry>& entries) {
   return instances;
 }
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

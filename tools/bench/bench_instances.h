@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "grove/batch/instance_facts.h"
+#include "grove/detail/batch/instance_facts.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 
 struct BenchInstance {
   batch::Entry entry;
@@ -18,4 +18,4 @@ struct BenchInstance {
 // is done at any moment is balanced; otherwise as they stand. Throws InputError.
 std::vector<BenchInstance> balanced(const std::vector<batch::Entry>& entries);
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

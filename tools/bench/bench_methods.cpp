@@ -11,12 +11,12 @@
 #include <sstream>
 #include <string_view>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/common/parse_error.h"
 #include "tools/common/program.h"
 #include "tools/solve/solve_arguments.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -147,4 +147,4 @@ std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
   return methods;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,7 +9,7 @@
 
 #include "tools/bench/bench_run.h"
 
-namespace grove {
+namespace grove::detail {
 
 // What holds for runs that do not say otherwise.
 struct RunDefaults {
@@ -27,4 +27,4 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults);
 std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
                                      const RunDefaults& defaults);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -17,14 +17,14 @@
 #include <mutex>
 #include <thread>
 
-#include "grove/batch/batch_clock.h"
-#include "grove/batch/result_table.h"
-#include "grove/io/input_error.h"
+#include "grove/detail/batch/batch_clock.h"
+#include "grove/detail/batch/result_table.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/judge.h"
 #include "tools/bench/root_costs.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -244,4 +244,4 @@ BenchState run_bench(const std::vector<BenchInstance>& instances,
   return Bench(instances, methods, options).run();
 }
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -12,7 +12,7 @@
 #include "tools/bench/bench_instances.h"
 #include "tools/bench/progress_text.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 
 struct Method {
   batch::Settings settings;  // the method's name is unique and names files
@@ -49,4 +49,4 @@ std::vector<std::string> solve_command(const std::string& program, const batch::
 BenchState run_bench(const std::vector<BenchInstance>& instances,
                      const std::vector<Method>& methods, const BenchOptions& options);
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

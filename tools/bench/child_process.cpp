@@ -14,9 +14,9 @@
 #include <csignal>
 #include <system_error>
 
-#include "grove/io/descriptor.h"
+#include "grove/detail/io/descriptor.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -95,4 +95,4 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   return end;
 }
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

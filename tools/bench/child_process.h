@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace grove::bench {
+namespace grove::detail::bench {
 
 struct ChildLimits {
   double seconds = 0;               // then it is killed
@@ -35,4 +35,4 @@ struct ChildEnd {
 ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& said,
                    const ChildLimits& limits);
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -6,11 +6,11 @@
 #include <cstring>
 #include <string_view>
 
-#include "grove/io/input_error.h"
-#include "grove/io/plan_file.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/io/text_file.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace {
 
 constexpr const char* kTimeLimit = "time limit";
@@ -64,4 +64,4 @@ batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& 
   }
 }
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <string>
 
-#include "grove/batch/outcome.h"
-#include "grove/model/instance.h"
+#include "grove/detail/batch/outcome.h"
+#include "grove/detail/model/instance.h"
 #include "tools/bench/child_process.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 
 // The outcome of a solve of `instance` that was to write `plan_file` and said what is in the file
 // `said`: believes the plan file nothing that the checker can work out itself. Never throws for
@@ -22,4 +22,4 @@ batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& 
 // The last line that grove said, after a colon and a blank; empty if it said nothing.
 std::string last_words(const std::filesystem::path& said);
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

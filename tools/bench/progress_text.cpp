@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace {
 
 std::string median_text(std::vector<double> values) {
@@ -65,4 +65,4 @@ std::string summary_table(const BenchState& state) {
   return text + "median s: of all runs; one that is not solved counts as its time limit\n";
 }
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

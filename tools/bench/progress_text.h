@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/batch/progress.h"
-#include "grove/batch/row.h"
+#include "grove/detail/batch/progress.h"
+#include "grove/detail/batch/row.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 
 // What has become of a method's runs.
 struct MethodCount {
@@ -39,4 +39,4 @@ batch::ProgressText progress_text(const BenchState& state);
 // A line for each method: solved of those run, the median runtime of those solved, errors.
 std::string summary_table(const BenchState& state);
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

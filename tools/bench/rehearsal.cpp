@@ -9,11 +9,11 @@
 #include <map>
 #include <system_error>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/judge.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,4 +69,4 @@ void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Met
   }
 }
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -6,7 +6,7 @@
 
 #include "tools/bench/bench_run.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 
 // Lets every method begin on one instance of each problem there is (cts, mg, ...), with a time
 // limit of 0. Throws InputError with the program's words where it refuses (exit code 2): so would
@@ -14,4 +14,4 @@ namespace grove::bench {
 void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
               const BenchOptions& options);
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -3,9 +3,9 @@
 
 #include <chrono>
 
-#include "grove/sequencing/sum_of_best_sequences.h"
+#include "grove/detail/sequencing/sum_of_best_sequences.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 
 RootCosts::RootCosts(std::size_t instances, double seconds, std::size_t bytes)
     : known_(instances), seconds_(seconds), bytes_(bytes) {}
@@ -23,4 +23,4 @@ std::optional<Cost> RootCosts::of(std::size_t index, const Instance& instance) {
   return known.cost;
 }
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -7,10 +7,10 @@
 #include <mutex>
 #include <optional>
 
-#include "grove/model/instance.h"
-#include "grove/model/omega.h"
+#include "grove/detail/model/instance.h"
+#include "grove/detail/model/omega.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 
 // Of any thread: whoever asks first for an instance does the work, others for the same one wait.
 class RootCosts {
@@ -33,4 +33,4 @@ class RootCosts {
   const std::size_t bytes_;
 };
 
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -6,15 +6,15 @@
 #include <cstdio>
 #include <memory>
 
-#include "grove/io/input_error.h"
-#include "grove/io/plan_import.h"
-#include "grove/model/check.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_import.h"
+#include "grove/detail/model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/gap_text.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/standard_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kMostViolations = 20;
@@ -91,4 +91,4 @@ void add_check_command(CLI::App& app) {
   command->callback([arguments] { run(*arguments); });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

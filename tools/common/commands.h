@@ -8,7 +8,7 @@
 #include <CLI/App.hpp>
 #include <exception>
 
-namespace grove {
+namespace grove::detail {
 
 inline constexpr int kExitSuccess = 0;
 inline constexpr int kExitInternalFailure = 1;
@@ -35,4 +35,4 @@ void add_convert_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_view_command(CLI::App& app);
 
-}  // namespace grove
+}  // namespace grove::detail

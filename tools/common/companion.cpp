@@ -9,9 +9,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,4 +58,4 @@ void become(const std::string& companion, const std::vector<std::string>& argume
   throw InputError(program, "", fmt::format("cannot be run: {}", std::strerror(error)));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

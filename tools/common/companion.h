@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 
 // What standard input then holds, in this program and in the one that it becomes. Throws
 // InputError.
@@ -16,4 +16,4 @@ void become_standard_input(std::string_view text);
 // Becomes that program; returns never. Throws InputError if it is not there or cannot be run.
 [[noreturn]] void become(const std::string& companion, const std::vector<std::string>& arguments);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,7 +4,7 @@
 #include "tools/common/commands.h"
 #include "tools/common/companion.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // grove NAME hands over to grove-NAME.
@@ -23,4 +23,4 @@ void add_companion_commands(CLI::App& app) {
   add(app, "toio", "Drive toio cubes, real or simulated, along a passing order");
 }
 
-}  // namespace grove
+}  // namespace grove::detail

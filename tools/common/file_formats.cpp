@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 template <typename Format>
@@ -111,4 +111,4 @@ std::string without_suffix(const std::string& file) {
   return std::filesystem::path(file).replace_extension().string();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

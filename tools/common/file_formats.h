@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 
 enum class InstanceFormat : std::uint8_t { kGrove, kLibmrp, kMgcbs, kMapfw, kScen };
 enum class PlanFormat : std::uint8_t {
@@ -35,4 +35,4 @@ bool is_called_like_another_tools_instance(const std::string& file);
 // `file` without the suffix of a format: "x" of "x.cts.json".
 std::string without_suffix(const std::string& file);
 
-}  // namespace grove
+}  // namespace grove::detail

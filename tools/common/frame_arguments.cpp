@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <string_view>
 
-#include "grove/io/input_error.h"
-#include "grove/model/parse_number.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/parse_number.h"
 #include "tools/common/options.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kLeastCell = 1e-3;
@@ -53,4 +53,4 @@ Frame FrameArguments::frame(const Instance& instance) const {
   return frame;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,10 +5,10 @@
 #include <CLI/App.hpp>
 #include <string>
 
-#include "grove/io/frame.h"
-#include "grove/model/instance.h"
+#include "grove/detail/io/frame.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove {
+namespace grove::detail {
 
 // --cell-size and --origin. Must outlive the parsing.
 class FrameArguments {
@@ -27,4 +27,4 @@ class FrameArguments {
   std::string origin_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace grove {
+namespace grove::detail {
 
 std::string gap_text(std::optional<Cost> cost, Cost lower_bound) {
   if (!cost) return "-";
@@ -13,4 +13,4 @@ std::string gap_text(std::optional<Cost> cost, Cost lower_bound) {
                                      static_cast<double>(lower_bound));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "grove/model/omega.h"
+#include "grove/detail/model/omega.h"
 
-namespace grove {
+namespace grove::detail {
 
 // (cost - lower bound) / lower bound in percent, as "0.95 %"; "-" without a cost, "infinite" when
 // the bound is 0 and the cost is not.
 std::string gap_text(std::optional<Cost> cost, Cost lower_bound);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::size_t kDescriptionWidth = 70;
@@ -28,4 +28,4 @@ std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
   return wrapped;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

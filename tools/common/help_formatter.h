@@ -4,7 +4,7 @@
 #include <CLI/App.hpp>
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 
 // CLI11's help with descriptions wrapped, so that an 100-column terminal shows them whole; options
 // without one are for experiments, and are not shown.
@@ -14,4 +14,4 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_option_desc(const CLI::Option* option) const override;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

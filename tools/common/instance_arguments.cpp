@@ -7,14 +7,14 @@
 #include <filesystem>
 #include <string_view>
 
-#include "grove/io/input_error.h"
-#include "grove/io/scenario_file.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/scenario_file.h"
+#include "grove/detail/io/text_file.h"
 #include "tools/common/file_formats.h"
 #include "tools/common/options.h"
 #include "tools/common/standard_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr IntegerRange kAgentCounts{1, 1'000'000};
@@ -105,4 +105,4 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) say_on_stderr("grove: warning: " + warning);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

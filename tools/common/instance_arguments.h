@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "grove/io/instance_file.h"
+#include "grove/detail/io/instance_file.h"
 
-namespace grove {
+namespace grove::detail {
 
 // INSTANCE.cts.json, - for one on standard input, or FILE.scen with --agents and perhaps --map.
 // Must outlive the parsing.
@@ -52,4 +52,4 @@ std::string read_standard_input();
 // One "grove: warning: ..." line each, on stderr.
 void print_warnings(const std::vector<std::string>& warnings);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -13,7 +13,7 @@
 
 #include "tools/common/memory_granted.h"
 
-namespace grove {
+namespace grove::detail {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::string processor_text() {
   return fmt::format("{}, {} cores", model, std::thread::hardware_concurrency());
 }
 
-}  // namespace grove
+}  // namespace grove::detail

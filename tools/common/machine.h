@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 
 // The memory that this process may use: the machine's, or less where a container or a batch system
 // grants no more.
@@ -18,4 +18,4 @@ std::string machine_text();
 // "Intel(R) Xeon(R) CPU @ 2.20GHz, 8 cores": what results of several machines are told apart by.
 std::string processor_text();
 
-}  // namespace grove
+}  // namespace grove::detail

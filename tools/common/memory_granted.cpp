@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,4 +63,4 @@ std::optional<std::uint64_t> memory_granted(const fs::path& root) {
   return least < kUnlimited ? std::optional(least) : std::nullopt;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,9 +8,9 @@
 #include <sstream>
 #include <utility>
 
-#include "grove/model/parse_number.h"
+#include "grove/detail/model/parse_number.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text,
@@ -124,4 +124,4 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, d
       ->default_str(fmt::format("{}", value));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 
 struct IntegerRange {
   std::int64_t least = 0;
@@ -42,4 +42,4 @@ CLI::Validator one_of(std::vector<std::string> names);
 // `range`.
 std::int64_t parse_integer(const std::string& option, const std::string& text, IntegerRange range);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,9 +5,9 @@
 
 #include <CLI/Error.hpp>
 
-#include "grove/io/atomic_file.h"
+#include "grove/detail/io/atomic_file.h"
 
-namespace grove {
+namespace grove::detail {
 
 void require_own_files(const std::vector<OwnFile>& files, const InstanceArguments& instance,
                        const LoadedInstance& loaded, const std::vector<std::string>& plans) {
@@ -23,4 +23,4 @@ void require_own_files(const std::vector<OwnFile>& files, const InstanceArgument
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

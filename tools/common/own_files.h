@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/instance_file.h"
+#include "grove/detail/io/instance_file.h"
 #include "tools/common/instance_arguments.h"
 
-namespace grove {
+namespace grove::detail {
 
 struct OwnFile {
   std::string option;  // by which it is named
@@ -21,4 +21,4 @@ struct OwnFile {
 void require_own_files(const std::vector<OwnFile>& files, const InstanceArguments& instance,
                        const LoadedInstance& loaded, const std::vector<std::string>& plans);
 
-}  // namespace grove
+}  // namespace grove::detail

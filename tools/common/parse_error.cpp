@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -77,4 +77,4 @@ std::string unknown_command_text(const CLI::App& command, const std::string& wor
   return fmt::format("unknown command '{}'{}", word, suggestion(word, commands_of(command)));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

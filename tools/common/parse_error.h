@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 
 // `error` came up while `command` was being parsed. CLI11's words, but for a command, an option or
 // an argument that is not known: that is named, and of options and commands the one that resembles
@@ -19,4 +19,4 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 // That `command` has no such subcommand, and which one resembles it.
 std::string unknown_command_text(const CLI::App& command, const std::string& word);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -12,14 +12,14 @@
 #include <utility>
 #include <vector>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/common/commands.h"
 #include "tools/common/help_formatter.h"
 #include "tools/common/parse_error.h"
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -115,4 +115,4 @@ int run_only_process(CLI::App& app, int argc, char** argv) {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

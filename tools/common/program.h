@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 
 // One line on stderr: "grove: error: ...".
 void complain(const CLI::App& app, const std::string& message);
@@ -31,4 +31,4 @@ int run_program(
 // The whole of a program that is one process: run_program(), and internal failures are told too.
 int run_only_process(CLI::App& app, int argc, char** argv);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-namespace grove {
+namespace grove::detail {
 
 batch::ProgressStyle stderr_style() {
   batch::ProgressStyle style;
@@ -21,4 +21,4 @@ batch::ProgressStyle stderr_style() {
   return style;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

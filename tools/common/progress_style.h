@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "grove/batch/progress.h"
+#include "grove/detail/batch/progress.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Progress on stderr, as wide as that is now.
 batch::ProgressStyle stderr_style();
 
-}  // namespace grove
+}  // namespace grove::detail

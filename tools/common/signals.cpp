@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-namespace grove {
+namespace grove::detail {
 
 std::atomic<bool> interrupted{false};
 std::atomic<bool> checkpoint_asked{false};
@@ -28,4 +28,4 @@ void stop_on_signals() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-namespace grove {
+namespace grove::detail {
 
 // Set by the first Ctrl-C, SIGTERM or hang-up after stop_on_signals().
 extern std::atomic<bool> interrupted;
@@ -17,4 +17,4 @@ extern std::atomic<bool> checkpoint_asked;
 // the log that goes away (`| head`) must not take the plan with it.
 void stop_on_signals();
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,10 +3,10 @@
 
 #include <cstdio>
 
-namespace grove {
+namespace grove::detail {
 
 void say_on_stderr(std::string_view line) {
   std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
 }
 
-}  // namespace grove
+}  // namespace grove::detail

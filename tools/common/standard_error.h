@@ -5,9 +5,9 @@
 
 #include <string_view>
 
-namespace grove {
+namespace grove::detail {
 
 // Writes a line to stderr, if that can be. Throws nothing. Of any thread.
 void say_on_stderr(std::string_view line);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,10 +3,10 @@
 
 #include "git_hash.h"
 
-namespace grove {
+namespace grove::detail {
 
 std::string version_text() {
   return "grove " GROVE_VERSION " (git " GROVE_GIT_HASH ")";
 }
 
-}  // namespace grove
+}  // namespace grove::detail

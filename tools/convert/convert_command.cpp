@@ -6,12 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/common/commands.h"
 #include "tools/common/options.h"
 #include "tools/convert/convert_parts.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kConvertFooter =
@@ -248,4 +248,4 @@ void add_convert_command(CLI::App& app) {
   command->callback([arguments] { run(*arguments); });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

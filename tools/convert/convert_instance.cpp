@@ -6,19 +6,19 @@
 #include <filesystem>
 #include <system_error>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/expressible.h"
-#include "grove/io/input_error.h"
-#include "grove/io/libmrp_file.h"
-#include "grove/io/map_file.h"
-#include "grove/io/mapfw_file.h"
-#include "grove/io/scenario_file.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/libmrp_file.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/mapfw_file.h"
+#include "grove/detail/io/scenario_file.h"
 #include "tools/common/commands.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/convert/convert_parts.h"
 #include "tools/generate/generate_commands.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ void convert_instance(const ConvertArguments& arguments, InstanceFormat from, In
   });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,14 +6,14 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/map_file.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/text_file.h"
 #include "tools/convert/convert_parts.h"
 #include "tools/convert/occupancy_map.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::string_view kFree = ". _0GSE";
@@ -112,4 +112,4 @@ void convert_map(const ConvertArguments& arguments) {
   print_map(arguments.output, grid);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

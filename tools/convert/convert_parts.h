@@ -6,12 +6,12 @@
 #include <functional>
 #include <string>
 
-#include "grove/io/instance_file.h"
+#include "grove/detail/io/instance_file.h"
 #include "tools/common/file_formats.h"
 #include "tools/common/frame_arguments.h"
 #include "tools/common/options.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Of the first rows of a scenario.
 inline constexpr IntegerRange kRowCounts{1, 1'000'000};
@@ -59,4 +59,4 @@ void convert_map(const ConvertArguments& arguments);
 void express(const ConvertArguments& arguments, const Instance& instance, InstanceFormat from,
              const std::function<void()>& write);
 
-}  // namespace grove
+}  // namespace grove::detail

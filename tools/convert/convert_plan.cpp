@@ -5,17 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/plan_export.h"
-#include "grove/io/plan_file.h"
-#include "grove/io/tracker_file.h"
-#include "grove/model/check.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_export.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/io/tracker_file.h"
+#include "grove/detail/model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/convert/convert_parts.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFo
              solution.plan->cost);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/graphml_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/lif_file.h"
-#include "grove/io/roadmap_file.h"
+#include "grove/detail/io/graphml_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/lif_file.h"
+#include "grove/detail/io/roadmap_file.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/convert/convert_parts.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // "graphml" or "lif"; empty where neither --from nor the suffix tells.
@@ -163,4 +163,4 @@ void convert_roadmap(const ConvertArguments& arguments) {
   print_rounding(stepped, network, scale);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

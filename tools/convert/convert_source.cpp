@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/expressible.h"
-#include "grove/io/input_error.h"
-#include "grove/io/libmrp_file.h"
-#include "grove/io/mapfw_file.h"
-#include "grove/io/scenario_file.h"
+#include "grove/detail/io/expressible.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/libmrp_file.h"
+#include "grove/detail/io/mapfw_file.h"
+#include "grove/detail/io/scenario_file.h"
 #include "tools/convert/convert_parts.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 LoadedInstance read_scen(const ConvertArguments& arguments) {
@@ -81,4 +81,4 @@ void express(const ConvertArguments& arguments, const Instance& instance, Instan
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

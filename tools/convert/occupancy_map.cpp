@@ -11,12 +11,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/io/input_error.h"
-#include "grove/io/map_file.h"
-#include "grove/io/text_file.h"
-#include "grove/model/parse_number.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/text_file.h"
+#include "grove/detail/model/parse_number.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -301,4 +301,4 @@ CellMap cells_of(const OccupancyMap& map, double cell_size, double robot_radius)
   return Cells(map, cell_size, robot_radius).run();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/frame.h"
-#include "grove/model/grid.h"
+#include "grove/detail/io/frame.h"
+#include "grove/detail/model/grid.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Free or not, by pixel, as the file's mode "trinary" says: what is unknown is not free.
 class OccupancyMap {
@@ -51,4 +51,4 @@ struct CellMap {
 // ways. Throws std::invalid_argument if no cell fits into the image.
 CellMap cells_of(const OccupancyMap& map, double cell_size, double robot_radius);
 
-}  // namespace grove
+}  // namespace grove::detail

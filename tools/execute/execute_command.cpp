@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "grove/execution/switching.h"
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/order_file.h"
-#include "grove/io/plan_file.h"
-#include "grove/io/plan_import.h"
-#include "grove/model/check.h"
+#include "grove/detail/execution/switching.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/order_file.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/io/plan_import.h"
+#include "grove/detail/model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/frame_arguments.h"
 #include "tools/common/instance_arguments.h"
@@ -27,7 +27,7 @@
 #include "tools/view/page.h"
 #include "tools/view/page_data.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr IntegerRange kRuns{1, 1'000'000};
@@ -120,8 +120,8 @@ class Execution {
     const auto durations = [&] {
       return troubles.durations(order_, static_cast<std::uint64_t>(seed));
     };
-    Drive drive = grove::drive(order_, durations());
-    std::vector<Stuck> stuck = grove::stuck(order_, drive);
+    Drive drive = grove::detail::drive(order_, durations());
+    std::vector<Stuck> stuck = grove::detail::stuck(order_, drive);
     if (stuck.empty()) fixed_.add(order_, drive);
     if (a_.switches) {
       SwitchedDrive switched =
@@ -285,4 +285,4 @@ void add_execute_command(CLI::App& app) {
   });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "grove/io/input_error.h"
-#include "grove/model/check.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/check.h"
 #include "tools/common/instance_arguments.h"
 
-namespace grove {
+namespace grove::detail {
 
 void refuse(const std::string& option, const std::string& text, const std::string& expected) {
   throw CLI::ValidationError(option,
@@ -39,4 +39,4 @@ ClaimedPlan read_plan_to_drive(const std::string& file, const Instance& instance
   return claimed;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

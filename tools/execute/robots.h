@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "grove/io/plan_import.h"
-#include "grove/model/instance.h"
+#include "grove/detail/io/plan_import.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Throws CLI::ValidationError: "`option`: found '`text`'; expected `expected`".
 [[noreturn]] void refuse(const std::string& option, const std::string& text,
@@ -21,4 +21,4 @@ AgentIndex robot_of(const std::string& option, const std::string& text, const st
 // if there is none, or it is not valid.
 ClaimedPlan read_plan_to_drive(const std::string& file, const Instance& instance);
 
-}  // namespace grove
+}  // namespace grove::detail

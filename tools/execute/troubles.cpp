@@ -8,13 +8,13 @@
 #include <cmath>
 #include <memory>
 
-#include "grove/io/input_error.h"
-#include "grove/model/parse_number.h"
-#include "grove/model/random.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/parse_number.h"
+#include "grove/detail/model/random.h"
 #include "tools/common/options.h"
 #include "tools/execute/robots.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr IntegerRange kSteps{0, 1'000'000};
@@ -94,4 +94,4 @@ Duration Troubles::durations(const PassingOrder& order, std::uint64_t seed) cons
   };
 }
 
-}  // namespace grove
+}  // namespace grove::detail

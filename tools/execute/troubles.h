@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/execution/drive.h"
-#include "grove/model/instance.h"
+#include "grove/detail/execution/drive.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Of a command line.
 struct TroubleArguments {
@@ -44,4 +44,4 @@ class Troubles {
   std::vector<Stop> stops_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 void flood(const Grid& grid, Cell first, int label, std::vector<int>& labels) {
@@ -98,4 +98,4 @@ std::vector<int> largest_strong_component(const Roadmap& roadmap) {
   return largest;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "grove/model/grid.h"
-#include "grove/model/roadmap.h"
+#include "grove/detail/model/grid.h"
+#include "grove/detail/model/roadmap.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The connected parts of the passable cells: by cell, the number of its part (from 0, in the order
 // of their first cells), or -1 on blocked cells.
@@ -20,4 +20,4 @@ std::vector<Cell> largest_component(const Grid& grid);
 // every other, in ascending order.
 std::vector<int> largest_strong_component(const Roadmap& roadmap);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,7 +7,7 @@
 
 #include "tools/common/options.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // "0-10" or "5".
@@ -59,4 +59,4 @@ Extras ExtrasArguments::extras(bool with_goals) const {
           .durations = durations_};
 }
 
-}  // namespace grove
+}  // namespace grove::detail

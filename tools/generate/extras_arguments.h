@@ -6,7 +6,7 @@
 
 #include "tools/generate/instance_generator.h"
 
-namespace grove {
+namespace grove::detail {
 
 // --turning, --turn-steps, --goal-headings, --durations. Must outlive the parsing.
 class ExtrasArguments {
@@ -25,4 +25,4 @@ class ExtrasArguments {
   const CLI::App* command_ = nullptr;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

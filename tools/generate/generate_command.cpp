@@ -2,13 +2,13 @@
 // grove generate: the command itself, and what its parts share.
 #include <fmt/format.h>
 
-#include "grove/io/map_file.h"
+#include "grove/detail/io/map_file.h"
 #include "tools/common/commands.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/scenario_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kFooter =
@@ -70,4 +70,4 @@ void add_generate_command(CLI::App& app) {
   add_generate_paper_command(*command);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

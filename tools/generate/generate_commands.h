@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <string>
 
-#include "grove/model/grid.h"
+#include "grove/detail/model/grid.h"
 #include "tools/common/options.h"
 #include "tools/generate/instance_generator.h"
 
-namespace grove {
+namespace grove::detail {
 
 inline constexpr IntegerRange kAgentNumbers{1, 100'000};
 inline constexpr IntegerRange kScenarioNumbers{1, 10'000};
@@ -39,4 +39,4 @@ Scenario draw_scenario(const std::string& map, const Grid& grid, int rows, std::
 // `map` as an instance file at `instance` must name it.
 std::string map_as_seen_from(const std::filesystem::path& instance, const std::string& map);
 
-}  // namespace grove
+}  // namespace grove::detail

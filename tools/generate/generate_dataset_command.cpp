@@ -7,12 +7,12 @@
 #include <memory>
 #include <set>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/generate_set.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ void add_generate_dataset_command(CLI::App& generate) {
   command->callback([arguments] { run(*arguments); });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <memory>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/instance_file.h"
-#include "grove/io/roadmap_file.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/io/roadmap_file.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/roadmap_instance.h"
 #include "tools/generate/scenario_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr IntegerRange kRowNumbers{1, 1'000'000};
@@ -173,4 +173,4 @@ void add_generate_instance_command(CLI::App& generate) {
   command->callback([command, arguments] { run_instance(*command, *arguments); });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

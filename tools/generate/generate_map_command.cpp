@@ -4,11 +4,11 @@
 
 #include <memory>
 
-#include "grove/io/map_file.h"
+#include "grove/detail/io/map_file.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/map_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr IntegerRange kSides{1, 8192};
@@ -98,4 +98,4 @@ void add_generate_map_command(CLI::App& generate) {
   add_rooms(*map, arguments);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,15 +7,15 @@
 #include <memory>
 #include <numeric>
 
-#include "grove/batch/folder.h"
-#include "grove/io/input_error.h"
-#include "grove/io/map_file.h"
+#include "grove/detail/batch/folder.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/map_file.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/generate_set.h"
 #include "tools/generate/map_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ void add_generate_paper_command(CLI::App& generate) {
   command->callback([command, arguments] { run(*command, *arguments); });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "grove/io/roadmap_file.h"
+#include "grove/detail/io/roadmap_file.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/roadmap_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // Options of one kind stand together in the help, under these words.
@@ -137,4 +137,4 @@ void add_generate_roadmap_command(CLI::App& generate) {
   command->callback([command, arguments] { run(*command, *arguments); });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <functional>
 
-#include "grove/batch/folder.h"
-#include "grove/io/atomic_file.h"
-#include "grove/io/instance_file.h"
+#include "grove/detail/batch/folder.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/instance_file.h"
 #include "tools/generate/generate_commands.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -66,4 +66,4 @@ void write_set(const fs::path& directory, const std::vector<MapSet>& maps, const
              std::ranges::count(manifest, '\n'));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/grid.h"
+#include "grove/detail/model/grid.h"
 #include "tools/generate/instance_generator.h"
 
-namespace grove {
+namespace grove::detail {
 
 // A scenario, what stands for it in file names ("s7"), and the seed of its tasks.
 struct NumberedScenario {
@@ -43,4 +43,4 @@ void require_fitting(const std::vector<MapSet>& maps, const SetSizes& sizes);
 void write_set(const std::filesystem::path& directory, const std::vector<MapSet>& maps,
                const SetSizes& sizes);
 
-}  // namespace grove
+}  // namespace grove::detail

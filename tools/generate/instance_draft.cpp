@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kMostAgentsPerTask = 3;
@@ -109,4 +109,4 @@ Instance InstanceDraft::build(Map map) && {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

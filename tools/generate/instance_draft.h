@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 #include "tools/generate/instance_generator.h"
 #include "tools/generate/random.h"
 
-namespace grove {
+namespace grove::detail {
 
 struct DrawnAgent {
   std::string row;  // of the scenario, for messages; may be empty
@@ -51,4 +51,4 @@ class InstanceDraft {
   std::vector<DrawnTask> tasks_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

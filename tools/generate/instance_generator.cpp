@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/generate/components.h"
 #include "tools/generate/instance_draft.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kRowsReservedForAgents = 20;
@@ -112,4 +112,4 @@ Instance generate_instance(const Grid& grid, const Scenario& scenario,
   return Generator(grid, scenario, request).run();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

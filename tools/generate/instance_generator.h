@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/scenario_file.h"
-#include "grove/model/instance.h"
+#include "grove/detail/io/scenario_file.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove {
+namespace grove::detail {
 
 struct Scenario {
   std::string name;  // the file it came from, for messages
@@ -54,4 +54,4 @@ int rows_needed(const InstanceRequest& request);
 Instance generate_instance(const Grid& grid, const Scenario& scenario,
                            const InstanceRequest& request);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -12,7 +12,7 @@
 #include "tools/generate/components.h"
 #include "tools/generate/random.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 std::size_t cells_of(int width, int height) {
@@ -158,4 +158,4 @@ Grid rooms_map(int width, int height, int room_size, double doors, std::uint64_t
   return Grid(width, height, passable);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "grove/model/grid.h"
+#include "grove/detail/model/grid.h"
 
-namespace grove {
+namespace grove::detail {
 
 Grid empty_map(int width, int height);
 
@@ -20,4 +20,4 @@ Grid random_map(int width, int height, double obstacles, std::uint64_t seed);
 // rooms.
 Grid rooms_map(int width, int height, int room_size, double doors, std::uint64_t seed);
 
-}  // namespace grove
+}  // namespace grove::detail

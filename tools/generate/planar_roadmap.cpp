@@ -26,7 +26,7 @@
 #include "tools/generate/random.h"
 #include "tools/generate/roadmap_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kPerMetre = 100;
@@ -170,4 +170,4 @@ Roadmap planar_roadmap(const PlanarRequest& request) {
   return Roadmap(name(spots), std::move(roads));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

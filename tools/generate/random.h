@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "grove/model/random.h"
+#include "grove/detail/model/random.h"
 
-namespace grove {
+namespace grove::detail {
 
 // What the numbers of a seed are for: different uses of one seed do not depend on each other.
 enum class RandomUse : std::uint32_t {
@@ -22,4 +22,4 @@ inline Random random_for(RandomUse use, std::uint64_t seed) {
   return Random(seed, static_cast<std::uint32_t>(use));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "grove/model/roadmap.h"
+#include "grove/detail/model/roadmap.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Lengths are in metres; those that are not given a range must be positive.
 struct PlanarRequest {
@@ -42,4 +42,4 @@ Roadmap warehouse_roadmap(const WarehouseRequest& request);
 // What a road this long takes, in whole steps.
 Time steps_of(double metres, double metres_per_step);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/generate/components.h"
 #include "tools/generate/instance_draft.h"
 #include "tools/generate/random.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Vertices = std::vector<int>;  // in ascending order until they are shuffled
@@ -118,4 +118,4 @@ Instance generate_instance(const Site& site, const InstanceRequest& request) {
   return std::move(draft).build(site.roadmap);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "grove/model/roadmap.h"
+#include "grove/detail/model/roadmap.h"
 #include "tools/generate/instance_generator.h"
 
-namespace grove {
+namespace grove::detail {
 
 // A roadmap, and which of its vertices are for what: those whose ids begin so.
 struct Site {
@@ -28,4 +28,4 @@ struct Site {
 // few vertices, or an agent would get more than kMaxTasksPerAgent tasks.
 Instance generate_instance(const Site& site, const InstanceRequest& request);
 
-}  // namespace grove
+}  // namespace grove::detail

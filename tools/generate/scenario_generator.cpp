@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "grove/io/input_error.h"
-#include "grove/model/distance_field.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/distance_field.h"
 #include "tools/generate/components.h"
 #include "tools/generate/random.h"
 
-namespace grove {
+namespace grove::detail {
 
 std::vector<ScenarioRow> random_scenario(const Grid& grid, const std::string& map, int count,
                                          std::uint64_t seed) {
@@ -48,4 +48,4 @@ std::vector<Time> scenario_lengths(const Grid& grid, const std::vector<ScenarioR
   return lengths;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

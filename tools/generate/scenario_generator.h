@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/scenario_file.h"
+#include "grove/detail/io/scenario_file.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Draws `count` rows within the map's largest connected part; no goal is its own row's start.
 // `map` is the map's file name. Throws InputError, naming it, when the part has fewer cells.
@@ -18,4 +18,4 @@ std::vector<ScenarioRow> random_scenario(const Grid& grid, const std::string& ma
 // The 4-connected distance from start to goal, by row.
 std::vector<Time> scenario_lengths(const Grid& grid, const std::vector<ScenarioRow>& rows);
 
-}  // namespace grove
+}  // namespace grove::detail

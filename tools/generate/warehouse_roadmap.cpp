@@ -17,7 +17,7 @@
 
 #include "tools/generate/roadmap_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 class Warehouse {
@@ -135,4 +135,4 @@ Roadmap warehouse_roadmap(const WarehouseRequest& request) {
   return Warehouse(request).build();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

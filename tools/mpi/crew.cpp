@@ -9,10 +9,10 @@
 #include <thread>
 #include <utility>
 
-#include "grove/io/descriptor.h"
+#include "grove/detail/io/descriptor.h"
 #include "tools/common/machine.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 std::vector<int> gather_numbers(const MpiSession& session, int mine) {
@@ -77,4 +77,4 @@ std::vector<std::string> warnings(const Crew& crew) {
   return found;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,7 +10,7 @@
 #include "mpi/mpi_session.h"
 #include "tools/solve/solve_arguments.h"
 
-namespace grove {
+namespace grove::detail {
 
 // What each rank says of itself, by rank.
 struct Crew {
@@ -32,4 +32,4 @@ std::string workers_text(const Crew& crew);
 // More threads than cores slow each other down, and cores may be left idle without intent.
 std::vector<std::string> warnings(const Crew& crew);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -14,12 +14,12 @@
 #include <thread>
 #include <utility>
 
-#include "grove/batch/folder.h"
-#include "grove/batch/manifest.h"
-#include "grove/engine/run_observer.h"
-#include "grove/engine/solve.h"
-#include "grove/io/plan_file.h"
-#include "grove/model/fingerprint.h"
+#include "grove/detail/batch/folder.h"
+#include "grove/detail/batch/manifest.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/model/fingerprint.h"
 #include "mpi/batch/farm_client.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/batch/gather.h"
@@ -38,7 +38,7 @@
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -219,7 +219,7 @@ class BatchRun {
     const auto found = batch::gather(*agreement_, answer ? "an answer" : "", poll);
     if (std::ranges::count(found, "") < farm_->ranks()) {
       if (farm_->rank() != 0) return std::nullopt;
-      return answer ? std::move(answer) : grove::solve(instance, options_, limits, &observer);
+      return answer ? std::move(answer) : grove::detail::solve(instance, options_, limits, &observer);
     }
     try {
       return solve_distributed(problem, options_, limits, *search_, observer, poll);
@@ -267,4 +267,4 @@ void add_mpi_batch_command(CLI::App& root, MpiSession& session, CommandLines& li
   });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

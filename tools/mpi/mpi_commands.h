@@ -8,9 +8,9 @@
 #include "mpi/mpi_session.h"
 #include "tools/mpi/together.h"
 
-namespace grove {
+namespace grove::detail {
 
 void add_mpi_solve_command(CLI::App& app, MpiSession& session, CommandLines& lines);
 void add_mpi_batch_command(CLI::App& app, MpiSession& session, CommandLines& lines);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "grove/engine/run_observer.h"
-#include "grove/io/input_error.h"
-#include "grove/model/fingerprint.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/fingerprint.h"
 #include "mpi/solve_distributed.h"
 #include "tools/common/program.h"
 #include "tools/common/version.h"
@@ -24,7 +24,7 @@
 #include "tools/solve/solve_run.h"
 #include "tools/solve/start_plan.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -154,4 +154,4 @@ void add_mpi_solve_command(CLI::App& root, MpiSession& session, CommandLines& li
   });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

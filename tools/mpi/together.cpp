@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace grove {
+namespace grove::detail {
 
 void together(const MpiSession& session, const std::function<void()>& what) {
   std::optional<InputError> mine;
@@ -46,4 +46,4 @@ void require_same(const MpiSession& session, const std::string& what, const std:
       fmt::format("found {} {}; expected {}, that of rank 0", what, *other, all.front()));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,11 +6,11 @@
 #include <functional>
 #include <string>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "mpi/mpi_session.h"
 #include "tools/common/commands.h"
 
-namespace grove {
+namespace grove::detail {
 
 // All ranks: calls `what`, and throws InputError on all of them if it threw InputError on any, with
 // the text of the first, and which rank that is unless all say the same. CLI::ValidationError is
@@ -37,4 +37,4 @@ class CommandLines {
 // All ranks: throws InputError unless all say the same. `what` is, for instance, "version".
 void require_same(const MpiSession& session, const std::string& what, const std::string& mine);
 
-}  // namespace grove
+}  // namespace grove::detail

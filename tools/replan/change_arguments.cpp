@@ -6,13 +6,13 @@
 #include <CLI/Error.hpp>
 #include <algorithm>
 
-#include "grove/io/input_error.h"
-#include "grove/model/parse_number.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/parse_number.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
 #include "tools/execute/robots.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr IntegerRange kSteps{0, 1'000'000};
@@ -59,7 +59,7 @@ AskedChange::AskedChange(const ChangeArguments& arguments, const Instance& insta
 
 void AskedChange::read_new_tasks(const std::string& file, const Instance& instance) {
   std::vector<std::string> warnings;
-  for (ReadTask& read : grove::read_new_tasks(file, instance, &warnings)) {
+  for (ReadTask& read : grove::detail::read_new_tasks(file, instance, &warnings)) {
     change_.new_tasks.push_back(std::move(read.task));
     new_tasks_.push_back({file, read.place});
   }
@@ -75,7 +75,7 @@ void AskedChange::block(const std::string& text, const Instance& instance) {
                      ? std::nullopt
                      : parse_number<int>(text.substr(comma + 1), 0, grid.height() - 1);
   if (!x || !y)
-    grove::refuse("--blocked", text,
+    grove::detail::refuse("--blocked", text,
                   fmt::format("X,Y, a cell with x in 0..{} and y in 0..{}", grid.width() - 1,
                               grid.height() - 1));
   change_.blocked.push_back(grid.cell({*x, *y}));
@@ -100,7 +100,7 @@ void AskedChange::block_on_roadmap(const std::string& text, const Roadmap& roadm
     }
     return;
   }
-  grove::refuse("--blocked", text, "a vertex of the roadmap, or A,B: two that a road joins");
+  grove::detail::refuse("--blocked", text, "a vertex of the roadmap, or A,B: two that a road joins");
 }
 
 void AskedChange::refuse(const InstanceError& error) const {
@@ -118,4 +118,4 @@ void AskedChange::refuse(const InstanceError& error) const {
                              fmt::format("'{}': {}", one_line(said.what), error.what()));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "grove/execution/change.h"
-#include "grove/execution/late.h"
-#include "grove/io/change_file.h"
+#include "grove/detail/execution/change.h"
+#include "grove/detail/execution/late.h"
+#include "grove/detail/io/change_file.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Of a command line.
 struct ChangeArguments {
@@ -45,4 +45,4 @@ class AskedChange {
   std::vector<Said> new_tasks_, dropped_, blocked_, closed_roads_;  // as in the change
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,10 +8,10 @@
 #include <memory>
 #include <string>
 
-#include "grove/engine/session.h"
-#include "grove/io/input_error.h"
-#include "grove/io/map_file.h"
-#include "grove/io/roadmap_file.h"
+#include "grove/detail/engine/session.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/roadmap_file.h"
 #include "tools/common/commands.h"
 #include "tools/common/file_formats.h"
 #include "tools/common/options.h"
@@ -22,7 +22,7 @@
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ void add_replan_command(CLI::App& root) {
   });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

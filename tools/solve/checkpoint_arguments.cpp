@@ -6,16 +6,16 @@
 #include <CLI/CLI.hpp>
 #include <system_error>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
-#include "grove/model/fingerprint.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
+#include "grove/detail/model/fingerprint.h"
 #include "tools/common/options.h"
 #include "tools/common/signals.h"
 #include "tools/common/standard_error.h"
 #include "tools/solve/start_plan.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kShortestInterval_s = 0.1;  // there should be time for the search
@@ -106,4 +106,4 @@ CheckpointFolder prepare_checkpoints(const CheckpointArguments& a, const Instanc
   return folder;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

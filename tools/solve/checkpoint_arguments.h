@@ -8,11 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "grove/engine/checkpoint.h"
-#include "grove/engine/solve.h"
-#include "grove/io/file_lock.h"
+#include "grove/detail/engine/checkpoint.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/io/file_lock.h"
 
-namespace grove {
+namespace grove::detail {
 
 struct CheckpointArguments {
   std::filesystem::path directory;
@@ -42,4 +42,4 @@ struct CheckpointFolder {
 CheckpointFolder prepare_checkpoints(const CheckpointArguments& arguments, const Instance& instance,
                                      SolveOptions& options);
 
-}  // namespace grove
+}  // namespace grove::detail

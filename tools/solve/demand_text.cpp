@@ -5,7 +5,7 @@
 
 #include <variant>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 std::string name_of(const Instance& instance, Place place) {
@@ -61,4 +61,4 @@ std::string text_of(const AgentConstraint& demand, const Instance& instance) {
   return "";
 }
 
-}  // namespace grove
+}  // namespace grove::detail

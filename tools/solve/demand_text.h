@@ -4,15 +4,15 @@
 
 #include <string>
 
-#include "grove/conflicts/conflict.h"
-#include "grove/model/instance.h"
-#include "grove/planning/constraint.h"
+#include "grove/detail/conflicts/conflict.h"
+#include "grove/detail/model/instance.h"
+#include "grove/detail/planning/constraint.h"
 
-namespace grove {
+namespace grove::detail {
 
 // "a1 and a4 on [3,4] at 7".
 std::string text_of(const Conflict& conflict, const Instance& instance);
 // "a1 not on [3,4] at 7"; empty where nobody is forbidden anything.
 std::string text_of(const AgentConstraint& demand, const Instance& instance);
 
-}  // namespace grove
+}  // namespace grove::detail

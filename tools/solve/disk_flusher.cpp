@@ -5,11 +5,11 @@
 
 #include <utility>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/common/standard_error.h"
 
-namespace grove {
+namespace grove::detail {
 
 DiskFlusher::~DiskFlusher() {
   {
@@ -47,4 +47,4 @@ void DiskFlusher::run() {
   }
 }
 
-}  // namespace grove
+}  // namespace grove::detail

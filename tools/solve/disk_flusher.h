@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-namespace grove {
+namespace grove::detail {
 
 // A thread that brings files to the disk, so that they outlive the machine, while others go on:
 // that may take seconds. Its end waits until all are there. What fails is told on stderr, once.
@@ -31,4 +31,4 @@ class DiskFlusher {
   std::thread thread_;  // last: it uses the rest
 };
 
-}  // namespace grove
+}  // namespace grove::detail

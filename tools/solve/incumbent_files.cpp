@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <string_view>
 
-#include "grove/io/input_error.h"
-#include "grove/io/plan_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_file.h"
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr std::string_view kSuffix = ".plan.json";
@@ -72,4 +72,4 @@ void IncumbentFiles::write_file(const std::filesystem::path& file, const Solutio
   flusher_->flush(file);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,12 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "grove/engine/run_observer.h"
-#include "grove/model/instance.h"
-#include "grove/model/omega.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/model/instance.h"
+#include "grove/detail/model/omega.h"
 #include "tools/solve/disk_flusher.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Writes the k-th plan of a run to PREFIX-<k>.plan.json, and the best one to a file of its own,
 // whole or not at all, and passes everything on to another observer; a plan is in its file before
@@ -52,4 +52,4 @@ class IncumbentFiles : public ForwardingObserver {
   std::optional<DiskFlusher> flusher_;  // from the first plan on
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -12,7 +12,7 @@
 #include "tools/common/version.h"
 #include "tools/solve/demand_text.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -251,4 +251,4 @@ void JsonLog::end(const LogEnd& end) {
   sink_.line(line_of(json));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

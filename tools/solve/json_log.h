@@ -6,7 +6,7 @@
 #include "tools/solve/log_format.h"
 #include "tools/solve/log_sink.h"
 
-namespace grove {
+namespace grove::detail {
 
 class JsonLog : public LogFormat {
  public:
@@ -29,4 +29,4 @@ class JsonLog : public LogFormat {
   const Instance* instance_ = nullptr;  // of the head, which outlives the log
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,13 +8,13 @@
 #include <string>
 #include <string_view>
 
-#include "grove/engine/checkpoint.h"
-#include "grove/engine/run_observer.h"
-#include "grove/io/instance_file.h"
-#include "grove/model/plan.h"
+#include "grove/detail/engine/checkpoint.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/model/plan.h"
 #include "tools/solve/tree_log.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Before the search: who solves what, and how. The instance outlives the log.
 struct LogHead {
@@ -66,4 +66,4 @@ class LogFormat {
   virtual void end(const LogEnd& end) = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

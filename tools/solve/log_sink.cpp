@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/common/standard_error.h"
 
-namespace grove {
+namespace grove::detail {
 
 LogSink::LogSink(std::FILE* screen, const std::filesystem::path& file, bool may_show_progress)
     : screen_(screen),
@@ -58,4 +58,4 @@ void LogSink::erase_progress() {
   progress_shown_ = false;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-namespace grove {
+namespace grove::detail {
 
 // Writes lines to the screen, to a file, to both or to neither; and on a terminal a progress line
 // that the next line overwrites.
@@ -36,4 +36,4 @@ class LogSink {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

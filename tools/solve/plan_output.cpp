@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/io/input_error.h"
-#include "grove/io/plan_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_file.h"
 #include "tools/common/standard_error.h"
 #include "tools/solve/start_plan.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // None unless the file holds a plan that is valid for the instance.
@@ -79,4 +79,4 @@ void tell_without_plan(const Solution& solution, const std::filesystem::path& fi
       kept ? fmt::format("; {} keeps its valid plan of cost {}", file.string(), *kept) : ""));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

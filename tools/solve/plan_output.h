@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "grove/model/instance.h"
-#include "grove/model/plan.h"
+#include "grove/detail/model/instance.h"
+#include "grove/detail/model/plan.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Standard output in place of a plan file.
 inline constexpr const char* kStandardOutput = "-";
@@ -26,4 +26,4 @@ std::optional<Cost> write_plan(const std::filesystem::path& file, const Instance
 void tell_without_plan(const Solution& solution, const std::filesystem::path& file,
                        std::optional<Cost> kept);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "grove/model/limits.h"
+#include "grove/detail/model/limits.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kRowInterval_s = 0.5;  // at first; then a tenth of the time gone by
@@ -117,4 +117,4 @@ void RunLog::on_checkpoint(const CheckpointReport& report) {
   format_.checkpoint(report, seconds());
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -11,7 +11,7 @@
 
 #include "tools/solve/log_format.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Decides when a row is due: at once for a plan and for nodes that are to be told, else throttled
 // by the clock, or, with `by_work`, by the number of nodes expanded, so that two runs of the same
@@ -63,4 +63,4 @@ class RunLog : public RunObserver {
   double last_progress_s_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "grove/primal/plan_source.h"
+#include "grove/detail/primal/plan_source.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 class Counts {
@@ -84,4 +84,4 @@ std::vector<std::string> search_summary(const Stats& stats) {
   };
 }
 
-}  // namespace grove
+}  // namespace grove::detail

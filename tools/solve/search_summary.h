@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Lines for the end of a log; none about what `stats` do not know.
 std::vector<std::string> search_summary(const Stats& stats);
 
-}  // namespace grove
+}  // namespace grove::detail

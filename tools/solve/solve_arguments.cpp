@@ -12,7 +12,7 @@
 #include "tools/common/parse_error.h"
 #include "tools/common/signals.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kDefaultOmega = "0.01";
@@ -302,4 +302,4 @@ void set_limits(Limits& limits, const SolveArguments& a,
   limits.watch_interrupt(&interrupted);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "grove/engine/method.h"
-#include "grove/model/limits.h"
+#include "grove/detail/engine/method.h"
+#include "grove/detail/model/limits.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/machine.h"
 #include "tools/solve/checkpoint_arguments.h"
 
-namespace grove {
+namespace grove::detail {
 
 struct SolveArguments {
   InstanceArguments instance;
@@ -70,4 +70,4 @@ SolveOptions options_of_one_search(const SolveArguments& arguments);
 void set_limits(Limits& limits, const SolveArguments& arguments,
                 std::chrono::steady_clock::time_point start);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/engine/method.h"
-#include "grove/io/input_error.h"
+#include "grove/detail/engine/method.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/common/commands.h"
 #include "tools/common/signals.h"
 #include "tools/solve/incumbent_files.h"
@@ -15,7 +15,7 @@
 #include "tools/solve/solve_run.h"
 #include "tools/solve/start_plan.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -76,4 +76,4 @@ void add_solve_command(CLI::App& root) {
   app->callback([app, arguments] { run_solve(*app, *arguments); });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,15 +8,15 @@
 #include <optional>
 #include <utility>
 
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/common/version.h"
 #include "tools/solve/incumbent_files.h"
 #include "tools/solve/json_log.h"
 #include "tools/solve/plan_output.h"
 #include "tools/solve/text_log.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kJsonLines = "jsonl";
@@ -103,4 +103,4 @@ void finish_run(const SolveArguments& a, const Instance& instance, const Solutio
   tell_without_plan(solution, a.output, kept);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

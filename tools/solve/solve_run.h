@@ -7,13 +7,13 @@
 #include <memory>
 #include <string>
 
-#include "grove/io/instance_file.h"
-#include "grove/model/plan.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/model/plan.h"
 #include "tools/solve/log_format.h"
 #include "tools/solve/run_log.h"
 #include "tools/solve/solve_arguments.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Finds out before the search whether the files of a run can be written and are not each other;
 // gives the plan file its default name. Throws InputError.
@@ -40,4 +40,4 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
 void finish_run(const SolveArguments& arguments, const Instance& instance, const Solution& solution,
                 LogFormat& log);
 
-}  // namespace grove
+}  // namespace grove::detail

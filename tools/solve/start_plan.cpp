@@ -5,12 +5,12 @@
 
 #include <utility>
 
-#include "grove/io/input_error.h"
-#include "grove/io/plan_file.h"
-#include "grove/model/check.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/model/check.h"
 #include "tools/common/instance_arguments.h"
 
-namespace grove {
+namespace grove::detail {
 
 Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance,
                      std::vector<std::string>* warnings) {
@@ -34,4 +34,4 @@ Plan read_start_plan(const std::filesystem::path& path, const Instance& instance
   return plan;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

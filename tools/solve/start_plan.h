@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/plan.h"
+#include "grove/detail/model/plan.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The plan in the file, which must be valid for `instance`; what else the file claims (status,
 // bound) does not count. Appends to `warnings`. Throws InputError that tells what is wrong.
@@ -18,4 +18,4 @@ Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance
 // The same, with the warnings on stderr.
 Plan read_start_plan(const std::filesystem::path& path, const Instance& instance);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -16,7 +16,7 @@
 #include "tools/common/version.h"
 #include "tools/solve/search_summary.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr int kRowsPerHeader = 20;
@@ -220,4 +220,4 @@ void TextLog::end(const LogEnd& end) {
       end.kept ? fmt::format(" (kept as it is, with a valid plan of cost {})", *end.kept) : ""));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

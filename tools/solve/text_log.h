@@ -5,7 +5,7 @@
 #include "tools/solve/log_format.h"
 #include "tools/solve/log_sink.h"
 
-namespace grove {
+namespace grove::detail {
 
 class TextLog : public LogFormat {
  public:
@@ -30,4 +30,4 @@ class TextLog : public LogFormat {
   int rows_ = 0;
 };
 
-}  // namespace grove
+}  // namespace grove::detail

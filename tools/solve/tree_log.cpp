@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/solve/tree_log.h"
 
-namespace grove {
+namespace grove::detail {
 
 std::int64_t TreeLog::add(const Node& node) {
   numbers_[&node] = made_;
@@ -26,4 +26,4 @@ std::optional<NodeRow> TreeLog::expanded(const Node& node, const Expansion& expa
   return row;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

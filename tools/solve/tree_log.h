@@ -7,10 +7,10 @@
 #include <optional>
 #include <unordered_map>
 
-#include "grove/search/expander.h"
-#include "grove/search/node.h"
+#include "grove/detail/search/expander.h"
+#include "grove/detail/search/node.h"
 
-namespace grove {
+namespace grove::detail {
 
 // A root, made by the run.
 struct RootRow {
@@ -45,4 +45,4 @@ class TreeLog {
   std::unordered_map<const Node*, std::int64_t> numbers_;  // of nodes not expanded yet
 };
 
-}  // namespace grove
+}  // namespace grove::detail

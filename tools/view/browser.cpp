@@ -7,9 +7,9 @@
 
 #include <array>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 
 void open_in_browser(std::string target) {
   const std::string opener = "xdg-open";
@@ -28,4 +28,4 @@ void open_in_browser(std::string target) {
         "cannot be run; expected the Debian package xdg-utils, or open the page by hand");
 }
 
-}  // namespace grove
+}  // namespace grove::detail

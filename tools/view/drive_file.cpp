@@ -7,11 +7,11 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "grove/execution/visits.h"
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/execution/visits.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kFormat = "grove drive 1";
@@ -68,4 +68,4 @@ std::string order_data(const Instance& instance, const PassingOrder& order) {
   return nlohmann::json{{"robots", std::move(robots)}}.dump();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

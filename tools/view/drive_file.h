@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "grove/execution/passing_order.h"
-#include "grove/model/instance.h"
+#include "grove/detail/execution/passing_order.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Its whole lines, the first one that of a drive of these robots; a last line that has not ended is
 // left out. (The page reads the others strictly.) Throws InputError.
@@ -19,4 +19,4 @@ std::string read_drive_log(const std::filesystem::path& path, const Instance& in
 // tasks they visit, and what they wait for.
 std::string order_data(const Instance& instance, const PassingOrder& order);
 
-}  // namespace grove
+}  // namespace grove::detail

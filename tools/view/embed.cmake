@@ -9,11 +9,11 @@ file(READ ${PROGRAM} program)
 file(WRITE ${OUTPUT} "// Made by embed.cmake.
 #include \"tools/view/page_parts.h\"
 
-namespace grove {
+namespace grove::detail {
 
 PageParts ${NAME}_page_parts() {
   return {R\"grove(${style})grove\", R\"grove(${program})grove\"};
 }
 
-}  // namespace grove
+}  // namespace grove::detail
 ")

@@ -14,9 +14,9 @@
 #include <mutex>
 #include <thread>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kLoopback = "127.0.0.1";
@@ -126,4 +126,4 @@ void serve(const Followed& followed, int port, const std::function<void(const st
   server.stop();
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-namespace grove {
+namespace grove::detail {
 
 // What a server is to show.
 struct Followed {
@@ -21,4 +21,4 @@ struct Followed {
 void serve(const Followed& followed, int port, const std::function<void(const std::string&)>& begun,
            const std::function<bool()>& over);
 
-}  // namespace grove
+}  // namespace grove::detail

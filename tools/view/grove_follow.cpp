@@ -16,7 +16,7 @@
 #include "tools/view/browser.h"
 #include "tools/view/follow_server.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr IntegerRange kPorts{0, 65'535};
@@ -41,16 +41,16 @@ void follow(const FollowArguments& arguments) {
 }
 
 }  // namespace
-}  // namespace grove
+}  // namespace grove::detail
 
 int main(int argc, char** argv) {
   CLI::App app("Show a log while it grows: the end of grove view --follow", "grove-follow");
-  grove::FollowArguments arguments;
-  grove::prepare_program(app);
+  grove::detail::FollowArguments arguments;
+  grove::detail::prepare_program(app);
   app.require_subcommand(0);
   app.add_option("LOG", arguments.log, "need not exist yet")->required()->type_name("");
-  grove::add_integer(app, "--port", arguments.port, grove::kPorts, "0: one that is free");
+  grove::detail::add_integer(app, "--port", arguments.port, grove::detail::kPorts, "0: one that is free");
   app.add_flag("--open", arguments.open, "show the page in the browser");
-  app.callback([&] { grove::follow(arguments); });
-  return grove::run_only_process(app, argc, argv);
+  app.callback([&] { grove::detail::follow(arguments); });
+  return grove::detail::run_only_process(app, argc, argv);
 }

@@ -7,7 +7,7 @@
 
 #include "tools/view/page_parts.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 std::string escaped(std::string_view text) {
@@ -103,4 +103,4 @@ std::string following_drive_page(std::string_view title, std::string_view data,
               {{"grove-data", data}, {"grove-order", order}, {"grove-log", ""}}, Asks::kItsServer);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

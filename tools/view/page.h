@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace grove {
+namespace grove::detail {
 
 // Plays plans. `data`: of page_data.h.
 std::string plan_page(std::string_view title, std::string_view data);
@@ -21,4 +21,4 @@ std::string drive_page(std::string_view title, std::string_view data, std::strin
 std::string following_drive_page(std::string_view title, std::string_view data,
                                  std::string_view order);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -255,4 +255,4 @@ std::string page_data(const std::string& instance_name, const Instance& instance
   return without_markup(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-}  // namespace grove
+}  // namespace grove::detail

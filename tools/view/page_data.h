@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/plan_import.h"
-#include "grove/model/instance.h"
+#include "grove/detail/io/plan_import.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove {
+namespace grove::detail {
 
 struct NamedPlan {
   std::string name;
@@ -20,4 +20,4 @@ struct NamedPlan {
 std::string page_data(const std::string& instance_name, const Instance& instance,
                       std::span<const NamedPlan> plans);
 
-}  // namespace grove
+}  // namespace grove::detail

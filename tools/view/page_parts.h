@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace grove {
+namespace grove::detail {
 
 // Neither holds an end of its element.
 struct PageParts {
@@ -16,4 +16,4 @@ PageParts plan_page_parts();
 PageParts run_page_parts();
 PageParts drive_page_parts();
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr const char* kHeader =
@@ -41,4 +41,4 @@ std::string read_run_log(const std::filesystem::path& path) {
   return text;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

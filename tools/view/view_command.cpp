@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/execution/passing_order.h"
-#include "grove/io/atomic_file.h"
-#include "grove/io/input_error.h"
-#include "grove/io/plan_import.h"
-#include "grove/model/check.h"
+#include "grove/detail/execution/passing_order.h"
+#include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_import.h"
+#include "grove/detail/model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/companion.h"
 #include "tools/common/instance_arguments.h"
@@ -28,7 +28,7 @@
 #include "tools/view/picture/picture.h"
 #include "tools/view/run_log_file.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -270,4 +270,4 @@ void add_view_command(CLI::App& app) {
   });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace batch_progress_test {
 
 BatchState some_state() {
@@ -109,4 +109,4 @@ TEST(Progress, ElsewhereIsALineNowAndThen) {
 }
 
 }  // namespace batch_progress_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -7,13 +7,13 @@
 
 #include "tests/support/result_rows.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace farm_messages_test {
 
 const std::vector<FarmMessage> kMessages{
     AskForWork{},
-    Report{grove::testing::solved_row()},
-    Report{grove::testing::failed_row()},
+    Report{grove::detail::testing::solved_row()},
+    Report{grove::detail::testing::failed_row()},
     GaveUp{},
     Assignment{{.id = "a-3", .path = "a.scen", .map = "m.map", .agents = 3, .digest = "01"}},
     Assignment{},
@@ -35,4 +35,4 @@ TEST(FarmMessages, CutShortAreNone) {
 }
 
 }  // namespace farm_messages_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -13,15 +13,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/batch/result_table.h"
-#include "grove/io/input_error.h"
+#include "grove/detail/batch/result_table.h"
+#include "grove/detail/io/input_error.h"
 #include "mpi/batch/farm_client.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/simulated_network.h"
 #include "simulated_ranks.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace farm_test {
 
 namespace fs = std::filesystem;
@@ -200,7 +200,7 @@ class Simulation {
   Trial& run_;
   const Grouping grouping_;
   std::mt19937_64 random_;
-  grove::testing::SimulatedRanks ranks_;
+  grove::detail::testing::SimulatedRanks ranks_;
   SimulatedNetwork world_;
   std::vector<std::unique_ptr<SimulatedNetwork>> groups_;
   std::vector<std::atomic<bool>> interrupted_;
@@ -480,4 +480,4 @@ TEST_F(Farms, TellTheirStateAsTheyGo) {
 }
 
 }  // namespace farm_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -6,7 +6,7 @@
 #include "mpi/simulated_network.h"
 #include "simulated_ranks.h"
 
-namespace grove::batch {
+namespace grove::detail::batch {
 namespace gather_test {
 
 // Round after round: who is quick must not be taken for who is slow.
@@ -17,7 +17,7 @@ TEST(Gathering, TellsAllWhatEachSaid) {
       SimulatedNetwork network(count, [&](int, int, std::size_t) {
         return std::uniform_real_distribution<double>(0, 0.02)(random);
       });
-      grove::testing::SimulatedRanks ranks(count, seed);
+      grove::detail::testing::SimulatedRanks ranks(count, seed);
       ranks.on_time = [&](double now) { network.advance_to(now); };
       const auto said = [](int rank, int round) {
         return rank == round % 3 ? "" : std::to_string(round) + " by " + std::to_string(rank);
@@ -35,4 +35,4 @@ TEST(Gathering, TellsAllWhatEachSaid) {
 }
 
 }  // namespace gather_test
-}  // namespace grove::batch
+}  // namespace grove::detail::batch

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 constexpr int kNobody = -1;
@@ -71,4 +71,4 @@ void SimulatedRanks::pass_turn() {
   changed_.notify_all();
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // Each rank has a thread, but only one of them runs at a time: until it calls pause(), when time
 // goes on a little and some rank, chosen at random, has its turn. The same seed, the same run.
@@ -47,4 +47,4 @@ class SimulatedRanks {
   std::exception_ptr failure_;
 };
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -14,16 +14,16 @@
 #include <set>
 #include <tuple>
 
-#include "grove/planning/chains.h"
-#include "grove/planning/free_low_level_search.h"
-#include "grove/planning/optimal_paths.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/planning/chains.h"
+#include "grove/detail/planning/free_low_level_search.h"
+#include "grove/detail/planning/optimal_paths.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 #include "tests/planning/free_reference.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 #include "tests/support/sanitizers.h"
 
-namespace grove {
+namespace grove::detail {
 namespace optimal_paths_language_test {
 
 using testing::FreeProblem;
@@ -542,4 +542,4 @@ TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
 }
 
 }  // namespace optimal_paths_language_test
-}  // namespace grove
+}  // namespace grove::detail

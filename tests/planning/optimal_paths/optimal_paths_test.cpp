@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All paths of one cost, and whether two agents get along on theirs, against trying all.
 // GROVE_FUZZ_ FACTOR multiplies the number of cases.
-#include "grove/planning/optimal_paths.h"
+#include "grove/detail/planning/optimal_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +10,14 @@
 #include <random>
 #include <set>
 
-#include "grove/planning/pair_dependency.h"
+#include "grove/detail/planning/pair_dependency.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"
 #include "tests/planning/step_rules.h"
 #include "tests/support/fuzz_factor.h"
 
-namespace grove {
+namespace grove::detail {
 namespace optimal_paths_test {
 
 using Outcome = OptimalPathsBuilder::Outcome;
@@ -268,4 +268,4 @@ TEST(PairDependency, CountsTheRestOfTheShorterOne) {
 }
 
 }  // namespace optimal_paths_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -10,19 +10,19 @@
 #include <numeric>
 #include <random>
 
-#include "grove/planning/chains.h"
-#include "grove/planning/free_low_level_search.h"
-#include "grove/planning/goal_sequence.h"
-#include "grove/planning/low_level_search.h"
-#include "grove/planning/optimal_paths.h"
-#include "grove/sequencing/cost_matrix.h"
+#include "grove/detail/planning/chains.h"
+#include "grove/detail/planning/free_low_level_search.h"
+#include "grove/detail/planning/goal_sequence.h"
+#include "grove/detail/planning/low_level_search.h"
+#include "grove/detail/planning/optimal_paths.h"
+#include "grove/detail/sequencing/cost_matrix.h"
 #include "src/planning/visit_check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/planning/worlds/world_reference.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/obeys.h"
 
-namespace grove {
+namespace grove::detail {
 namespace world_low_level_test {
 
 using testing::world_reference_cost;
@@ -289,4 +289,4 @@ TEST(WorldLowLevel, AgreesWithATimeExpandedSearch) {
 }
 
 }  // namespace world_low_level_test
-}  // namespace grove
+}  // namespace grove::detail

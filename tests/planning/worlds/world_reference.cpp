@@ -8,7 +8,7 @@
 #include "tests/oracle/steps.h"
 #include "tests/planning/step_rules.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 namespace {
 
 // An agent in the course of its way.
@@ -176,4 +176,4 @@ std::optional<Time> world_reference_cost(const Instance& instance, AgentIndex ag
   }
 }
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

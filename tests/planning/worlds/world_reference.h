@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "grove/model/instance.h"
-#include "grove/planning/constraint.h"
-#include "grove/sequencing/rtsp.h"
+#include "grove/detail/model/instance.h"
+#include "grove/detail/planning/constraint.h"
+#include "grove/detail/sequencing/rtsp.h"
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // The cost of a cheapest path of the agent that realizes a sequence of the class and obeys the
 // constraints; none if there is no path. An agent on a stop that takes no time may or may not count
@@ -19,4 +19,4 @@ std::optional<Time> world_reference_cost(const Instance& instance, AgentIndex ag
                                          const SequenceClass& work,
                                          const std::vector<Constraint>& constraints);
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

@@ -4,14 +4,14 @@
 #include <cstdlib>
 #include <new>
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 thread_local int allocations_until_failure = -1;
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing
 
 void* operator new(std::size_t size) {
-  int& left = grove::testing::allocations_until_failure;
+  int& left = grove::detail::testing::allocations_until_failure;
   if (left >= 0 && left-- == 0) throw std::bad_alloc();
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();

@@ -2,9 +2,9 @@
 // Allocations that fail when a test wants it. Programs that link failing_new.cpp have it.
 #pragma once
 
-namespace grove::testing {
+namespace grove::detail::testing {
 
 // This thread's allocations before one throws std::bad_alloc; negative: none does.
 extern thread_local int allocations_until_failure;
 
-}  // namespace grove::testing
+}  // namespace grove::detail::testing

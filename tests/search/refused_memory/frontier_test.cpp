@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The frontier when memory runs out in the middle of a change: no node is lost, and the bound
 // holds.
-#include "grove/search/frontier.h"
+#include "grove/detail/search/frontier.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "failing_new.h"
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace frontier_memory_test {
 
 class ScarceFrontier : public ::testing::Test {
@@ -91,4 +91,4 @@ TEST_F(ScarceFrontier, KeepsTheBoundWhenBeginningAnewFails) {
 }
 
 }  // namespace frontier_memory_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,7 +6,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace bench_instances_test {
 
 class Orders : public ::testing::Test {
@@ -41,4 +41,4 @@ TEST_F(Orders, RefuseABrokenInstance) {
 }
 
 }  // namespace bench_instances_test
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

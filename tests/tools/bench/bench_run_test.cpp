@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <set>
 
-#include "grove/io/input_error.h"
-#include "grove/io/text_file.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/io/text_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 #include "tools/bench/rehearsal.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace bench_run_test {
 
 using batch::Row;
@@ -230,4 +230,4 @@ TEST_F(Benches, EndWhenTheyCannotGoOn) {
 }
 
 }  // namespace bench_run_test
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

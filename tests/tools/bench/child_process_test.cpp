@@ -12,7 +12,7 @@
 
 #include "tests/support/temporary_directory.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace child_process_test {
 
 class Children : public ::testing::Test {
@@ -107,4 +107,4 @@ TEST_F(Children, DieWithTheirParent) {
 }
 
 }  // namespace child_process_test
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

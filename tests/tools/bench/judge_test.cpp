@@ -5,11 +5,11 @@
 
 #include <csignal>
 
-#include "grove/io/plan_file.h"
+#include "grove/detail/io/plan_file.h"
 #include "tests/support/instances.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace judge_test {
 
 using batch::Outcome;
@@ -34,7 +34,7 @@ class Judges : public ::testing::Test {
   }
 
   const Instance instance_ =
-      grove::testing::instance_of({"...."}, {{{0, 0}, Position{3, 0}, {{1, 0}}}});
+      grove::detail::testing::instance_of({"...."}, {{{0, 0}, Position{3, 0}, {{1, 0}}}});
   Solution solution_;
   TemporaryDirectory directory_;
 };
@@ -76,4 +76,4 @@ TEST_F(Judges, NameWhatWentWrong) {
 }
 
 }  // namespace judge_test
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -5,12 +5,12 @@
 
 #include "tests/support/result_rows.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace progress_text_test {
 
 using batch::Row;
-using grove::testing::failed_row;
-using grove::testing::solved_row;
+using grove::detail::testing::failed_row;
+using grove::detail::testing::solved_row;
 
 BenchState counted() {
   BenchState state{.methods = {"auto", "paper"}, .counts = {{"auto", {}}, {"paper", {}}}};
@@ -49,4 +49,4 @@ TEST(BenchSummary, CountsWhatIsNotSolvedAsTheLimit) {
 }
 
 }  // namespace progress_text_test
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -5,10 +5,10 @@
 
 #include "tests/support/instances.h"
 
-namespace grove::bench {
+namespace grove::detail::bench {
 namespace root_costs_test {
 
-using grove::testing::instance_of;
+using grove::detail::testing::instance_of;
 
 TEST(RootCosts, AreWorkedOutOnce) {
   RootCosts costs(2, 60, 1'000'000'000'000);
@@ -25,4 +25,4 @@ TEST(RootCosts, AreAbsentWhenTheyTakeTooLong) {
 }
 
 }  // namespace root_costs_test
-}  // namespace grove::bench
+}  // namespace grove::detail::bench

@@ -4,7 +4,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace check_command_test {
 
 // . . .   a goes from (0, 0) to (2, 0), b from (2, 1) by task t (1, 1) to (0, 1).
@@ -120,4 +120,4 @@ TEST_F(CheckCommand, PrintsWarnings) {
 }
 
 }  // namespace check_command_test
-}  // namespace grove
+}  // namespace grove::detail

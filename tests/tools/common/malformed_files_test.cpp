@@ -9,7 +9,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace malformed_files_test {
 
 using ::testing::StartsWith;
@@ -214,4 +214,4 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 }  // namespace malformed_files_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -8,7 +8,7 @@
 
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace memory_granted_test {
 
 // Files as the kernel shows them, in a folder that stands for the root.
@@ -81,4 +81,4 @@ TEST_F(MemoryGranted, IgnoresWhatItDoesNotUnderstand) {
 }
 
 }  // namespace memory_granted_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace usage_test {
 
 using Arguments = std::vector<std::string>;
@@ -119,4 +119,4 @@ TEST(Usage, AFullDiskLeavesNothingBehind) {
 }
 
 }  // namespace usage_test
-}  // namespace grove
+}  // namespace grove::detail

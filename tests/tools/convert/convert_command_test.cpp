@@ -6,7 +6,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace convert_command_test {
 
 using Arguments = std::vector<std::string>;
@@ -344,4 +344,4 @@ TEST_F(ConvertCommand, BrokenFilesAreRefusedInOneLine) {
 }
 
 }  // namespace convert_command_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -5,7 +5,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace convert_roadmap_test {
 
 using Arguments = std::vector<std::string>;
@@ -239,4 +239,4 @@ TEST_F(ConvertRoadmap, FilesThatDoNotFitAreRefused) {
 }
 
 }  // namespace convert_roadmap_test
-}  // namespace grove
+}  // namespace grove::detail

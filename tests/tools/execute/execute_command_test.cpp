@@ -10,7 +10,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace execute_command_test {
 
 using nlohmann::json;
@@ -143,4 +143,4 @@ TEST_F(ExecuteCommand, RefusesWhatCannotBe) {
 }
 
 }  // namespace execute_command_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,11 +6,11 @@
 #include <set>
 #include <sstream>
 
-#include "grove/io/instance_file.h"
+#include "grove/detail/io/instance_file.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace generate_command_test {
 
 namespace fs = std::filesystem;
@@ -401,4 +401,4 @@ TEST(GenerateCommand, RefusesOutputsThatCannotBeWritten) {
 }
 
 }  // namespace generate_command_test
-}  // namespace grove
+}  // namespace grove::detail

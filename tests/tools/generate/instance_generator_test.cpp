@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/generate/map_generator.h"
 #include "tools/generate/scenario_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace instance_generator_test {
 
 const Grid& grid() {
@@ -177,4 +177,4 @@ TEST(GenerateInstance, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace instance_generator_test
-}  // namespace grove
+}  // namespace grove::detail

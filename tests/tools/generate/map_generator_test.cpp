@@ -9,7 +9,7 @@
 
 #include "tools/generate/components.h"
 
-namespace grove {
+namespace grove::detail {
 namespace map_generator_test {
 
 std::string text(const Grid& grid) {
@@ -72,4 +72,4 @@ TEST(RoomsMap, EndsWithoutAWallThatSeparatesNothing) {
 }
 
 }  // namespace map_generator_test
-}  // namespace grove
+}  // namespace grove::detail

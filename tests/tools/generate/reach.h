@@ -5,9 +5,9 @@
 #include <set>
 #include <vector>
 
-#include "grove/model/world.h"
+#include "grove/detail/model/world.h"
 
-namespace grove {
+namespace grove::detail {
 
 // The places to which ways lead from `place`, by `next`.
 template <class Next>
@@ -31,4 +31,4 @@ inline std::set<Place> reaching(const World& world, Place place) {
   return closure_of(place, [&](Place here) { return world.moves_to(here); });
 }
 
-}  // namespace grove
+}  // namespace grove::detail

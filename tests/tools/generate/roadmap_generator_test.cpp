@@ -13,7 +13,7 @@
 
 #include "tests/tools/generate/reach.h"
 
-namespace grove {
+namespace grove::detail {
 namespace roadmap_generator_test {
 
 const Vertex& vertex(const Roadmap& roadmap, const std::string& id) {
@@ -267,4 +267,4 @@ TEST(StepsOf, AreWholeOnesRoundedUp) {
 }
 
 }  // namespace roadmap_generator_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "grove/io/input_error.h"
-#include "grove/model/random.h"
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/random.h"
 #include "tests/tools/generate/reach.h"
 #include "tools/generate/components.h"
 #include "tools/generate/roadmap_generator.h"
 
-namespace grove {
+namespace grove::detail {
 namespace roadmap_instance_test {
 
 Site hall() {
@@ -186,4 +186,4 @@ TEST(LargestStrongComponent, IsTheFirstLargestPart) {
 }
 
 }  // namespace roadmap_instance_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -6,9 +6,9 @@
 #include <set>
 #include <string>
 
-#include "grove/io/input_error.h"
+#include "grove/detail/io/input_error.h"
 
-namespace grove {
+namespace grove::detail {
 namespace scenario_generator_test {
 
 // Two parts: 6 cells on the left, 2 on the right.
@@ -47,4 +47,4 @@ TEST(ScenarioLengths, AreDistancesOnTheGrid) {
 }
 
 }  // namespace scenario_generator_test
-}  // namespace grove
+}  // namespace grove::detail

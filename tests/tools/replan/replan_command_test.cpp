@@ -9,7 +9,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace replan_command_test {
 
 using nlohmann::json;
@@ -137,4 +137,4 @@ TEST_F(ReplanCommand, RefusesWhatCannotBe) {
 }
 
 }  // namespace replan_command_test
-}  // namespace grove
+}  // namespace grove::detail

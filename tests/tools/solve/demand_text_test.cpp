@@ -5,7 +5,7 @@
 
 #include "tests/support/instances.h"
 
-namespace grove {
+namespace grove::detail {
 namespace demand_text_test {
 
 using testing::grid_of;
@@ -53,4 +53,4 @@ TEST(DemandText, SaysWhatElseIsDemanded) {
 }
 
 }  // namespace demand_text_test
-}  // namespace grove
+}  // namespace grove::detail

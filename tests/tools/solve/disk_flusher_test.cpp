@@ -8,7 +8,7 @@
 
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace disk_flusher_test {
 
 std::string told_while(const std::vector<std::string>& files) {
@@ -37,4 +37,4 @@ TEST(DiskFlusher, TellsOnceWhatFails) {
 }
 
 }  // namespace disk_flusher_test
-}  // namespace grove
+}  // namespace grove::detail

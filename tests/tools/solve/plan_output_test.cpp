@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/io/plan_file.h"
+#include "grove/detail/io/plan_file.h"
 #include "tests/support/instances.h"
 #include "tests/support/temporary_directory.h"
 
-namespace grove {
+namespace grove::detail {
 namespace plan_output_test {
 
 using ::testing::HasSubstr;
@@ -105,4 +105,4 @@ TEST_F(PlanOutput, TellsWhatMustNotBeMissed) {
 }
 
 }  // namespace plan_output_test
-}  // namespace grove
+}  // namespace grove::detail

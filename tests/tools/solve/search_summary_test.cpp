@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace grove {
+namespace grove::detail {
 namespace search_summary_test {
 
 using ::testing::Contains;
@@ -30,4 +30,4 @@ TEST(SearchSummary, TellsWhatWasCounted) {
 }
 
 }  // namespace search_summary_test
-}  // namespace grove
+}  // namespace grove::detail

@@ -11,12 +11,12 @@
 #include <regex>
 #include <sstream>
 
-#include "grove/io/file_lock.h"
-#include "grove/model/omega.h"
+#include "grove/detail/io/file_lock.h"
+#include "grove/detail/model/omega.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace solve_command_test {
 
 using nlohmann::json;
@@ -713,4 +713,4 @@ TEST_F(Incumbents, DoNotReplaceOtherFilesOfTheRun) {
 }
 
 }  // namespace solve_command_test
-}  // namespace grove
+}  // namespace grove::detail

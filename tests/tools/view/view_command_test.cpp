@@ -14,7 +14,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 
-namespace grove {
+namespace grove::detail {
 namespace view_command_test {
 
 using ::testing::HasSubstr;
@@ -270,4 +270,4 @@ TEST_F(ViewCommand, RefusesWhatItDoesNotUnderstand) {
 }
 
 }  // namespace view_command_test
-}  // namespace grove
+}  // namespace grove::detail

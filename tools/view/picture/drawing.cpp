@@ -12,7 +12,7 @@
 
 #include "tools/view/picture/shapes.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 // The page's measures (page/world.ts, robots.ts, scenery.ts, tasks_canvas.ts), in steps.
@@ -414,4 +414,4 @@ void Drawing::draw_name(cairo_t* cairo, const Robot& robot, const std::string& i
   outlined_text(cairo, shortened(id, 14), {robot.at.x, robot.at.y - r - 0.2 * size}, size, kText);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

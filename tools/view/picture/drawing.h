@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/model/instance.h"
-#include "grove/model/plan.h"
+#include "grove/detail/model/instance.h"
+#include "grove/detail/model/plan.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Draws an instance and, if there is one, a plan; else all where they start. Holds references: both
 // must outlive it. A plan need not be valid; agents without a path are left out.
@@ -72,4 +72,4 @@ class Drawing {
   std::vector<Time> begins_;               // by task: when the first is there, or begins to work
 };
 
-}  // namespace grove
+}  // namespace grove::detail

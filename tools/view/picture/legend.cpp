@@ -5,7 +5,7 @@
 
 #include "tools/view/picture/shapes.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 constexpr double kSize = 10;  // pixels, of a shape
@@ -68,4 +68,4 @@ void draw_legend(cairo_t* cairo, const Instance& instance, bool has_plan) {
   if (has_goals(instance)) add_goal(cairo, "destination");
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -4,11 +4,11 @@
 
 #include <cairo/cairo.h>
 
-#include "grove/model/instance.h"
+#include "grove/detail/model/instance.h"
 
-namespace grove {
+namespace grove::detail {
 
 // One line from the origin on. Of what there is nothing of, nothing is said.
 void draw_legend(cairo_t* cairo, const Instance& instance, bool has_plan);
 
-}  // namespace grove
+}  // namespace grove::detail

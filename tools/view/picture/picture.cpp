@@ -18,7 +18,7 @@
 #include "tools/view/picture/legend.h"
 #include "tools/view/picture/shapes.h"
 
-namespace grove {
+namespace grove::detail {
 namespace {
 
 struct Free {
@@ -343,4 +343,4 @@ std::string gif_picture(const Drawing& drawing, int width, double steps_per_seco
   return bytes;
 }
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -7,7 +7,7 @@
 
 #include "tools/view/picture/drawing.h"
 
-namespace grove {
+namespace grove::detail {
 
 // Moments side by side, from left to right and row by row; each `width` pixels wide.
 std::string svg_picture(const Drawing& drawing, std::span<const double> moments, int width);
@@ -16,4 +16,4 @@ std::string png_picture(const Drawing& drawing, std::span<const double> moments,
 // The whole plan, played at so many steps a second, over and over with a rest at the end.
 std::string gif_picture(const Drawing& drawing, int width, double steps_per_second);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-namespace grove {
+namespace grove::detail {
 
 void set(cairo_t* cairo, const Color& color) {
   cairo_set_source_rgb(cairo, color.red, color.green, color.blue);
@@ -69,4 +69,4 @@ void diamond(cairo_t* cairo, Point at, double radius, const Color& color, const 
   cairo_stroke(cairo);
 }
 
-}  // namespace grove
+}  // namespace grove::detail

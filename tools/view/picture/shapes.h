@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <string>
 
-#include "grove/model/roadmap.h"
+#include "grove/detail/model/roadmap.h"
 
-namespace grove {
+namespace grove::detail {
 
 struct Color {
   double red, green, blue;
@@ -58,4 +58,4 @@ void disc(cairo_t* cairo, Point at, double radius, const Color& color);
 void diamond(cairo_t* cairo, Point at, double radius, const Color& color, const Color& rim,
              double line);
 
-}  // namespace grove
+}  // namespace grove::detail

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// What is kept of one run of a method on an instance: a row of the table.
+//
+// Column by column, in the order of the file; what is absent is null or empty. Times in seconds,
+// costs in steps, memory in MB (1e6 bytes).
+//
+//     instance, method, options      Entry::id; the method's name; its options, as one types them
+//     map, scenario, agents, tasks, problem     InstanceFacts; absent: the instance cannot be read
+//     omega, seed, time_limit_s      of the run
+//     solved                         it ended by itself with a plan that was re-checked: no limit
+//                                    struck
+//     status                         as in the plan file; "error": it crashed, or its plan is wrong
+//     cost, lower_bound, gap         gap = (cost - lower bound) / lower bound
+//     root_cost, sqr                 the sum of the agents' best sequences, conflicts ignored; its
+//                                    ratio to the cost, of what is solved
+//     runtime_s, wall_s              wall time, or the time limit when not solved; wall time
+//     first_plan_s                   when the first plan was found
+//     roots, rtsp_calls, nodes, low_level_calls, peak_memory_mb     as the plan file has them
+//     version, machine, ended_at     of grove; processor and cores; UTC
+//     error                          why the status is error, or the limit that struck
+//     ranks, threads                 that worked together; threads of each
+//     memory_limit_gb                absent: the machine decides
+//     plan_file                      relative to the table's folder; absent: it was not kept
+//     instance_digest                tells when an instance has changed
+//     counts                         what else the search counted: "bypasses=2 joint_pairs=77", by
+//     the
+//                                    names of the plan file, without zeros; absent in older tables
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "grove/detail/batch/instance_facts.h"
+#include "grove/detail/batch/outcome.h"
+
+namespace grove::detail::batch {
+
+// What an answer depends on, beside the instance: the same twice should end the same.
+struct Settings {
+  std::string method;
+  std::string options;  // but for the following, if they have a member of their own
+  std::string omega;    // what the options amount to: 0, 0.01, inf
+  std::int64_t seed = 0;
+  double time_limit_s = 0;
+  std::optional<double> memory_limit_gb = {};  // none: what the machine allows
+
+  friend bool operator==(const Settings&, const Settings&) = default;
+};
+
+// What makes a run the run it is.
+struct Run {
+  std::string instance;  // Entry::id
+  std::string digest;    // Entry::digest
+  Settings settings;
+
+  friend bool operator==(const Run&, const Run&) = default;
+};
+
+struct Row {
+  Run run;
+  InstanceFacts facts = {};
+  Outcome outcome = {};
+  std::optional<Cost> root_cost = {};
+  double wall_s = 0;  // files keep microseconds
+  std::string machine = {};
+  std::string ended_at = {};  // UTC, as 2026-11-30T23:59:59Z
+  std::int64_t ranks = 1;
+  std::int64_t threads = 1;
+  std::string plan_file = {};
+
+  // The paper counts a run that solved nothing with its limit.
+  double runtime_s() const { return outcome.solved ? wall_s : run.settings.time_limit_s; }
+
+  friend bool operator==(const Row&, const Row&) = default;
+};
+
+// One line of JSON without its end. Text that is no UTF-8 is mended.
+std::string json_line(const Row& row);
+// Reads such a line. Throws std::invalid_argument saying what is wrong with it.
+Row parse_json_line(std::string_view line);
+
+// The same as CSV (RFC 4180); what is absent is empty.
+std::string csv_header();
+std::string csv_line(const Row& row);
+
+}  // namespace grove::detail::batch

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// What the workers of a process have in common.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+
+#include "grove/detail/engine/ledger.h"
+#include "grove/detail/engine/local_nodes.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/engine/survey.h"
+#include "grove/detail/engine/tree_source.h"
+#include "grove/detail/engine/turn_observer.h"
+#include "grove/detail/search/expander.h"
+#include "grove/detail/search/memory.h"
+
+namespace grove::detail {
+
+class MemoryShares;
+
+// The nodes that this process holds. CTS-CBS (paper, Algorithms 1 and 4) is what happens when
+// workers take nodes here and bring back what they led to. All methods may be called from any
+// thread; none waits longer than it takes another to do the like.
+class SharedSearch {
+ public:
+  // All must outlive this.
+  SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes, Ledger& ledger,
+               TreeSource& trees, TurnObserver& observer);
+  ~SharedSearch();
+
+  Ledger& ledger() { return ledger_; }
+  TreeSource& trees() { return trees_; }
+  TurnObserver& observer() { return observer_; }
+  bool over() const { return ledger_.over(); }
+
+  // A node to expand; null if there is none just now. Whoever takes it brings it back by finish().
+  NodePtr take();
+  // What became of a node taken, in the hands of the worker of this number.
+  void finish(const NodePtr& node, Expansion expansion, int worker);
+  // A node, perhaps in other hands, that came back unfinished last; null if it has been finished.
+  NodePtr unfinished() const;
+  // Is there something for an idle worker to take, or to find out?
+  bool may_take() const { return frontier_.open() > 0 || frontier_.live() == 0; }
+
+  // Gives up nodes, and what was found out, as memory demands.
+  void keep_within_memory();
+  // What was found out, for expanders to go on with.
+  std::shared_ptr<CommonMemory> memory() const { return known_.load(); }
+
+  // Adds what was counted here to the answer's statistics.
+  void add_counts(Stats& stats) const;
+  // What this process holds now.
+  MemoryUse memory_use() const;
+
+ private:
+  NodePtr take_open();
+  bool plan_is_wanted();
+  void evict_to(std::size_t bytes);
+
+  const Omega omega_;
+  const bool uses_estimates_;
+  const double cost_per_conflict_;
+  LocalNodes& nodes_;
+  NodePool& pool_;
+  Frontier& frontier_;
+  Ledger& ledger_;
+  TreeSource& trees_;
+  TurnObserver& observer_;
+
+  std::atomic<std::int64_t> nodes_generated_{0};
+  std::atomic<std::int64_t> nodes_evicted_{0};
+  std::atomic<std::uint32_t> estimates_turn_{0};
+
+  std::mutex keeping_;  // guards the shares
+  const std::unique_ptr<MemoryShares> shares_;
+  std::atomic<std::shared_ptr<CommonMemory>> known_;
+
+  mutable std::mutex helping_;
+  NodePtr unfinished_;  // under helping_
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Numbers that people and files write, read strictly.
+#pragma once
+
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace grove::detail {
+
+// The decimal number that `text` is, all of it; none if it is none in that range.
+template <class Number>
+std::optional<Number> parse_number(std::string_view text,
+                                   Number least = std::numeric_limits<Number>::lowest(),
+                                   Number most = std::numeric_limits<Number>::max()) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [parsed_to, error] = std::from_chars(text.data(), end, value);
+  const bool is_number = error == std::errc() && parsed_to == end;
+  return is_number && value >= least && value <= most ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Where plans come from.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace grove::detail {
+
+enum class PlanSource : std::uint8_t {
+  kTree,            // a conflict-free constraint-tree node
+  kStart,           // given with the instance
+  kPriorities,      // prioritised planning
+  kConfigurations,  // configuration search
+  kNeighborhood,    // large neighbourhood search
+};
+inline constexpr PlanSource kLastPlanSource = PlanSource::kNeighborhood;
+inline constexpr std::array<std::string_view, 5> kPlanSources{"tree", "start", "priorities",
+                                                              "configurations", "neighborhood"};
+static_assert(kPlanSources.size() == static_cast<std::size_t>(kLastPlanSource) + 1);
+
+// As files and logs call it.
+constexpr std::string_view name_of(PlanSource source) {
+  return kPlanSources[static_cast<std::size_t>(source)];
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// What is known about agents that must together cost more than each alone.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <shared_mutex>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "grove/detail/search/sharded.h"
+#include "grove/detail/search/situations.h"
+
+namespace grove::detail {
+
+// By how much pairs and groups of agents in given situations cost more together than each alone.
+// Groups are named by their agents in ascending order and by the situations of these. All methods
+// may be called from any thread.
+class Excesses {
+ public:
+  using Id = Situations::Id;
+
+  struct Known {
+    Cost excess = 0;              // at least so much
+    bool exact = false;           // and conflict-free paths cost that
+    std::int32_t expansions = 0;  // spent on it
+  };
+  // The other agent of a pair that costs more.
+  struct Partner {
+    AgentIndex agent;
+    Id situation;
+    Cost excess;
+  };
+
+  // What two say together. So it does not matter who says it first.
+  static Known join(Known a, Known b) {
+    return {std::max(a.excess, b.excess), a.exact || b.exact, std::max(a.expansions, b.expansions)};
+  }
+
+  Known of_pair(Id first, Id second) const;
+  // The agent is the second one.
+  void learn_pair(Id first, Id second, AgentIndex agent, Known known);
+  // Of an agent in a situation, those of greater index that it costs more with. Appended.
+  void partners(Id first, std::vector<Partner>& partners) const;
+
+  Known of_group(const std::vector<Id>& situations) const;
+  void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
+                   Known known);
+  // The groups that something is known about, in some situations. Appended.
+  void groups(std::vector<std::vector<AgentIndex>>& groups) const;
+
+  // Memory held, in bytes (about).
+  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Part {
+    std::unordered_map<std::uint64_t, Known> known;         // by both situations
+    std::unordered_map<Id, std::vector<Partner>> partners;  // by the first
+  };
+
+  Sharded<Part> parts_;  // by the first situation
+  mutable std::shared_mutex groups_mutex_;
+  std::map<std::vector<Id>, Known> known_groups_;
+  std::set<std::vector<AgentIndex>> groups_;
+  std::atomic<std::size_t> bytes_{0};
+};
+
+}  // namespace grove::detail

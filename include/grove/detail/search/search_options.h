@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// How constraint trees are searched.
+#pragma once
+
+#include <cstdint>
+
+#include "grove/detail/model/tuning.h"
+#include "grove/detail/search/techniques.h"
+
+namespace grove::detail {
+
+struct SearchOptions {
+  Techniques techniques;
+  std::uint64_t seed = 0;  // breaks ties among conflicts
+  // Checks every node that is looked at, and the tables kept from node to node, against what they
+  // stand for (audit.h). Costs several times what the search does.
+  bool audit = false;
+  Tuning tuning = {};
+};
+
+}  // namespace grove::detail

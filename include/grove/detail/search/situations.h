@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What is known about single agents under sets of constraints.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "grove/detail/search/node.h"
+#include "grove/detail/search/sharded.h"
+
+namespace grove::detail {
+
+// A *situation* is an agent with its order of visits and a set of constraints. Most nodes of a
+// constraint tree ask about situations that others asked about before: they are numbered as they
+// come up, and what is found out about each is kept. Keys are compared in full, so a hash can cost
+// time, never an answer. Costs are functions of the situation alone, so this memory changes no
+// result. All methods may be called from any thread.
+class Situations {
+ public:
+  using Id = std::int32_t;
+
+  struct Known {
+    Time at_least = 0;   // no path costs less; kNever: there is no path
+    bool exact = false;  // a path of that cost exists, or `at_least` is kNever
+    bool hard = false;   // finding out was once given up
+    friend bool operator==(const Known&, const Known&) = default;
+  };
+
+  // The number of a situation. `constraints` must be in canonical order, see canonical(). `order`
+  // must outlive this object.
+  Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints);
+
+  Known known(Id id) const;
+  // Adds what was found out; the stronger statement stays.
+  void learn(Id id, Known known);
+
+  // Memory held, in bytes (about).
+  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Entry {
+    std::uint64_t hash;
+    const AgentOrder* order;
+    AgentIndex agent;
+    std::uint32_t first;  // of its constraints
+    std::uint32_t count;
+    Known known;
+  };
+  struct Part {
+    std::vector<Entry> entries;
+    std::vector<Constraint> constraints;
+    std::vector<Id> table;  // open addressing; a power of two
+
+    Id find_or_add(const Entry& key, std::span<const Constraint> constraints_of_key);
+    void grow();
+    std::size_t bytes() const;
+  };
+
+  Sharded<Part> parts_;  // an Id is the place in a part and the part's number
+  std::atomic<std::size_t> bytes_{0};
+};
+
+// Puts a list of constraints into the order that Situations wants, repeated ones once.
+void canonical(std::vector<Constraint>& constraints);
+
+}  // namespace grove::detail

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "grove/instance.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "access.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/roadmap_file.h"
+
+namespace grove {
+namespace {
+
+detail::Heading heading_of(Heading heading) {
+  return static_cast<detail::Heading>(heading);
+}
+Heading told_heading(detail::Heading heading) {
+  return static_cast<Heading>(heading);
+}
+
+detail::AgentSpec spec_of(const detail::Map& map, const Agent& agent, const std::string& field) {
+  detail::AgentSpec spec{
+      .id = agent.id, .start = {}, .goal = std::nullopt, .motion = {agent.turn_steps}};
+  spec.start = pose_of(map, spec.motion, agent.start, field + "/start");
+  if (agent.goal) spec.goal = place_of(map, *agent.goal, field + "/goal");
+  if (agent.goal_heading) spec.goal_heading = heading_of(*agent.goal_heading);
+  if (agent.working) spec.working = {agent.working->task, agent.working->done};
+  return spec;
+}
+
+// The rules are the builder's; where they are broken is known here.
+template <class Add>
+void added(const std::string& field, Add&& add) {
+  try {
+    add();
+  } catch (const detail::InstanceError& error) {
+    throw InvalidArgument(field + (error.field().empty() ? "" : "/" + error.field()), error.what());
+  }
+}
+
+detail::Instance built(const World& world, const std::vector<Agent>& agents,
+                       const std::vector<Task>& tasks, Rules rules) {
+  const detail::Map& map = *Access::map(world);
+  detail::InstanceBuilder builder(Access::map(world));
+  if (!rules.following) builder.forbid_following();
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const std::string field = fmt::format("/agents/{}", i);
+    added(field, [&] { builder.add_agent(spec_of(map, agents[i], field)); });
+  }
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const std::string field = fmt::format("/tasks/{}", i);
+    const detail::Place place = place_of(map, tasks[i].place, field + "/place");
+    added(field, [&] { builder.add_task(tasks[i].id, place, tasks[i].agents, tasks[i].duration); });
+  }
+  return translated([&] { return std::move(builder).build(); });
+}
+
+Agent told_agent(const detail::Instance& instance, detail::AgentIndex index) {
+  const detail::AgentSpec spec = instance.spec(index);
+  const detail::Map& map = instance.map();
+  Agent agent{.id = spec.id,
+              .start = told_pose(map, spec.motion, spec.start),
+              .turn_steps = spec.motion.turn_steps};
+  if (spec.goal) agent.goal = told_place(map, *spec.goal);
+  if (spec.goal_heading) agent.goal_heading = told_heading(*spec.goal_heading);
+  if (spec.working) agent.working = WorkBegun{spec.working->task, spec.working->done};
+  return agent;
+}
+
+Task told_task(const detail::Instance& instance, const detail::Task& task) {
+  Task told{.id = task.id,
+            .place = told_place(instance.map(), task.cell),
+            .agents = {},
+            .duration = task.duration};
+  for (const detail::AgentIndex agent : task.agents)
+    told.agents.push_back(instance.agent(agent).id);
+  return told;
+}
+
+Instance loaded(detail::LoadedInstance read, std::vector<std::string>* warnings) {
+  if (warnings != nullptr)
+    warnings->insert(warnings->end(), read.warnings.begin(), read.warnings.end());
+  return Access::told(std::move(read.instance));
+}
+
+}  // namespace
+
+Instance Access::told(detail::Instance instance) {
+  std::vector<Agent> agents;
+  for (detail::AgentIndex i = 0; i < instance.agent_count(); ++i)
+    agents.push_back(told_agent(instance, i));
+  std::vector<Task> tasks;
+  for (const detail::Task& task : instance.tasks()) tasks.push_back(told_task(instance, task));
+  World world = Access::world(instance.shared_map());
+  return Instance(std::make_shared<const Instance::Data>(
+      Instance::Data{std::move(world), std::move(agents), std::move(tasks), std::move(instance)}));
+}
+
+Instance::Instance(World world, std::vector<Agent> agents, std::vector<Task> tasks, Rules rules) {
+  detail::Instance instance = built(world, agents, tasks, rules);
+  data_ = std::make_shared<const Data>(
+      Data{std::move(world), std::move(agents), std::move(tasks), std::move(instance)});
+}
+
+World Instance::world() const {
+  return data_->world;
+}
+const std::vector<Agent>& Instance::agents() const {
+  return data_->agents;
+}
+const std::vector<Task>& Instance::tasks() const {
+  return data_->tasks;
+}
+Rules Instance::rules() const {
+  return {.following = data_->instance.may_follow()};
+}
+
+detail::Pose pose_of(const detail::Map& map, detail::Motion motion, const Pose& pose,
+                     const std::string& field) {
+  detail::Pose made{.place = place_of(map, pose.place, field)};
+  if (motion.turn_steps == 0) {
+    if (pose.heading || pose.turning_to || pose.turn_steps_done != 0)
+      throw InvalidArgument(field, "has a heading; expected none of a robot without turn_steps");
+    return made;
+  }
+  if (!pose.heading)
+    throw InvalidArgument(field, "has no heading; expected one of a robot with turn_steps");
+  made.heading = made.to = heading_of(*pose.heading);
+  if (!pose.turning_to) return made;
+  made.to = heading_of(*pose.turning_to);
+  made.steps = pose.turn_steps_done;
+  const bool is_next =
+      made.to == detail::right_of(made.heading) || made.to == detail::left_of(made.heading);
+  if (!is_next) throw InvalidArgument(field, "turns to what is not a quarter turn away");
+  if (made.steps < 1 || made.steps >= motion.turn_steps)
+    throw InvalidArgument(field, fmt::format("{} steps of a turn done; expected from 1 to {}",
+                                             made.steps, motion.turn_steps - 1));
+  return made;
+}
+
+Pose told_pose(const detail::Map& map, detail::Motion motion, const detail::Pose& pose) {
+  Pose told{.place = told_place(map, pose.place)};
+  if (motion.turn_steps == 0) return told;
+  told.heading = told_heading(pose.heading);
+  if (pose.steps == 0) return told;
+  told.turning_to = told_heading(pose.to);
+  told.turn_steps_done = pose.steps;
+  return told;
+}
+
+Instance read_instance(const std::filesystem::path& path, std::vector<std::string>* warnings) {
+  return translated([&] { return loaded(detail::read_instance(path), warnings); });
+}
+
+Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
+                        std::vector<std::string>* warnings) {
+  return translated(
+      [&] { return loaded(detail::parse_instance(text, "the instance", folder), warnings); });
+}
+
+Instance read_scenario(const std::filesystem::path& scenario, const std::filesystem::path& map,
+                       int agents) {
+  return translated(
+      [&] { return loaded(detail::read_scenario_instance(scenario, map, agents), nullptr); });
+}
+
+void write_instance(const std::filesystem::path& path, const Instance& instance) {
+  translated([&] {
+    const detail::Instance& inner = Access::instance(instance);
+    const std::string name = path.filename().string();
+    const std::string stem = name.substr(0, name.find('.'));
+    const std::string map = stem + (inner.is_on_grid() ? ".map" : ".roadmap.json");
+    if (inner.is_on_grid())
+      detail::write_map(path.parent_path() / map, inner.grid());
+    else
+      detail::write_roadmap(path.parent_path() / map, *inner.roadmap());
+    detail::write_instance(path, inner, map);
+  });
+}
+
+}  // namespace grove

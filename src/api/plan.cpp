@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "grove/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+
+#include "access.h"
+#include "grove/detail/io/plan_file.h"
+#include "grove/detail/model/check.h"
+
+namespace grove {
+namespace {
+
+detail::TaskIndex task_of(const std::unordered_map<std::string, detail::TaskIndex>& tasks,
+                          const std::string& id, const std::string& field) {
+  const auto found = tasks.find(id);
+  if (found == tasks.end()) throw InvalidArgument(field, fmt::format("there is no task '{}'", id));
+  return found->second;
+}
+
+std::unordered_map<std::string, detail::TaskIndex> tasks_by_id(const detail::Instance& instance) {
+  std::unordered_map<std::string, detail::TaskIndex> tasks;
+  for (detail::TaskIndex i = 0; i < instance.task_count(); ++i)
+    tasks.emplace(instance.task(i).id, i);
+  return tasks;
+}
+
+std::vector<Violation> told(const std::vector<detail::Violation>& violations) {
+  std::vector<Violation> all;
+  for (const detail::Violation& v : violations) all.push_back({v.place, v.message});
+  return all;
+}
+
+}  // namespace
+
+std::string_view to_string(Status status) {
+  return detail::to_string(static_cast<detail::Status>(status));
+}
+
+std::optional<double> Solution::gap() const {
+  if (!plan) return std::nullopt;
+  if (lower_bound > 0)
+    return static_cast<double>(plan->cost - lower_bound) / static_cast<double>(lower_bound);
+  return plan->cost == 0 ? std::optional<double>(0) : std::nullopt;
+}
+
+detail::Omega omega_of(double omega) {
+  try {
+    return std::isinf(omega) && omega > 0 ? detail::Omega::infinite()
+                                          : detail::Omega::from_double(omega);
+  } catch (const std::invalid_argument& error) {
+    throw InvalidArgument("/omega", error.what());
+  }
+}
+
+detail::Plan plan_of(const detail::Instance& instance, const Plan& plan) {
+  const auto tasks = tasks_by_id(instance);
+  if (static_cast<int>(plan.agents.size()) != instance.agent_count())
+    throw InvalidArgument("/agents", fmt::format("{} paths; expected {}", plan.agents.size(),
+                                                 instance.agent_count()));
+  detail::Plan made{.cost = plan.cost, .agents = {}};
+  for (detail::AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    const AgentPlan& agent = plan.agents[i];
+    const std::string field = fmt::format("/agents/{}", i);
+    if (agent.id != instance.agent(i).id)
+      throw InvalidArgument(
+          field + "/id", fmt::format("found '{}'; expected '{}'", agent.id, instance.agent(i).id));
+    detail::AgentPlan& own = made.agents.emplace_back();
+    own.cost = agent.cost;
+    for (const Pose& pose : agent.path) {
+      const std::string place = fmt::format("{}/path/{}", field, own.path.size());
+      own.path.push_back(
+          instance.state_of(i, pose_of(instance.map(), instance.agent(i).motion, pose, place)));
+    }
+    for (const std::string& task : agent.tasks)
+      own.sequence.push_back(task_of(tasks, task, field + "/tasks"));
+    for (const Work& work : agent.work)
+      own.work.push_back({task_of(tasks, work.task, field + "/work"), work.begin, work.end});
+  }
+  return made;
+}
+
+detail::Plan valid_plan_of(const detail::Instance& instance, const Plan& plan,
+                           const std::string& field) {
+  detail::Solution solution;
+  solution.status = detail::Status::kFeasible;
+  solution.may_follow = instance.may_follow();
+  solution.plan = plan_of(instance, plan);
+  const auto wrong = detail::check(instance, solution, 1);
+  if (!wrong.empty()) throw InvalidArgument(field + wrong.front().place, wrong.front().message);
+  return *std::move(solution.plan);
+}
+
+Plan told_plan(const detail::Instance& instance, const detail::Plan& plan) {
+  Plan told{.cost = plan.cost, .agents = {}};
+  for (detail::AgentIndex i = 0; i < static_cast<int>(plan.agents.size()); ++i) {
+    const detail::AgentPlan& own = plan.agents[i];
+    AgentPlan& agent = told.agents.emplace_back();
+    agent.id = instance.agent(i).id;
+    agent.cost = own.cost;
+    for (const detail::State state : own.path)
+      agent.path.push_back(
+          told_pose(instance.map(), instance.agent(i).motion, instance.pose_of(state)));
+    for (const detail::TaskIndex task : own.sequence) agent.tasks.push_back(instance.task(task).id);
+    for (const detail::WorkTime& work : own.work)
+      agent.work.push_back({instance.task(work.task).id, work.begin, work.end});
+  }
+  return told;
+}
+
+detail::Solution solution_of(const detail::Instance& instance, const Solution& solution) {
+  detail::Solution made;
+  made.status = static_cast<detail::Status>(solution.status);
+  if (solution.plan) made.plan = plan_of(instance, *solution.plan);
+  made.lower_bound = solution.lower_bound;
+  made.omega = omega_of(solution.omega);
+  made.may_follow = instance.may_follow();
+  made.stats.counts = solution.counts;
+  made.stats.measures = solution.measures;
+  return made;
+}
+
+Solution told_solution(const detail::Instance& instance, const detail::Solution& solution) {
+  Solution told;
+  told.status = static_cast<Status>(solution.status);
+  if (solution.plan) told.plan = told_plan(instance, *solution.plan);
+  told.lower_bound = solution.lower_bound;
+  told.omega = solution.omega.is_infinite() ? std::numeric_limits<double>::infinity()
+                                            : solution.omega.value();
+  told.counts = solution.stats.counts;
+  told.measures = solution.stats.measures;
+  return told;
+}
+
+std::vector<Violation> check(const Instance& instance, const Plan& plan, std::size_t limit) {
+  Solution solution{.status = Status::feasible, .plan = plan};
+  return check(instance, solution, limit);
+}
+
+std::vector<Violation> check(const Instance& instance, const Solution& solution,
+                             std::size_t limit) {
+  return translated([&] {
+    const detail::Instance& inner = Access::instance(instance);
+    return told(detail::check(inner, solution_of(inner, solution), limit));
+  });
+}
+
+Solution read_plan(const std::filesystem::path& path, const Instance& instance) {
+  return translated([&] {
+    const detail::Instance& inner = Access::instance(instance);
+    return told_solution(inner, detail::read_solution(path, inner));
+  });
+}
+
+Solution parse_plan(std::string_view text, const Instance& instance) {
+  return translated([&] {
+    const detail::Instance& inner = Access::instance(instance);
+    return told_solution(inner, detail::parse_solution(text, "the plan", inner));
+  });
+}
+
+void write_plan(const std::filesystem::path& path, const Instance& instance,
+                const Solution& solution) {
+  translated([&] {
+    const detail::Instance& inner = Access::instance(instance);
+    detail::write_solution(path, inner, solution_of(inner, solution));
+  });
+}
+
+std::string plan_text(const Instance& instance, const Solution& solution) {
+  return translated([&] {
+    const detail::Instance& inner = Access::instance(instance);
+    return detail::solution_text(inner, solution_of(inner, solution));
+  });
+}
+
+}  // namespace grove

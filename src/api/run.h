@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// A solve with a user's options: limits, and who is told.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <stop_token>
+
+#include "grove/detail/engine/method.h"
+#include "grove/detail/engine/run_observer.h"
+#include "grove/solve.hpp"
+
+namespace grove {
+
+// Throws InvalidArgument.
+detail::SolveOptions search_options_of(const detail::Instance& instance, const Options& options);
+
+class Run {
+ public:
+  // `options` must outlive this.
+  Run(const detail::Instance& instance, const Options& options);
+
+  // search(limits, observer) solves; what it, or a function of the user, throws comes out.
+  template <class Search>
+  detail::Solution operator()(Search&& search) {
+    detail::Solution solution = search(limits_, observer_);
+    if (observer_.failure) std::rethrow_exception(observer_.failure);
+    add_facts(solution);
+    return solution;
+  }
+
+ private:
+  using Clock = detail::Limits::Clock;
+
+  class Observer : public detail::RunObserver {
+   public:
+    Observer(const detail::Instance& instance, const Options& options, std::atomic<bool>& stop,
+             Clock::time_point begin)
+        : instance_(instance), options_(options), stop_(stop), begin_(begin) {}
+    void on_incumbent(const detail::Plan& plan, detail::PlanSource source,
+                      const detail::Progress& progress) override;
+    void on_event(detail::RunEvent event, const detail::Progress& progress) override;
+
+    std::exception_ptr failure;  // of a function of the user
+
+   private:
+    Progress told(const detail::Progress& progress) const;
+    template <class Tell>
+    void tell(Tell&& tell);
+
+    const detail::Instance& instance_;
+    const Options& options_;
+    std::atomic<bool>& stop_;
+    const Clock::time_point begin_;
+    Clock::time_point next_{};  // when progress is told again
+  };
+
+  void add_facts(detail::Solution& solution) const;
+
+  const Clock::time_point begin_ = Clock::now();
+  std::atomic<bool> stop_{false};
+  std::stop_callback<std::function<void()>> stop_with_;
+  detail::Limits limits_;
+  Observer observer_;
+};
+
+}  // namespace grove

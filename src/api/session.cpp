@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "grove/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "access.h"
+#include "grove/detail/engine/session.h"
+#include "run.h"
+
+namespace grove {
+namespace {
+
+detail::AgentIndex agent_of(const detail::Instance& instance, const std::string& id,
+                            const std::string& field) {
+  const auto agents = instance.agents();
+  const auto found = std::ranges::find(agents, id, &detail::Agent::id);
+  if (found == agents.end())
+    throw InvalidArgument(field, fmt::format("there is no agent '{}'", id));
+  return static_cast<detail::AgentIndex>(found - agents.begin());
+}
+
+}  // namespace
+
+struct Session::Impl {
+  detail::Session session;
+};
+
+Session::Session(Instance instance)
+    : impl_(std::make_unique<Impl>(Impl{detail::Session(Access::instance(instance))})) {}
+
+Session::Session(Instance instance, const Plan& plan)
+    : impl_(std::make_unique<Impl>(Impl{detail::Session(
+          Access::instance(instance), valid_plan_of(Access::instance(instance), plan, "/plan"))})) {
+}
+
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+Instance Session::instance() const {
+  return Access::told(impl_->session.instance());
+}
+
+std::optional<Plan> Session::plan() const {
+  const detail::Session& session = impl_->session;
+  if (!session.plan()) return std::nullopt;
+  return told_plan(session.instance(), *session.plan());
+}
+
+void Session::advance(int steps, const std::vector<Late>& late) {
+  detail::Session& session = impl_->session;
+  if (!session.plan()) throw InvalidArgument("", "there is no plan to advance by");
+  if (steps < 0)
+    throw InvalidArgument("/steps", fmt::format("found {}; expected at least 0", steps));
+  std::vector<detail::Late> those;
+  for (std::size_t i = 0; i < late.size(); ++i) {
+    const std::string field = fmt::format("/late/{}", i);
+    those.push_back({agent_of(session.instance(), late[i].agent, field), late[i].steps});
+    if (late[i].steps < 0) throw InvalidArgument(field, "expected steps, at least 0");
+  }
+  translated([&] {
+    try {
+      session.advance(steps, those);
+    } catch (const detail::ImpossibleLateness& error) {
+      throw InvalidArgument("/late", error.what());
+    }
+  });
+}
+
+void Session::change(const Change& change) {
+  detail::Session& session = impl_->session;
+  const detail::Map& map = session.instance().map();
+  detail::InstanceChange made;
+  made.dropped_tasks = change.dropped_tasks;
+  for (std::size_t i = 0; i < change.new_tasks.size(); ++i) {
+    const Task& task = change.new_tasks[i];
+    const detail::Place place = place_of(map, task.place, fmt::format("/new_tasks/{}/place", i));
+    made.new_tasks.push_back({task.id, place, task.agents, task.duration});
+  }
+  for (std::size_t i = 0; i < change.blocked.size(); ++i)
+    made.blocked.push_back(place_of(map, change.blocked[i], fmt::format("/blocked/{}", i)));
+  translated([&] { session.change(made); });
+}
+
+Solution Session::replan(const Options& options, int commit) {
+  detail::Session& session = impl_->session;
+  if (commit < 0)
+    throw InvalidArgument("/commit", fmt::format("found {}; expected at least 0", commit));
+  Options own = options;
+  own.start.reset();
+  const detail::SolveOptions search = search_options_of(session.instance(), own);
+  Run run(session.instance(), own);
+  const auto search_on = [&](const detail::Limits& limits, detail::RunObserver& observer) {
+    try {
+      return session.solve(search, limits, &observer, commit);
+    } catch (const detail::Session::NotCommitted& error) {
+      throw InvalidArgument("/commit",
+                            fmt::format("{} can keep to it for {} steps only",
+                                        session.instance().agent(error.agent).id, error.steps));
+    }
+  };
+  const detail::Solution solution = run([&](const auto& limits, auto& observer) {
+    return translated([&] { return search_on(limits, observer); });
+  });
+  return told_solution(session.instance(), solution);
+}
+
+}  // namespace grove

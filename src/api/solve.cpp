@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "grove/solve.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "access.h"
+#include "run.h"
+
+namespace grove {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+detail::Method method_of(const Options& options) {
+  const std::optional<detail::Method> method = detail::parse_method(options.method);
+  if (!method)
+    throw InvalidArgument("/method", fmt::format("there is no method '{}'", options.method));
+  return *method;
+}
+
+void require_numbers(const Options& options) {
+  if (options.threads < 1 || options.threads > kMostThreads)
+    throw InvalidArgument(
+        "/threads", fmt::format("found {}; expected from 1 to {}", options.threads, kMostThreads));
+  if (options.time_limit && !(*options.time_limit >= 0))
+    throw InvalidArgument("/time_limit", "expected seconds, at least 0");
+  if (!(options.progress_interval >= 0))
+    throw InvalidArgument("/progress_interval", "expected seconds, at least 0");
+}
+
+}  // namespace
+
+detail::SolveOptions search_options_of(const detail::Instance& instance, const Options& options) {
+  require_numbers(options);
+  detail::SolveOptions made;
+  made.omega = omega_of(options.omega);
+  made.threads = options.threads;
+  made.deterministic = options.deterministic;
+  made.seed = options.seed;
+  try {
+    made = detail::options_of(method_of(options), made);
+    if (options.start) made.start = valid_plan_of(instance, *options.start, "/start");
+    detail::require_fit(method_of(options), instance, made);
+  } catch (const std::invalid_argument& error) {
+    throw InvalidArgument("/method", error.what());
+  }
+  return made;
+}
+
+Run::Run(const detail::Instance& instance, const Options& options)
+    : stop_with_(options.stop, [this] { stop_ = true; }),
+      observer_(instance, options, stop_, begin_) {
+  limits_.watch_interrupt(&stop_);
+  if (options.memory_limit) limits_.set_memory_limit(*options.memory_limit);
+  // (Longer than a clock can count is without a limit.)
+  if (options.time_limit && *options.time_limit < 1e9)
+    limits_.set_deadline(begin_ + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(*options.time_limit)));
+}
+
+void Run::add_facts(detail::Solution& solution) const {
+  solution.stats.measures["wall_s"] = std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+
+Progress Run::Observer::told(const detail::Progress& progress) const {
+  return {.seconds = std::chrono::duration<double>(Clock::now() - begin_).count(),
+          .nodes_expanded = progress.nodes_expanded,
+          .nodes_open = progress.nodes_open,
+          .lower_bound = progress.lower_bound,
+          .cost = progress.incumbent};
+}
+
+// What a user's function throws must not go through the search: it is kept, and ends the run.
+template <class Tell>
+void Run::Observer::tell(Tell&& tell) {
+  if (failure) return;
+  try {
+    tell();
+  } catch (...) {
+    failure = std::current_exception();
+    stop_ = true;
+  }
+}
+
+void Run::Observer::on_incumbent(const detail::Plan& plan, detail::PlanSource /*source*/,
+                                 const detail::Progress& progress) {
+  if (options_.on_incumbent)
+    tell([&] { options_.on_incumbent(told_plan(instance_, plan), told(progress)); });
+}
+
+void Run::Observer::on_event(detail::RunEvent event, const detail::Progress& progress) {
+  if (!options_.on_progress) return;
+  const Clock::time_point now = Clock::now();
+  if (event != detail::RunEvent::kEnd && now < next_) return;
+  next_ = now + std::chrono::duration_cast<Clock::duration>(
+                    std::chrono::duration<double>(std::min(options_.progress_interval, 1e9)));
+  tell([&] { options_.on_progress(told(progress)); });
+}
+
+Solution solve(const Instance& instance, const Options& options) {
+  const detail::Instance& inner = Access::instance(instance);
+  const detail::SolveOptions search = search_options_of(inner, options);
+  Run run(inner, options);
+  return told_solution(inner, run([&](const detail::Limits& limits, detail::RunObserver& observer) {
+                         return translated([&] {
+                           return detail::solve_by(method_of(options), false, inner, search, limits,
+                                                   &observer);
+                         });
+                       }));
+}
+
+}  // namespace grove

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+// The front door, as its users come through it: nothing but <grove/grove.hpp> is included.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "grove/grove.hpp"
+#include "tests/support/temporary_directory.h"
+
+namespace grove {
+namespace api_test {
+
+using detail::TemporaryDirectory;
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::vector<std::string> kRows{".....", ".@.@.", "....."};
+
+Instance small() {
+  return Instance(World::from_rows(kRows),
+                  {{.id = "red", .start = {Cell{0, 0}}, .goal = Cell{4, 2}},
+                   {.id = "blue", .start = {Cell{4, 0}}, .goal = Cell{0, 2}}},
+                  {{.id = "press", .place = Cell{2, 1}, .agents = {"red", "blue"}, .duration = 3},
+                   {.id = "look", .place = Cell{2, 0}, .agents = {"red"}}});
+}
+
+// A corridor of robots that want to pass one another: hours of search.
+Instance crowd(int robots = 14) {
+  std::vector<Agent> agents;
+  for (int i = 0; i < robots; ++i)
+    agents.push_back(
+        {.id = "r" + std::to_string(i), .start = {Cell{i, 0}}, .goal = Cell{robots - 1 - i, 1}});
+  return Instance(World::grid(robots, 2, std::vector<bool>(2 * robots, true)), agents, {});
+}
+
+std::string field_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InvalidArgument& error) {
+    return error.field();
+  } catch (const std::exception& error) {
+    return std::string("another exception: ") + error.what();
+  }
+  return "nothing thrown";
+}
+
+TEST(Api, SolvesAndChecks) {
+  const Instance instance = small();
+  const Solution solution = solve(instance);
+  ASSERT_EQ(solution.status, Status::optimal);
+  ASSERT_TRUE(solution.plan);
+  EXPECT_EQ(solution.plan->cost, solution.lower_bound);
+  EXPECT_EQ(solution.gap(), 0.0);
+  EXPECT_THAT(check(instance, solution), IsEmpty());
+  EXPECT_THAT(check(instance, *solution.plan), IsEmpty());
+  const AgentPlan& red = solution.plan->agents[0];
+  EXPECT_EQ(red.id, "red");
+  EXPECT_EQ(red.path.front(), (Pose{Cell{0, 0}}));
+  EXPECT_EQ(solution.plan->pose(0, 1'000'000), (Pose{Cell{4, 2}}));
+  EXPECT_THAT(red.tasks, ::testing::UnorderedElementsAre("press", "look"));
+  ASSERT_EQ(red.work.size(), 1u);
+  EXPECT_EQ(red.work[0].end - red.work[0].begin, 3);
+  EXPECT_GT(solution.counts.at("nodes_expanded"), 0);
+  EXPECT_GE(solution.measures.at("wall_s"), 0);
+}
+
+TEST(Api, TheCheckerFindsWhatIsWrong) {
+  const Instance instance = small();
+  Solution solution = solve(instance);
+  Plan wrong = *solution.plan;
+  wrong.agents[0].path[1].place = Cell{4, 2};
+  EXPECT_FALSE(check(instance, wrong).empty());
+  solution.lower_bound = solution.plan->cost + 1;
+  EXPECT_FALSE(check(instance, solution).empty());
+  wrong.agents[0].path[1].place = Cell{9, 9};
+  EXPECT_EQ(field_of([&] { check(instance, wrong); }), "/agents/0/path/1");
+  EXPECT_EQ(field_of([&] { check(instance, Plan{}); }), "/agents");
+}
+
+TEST(Api, InstancesComeBackAsTheyWereMade) {
+  const World hall = World::roadmap({{"A", 0, 0}, {"B", 4, 0}, {"C", 4, 3}, {"D", 6, 0}},
+                                    {{.from = "A", .to = "B", .steps = 4},
+                                     {.from = "B", .to = "C", .steps = 3, .one_way = true},
+                                     {.from = "B", .to = "D", .steps = 1}});
+  const Instance roads(hall,
+                       {{.id = "r", .start = {OnRoad{"A", "B", 1}}, .goal = Vertex{"C"}},
+                        {.id = "idle", .start = {Vertex{"B"}}}},
+                       {});
+  EXPECT_EQ(roads.agents()[0].start, (Pose{OnRoad{"A", "B", 1}}));
+  const Solution solution = solve(roads);
+  ASSERT_TRUE(solution.plan);
+  EXPECT_EQ(solution.plan->pose(0, 1), (Pose{OnRoad{"A", "B", 2}}));
+  EXPECT_EQ(hall.edges()[1].one_way, true);
+  EXPECT_EQ(hall.vertices()[2].y, 3);
+
+  const Instance turning(World::from_rows(kRows),
+                         {{.id = "t",
+                           .start = {Cell{0, 0}, Heading::north, Heading::east, 1},
+                           .goal = Cell{2, 0},
+                           .turn_steps = 2,
+                           .goal_heading = Heading::south}},
+                         {{.id = "w", .place = Cell{1, 0}, .agents = {"t"}, .duration = 2}},
+                         {.following = false});
+  TemporaryDirectory directory;
+  for (const Instance& instance : {roads, turning, small()}) {
+    write_instance(directory / "i.cts.json", instance);
+    const Instance again = read_instance(directory / "i.cts.json");
+    ASSERT_EQ(again.agents().size(), instance.agents().size());
+    for (std::size_t i = 0; i < instance.agents().size(); ++i) {
+      EXPECT_EQ(again.agents()[i].id, instance.agents()[i].id);
+      EXPECT_EQ(again.agents()[i].start, instance.agents()[i].start);
+      EXPECT_EQ(again.agents()[i].goal, instance.agents()[i].goal);
+      EXPECT_EQ(again.agents()[i].turn_steps, instance.agents()[i].turn_steps);
+      EXPECT_EQ(again.agents()[i].goal_heading, instance.agents()[i].goal_heading);
+    }
+    ASSERT_EQ(again.tasks().size(), instance.tasks().size());
+    for (std::size_t i = 0; i < instance.tasks().size(); ++i) {
+      EXPECT_EQ(again.tasks()[i].place, instance.tasks()[i].place);
+      EXPECT_EQ(again.tasks()[i].duration, instance.tasks()[i].duration);
+      EXPECT_EQ(again.tasks()[i].agents, instance.tasks()[i].agents);
+    }
+    EXPECT_EQ(
+        solve(again).lower_bound,
+        solve(Instance(instance.world(), instance.agents(), instance.tasks(), {})).lower_bound);
+  }
+  EXPECT_FALSE(turning.rules().following);
+}
+
+TEST(Api, PlansAsFiles) {
+  const Instance instance = small();
+  const Solution solution = solve(instance, {.omega = 0.5});
+  TemporaryDirectory directory;
+  write_plan(directory / "p.json", instance, solution);
+  const Solution again = read_plan(directory / "p.json", instance);
+  EXPECT_EQ(plan_text(instance, again), plan_text(instance, solution));
+  EXPECT_EQ(plan_text(instance, parse_plan(plan_text(instance, solution), instance)),
+            plan_text(instance, solution));
+  EXPECT_EQ(again.omega, 0.5);
+}
+
+TEST(Api, WhatIsWrongSaysWhere) {
+  const World world = World::from_rows(kRows);
+  const auto with = [&](Agent agent) {
+    return field_of([&] { Instance(world, {std::move(agent)}, {}); });
+  };
+  EXPECT_EQ(with({.id = "", .start = {Cell{0, 0}}}), "/agents/0/id");
+  EXPECT_EQ(with({.id = "a", .start = {Cell{1, 1}}}), "/agents/0/start");
+  EXPECT_EQ(with({.id = "a", .start = {Cell{-1, 1}}}), "/agents/0/start");
+  EXPECT_EQ(with({.id = "a", .start = {Vertex{"A"}}}), "/agents/0/start");
+  EXPECT_EQ(with({.id = "a", .start = {Cell{0, 0}, Heading::east}}), "/agents/0/start");
+  EXPECT_EQ(with({.id = "a", .start = {Cell{0, 0}}, .turn_steps = 1}), "/agents/0/start");
+  EXPECT_EQ(with({.id = "a", .start = {Cell{0, 0}}, .goal = Cell{3, 1}}), "/agents/0/goal");
+  EXPECT_EQ(field_of([&] {
+              Instance(world, {{.id = "a", .start = {Cell{0, 0}}}},
+                       {{.id = "t", .place = Cell{0, 0}, .agents = {"a", "b"}}});
+            }),
+            "/tasks/0/agents/1");
+  EXPECT_EQ(field_of([] { World::from_rows({"..", "."}); }), "/1");
+  EXPECT_EQ(field_of([] { World::from_rows({"..", ".x"}); }), "/1");
+  EXPECT_EQ(field_of([] { World::from_rows({}); }), "");
+  EXPECT_EQ(field_of([] {
+              World::roadmap({{"A", 0, 0}}, {{.from = "A", .to = "B"}});
+            }),
+            "/edges/0/to");
+  const auto asked = [](Options options) { return field_of([&] { solve(small(), options); }); };
+  EXPECT_EQ(asked({.omega = -1}), "/omega");
+  EXPECT_EQ(asked({.omega = std::numeric_limits<double>::quiet_NaN()}), "/omega");
+  EXPECT_EQ(asked({.time_limit = -1}), "/time_limit");
+  EXPECT_EQ(asked({.threads = 0}), "/threads");
+  EXPECT_EQ(asked({.method = "magic"}), "/method");
+  EXPECT_EQ(asked({.method = "cts-cbs-a"}), "/method");
+  EXPECT_EQ(asked({.start = Plan{}}), "/agents");
+  EXPECT_THROW(read_instance("none.cts.json"), InputError);
+  EXPECT_THROW(parse_instance("{"), InputError);
+  EXPECT_THROW(World::read("none.map"), InputError);
+  EXPECT_THROW(parse_plan("[]", small()), InputError);
+}
+
+TEST(Api, TellsHowItGoes) {
+  std::vector<std::int64_t> costs;
+  int told = 0;
+  Options options{.omega = 0, .time_limit = 1};
+  options.on_incumbent = [&](const Plan& plan, const Progress& progress) {
+    costs.push_back(plan.cost);
+    EXPECT_LE(progress.lower_bound, plan.cost);
+    EXPECT_EQ(progress.cost, plan.cost);
+  };
+  options.on_progress = [&](const Progress&) { ++told; };
+  options.progress_interval = 0.01;
+  const Solution solution = solve(crowd(), options);
+  ASSERT_FALSE(costs.empty());
+  EXPECT_EQ(costs.back(), solution.plan->cost);
+  EXPECT_TRUE(std::ranges::is_sorted(costs, std::greater<>()));
+  EXPECT_GT(told, 0);
+  EXPECT_LT(told, 200);
+}
+
+TEST(Api, AUsersExceptionEndsTheRunAndComesOut) {
+  struct Mine {};
+  Options options{.omega = 0, .time_limit = 60};
+  options.on_incumbent = [](const Plan&, const Progress&) { throw Mine(); };
+  EXPECT_THROW(solve(crowd(), options), Mine);
+}
+
+TEST(Api, StopsWhenAsked) {
+  std::stop_source stop;
+  Options options{.omega = 0, .time_limit = 120, .stop = stop.get_token(), .threads = 2};
+  std::jthread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    stop.request_stop();
+  });
+  const Solution solution = solve(crowd(), options);
+  EXPECT_LT(solution.measures.at("wall_s"), 60);
+  EXPECT_NE(solution.status, Status::infeasible);
+}
+
+TEST(Api, SeveralSolvesAtOnce) {
+  std::atomic<int> optimal = 0;
+  const std::int64_t cost = solve(small()).plan->cost;
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 4; ++i)
+      threads.emplace_back([&] {
+        for (int k = 0; k < 5; ++k)
+          optimal += solve(small(), {.threads = 1 + k % 2}).plan->cost == cost;
+      });
+  }
+  EXPECT_EQ(optimal, 20);
+}
+
+TEST(Api, InfeasibleIsAnAnswer) {
+  const Instance instance(World::from_rows({"..@.."}),
+                          {{.id = "a", .start = {Cell{0, 0}}, .goal = Cell{4, 0}}}, {});
+  const Solution solution = solve(instance);
+  EXPECT_EQ(solution.status, Status::infeasible);
+  EXPECT_FALSE(solution.plan);
+  EXPECT_FALSE(solution.gap());
+}
+
+TEST(Api, ASessionGoesOn) {
+  Session session(small());
+  EXPECT_FALSE(session.plan());
+  EXPECT_EQ(field_of([&] { session.advance(1); }), "");
+  ASSERT_EQ(session.replan().status, Status::optimal);
+  const Plan before = *session.plan();
+  session.advance(2, {{.agent = "red", .steps = 1}});
+  EXPECT_EQ(session.instance().agents()[0].start, before.pose(0, 1));
+  session.change({.new_tasks = {{.id = "more", .place = Cell{0, 1}, .agents = {"blue"}}},
+                  .dropped_tasks = {"look"}});
+  const Solution after = session.replan({.omega = 0}, 1);
+  ASSERT_TRUE(after.plan);
+  EXPECT_THAT(check(session.instance(), *session.plan()), IsEmpty());
+  EXPECT_THAT(after.plan->agents[1].tasks, ::testing::Contains("more"));
+  EXPECT_EQ(field_of([&] { session.change({.dropped_tasks = {"none"}}); }), "/dropped_tasks/0");
+  EXPECT_EQ(field_of([&] { session.advance(1, {{.agent = "green", .steps = 1}}); }), "/late/0");
+  Session with(small(), before);
+  with.advance(1);
+  EXPECT_TRUE(with.plan());
+  EXPECT_EQ(field_of([&] { Session(small(), Plan{}); }), "/agents");
+}
+
+TEST(Api, Versions) {
+  EXPECT_STREQ(version(), GROVE_VERSION);
+  EXPECT_EQ(std::string(GROVE_VERSION), std::to_string(GROVE_VERSION_MAJOR) + "." +
+                                            std::to_string(GROVE_VERSION_MINOR) + "." +
+                                            std::to_string(GROVE_VERSION_PATCH));
+}
+
+}  // namespace api_test
+}  // namespace grove
