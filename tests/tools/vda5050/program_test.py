@@ -113,6 +113,7 @@ class OverABroker(unittest.TestCase):
     def test_each_on_its_own(self):
         with own_broker() as broker, contextlib.ExitStack() as stack:
             watch = stack.enter_context(start("watch", "--broker", broker))
+            self.assertIn("Watching", watch.stdout.readline())
             drive = stack.enter_context(start("drive", order(), "--broker", broker, "--serial", "a0=zero"))
             vehicles = stack.enter_context(start("vehicles", order(), "--broker", broker, "--serial", "a0=zero", *FAST))
             for process in (watch, drive, vehicles):

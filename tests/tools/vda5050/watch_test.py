@@ -50,6 +50,14 @@ class Watching(unittest.TestCase):
         self.tell("a", "order", changed)
         self.assertEqual(self.said, ["a: order: node 4 was n2 and is elsewhere now"])
 
+    def test_who_comes_late_says_nothing_of_what_was_before(self):
+        self.tell("a", "state", self.state("a", 0))
+        self.tell("a", "order", order(2, 3, 4, update=1))
+        self.tell("a", "state", self.state("a", 1))
+        self.assertEqual(self.said, [])
+        self.tell("a", "state", self.state("a", 4))
+        self.assertEqual(self.said, ["a: state: is on n4, node 8, which was not released"])
+
     def test_messages_that_are_none(self):
         self.tell("a", "order", b"{")
         broken = order(0, 1, 1)

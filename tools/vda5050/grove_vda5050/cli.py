@@ -385,7 +385,9 @@ def _watched(watch):
 def _watch(a):
     topics = Setup(a).topics
     watch = Watch(topics, lambda text: print(text, flush=True))
-    connection = trial.onlooker(_make_broker(a), topics)
+    broker = _make_broker(a)
+    connection = trial.onlooker(broker, topics)
+    print(f"Watching      {topics.topic('...', '...')} at {broker}", flush=True)
     with contextlib.suppress(KeyboardInterrupt, _Terminated):
         _hear_all(watch, connection, time.monotonic() + a.seconds)
     connection.close()

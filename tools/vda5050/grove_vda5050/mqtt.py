@@ -2,6 +2,7 @@
 """A connection to an MQTT broker, by paho (Debian: python3-paho-mqtt 1.6)."""
 import json
 import queue
+import threading
 from typing import NamedTuple
 
 from grove_driving.bad_input import BadInput
@@ -49,6 +50,7 @@ class Connection:
         self.inbox = queue.SimpleQueue()
         self.topics, self.hello = topics, hello
         self.failure = None
+        self.subscribed = threading.Event()     # nothing is missed from then on
         self.client = paho.Client()
         self.client.max_queued_messages_set(MOST_SEND)
         if broker.username:
@@ -58,6 +60,7 @@ class Connection:
         if will:
             self.client.will_set(will[0], encode(will[1]), qos=1, retain=True)
         self.client.on_connect = self._on_connect
+        self.client.on_subscribe = lambda *_: self.subscribed.set()
         self.client.on_message = lambda client, data, message: self.inbox.put(Message(message.topic, message.payload))
         self.client.reconnect_delay_set(1, 10)
         try:
@@ -75,6 +78,10 @@ class Connection:
             client.subscribe(topic, qos)
         if self.hello:
             self.publish(*self.hello, qos=1, retain=True)
+
+    def await_subscription(self):
+        if not self.subscribed.wait(CONNECT_SECONDS):
+            raise BadInput(f"--broker: nothing can be heard there: {self.failure or 'no answer'}; expected an MQTT broker")
 
     def publish(self, topic, message, qos=0, retain=False):
         self.client.publish(topic, encode(message), qos, retain)

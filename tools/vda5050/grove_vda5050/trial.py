@@ -72,4 +72,6 @@ def end_vehicles(process):
 
 def onlooker(broker, topics):
     """A connection to all that is said."""
-    return Connection(broker, [(topics.topic("+", "+"), 0)])
+    connection = Connection(broker, [(topics.topic("+", "+"), 0)])
+    connection.await_subscription()
+    return connection

@@ -34,6 +34,7 @@ class _Vehicle:
         self.order = None
         self.nodes = {}         # sequence: id, of what was released
         self.reached = 0        # sequence
+        self.known_from = 0     # sequence: what was released before that, nobody saw here
 
 
 class Watch:
@@ -90,6 +91,7 @@ class Watch:
             for node in vehicle.nodes.values():
                 self._give_back(serial, node)
             vehicle.order, vehicle.nodes, vehicle.reached = message["orderId"], {}, 0
+            vehicle.known_from = message["nodes"][0]["sequenceId"]
         for node in message["nodes"]:
             sequence = node["sequenceId"]
             if not node["released"] or sequence < vehicle.reached:
@@ -123,8 +125,8 @@ class Watch:
         if vehicle is None or message["orderId"] != vehicle.order:
             return
         sequence = message["lastNodeSequenceId"]
-        if sequence < vehicle.reached:
-            return      # an old message
+        if sequence < max(vehicle.reached, vehicle.known_from):
+            return      # an old message, or of what was before all that was seen
         if vehicle.nodes.get(sequence) != message["lastNodeId"]:
             self.complain(serial, "state", f"is on {message['lastNodeId']}, node {sequence}, which was not released")
             return
