@@ -281,6 +281,8 @@ void add_execute_command(CLI::App& app) {
   command->callback([command, arguments] {
     if (arguments->frame.given() && arguments->order.empty())
       throw CLI::ValidationError("--cell-size, --origin", "expected only with --order");
+    if (command->count("--delay-steps") > 0 && command->count("--delays") == 0)
+      throw CLI::ValidationError("--delay-steps", "expected only with --delays");
     Execution(*command, *arguments).run();
   });
 }
