@@ -92,15 +92,16 @@ std::string following_page(std::string_view title) {
 }
 
 std::string drive_page(std::string_view title, std::string_view data, std::string_view order,
-                       std::string_view log) {
-  return html(title, drive_page_parts(),
-              {{"grove-data", data}, {"grove-order", order}, {"grove-log", without_markup(log)}});
+                       std::string_view drive) {
+  return html(
+      title, drive_page_parts(),
+      {{"grove-data", data}, {"grove-order", order}, {"grove-drive", without_markup(drive)}});
 }
 
 std::string following_drive_page(std::string_view title, std::string_view data,
                                  std::string_view order) {
-  return html(title, drive_page_parts(),
-              {{"grove-data", data}, {"grove-order", order}, {"grove-log", ""}}, Asks::kItsServer);
+  return html(title, drive_page_parts(), {{"grove-data", data}, {"grove-order", order}},
+              Asks::kItsServer);
 }
 
 }  // namespace grove::detail

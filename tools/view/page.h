@@ -15,9 +15,10 @@ std::string run_page(std::string_view title, std::string_view log);
 // The same of a log that grows, which it asks the server that it came from for, and no one else.
 std::string following_page(std::string_view title);
 
-// Shows a drive. `data`: of page_data.h, with one plan; `order` and `log`: of drive_file.h.
+// Shows a drive. `data`: of page_data.h, with one plan; `order` and `drive`: of drive_data.h.
 std::string drive_page(std::string_view title, std::string_view data, std::string_view order,
-                       std::string_view log);
+                       std::string_view drive);
+// The same of a drive whose log grows.
 std::string following_drive_page(std::string_view title, std::string_view data,
                                  std::string_view order);
 

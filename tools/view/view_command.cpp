@@ -22,7 +22,7 @@
 #include "tools/common/options.h"
 #include "tools/common/own_files.h"
 #include "tools/view/browser.h"
-#include "tools/view/drive_file.h"
+#include "tools/view/drive_data.h"
 #include "tools/view/page.h"
 #include "tools/view/page_data.h"
 #include "tools/view/picture/picture.h"
@@ -145,6 +145,7 @@ void write_log_page(const ViewArguments& arguments, const std::string& log,
                     const std::string& page) {
   const std::string output =
       arguments.output.empty() ? fs::path(log).stem().string() + ".html" : arguments.output;
+  require_distinct_files(output, log, "the log");
   write(output, page);
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
@@ -164,11 +165,13 @@ void show_drive(const ViewArguments& arguments, const Instance& instance, const 
                          "; expected the valid plan that is driven");
   const std::string name = name_of(arguments.instance.name());
   const std::string data = page_data(name, instance, std::span(&plan, 1));
-  const std::string order = order_data(instance, PassingOrder(instance, *solution.plan));
+  const PassingOrder order(instance, *solution.plan);
+  const std::string order_text = order_data(instance, order);
   const std::string& log = arguments.drive;
-  if (arguments.follow) follow(arguments, log, following_drive_page(name_of(log), data, order));
-  write_log_page(arguments, log,
-                 drive_page(name_of(log), data, order, read_drive_log(log, instance)));
+  if (arguments.follow)
+    follow(arguments, log, following_drive_page(name_of(log), data, order_text));
+  const DriveLog drive = read_drive_file(log, instance, order);
+  write_log_page(arguments, log, drive_page(name_of(log), data, order_text, drive_data(drive)));
 }
 
 // It is shown all the same: the page says what is wrong, a picture shows it red.

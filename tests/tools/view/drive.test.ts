@@ -4,12 +4,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { DriveApp } from "../../../tools/view/drive/app";
+import { readDrive } from "../../../tools/view/drive/columns";
 import { Drive, kStates, Sightings } from "../../../tools/view/drive/drive";
+import { lateness, mostLate } from "../../../tools/view/drive/late";
 import { Log } from "../../../tools/view/drive/log";
 import { DriveNow } from "../../../tools/view/drive/now";
 import { Order } from "../../../tools/view/drive/order";
 import { DrivePlayer } from "../../../tools/view/drive/player";
-import { clockText, doingText } from "../../../tools/view/drive/words";
+import { clockText, doingText, lateSentence, troubleText } from "../../../tools/view/drive/words";
 import { readModel } from "../../../tools/view/page/read";
 
 const kModel = JSON.stringify({
@@ -31,12 +33,18 @@ function log(...events: object[]): string {
   return events.map((event) => JSON.stringify(event) + "\n").join("");
 }
 
+function follow(text: string): Log {
+  const model = readModel(kModel);
+  const one = new Log(model, Order.read(kOrder, model));
+  one.add(text);
+  return one;
+}
+
 function read(...events: object[]) {
   const model = readModel(kModel);
-  const order = Order.read(kOrder, model);
-  const one = new Log(model, order);
-  one.add(log(kHeader, ...events));
-  return { model, order, drive: one.drive };
+  const { drive, firstTrouble } = follow(log(kHeader, ...events));
+  assert.equal(firstTrouble, "");
+  return { model, order: Order.read(kOrder, model), drive };
 }
 
 test("the last sighting by a time, asked for in any order", () => {
@@ -83,9 +91,9 @@ test("what is visited when, and who waits for whom", () => {
     line(2, "b", [0, 1], 0, "lost"), line(6, "b", [1, 1], 1, "moving"), line(8, "a", [2, 0], 2, "moving"));
   const app = new DriveApp(model, order, drive, false);
   assert.deepEqual(app.tasks.map(({ times }) => times), [[8], [0]]);
-  assert.equal(doingText(app, 0, 3), "waiting for b");
-  assert.equal(doingText(app, 0, 7), "waiting");
-  assert.equal(doingText(app, 1, 3), "lost");
+  assert.equal(doingText(app, 0, 3), "… waiting for b");
+  assert.equal(doingText(app, 0, 7), "… waiting");
+  assert.equal(doingText(app, 1, 3), "? lost");
   assert.equal(drive.isOver, false);
   assert.equal(order.planTime(0, drive.actionsAt(0, 8)), 2);
 });
@@ -99,21 +107,85 @@ test("logs that grow in pieces", () => {
   assert.equal(one.drive.end, 2);
 });
 
-test("logs that are wrong say where", () => {
-  const wrong = (expected: RegExp, ...events: object[]) => assert.throws(() => read(...events), expected);
+test("lines that are wrong are left out, and counted", () => {
   const good = line(1, "a", [1, 0], 1, "moving");
-  wrong(/^Error: line 2: robot: expected a robot that the first line names/, { ...good, robot: "z" });
-  wrong(/line 2: state: expected one of waiting/, { ...good, state: "asleep" });
-  wrong(/line 2: action: expected a whole number from 0 to 3/, { ...good, action: 4 });
-  wrong(/line 2: at: expected a list of 2/, { ...good, at: [1] });
-  wrong(/line 2: at\[0\]: expected a place in the world/, { ...good, at: [1e9, 0] });
-  wrong(/line 3: t: expected seconds from 1 on/, good, { ...good, t: 0.5 });
-  wrong(/line 2: t: expected a number/, { ...good, t: "1" });
+  const after = (...events: object[]) => follow(log(kHeader, ...events, { ...good, t: 9 }));
+  const wrong = (expected: RegExp, ...events: object[]) => {
+    const one = after(...events);
+    assert.match(one.firstTrouble, expected);
+    assert.equal(one.leftOut, 1);
+    assert.equal(one.drive.end, 9); // it goes on
+  };
+  wrong(/^line 2: robot: expected a robot that the first line names/, { ...good, robot: "z" });
+  wrong(/^line 2: state: expected one of waiting/, { ...good, state: "asleep" });
+  wrong(/^line 2: action: expected a whole number from 0 to 3/, { ...good, action: 4 });
+  wrong(/^line 2: at: expected a list of 2/, { ...good, at: [1] });
+  wrong(/^line 2: at\[0\]: expected a place in the world/, { ...good, at: [1e9, 0] });
+  wrong(/^line 3: t: expected seconds from 1 on/, good, { ...good, t: 0.5 });
+  wrong(/^line 2: t: expected a number/, { ...good, t: "1" });
+  wrong(/^line 2: t: expected seconds from 0 on/, { ...good, t: 1e300 });
+  assert.equal(after({ ...good, angle: 1e300 }).leftOut, 0);
+  const two = after({ ...good, t: -1 }, { ...good, action: -1 });
+  assert.equal(troubleText(two), "⚠ 2 lines of the log left out: line 2: t: expected seconds from 0 on");
+});
+
+test("without its first line a log is none", () => {
+  const none = (expected: RegExp, text: string) => {
+    const one = follow(text + log(line(1, "a", [1, 0], 1, "moving")));
+    assert.match(troubleText(one), expected);
+    assert.equal(one.leftOut, 1);
+    assert.equal(one.drive.order, "");
+  };
+  none(/^This is not the log of a drive of this plan: line 1: format/, "{}\n");
+  none(/line 1: robots\[0\]: expected a robot of the instance/, log({ ...kHeader, robots: ["z"] }));
+  none(/line 1: the data is no JSON/, "{\n");
+  assert.equal(troubleText(follow("")), "");
+});
+
+const kColumns = {
+  order: "o.json", seconds_per_step: 2, states: ["moving", "done"],
+  robots: [{ t: [500, 1500], x: [1000, 1500], y: [-250, 250], angle: [350, -351], action: [0, 3], state: [0, 1] },
+    { t: [], x: [], y: [], angle: [], action: [], state: [] }],
+};
+
+function columns(first: object = {}, all: object = {}) {
   const model = readModel(kModel);
-  const order = Order.read(kOrder, model);
-  assert.throws(() => new Log(model, order).add("{}\n"), /line 1: format/);
-  assert.throws(() => new Log(model, order).add(log({ ...kHeader, robots: ["z"] })), /robots\[0\]: expected a robot of the instance/);
-  assert.throws(() => new Log(model, order).add("{\n"), /line 1: the data is no JSON/);
+  const robots = [{ ...kColumns.robots[0], ...first }, kColumns.robots[1]];
+  return readDrive(JSON.stringify({ ...kColumns, robots, ...all }), model, Order.read(kOrder, model));
+}
+
+test("columns of differences", () => {
+  const drive = columns();
+  const [robot] = drive.robots;
+  assert.equal(drive.secondsPerStep, 2);
+  assert.deepEqual([robot.count, drive.robots[1].count, drive.end], [2, 0, 2]);
+  assert.deepEqual([...robot.times.slice(0, 2)], [0.5, 2]);
+  assert.deepEqual([...robot.xs.slice(0, 2)], [1.5, 3]); // the centre of cell 1 is at 1.5
+  assert.deepEqual([...robot.ys.slice(0, 2)], [0.25, 0.5]);
+  assert.ok(Math.abs(robot.angles[0] - (350 * Math.PI) / 180) < 1e-6);
+  assert.ok(Number.isNaN(robot.angles[1]));
+  assert.deepEqual([...robot.states.slice(0, 2)].map((state) => kStates[state]), ["moving", "done"]);
+  assert.deepEqual(drive.completedAt[0], [2, 2, 2]);
+});
+
+test("columns that are wrong say where", () => {
+  assert.throws(() => columns({ x: [1] }), /robots\[0\].x: expected a list of 2/);
+  assert.throws(() => columns({ y: [1, 0.5] }), /robots\[0\].y: expected a list of whole numbers/);
+  assert.throws(() => columns({ t: [5, -1] }), /robots\[0\].t: expected times in their order/);
+  assert.throws(() => columns({ action: [0, 4] }), /robots\[0\].action: expected at most 3/);
+  assert.throws(() => columns({ state: [0, 2] }), /robots\[0\].state: expected numbers below 2/);
+  assert.throws(() => columns({}, { states: ["asleep", "done"] }), /states\[0\]: expected one of/);
+  assert.throws(() => columns({}, { robots: [] }), /robots: expected a list of 2/);
+});
+
+test("how late robots are, and for what", () => {
+  const { model, order, drive } = read(
+    line(0, "a", [0, 0], 0, "moving"), line(2.5, "a", [1, 0], 1, "moving"), line(9, "a", [3, 0], 3, "done"));
+  const app = new DriveApp(model, order, drive, false);
+  assert.deepEqual([0, 1, 2, 3, 6.5, 9, 20].map((time) => lateness(app, 0, time)), [0, 0, 1, 1, 4.5, 6, 6]);
+  assert.equal(mostLate(app, 6), 5); // b, which should have ended its first action at 1
+  assert.equal(lateSentence(app, 0, 1), "In time: at 1 s a step, the plan ends its next action at 0:01.");
+  assert.equal(lateSentence(app, 0, 20), "0:06 late: at 1 s a step, the plan ends its last action at 0:03.");
 });
 
 test("live time keeps near to what comes, and is left by going back", () => {

@@ -80,8 +80,35 @@ class DrivePages(pages.PageTest):
         self.assertIn("2 of 4 actions done: step 2 of 4 of the plan.", self.text(".details"))
         self.assertRegex(self.text(".details"), r"0:04\s+1: t")
         self.go(13)
-        self.assertIn("2 of 2 done, 0 waiting", self.text(".strip"))
+        self.assertIn("2 of 2 done, 0 waiting, up to 0:09 late", self.text(".strip"))
         self.quiet()
+
+    def test_states_have_signs(self):
+        self.begin(*(line(t, "a", [0, 0], 0, state)
+                     for t, state in enumerate(("waiting", "moving", "working", "lifted", "lost", "done"))))
+        self.browser.open(self.drive_page())
+        seen = set()
+        for t, sign in enumerate(("…", "", "↻", "↑", "?", "✓")):
+            self.go(t)
+            self.assertEqual(self.browser.evaluate("grove.stages[0].frame.mark(0)"), sign)
+            seen.add(self.around_the_robot())
+        self.assertEqual(len(seen), 6)      # all are painted, and each looks otherwise
+        self.quiet()
+
+    def around_the_robot(self):
+        """What the canvas of labels has at the robot's edge, where signs are."""
+        return self.browser.evaluate("""(() => {
+          const {camera, frame, element} = grove.stages[0];
+          const at = camera.toView(frame.xs[0], frame.ys[0]);
+          const r = 0.34 * camera.scale;
+          const canvas = element.querySelectorAll("canvas")[3];
+          const ratio = canvas.width / camera.width;
+          const box = [at.x + 0.4 * r, at.y - 1.1 * r, 0.7 * r, 0.7 * r].map((v) => Math.round(v * ratio));
+          const copy = Object.assign(document.createElement("canvas"), {width: box[2], height: box[3]});
+          const c = copy.getContext("2d", {willReadFrequently: true});
+          c.drawImage(canvas, ...box, 0, 0, box[2], box[3]);
+          return [...c.getImageData(0, 0, box[2], box[3]).data].join();
+        })()""")
 
     def test_a_log_that_breaks_off(self):
         self.begin(line(0, "a", [0, 0], 0, "moving"), line(3, "a", [2, 0], 2, "waiting"), '{"t": 4, "rob')
@@ -92,9 +119,30 @@ class DrivePages(pages.PageTest):
         self.quiet()
 
     def test_a_line_that_cannot_be_read(self):
-        self.begin(line(1, "a", [1, 0], 1, "moving"), line(2, "a", [1, 0], 1, ALERT), line(3, "a", [2, 0], 2, "moving"))
+        self.begin(line(1, "a", [1, 0], 1, "moving"), line(2, "a", [1, 0], 1, ALERT))
+        words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log]
+        done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("drive.jsonl: line 3: /state: found", done.stderr)
+        self.assertFalse((self.folder / "drive.html").exists())
+
+    def test_a_drive_on_a_roadmap(self):
+        """Metres of the roadmap, y up: at a vertex a robot is seen where the vertex is painted."""
+        self.instance_file = pages.DATA / "yard.cts.json"
+        self.run_grove("solve", self.instance_file, "--quiet", "--threads", "1", "--output", self.plan_file)
+        yard = json.loads((pages.DATA / "yard.roadmap.json").read_text())
+        robot = json.loads(self.instance_file.read_text())["agents"][0]["id"]
+        self.begin(*(line(t, robot, vertex["at"], 0, "moving") for t, vertex in enumerate(yard["vertices"])),
+                   robots=(robot,))
         self.browser.open(self.drive_page())
-        self.assertIn("The log cannot be read on: line 3: state: expected one of", self.text(".strip"))
+        for t in range(len(yard["vertices"])):
+            self.go(t)
+            x, y, there_x, there_y = self.browser.evaluate(f"""(() => {{
+              const {{frame}} = grove.stages[0], {{xs, ys}} = grove.app.model.world;
+              return [frame.xs[0], frame.ys[0], xs[{t}], ys[{t}]];
+            }})()""")
+            self.assertAlmostEqual(x, there_x, places=2)
+            self.assertAlmostEqual(y, there_y, places=2)
         self.quiet()
 
     def test_names_that_mean_harm(self):
@@ -145,19 +193,45 @@ class DrivePages(pages.PageTest):
         self.until("Live.")
         self.add(line(20, "a", [1, 0], 1, "waiting"))
         self.until(lambda: abs(self.positions()[0][0] - 1.5) < 0.1)
-        self.browser.evaluate("grove.app.go(2)")
+        self.drag_the_slider(0.1)
         self.until("It goes on; this is what was.")
+        self.assertEqual(self.browser.evaluate("document.querySelector('.golive').ariaPressed"), "false")
+        self.assertLess(before := self.browser.evaluate("grove.app.player.time"), 10)
         self.add(line(40, "a", [2, 0], 2, "moving"))
         self.until(lambda: self.browser.evaluate("grove.app.player.end") == 40)
-        self.assertEqual(self.browser.evaluate("grove.app.player.time"), 2)
+        self.assertEqual(self.browser.evaluate("grove.app.player.time"), before)
         self.browser.evaluate("document.querySelector('.golive').click()")
         self.until("Live.")
+        whole = line(50, "a", [3, 0], 3, "moving")
+        self.add(whole[:30])                                # a line comes in two parts
+        self.browser.wait(0.6)
+        self.assertEqual(self.browser.evaluate("grove.app.player.end"), 40)
+        self.add(whole[30:])
+        self.until(lambda: self.browser.evaluate("grove.app.player.end") == 50)
+        self.add(line(51, "a", [1, 0], 1, ALERT), line(51, "ghost", [1, 0], 1, "moving"), "{\n")
+        self.until("⚠ 3 lines of the log left out: line 7: state: expected one of")
         self.add(line(60, "a", [4, 0], 4, "done"), line(60, "b", [0, 1], 0, "done"))
         self.until("The drive has ended.")
         self.begin(line(0, "a", [0, 0], 0, "moving"))       # another one
         self.until(lambda: self.browser.evaluate("grove.app.player.end") == 0)
+        self.assertNotIn("left out", self.text(".strip"))
+        self.log.write_text("no drive\n")
+        self.until("This is not the log of a drive of this plan: line 1: the data is no JSON")
         self.assertEqual(self.browser.console, [])
         self.assertTrue(all(url.startswith(address) for url in self.browser.requests), self.browser.requests)
+
+    def drag_the_slider(self, part):
+        """From its end to a part of its length, by the mouse."""
+        box = self.browser.evaluate("(({x, y, width, height}) => [x, y, width, height])"
+                                    "(document.querySelector('.time').getBoundingClientRect())")
+        y = box[1] + box[3] / 2
+        places = [box[0] + part_of * (box[2] - 16) + 8 for part_of in (0.95, 0.5, part)]
+        mouse = lambda kind, x, **more: self.browser.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)  # noqa: E731
+        mouse("mousePressed", places[0], button="left", buttons=1, clickCount=1)
+        for x in places[1:]:
+            mouse("mouseMoved", x, button="left", buttons=1)
+        mouse("mouseReleased", places[-1], button="left", buttons=0, clickCount=1)
+        self.browser.wait(0.2)
 
     def add(self, *lines):
         with self.log.open("a") as file:

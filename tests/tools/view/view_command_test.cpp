@@ -233,11 +233,14 @@ TEST_F(ViewCommand, RefusesWhatIsNoDriveOfThePlan) {
     directory_.write("drive.jsonl", text);
     return complaint({"view", instance, plan, "--drive", log});
   };
-  for (const char* text : {"", "red\n", "{\"format\": \"grove drive 2\"}\n",
-                           "{\"format\": \"grove drive 1\", \"robots\": 3}\n"})
+  for (const char* text : {"", "red\n", "{\"format\": \"grove drive 2\"}\n", "{\"format\": 1}\n"})
     EXPECT_THAT(of(text), HasSubstr("drive.jsonl: line 1: expected the log of a drive")) << text;
-  EXPECT_THAT(of("{\"format\": \"grove drive 1\", \"robots\": [\"red\", \"r2\"]}\n"),
-              HasSubstr("line 1: /robots/1: found \"r2\"; expected a robot of the instance"));
+  EXPECT_THAT(of("{\"format\": \"grove drive 1\", \"order\": \"o\", \"robots\": [], "
+                 "\"seconds_per_step\": 1}\n{\"t\": 1}\n"),
+              HasSubstr("drive.jsonl: line 2: /: key 'robot' is missing"));
+  EXPECT_THAT(complaint({"view", instance, plan, "--drive", log, "--output", log}),
+              HasSubstr("drive.jsonl"));
+  EXPECT_THAT(read("drive.jsonl"), HasSubstr("grove drive 1"));
   EXPECT_THAT(complaint({"view", instance, "--drive", log}),
               HasSubstr("--drive requires PLAN, the one that is driven"));
   EXPECT_THAT(complaint({"view", instance, plan, plan, "--drive", log}), HasSubstr("PLAN"));

@@ -15,6 +15,15 @@ export function needsHelp(state: number): boolean {
   return kStates[state] === "lifted" || kStates[state] === "lost";
 }
 
+// Beside a robot, so that what it does is not told by colour alone. Who moves is seen to.
+const kMarks: Record<State, string> = {
+  waiting: "…", moving: "", working: "↻", lifted: "↑", lost: "?", done: "✓",
+};
+
+export function markOf(state: number): string {
+  return kMarks[kStates[state]];
+}
+
 const kFirst = 64;
 
 // What was seen of a robot.
@@ -78,7 +87,8 @@ export class Sightings {
 }
 
 export class Drive {
-  order = ""; // name of the passing order's file
+  order = ""; // name of the passing order's file; empty: it has not begun
+  secondsPerStep = 1;
   end = 0; // seconds
   readonly robots: Sightings[]; // by agent
   readonly completedAt: number[][]; // by agent and action: seconds
@@ -88,10 +98,11 @@ export class Drive {
     this.completedAt = model.agents.map(() => []);
   }
 
+  // The angle is in degrees.
   add(
     agent: number, time: number, x: number, y: number, angle: number, action: number, state: number,
   ): void {
-    this.robots[agent].add(time, x, y, angle, action, state);
+    this.robots[agent].add(time, x, y, ((angle % 360) * Math.PI) / 180, action, state);
     this.end = Math.max(this.end, time);
     const completed = this.completedAt[agent];
     while (completed.length < action) completed.push(time);

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Reads the log of a drive, which may still be growing. Lines are taken strictly, with their number
-// in errors.
+// Reads the log of a drive that is followed. Lines are taken strictly; one that is wrong is left
+// out, and counted.
 
 import { parse, type Value } from "../page/json";
 import type { Model } from "../page/model";
 import { nameOf } from "../page/names";
-import { Drive, kStates } from "./drive";
+import { readState } from "./columns";
+import { Drive } from "./drive";
 import type { Order } from "./order";
 
 const kFormat = "grove drive 1";
+// As `grove view` has them: src/io/drive_file.cpp.
 const kFar = 1e7; // cells or metres
 const kLong = 1e9; // seconds
 
 export class Log {
   readonly drive: Drive;
+  leftOut = 0; // lines that cannot be read
+  firstTrouble = ""; // what is wrong with the first of them
   private isBegun = false;
   private readonly agents: Map<string, number>;
   private readonly named = new Set<string>(); // the robots of the header
@@ -25,31 +29,37 @@ export class Log {
     this.agents = new Map(model.agents.map(({ id }, i) => [id, i]));
   }
 
-  // What came since the last time. Throws an error that names the line.
+  // What came since the last time. Whoever watches robots wants to go on after a line that is wrong;
+  // without the first one nothing can be said of the others.
   add(text: string): void {
     const lines = (this.rest + text).split("\n");
     this.rest = lines.pop()!;
     for (const line of lines) {
       ++this.lines;
-      if (line.trim() === "") continue;
+      if (line.trim() === "" || this.isNoDrive) continue;
       try {
         const data = parse(line);
         if (this.isBegun) this.see(data);
         else this.begin(data);
       } catch (error) {
         const why = error instanceof Error ? error.message : String(error);
-        throw new Error(`line ${this.lines}: ${why}`);
+        if (this.leftOut++ === 0) this.firstTrouble = `line ${this.lines}: ${why}`;
       }
     }
   }
 
+  get isNoDrive(): boolean {
+    return !this.isBegun && this.leftOut > 0;
+  }
+
   private begin(data: Value): void {
     if (data.key("format").text() !== kFormat) data.key("format").fail(`'${kFormat}'`);
-    this.drive.order = nameOf(data.key("order").text());
+    this.drive.secondsPerStep = seconds(data.key("seconds_per_step"), 0);
     for (const robot of data.key("robots").list()) {
       if (!this.agents.has(robot.text())) robot.fail("a robot of the instance");
       this.named.add(robot.text());
     }
+    this.drive.order = nameOf(data.key("order").text());
     this.isBegun = true;
   }
 
@@ -58,20 +68,22 @@ export class Log {
     const id = data.key("robot");
     if (!this.named.has(id.text())) id.fail("a robot that the first line names");
     const agent = this.agents.get(id.text())!;
-    const time = data.key("t").number();
-    const robot = drive.robots[agent];
-    const before = robot.count > 0 ? robot.times[robot.count - 1] : 0;
-    if (time < before || time > kLong) data.key("t").fail(`seconds from ${before} on`);
+    const { count, times } = drive.robots[agent];
+    const time = seconds(data.key("t"), count > 0 ? times[count - 1] : 0);
     const [x, y] = data.key("at").list(2).map((value) => {
       if (Math.abs(value.number()) > kFar) value.fail("a place in the world");
       return value.number();
     });
     const angle = data.key("angle");
     const action = data.key("action").integer(0, order.actions(agent) + 1);
-    const state = kStates.findIndex((name) => name === data.key("state").text());
-    if (state < 0) data.key("state").fail(`one of ${kStates.join(", ")}`);
+    const state = readState(data.key("state"));
     const at = model.world.drawn(x, y);
-    drive.add(agent, time, at.x, at.y,
-      angle.isThere ? (angle.number() * Math.PI) / 180 : NaN, action, state);
+    drive.add(agent, time, at.x, at.y, angle.isThere ? angle.number() : NaN, action, state);
   }
+}
+
+function seconds(value: Value, least: number): number {
+  const number = value.number();
+  if (number < least || number > kLong) value.fail(`seconds from ${least} on`);
+  return number;
 }

@@ -4,6 +4,7 @@
 import { kDark, kLight } from "../page/colors";
 import { el } from "../page/dom";
 import { listenToKeys } from "../page/keys";
+import type { Model } from "../page/model";
 import { Controls } from "../page/panels/controls";
 import { Help } from "../page/panels/help";
 import { Paths } from "../page/paths";
@@ -11,6 +12,7 @@ import { readModel } from "../page/read";
 import { Stage } from "../page/stage";
 import { Follower } from "../run/follow";
 import { DriveApp } from "./app";
+import { readDrive } from "./columns";
 import { Log } from "./log";
 import { DriveNow } from "./now";
 import { Order } from "./order";
@@ -18,7 +20,7 @@ import { Details } from "./panels/details";
 import { legend } from "./panels/legend";
 import { Robots } from "./panels/robots";
 import { Strip } from "./panels/strip";
-import { kSeconds } from "./words";
+import { kSeconds, troubleText } from "./words";
 
 const kPause = 300; // milliseconds between questions for more
 
@@ -39,29 +41,31 @@ function begin(): void {
 function run(): void {
   const model = readModel(textOf("grove-data"));
   const order = Order.read(textOf("grove-order"), model);
-  const text = textOf("grove-log");
-  const isFollowed = document.body.hasAttribute("data-follow");
+  if (document.body.hasAttribute("data-follow")) follow(model, order);
+  else {
+    const app = new DriveApp(model, order, readDrive(textOf("grove-drive"), model, order), false);
+    show(app, new Strip(app));
+  }
+}
+
+function follow(model: Model, order: Order): void {
   let log = new Log(model, order);
-  const app = new DriveApp(model, order, log.drive, isFollowed);
+  const app = new DriveApp(model, order, log.drive, true);
   const strip = new Strip(app);
-  const take = (text: string) => {
-    try {
-      log.add(text);
-    } catch (error) {
-      strip.fail(`The log cannot be read on: ${error instanceof Error ? error.message : String(error)}`);
-    }
+  const take = () => {
+    strip.fail(troubleText(log));
     app.take(log.drive);
   };
   show(app, strip);
-  take(text);
-  if (!isFollowed) return;
   void new Follower({
     begin: () => {
       log = new Log(model, order);
-      strip.fail("");
-      app.take(log.drive);
+      take();
     },
-    add: take,
+    add: (text) => {
+      log.add(text);
+      take();
+    },
     state: (isAnswering) => strip.answers(isAnswering),
   }, kPause).run();
 }

@@ -5,7 +5,7 @@
 import { Doing } from "../page/facts";
 import type { Model } from "../page/model";
 import type { RobotsNow } from "../page/robots_now";
-import { kStates, needsHelp, type Drive, type State } from "./drive";
+import { kStates, markOf, needsHelp, type Drive, type State } from "./drive";
 
 const kBrief = 0.15; // seconds: what the log leaves out at most, of what changes
 const kLongest = 10; // seconds between sightings of one that moves
@@ -44,6 +44,10 @@ export class DriveNow implements RobotsNow {
       this.doing[i] = kDoing[kStates[state]];
       this.colliding[i] = needsHelp(state) ? 1 : 0;
     }
+  }
+
+  mark(robot: number): string {
+    return markOf(this.drive.stateAt(robot, this.time));
   }
 
   private place(i: number, time: number): void {

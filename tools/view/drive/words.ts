@@ -2,8 +2,11 @@
 // How the page says what it shows.
 
 import type { TimeWords } from "../page/panels/controls";
+import { plural } from "../page/dom";
 import type { DriveApp } from "./app";
-import { kDone, kStates, kWaiting, needsHelp } from "./drive";
+import { kDone, kStates, kWaiting, markOf, needsHelp } from "./drive";
+import { dueTime, lateness } from "./late";
+import type { Log } from "./log";
 
 const kStateWords = {
   waiting: "waiting", moving: "moving", working: "at work", lifted: "lifted off", lost: "lost",
@@ -36,11 +39,31 @@ export function waitText(app: DriveApp, agent: number, time: number): string {
   return app.model.agents[wait.agent].name;
 }
 
-// "moving", "waiting for blue".
+// "moving", "… waiting for blue".
 export function doingText(app: DriveApp, agent: number, time: number): string {
   const state = app.drive.stateAt(agent, time);
   const whom = state === kWaiting ? waitText(app, agent, time) : "";
-  return stateText(state) + (whom === "" ? "" : ` for ${whom}`);
+  return signedText(state) + (whom === "" ? "" : ` for ${whom}`);
+}
+
+// With the sign that it has beside it: "✓ done".
+export function signedText(state: number): string {
+  return `${markOf(state)} ${stateText(state)}`.trim();
+}
+
+// "0:07 late"; empty: in time.
+export function lateText(seconds: number): string {
+  return seconds < 1 ? "" : `${clockText(seconds)} late`;
+}
+
+// The same in a sentence, which says late for what.
+export function lateSentence(app: DriveApp, agent: number, time: number): string {
+  const late = lateText(lateness(app, agent, time));
+  const all = app.order.actions(agent);
+  if (all === 0) return "";
+  const which = app.drive.actionsAt(agent, time) < all ? "next" : "last";
+  return `${late === "" ? "In time" : late}: at ${app.drive.secondsPerStep} s a step, the plan ` +
+    `ends its ${which} action at ${clockText(dueTime(app, agent, time))}.`;
 }
 
 export function progressText(app: DriveApp, agent: number, time: number): string {
@@ -62,4 +85,11 @@ export function counts(app: DriveApp, time: number): Counts {
     else if (state === kWaiting) ++all.waiting;
   });
   return all;
+}
+
+// What is wrong with a log that is followed; empty: nothing.
+export function troubleText(log: Log): string {
+  if (log.leftOut === 0) return "";
+  return log.isNoDrive ? `This is not the log of a drive of this plan: ${log.firstTrouble}`
+    : `⚠ ${plural(log.leftOut, "line")} of the log left out: ${log.firstTrouble}`;
 }

@@ -53,6 +53,10 @@ export class Frame implements RobotsNow {
     this.faults = new Faults(count);
   }
 
+  mark(): string {
+    return "";
+  }
+
   update(time: number): void {
     this.time = time;
     const step = Math.floor(time);

@@ -72,6 +72,15 @@ export class Value {
     return value as number;
   }
 
+  // A list of them, however long: without a Value for each.
+  safeIntegers(length = -1): number[] {
+    if (!Array.isArray(this.value) || !this.value.every(Number.isSafeInteger))
+      this.fail("a list of whole numbers");
+    const all = this.value as number[];
+    if (length >= 0 && all.length !== length) this.fail(`a list of ${length}`);
+    return all;
+  }
+
   // However large: beyond 2^53 it is near to what the file says, which nothing true can be.
   wholeNumber(): number {
     const value = this.value;

@@ -76,6 +76,8 @@ export class Labels {
       c.fillStyle = isDark ? colors.onRobot : colors.onPale;
       c.fillText(this.ids[i], p.x, p.y + 0.5, 1.8 * radius);
     }
+    for (const i of seen)
+      paintMark(c, camera.toView(frame.xs[i], frame.ys[i]), frame.mark(i), radius, colors);
   }
 
   private paintTag(
@@ -83,7 +85,8 @@ export class Labels {
     colors: Colors, color = colors.text,
   ): void {
     const p = camera.toView(frame.xs[robot], frame.ys[robot]);
-    const name = shortened(this.model.agents[robot].name, kLongestTag);
+    const mark = frame.mark(robot);
+    const name = shortened(this.model.agents[robot].name, kLongestTag) + (mark && ` ${mark}`);
     c.font = `${color === colors.text ? "" : "700 "}10px system-ui, sans-serif`;
     c.textAlign = "center";
     c.textBaseline = "bottom";
@@ -105,6 +108,25 @@ export class Labels {
     paintRing(c, p, radius, colors.chosen, []);
     if (step < kLeastLabeled) this.paintTag(c, camera, frame, robot, radius, colors, colors.chosen);
   }
+}
+
+// On the robot's edge, away from its id.
+function paintMark(
+  c: CanvasRenderingContext2D, at: Point, mark: string, radius: number, colors: Colors,
+): void {
+  if (mark === "") return;
+  const r = Math.min(14, Math.max(6, 0.36 * radius));
+  const [x, y] = [at.x + 0.75 * radius, at.y - 0.75 * radius];
+  c.beginPath();
+  c.arc(x, y, r, 0, 2 * Math.PI);
+  c.fillStyle = colors.floor;
+  c.fill();
+  c.strokeStyle = colors.text;
+  c.lineWidth = 1;
+  c.stroke();
+  c.fillStyle = colors.text;
+  c.font = `700 ${1.4 * r}px system-ui, sans-serif`;
+  c.fillText(mark, x, y + 0.5);
 }
 
 function paintRing(

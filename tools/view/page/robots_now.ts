@@ -10,6 +10,7 @@ export interface RobotsNow {
   readonly doing: Uint8Array; // of facts.ts
   readonly colliding: Uint8Array; // or else something is wrong with it
   readonly missing: Uint8Array; // not drawn
+  mark(robot: number): string; // a sign beside it, of what it does; empty: none
   update(time: number): void;
 }
 

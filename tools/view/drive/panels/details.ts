@@ -5,12 +5,13 @@ import { el, setText } from "../../page/dom";
 import { head } from "../../page/panels/head";
 import { momentButton } from "../../page/panels/rows";
 import type { DriveApp } from "../app";
-import { clockText, doingText, progressText } from "../words";
+import { clockText, doingText, lateSentence, progressText } from "../words";
 
 export class Details {
   readonly element = el("section", { class: "details", "aria-label": "What is chosen" });
   private readonly now = el("p", { class: "now" });
   private readonly progress = el("p");
+  private readonly late = el("p");
   private readonly follow: HTMLElement;
   private shown = "";
 
@@ -53,6 +54,7 @@ export class Details {
     setText(this.now, `Now: ${doingText(app, agent, time)}`);
     setText(this.progress, `${progressText(app, agent, time)} actions done: step ` +
       `${app.order.planTime(agent, completed)} of ${last} of the plan.`);
+    setText(this.late, lateSentence(app, agent, time));
   }
 
   private robot(agent: number): HTMLElement[] {
@@ -60,7 +62,7 @@ export class Details {
     const visits = app.order.visits(agent).map(({ task, action }) =>
       this.visit(app.visitTime(agent, action), `${task + 1}: ${app.model.tasks[task].name}`));
     return [head(app, app.model.agents[agent].name, this.follow), this.now, this.progress,
-      ...(visits.length > 0 ? [el("h4", {}, "Visits"), el("ul", { class: "moments" }, ...visits)] : [])];
+      this.late,      ...(visits.length > 0 ? [el("h4", {}, "Visits"), el("ul", { class: "moments" }, ...visits)] : [])];
   }
 
   private task(task: number): HTMLElement[] {

@@ -5,11 +5,14 @@ import { el, plural, setText } from "../../page/dom";
 import { kMostRows, rowElement, type Row } from "../../page/panels/rows";
 import type { DriveApp } from "../app";
 import { kDone, kWaiting, needsHelp } from "../drive";
-import { doingText, progressText } from "../words";
+import { lateness } from "../late";
+import { doingText, lateText, progressText } from "../words";
 
-type Kind = "all" | "waiting" | "help";
+type Kind = "all" | "waiting" | "late" | "help";
 
-const kKinds: [Kind, string][] = [["all", "All"], ["waiting", "Waiting"], ["help", "To look after"]];
+const kKinds: [Kind, string][] = [
+  ["all", "All"], ["waiting", "Waiting"], ["late", "Late"], ["help", "To look after"],
+];
 
 export class Robots {
   readonly element: HTMLElement;
@@ -60,13 +63,26 @@ export class Robots {
   }
 
   private agents(): number[] {
-    const { drive, model, player } = this.app;
+    const { model } = this.app;
     const query = this.search.value.trim().toLowerCase();
-    return [...model.agents.keys()].filter((agent) => {
-      const state = drive.stateAt(agent, player.time);
-      return model.agents[agent].id.toLowerCase().includes(query) && (this.kind === "all" ||
-        (this.kind === "help" ? needsHelp(state) : state === kWaiting));
-    });
+    const found = [...model.agents.keys()].filter((agent) =>
+      model.agents[agent].id.toLowerCase().includes(query) && this.isOfKind(agent));
+    return this.kind === "late" ? found.sort((a, b) => this.late(b) - this.late(a)) : found;
+  }
+
+  private isOfKind(agent: number): boolean {
+    const state = this.app.drive.stateAt(agent, this.app.player.time);
+    switch (this.kind) {
+      case "all": return true;
+      case "waiting": return state === kWaiting;
+      case "late": return this.late(agent) > 0;
+      case "help": return needsHelp(state);
+    }
+  }
+
+  // In whole seconds, as it is written: rows do not change places for less.
+  private late(agent: number): number {
+    return Math.floor(lateness(this.app, agent, this.app.player.time));
   }
 
   private fill(agents: number[], key: string): void {
@@ -92,7 +108,8 @@ export class Robots {
       note: () => {
         const { time } = app.player;
         const isDone = app.drive.stateAt(agent, time) === kDone;
-        return doingText(app, agent, time) + (isDone ? "" : ` · ${progressText(app, agent, time)}`);
+        return [doingText(app, agent, time), isDone ? "" : progressText(app, agent, time),
+          lateText(lateness(app, agent, time))].filter((text) => text !== "").join(" · ");
       },
       act: () => app.choose(agent),
     };

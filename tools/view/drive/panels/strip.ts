@@ -3,7 +3,8 @@
 
 import { el, plural, setText } from "../../page/dom";
 import type { DriveApp } from "../app";
-import { counts } from "../words";
+import { mostLate } from "../late";
+import { counts, lateText } from "../words";
 
 export class Strip {
   readonly element: HTMLElement;
@@ -34,7 +35,9 @@ export class Strip {
     const { app } = this;
     const { done, waiting, help } = counts(app, app.player.time);
     setText(this.state, this.stateNow());
-    setText(this.counts, `${done} of ${app.model.agents.length} done, ${waiting} waiting`);
+    const late = lateText(mostLate(app, app.player.time));
+    setText(this.counts, `${done} of ${app.model.agents.length} done, ${waiting} waiting` +
+      (late && `, up to ${late}`));
     setText(this.help, help > 0 ? `⚠ ${help} to look after` : "");
     this.element.classList.toggle("live", app.player.live);
   }

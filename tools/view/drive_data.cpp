@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "tools/view/drive_data.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "grove/detail/execution/visits.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr double kFine = 1000;  // parts of a second, and of a cell or metre: as logs have them
+
+std::int64_t in_parts(double number) {
+  return std::llround(number * kFine);
+}
+
+// Whole degrees, 0 .. 359; -1: not known.
+std::int64_t degrees(double angle) {
+  return std::isnan(angle) ? -1 : (std::llround(std::fmod(angle, 360)) + 360) % 360;
+}
+
+// `"name":[1,0,-3]`: the numbers that `of` makes of what was seen, each but the first one as what
+// it is more than the one before it.
+template <typename Of>
+void append_differences(std::string& text, const char* name, std::span<const Sighting> seen,
+                        Of of) {
+  fmt::format_to(std::back_inserter(text), "\"{}\":[", name);
+  std::int64_t before = 0;
+  for (const Sighting& sighting : seen) {
+    const std::int64_t now = of(sighting);
+    fmt::format_to(std::back_inserter(text), "{}{}", &sighting == seen.data() ? "" : ",",
+                   now - before);
+    before = now;
+  }
+  text += ']';
+}
+
+void append_robot(std::string& text, std::span<const Sighting> seen) {
+  const auto column = [&](const char* name, auto of) { append_differences(text, name, seen, of); };
+  text += '{';
+  column("t", [](const Sighting& s) { return in_parts(s.seconds); });
+  text += ',';
+  column("x", [](const Sighting& s) { return in_parts(s.x); });
+  text += ',';
+  column("y", [](const Sighting& s) { return in_parts(s.y); });
+  text += ',';
+  column("angle", [](const Sighting& s) { return degrees(s.angle); });
+  text += ',';
+  column("action", [](const Sighting& s) { return std::int64_t{s.completed}; });
+  text += ',';
+  column("state", [](const Sighting& s) { return std::int64_t{s.state}; });
+  text += '}';
+}
+
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string drive_data(const DriveLog& log) {
+  std::string text =
+      fmt::format("{{\"order\":{},\"seconds_per_step\":{},\"states\":{},\"robots\":[",
+                  quoted(log.order), log.seconds_per_step, nlohmann::json(kDriveStates).dump());
+  for (const std::vector<Sighting>& seen : log.robots) {
+    if (&seen != log.robots.data()) text += ',';
+    append_robot(text, seen);
+  }
+  return text + "]}";
+}
+
+std::string order_data(const Instance& instance, const PassingOrder& order) {
+  const std::vector<std::vector<TaskVisit>> all_visits = task_visits(instance, order);
+  nlohmann::json robots = nlohmann::json::array();
+  for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
+    const ActionIndex begin = order.begin_of(agent);
+    nlohmann::json ends = nlohmann::json::array();
+    nlohmann::json waits = nlohmann::json::array();
+    for (ActionIndex i = begin; i < order.end_of(agent); ++i) {
+      const Action& action = order.actions()[i];
+      ends.push_back(action.begin + action.steps);
+      if (const ActionIndex other = order.after(i); other != kNoAction) {
+        const AgentIndex whose = order.actions()[other].agent;
+        waits.push_back({i - begin, whose, other - order.begin_of(whose)});
+      }
+    }
+    nlohmann::json visits = nlohmann::json::array();
+    for (const TaskVisit& visit : all_visits[agent])
+      visits.push_back({visit.action == kNoAction ? -1 : visit.action - begin, visit.task});
+    robots.push_back(
+        {{"ends", std::move(ends)}, {"waits", std::move(waits)}, {"visits", std::move(visits)}});
+  }
+  return nlohmann::json{{"robots", std::move(robots)}}.dump();
+}
+
+}  // namespace grove::detail
