@@ -23,6 +23,7 @@ constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::streamoff kMostAtOnce = 4 << 20;  // bytes
 constexpr std::streamsize kBeginning = 4096;     // by which a log is known again
 constexpr auto kPause = std::chrono::milliseconds(100);
+constexpr auto kMoment = std::chrono::milliseconds(1);
 
 // A file that somebody writes.
 class GrowingFile {
@@ -88,6 +89,24 @@ bool refuse(int port, const httplib::Request& request, httplib::Response& respon
   return true;
 }
 
+// A server that has just ended does not keep its port for a minute; but one that runs keeps it,
+// where httplib would share it.
+void keep_the_port(socket_t socket) {
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+}
+
+// As it is: to compress megabytes takes httplib seconds, and they stay on this machine.
+void send(httplib::Response& response, std::string text, const char* type) {
+  const std::size_t size = text.size();
+  if (size == 0) return response.set_content("", type);
+  response.set_content_provider(
+      size, type,
+      [text = std::move(text)](std::size_t from, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(text.data() + from, length);
+      });
+}
+
 }  // namespace
 
 void serve(const Followed& followed, int port, const std::function<void(const std::string&)>& begun,
@@ -98,8 +117,7 @@ void serve(const Followed& followed, int port, const std::function<void(const st
   server.set_default_headers(
       {{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}});
   server.set_keep_alive_max_count(1);  // the end does not wait for pages that might ask again
-  // As httplib does by default, but that another server may not take the port as well.
-  server.set_socket_options([](socket_t) {});
+  server.set_socket_options(&keep_the_port);
   if (port == 0)
     port = server.bind_to_any_port(kLoopback);
   else if (!server.bind_to_port(kLoopback, port))
@@ -111,17 +129,18 @@ void serve(const Followed& followed, int port, const std::function<void(const st
                                                : httplib::Server::HandlerResponse::Unhandled;
       });
   server.Get("/", [&](const httplib::Request&, httplib::Response& response) {
-    response.set_content(followed.page, "text/html; charset=utf-8");
+    send(response, followed.page, "text/html; charset=utf-8");
   });
   server.Get("/log", [&](const httplib::Request& request, httplib::Response& response) {
-    const GrowingFile::Part part = log.read(offset_of(request), request.get_param_value("file"));
+    GrowingFile::Part part = log.read(offset_of(request), request.get_param_value("file"));
     response.set_header("X-Log", part.name);
     response.set_header("X-End", std::to_string(part.end));
     response.set_header("X-Size", std::to_string(part.size));
-    response.set_content(part.text, "text/plain; charset=utf-8");
+    send(response, std::move(part.text), "text/plain; charset=utf-8");
   });
   begun(fmt::format("http://{}:{}/", kLoopback, port));
   std::jthread listening([&] { server.listen_after_bind(); });
+  while (!server.is_running()) std::this_thread::sleep_for(kMoment);  // stop() would do nothing
   while (!over()) std::this_thread::sleep_for(kPause);
   server.stop();
 }

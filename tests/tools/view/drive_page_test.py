@@ -4,6 +4,7 @@
 
     drive_page_test.py GROVE
 """
+import contextlib
 import json
 import re
 import signal
@@ -169,22 +170,52 @@ class DrivePages(pages.PageTest):
         self.assertEqual(self.browser.evaluate("grove.app.tasks.every(({agents, times}) => times.length === agents.length)"), True)
         self.quiet()
 
-    def test_a_drive_is_followed(self):
-        command = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow"]
+    @contextlib.contextmanager
+    def server(self, *words):
+        """Its address; it ends by Ctrl-C."""
+        command = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", *words]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
             try:
-                address = re.search(r"http://127\.0\.0\.1:\d+/", server.stdout.readline())[0]
-                with pages.Chromium("--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1") as browser:
-                    self.browser = browser
-                    self.follow(address)
-                request = urllib.request.Request(address, headers={"Host": "evil.example"})
-                with self.assertRaises(urllib.error.HTTPError) as refused:
-                    urllib.request.urlopen(request)
-                self.assertEqual(refused.exception.code, 403)
-                refused.exception.close()
-            finally:
+                yield re.search(r"http://127\.0\.0\.1:\d+/", server.stdout.readline())[0]
                 server.send_signal(signal.SIGINT)
-            self.assertEqual(server.wait(10), 0)
+                self.assertEqual(server.wait(10), 0)
+            finally:
+                server.kill()
+
+    def test_a_drive_is_followed(self):
+        with self.server() as address:
+            with pages.Chromium("--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1") as browser:
+                self.browser = browser
+                self.follow(address)
+            request = urllib.request.Request(address, headers={"Host": "evil.example"})
+            with self.assertRaises(urllib.error.HTTPError) as refused:
+                urllib.request.urlopen(request)
+            self.assertEqual(refused.exception.code, 403)
+            refused.exception.close()
+
+    def test_the_server_sends_as_it_is(self):
+        """httplib would take seconds to compress a long log, which a browser accepts."""
+        self.begin(*(line(t, "a", [0, 0], 0, "moving") for t in range(1000)))
+        with self.server() as address:
+            for path in ("", "log?from=0&file="):
+                request = urllib.request.Request(address + path, headers={"Accept-Encoding": "gzip, br"})
+                with urllib.request.urlopen(request) as answer:
+                    self.assertIsNone(answer.headers["Content-Encoding"])
+                    text = answer.read().decode()
+            self.assertEqual(text, self.log.read_text())
+
+    def test_a_port_is_kept_and_given_back(self):
+        with self.server() as address:
+            port = address.rstrip("/").rpartition(":")[2]
+            for _ in range(5):
+                with urllib.request.urlopen(address) as answer:
+                    answer.read()                       # until the server ends the connection
+            words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", "--port", port]
+            second = subprocess.run(words, capture_output=True, text=True, timeout=30)
+            self.assertEqual(second.returncode, 2)
+            self.assertIn("--port: is taken", second.stderr)
+        with self.server("--port", port) as again:      # at once, and ended at once
+            self.assertEqual(again, address)
 
     def follow(self, address):
         self.browser.call("Page.navigate", url=address)
