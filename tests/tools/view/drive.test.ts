@@ -198,6 +198,8 @@ test("live time keeps near to what comes, and is left by going back", () => {
     player.advance(0.1);
   }
   assert.ok(Math.abs(player.time - (player.end - 1)) < 0.2);
+  for (let i = 0; i < 40; ++i) player.advance(0.1);
+  assert.equal(player.time, player.end); // nothing comes any more: the last line is shown, too
   player.go(50);
   assert.equal(player.live, false);
   player.advance(1);

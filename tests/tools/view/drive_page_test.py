@@ -243,6 +243,7 @@ class DrivePages(pages.PageTest):
         self.until("⚠ 3 lines of the log left out: line 7: state: expected one of")
         self.add(line(60, "a", [4, 0], 4, "done"), line(60, "b", [0, 1], 0, "done"))
         self.until("The drive has ended.")
+        self.until("2 of 2 done")
         self.begin(line(0, "a", [0, 0], 0, "moving"))       # another one
         self.until(lambda: self.browser.evaluate("grove.app.player.end") == 0)
         self.assertNotIn("left out", self.text(".strip"))

@@ -5,6 +5,7 @@ import { Player } from "../page/player";
 
 const kBehind = 1; // seconds that a live picture is behind the log, so that it need not wait for it
 const kTooFar = 3; // seconds
+const kSlowest = 0.25; // seconds a second: what came last is shown also if nothing comes after it
 
 export class DrivePlayer extends Player {
   live: boolean;
@@ -46,7 +47,7 @@ export class DrivePlayer extends Player {
     if (!this.live) return super.advance(seconds);
     const off = Math.max(0, this.end - kBehind) - this.time;
     this.time += Math.abs(off) > kTooFar ? off
-      : Math.max(0, seconds * (1 + Math.max(-1, Math.min(1, off))));
+      : seconds * Math.max(kSlowest, 1 + Math.min(1, off));
     this.time = Math.min(this.time, this.end);
   }
 }
