@@ -72,6 +72,11 @@ GROVE_API Instance read_instance(const std::filesystem::path& path,
 // The same of the text of such a file; the map is relative to `folder`.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder = ".",
                                   std::vector<std::string>* warnings = nullptr);
+// What such a file says of agents and tasks, {"agents": [...], "tasks": [...]}, in this world; and
+// back.
+GROVE_API Instance parse_instance(std::string_view text, const World& world, Rules rules = {},
+                                  std::vector<std::string>* warnings = nullptr);
+GROVE_API std::string instance_text(const Instance& instance);
 // Classical MAPF: the first `agents` rows of a Moving AI scenario. Throws InputError.
 GROVE_API Instance read_scenario(const std::filesystem::path& scenario,
                                  const std::filesystem::path& map, int agents);

@@ -86,6 +86,13 @@ GROVE_API std::vector<Violation> check(const Instance& instance, const Plan& pla
 GROVE_API std::vector<Violation> check(const Instance& instance, const Solution& solution,
                                        std::size_t limit = 20);
 
+// The plan in which robots walk these paths, in the instance's order: where each is at times 0, 1,
+// ... Costs, and in which order tasks are done, are worked out; whether it is valid is not. Throws
+// InvalidArgument for places that do not exist, and where robots turn or tasks take time, for there
+// places do not say what a robot does.
+GROVE_API Plan plan_from_paths(const Instance& instance,
+                               const std::vector<std::vector<Place>>& paths);
+
 // Reads a plan file, of this instance; believes what it says. Throws InputError.
 GROVE_API Solution read_plan(const std::filesystem::path& path, const Instance& instance);
 GROVE_API Solution parse_plan(std::string_view text, const Instance& instance);

@@ -160,6 +160,20 @@ Instance parse_instance(std::string_view text, const std::filesystem::path& fold
       [&] { return loaded(detail::parse_instance(text, "the instance", folder), warnings); });
 }
 
+Instance parse_instance(std::string_view text, const World& world, Rules rules,
+                        std::vector<std::string>* warnings) {
+  return translated([&] {
+    detail::InstanceBuilder builder(Access::map(world));
+    if (!rules.following) builder.forbid_following();
+    return Access::told(
+        detail::parse_instance_on(std::move(builder), text, "the instance", warnings));
+  });
+}
+
+std::string instance_text(const Instance& instance) {
+  return translated([&] { return detail::instance_text(Access::instance(instance), ""); });
+}
+
 Instance read_scenario(const std::filesystem::path& scenario, const std::filesystem::path& map,
                        int agents) {
   return translated(

@@ -10,6 +10,7 @@
 
 #include "access.h"
 #include "grove/detail/io/plan_file.h"
+#include "grove/detail/io/plan_import.h"
 #include "grove/detail/model/check.h"
 
 namespace grove {
@@ -147,6 +148,23 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
     const detail::Instance& inner = Access::instance(instance);
     return told(detail::check(inner, solution_of(inner, solution), limit));
   });
+}
+
+Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Place>>& paths) {
+  const detail::Instance& inner = Access::instance(instance);
+  if (!detail::paths_are_places(inner))
+    throw InvalidArgument("/agents", "robots turn, or tasks take time; expected neither");
+  if (static_cast<int>(paths.size()) != inner.agent_count())
+    throw InvalidArgument("/agents",
+                          fmt::format("{} paths; expected {}", paths.size(), inner.agent_count()));
+  std::vector<detail::Path> made;
+  for (const std::vector<Place>& path : paths) {
+    detail::Path& own = made.emplace_back();
+    for (const Place& place : path)
+      own.push_back(place_of(inner.map(), place,
+                             fmt::format("/agents/{}/path/{}", made.size() - 1, own.size())));
+  }
+  return translated([&] { return told_plan(inner, detail::plan_of_paths(inner, std::move(made))); });
 }
 
 Solution read_plan(const std::filesystem::path& path, const Instance& instance) {

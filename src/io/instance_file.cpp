@@ -152,6 +152,14 @@ void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unkno
   }
 }
 
+Instance read_robots(InstanceBuilder builder, const JsonValue& root, UnknownKeys& unknown) {
+  add_all(builder, root, unknown);
+  refuse_misplaced_keys(root);
+  std::optional<Instance> instance;
+  at_place_of(root, [&] { instance = std::move(builder).build(); });
+  return *std::move(instance);
+}
+
 // A file that an instance names, relative to itself.
 std::filesystem::path file_named_by(const JsonValue& value, const std::filesystem::path& folder,
                                     std::string_view what) {
@@ -250,13 +258,18 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
     root.fail("key 'map' is missing; expected it, or 'roadmap', in this object");
   std::filesystem::path map_path = roadmap ? file_named_by(*roadmap, folder, "a roadmap")
                                            : file_named_by(root.member("map"), folder, "a map");
-  InstanceBuilder builder(roadmap ? Map(read_roadmap(map_path, &warnings))
-                                  : Map(read_map(map_path, &warnings)));
-  add_all(builder, root, unknown);
-  std::optional<Instance> instance;
-  refuse_misplaced_keys(root);
-  at_place_of(root, [&] { instance = std::move(builder).build(); });
-  return {*std::move(instance), std::move(map_path), std::move(warnings)};
+  Map map = roadmap ? Map(read_roadmap(map_path, &warnings)) : Map(read_map(map_path, &warnings));
+  Instance instance = read_robots(InstanceBuilder(std::move(map)), root, unknown);
+  return {std::move(instance), std::move(map_path), std::move(warnings)};
+}
+
+Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const std::string& name,
+                           std::vector<std::string>* warnings) {
+  const JsonDocument document(text, name);
+  const JsonValue root = document.root();
+  UnknownKeys unknown(name, warnings, Misspelt::kRefused);
+  unknown.look_at(root, {"agents", "tasks"});
+  return read_robots(std::move(builder), root, unknown);
 }
 
 LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
@@ -298,17 +311,21 @@ void write_scenario_instance(const std::filesystem::path& path, const Instance& 
   write_scenario(path, rows, lengths);
 }
 
-void write_instance(const std::filesystem::path& path, const Instance& instance,
-                    const std::string& map, Outlives outlives) {
+std::string instance_text(const Instance& instance, const std::string& map) {
   OrderedJson agents = OrderedJson::array();
   for (const Agent& agent : instance.agents()) agents.push_back(agent_json(instance, agent));
   OrderedJson tasks = OrderedJson::array();
   for (const Task& task : instance.tasks()) tasks.push_back(task_json(instance, task));
-  write_file_atomically(
-      path,
-      dump_by_lines(
-          {{instance.is_on_grid() ? "map" : "roadmap", map}, {"agents", agents}, {"tasks", tasks}}),
-      outlives);
+  OrderedJson json;
+  if (!map.empty()) json[instance.is_on_grid() ? "map" : "roadmap"] = map;
+  json["agents"] = std::move(agents);
+  json["tasks"] = std::move(tasks);
+  return dump_by_lines(json);
+}
+
+void write_instance(const std::filesystem::path& path, const Instance& instance,
+                    const std::string& map, Outlives outlives) {
+  write_file_atomically(path, instance_text(instance, map), outlives);
 }
 
 }  // namespace grove::detail

@@ -24,6 +24,7 @@ using detail::TemporaryDirectory;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 const std::vector<std::string> kRows{".....", ".@.@.", "....."};
 
@@ -135,6 +136,37 @@ TEST(Api, InstancesComeBackAsTheyWereMade) {
         solve(Instance(instance.world(), instance.agents(), instance.tasks(), {})).lower_bound);
   }
   EXPECT_FALSE(turning.rules().following);
+}
+
+TEST(Api, InstancesAsTextWithAWorldOfTheirOwn) {
+  const Instance instance = small();
+  std::vector<std::string> warnings;
+  const Instance again = parse_instance(instance_text(instance), instance.world(),
+                                        {.following = false}, &warnings);
+  EXPECT_EQ(instance_text(again), instance_text(instance));
+  EXPECT_THAT(instance_text(instance), Not(HasSubstr("map")));
+  EXPECT_FALSE(again.rules().following);
+  EXPECT_THAT(warnings, IsEmpty());
+  EXPECT_THROW(parse_instance(R"({"agents": [{"id": "r", "start": [1, 1]}], "tasks": []})",
+                              instance.world()),
+               InputError);
+}
+
+TEST(Api, PlansFromPaths) {
+  const Instance instance(
+      World::from_rows(kRows), {{.id = "red", .start = {Cell{0, 0}}, .goal = Cell{2, 0}}},
+      {{.id = "far", .place = Cell{3, 0}, .agents = {"red"}},
+       {.id = "near", .place = Cell{1, 0}, .agents = {"red"}}});
+  const std::vector<Place> path{Cell{0, 0}, Cell{1, 0}, Cell{2, 0}, Cell{3, 0},
+                                Cell{2, 0}, Cell{2, 0}};  // it waits where it rests
+  const Plan plan = plan_from_paths(instance, {path});
+  EXPECT_EQ(plan.cost, 4);
+  EXPECT_THAT(plan.agents[0].tasks, ElementsAre("near", "far"));
+  EXPECT_THAT(check(instance, plan), IsEmpty());
+  EXPECT_EQ(field_of([&] { plan_from_paths(instance, {path, path}); }), "/agents");
+  EXPECT_EQ(field_of([&] { plan_from_paths(instance, {{Cell{0, 0}, Cell{9, 9}}}); }),
+            "/agents/0/path/1");
+  EXPECT_EQ(field_of([&] { plan_from_paths(small(), {path, path}); }), "/agents");
 }
 
 TEST(Api, PlansAsFiles) {

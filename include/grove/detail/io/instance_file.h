@@ -27,6 +27,10 @@ LoadedInstance read_instance(const std::filesystem::path& path);
 // `folder` (".": the current one).
 LoadedInstance parse_instance(std::string_view text, const std::string& name,
                               const std::filesystem::path& folder);
+// What such a file says of agents and tasks, {"agents": [...], "tasks": [...]}, added to `builder`,
+// which has the map. Appends to `warnings`.
+Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const std::string& name,
+                           std::vector<std::string>* warnings);
 
 // Classical MAPF: the first `agents` rows of a scenario as they stand, ids a0, a1, ...; no tasks.
 LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
@@ -39,6 +43,8 @@ LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
 void write_scenario_instance(const std::filesystem::path& path, const Instance& instance,
                              const std::string& map);
 
+// The text of such a file; without a map if `map` is empty, as parse_instance_on() reads it.
+std::string instance_text(const Instance& instance, const std::string& map);
 // Writes `instance` as *.cts.json, whole or not at all; `map` is stored as it is given and should
 // be relative to the file. Throws InputError when the file cannot be written.
 void write_instance(const std::filesystem::path& path, const Instance& instance,

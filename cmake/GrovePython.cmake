@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: MIT
+# For which Python the module is built: Debian's, which has the packages that it goes well with, unless
+# Python_EXECUTABLE names another.
+if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python_EXECUTABLE /usr/bin/python3)
+endif()
+set(PYBIND11_FINDPYTHON ON)
+if(GROVE_BUILD_TOOLS)
+  find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
+  if(Python_FOUND)
+    find_package(pybind11 2.9 QUIET)
+  endif()
+endif()
+# The pages that it shows are the programs'.
+include(CMakeDependentOption)
+cmake_dependent_option(GROVE_WITH_PYTHON "Build the Python module" "${pybind11_FOUND}" GROVE_BUILD_TOOLS OFF)
+if(GROVE_WITH_PYTHON)
+  find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 2.9 REQUIRED)
+endif()

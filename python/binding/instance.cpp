@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <vector>
+
+#include "python/binding/values.h"
+
+namespace grove::python {
+namespace {
+
+// Remarks of readers become warnings of Python.
+template <class Read>
+Instance warned(Read&& read) {
+  std::vector<std::string> warnings;
+  Instance instance = read(&warnings);
+  for (const std::string& warning : warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
+  return instance;
+}
+
+// Of what a file would say, as Python has it; numbers and arrays of numpy are lists.
+Instance made(const World& world, const py::object& agents, const py::object& tasks,
+              bool following) {
+  py::dict all;
+  all["agents"] = agents;
+  all["tasks"] = tasks;
+  const py::object plain =
+      py::module_::import("grove").attr("_plain");  // what json does not know
+  const auto text = py::module_::import("json")
+                        .attr("dumps")(all, py::arg("default") = plain)
+                        .cast<std::string>();
+  return warned([&](auto* warnings) {
+    return parse_instance(text, world, {.following = following}, warnings);
+  });
+}
+
+py::object told(const Instance& instance, const char* key) {
+  return py::module_::import("json").attr("loads")(instance_text(instance))[key];
+}
+
+std::string text_of(const Instance& instance) {
+  return "<grove.Instance: " + std::to_string(instance.agents().size()) + " agents, " +
+         std::to_string(instance.tasks().size()) + " tasks>";
+}
+
+}  // namespace
+
+void add_instance(py::module_& module) {
+  py::class_<Instance>(
+      module, "Instance",
+      "Robots, the places each has to visit in an order that the solver chooses, and where they "
+      "rest. Never changes.\n\n"
+      "Instance(world, agents, tasks): dicts as in *.cts.json files: "
+      "{'id': 'red', 'start': (0, 0), 'goal': (3, 2)}, "
+      "{'id': 'press', 'cell': (1, 2), 'agents': ['red'], 'duration': 3}.")
+      .def(py::init(&made), py::arg("world"), py::arg("agents"), py::arg("tasks") = py::list(),
+           py::kw_only(), py::arg("following") = true)
+      .def_property_readonly("world", &Instance::world)
+      .def_property_readonly("agents", [](const Instance& i) { return told(i, "agents"); })
+      .def_property_readonly("tasks", [](const Instance& i) { return told(i, "tasks"); })
+      .def_property_readonly("following", [](const Instance& i) { return i.rules().following; })
+      .def("write", [](const Instance& i, const std::filesystem::path& path) {
+             write_instance(path, i);
+           }, py::arg("path"), "Writes *.cts.json and its map or roadmap beside it.")
+      .def("__repr__", &text_of);
+  module.def(
+      "read_instance",
+      [](const std::filesystem::path& path) {
+        return warned([&](auto* warnings) { return read_instance(path, warnings); });
+      },
+      py::arg("path"), "Reads a *.cts.json file and the map or roadmap that it names.");
+  module.def("read_scenario", &read_scenario, py::arg("scenario"), py::arg("map"),
+             py::arg("agents"),
+             "Classical MAPF: the first `agents` rows of a Moving AI scenario.");
+}
+
+}  // namespace grove::python

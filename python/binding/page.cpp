@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Pages and pictures, as `grove view` makes them.
+#include <vector>
+
+#include "src/api/access.h"
+#include "grove/detail/io/atomic_file.h"
+#include "python/binding/values.h"
+#include "tools/view/page.h"
+#include "tools/view/page_data.h"
+#include "tools/view/picture/picture.h"
+
+namespace grove::python {
+namespace {
+
+// The page of an instance and one or two solutions of it, with their names.
+std::string page(const Instance& instance, const std::string& title,
+                 const std::vector<std::pair<std::string, OwnSolution>>& solutions) {
+  return translated([&] {
+    const detail::Instance& inner = Access::instance(instance);
+    std::vector<detail::NamedPlan> plans;
+    for (const auto& [name, solution] : solutions)
+      plans.push_back({name, {.solution = solution_of(inner, solution.whole()), .unclaimed = {}}});
+    return detail::plan_page(title, detail::page_data(title, inner, plans));
+  });
+}
+
+void write_file(const std::filesystem::path& path, const std::string& bytes) {
+  translated([&] { detail::write_file_atomically(path, bytes); });
+}
+
+py::bytes picture(const Instance& instance, const std::optional<OwnPlan>& plan,
+                  const std::string& kind, const std::vector<double>& moments, int width,
+                  double speed) {
+  return translated([&]() -> std::string {
+    const detail::Instance& inner = Access::instance(instance);
+    std::optional<detail::Plan> own;
+    if (plan) own = plan_of(inner, *plan->plan);
+    const detail::Drawing drawing(inner, own ? &*own : nullptr);
+    if (kind == "gif") return detail::gif_picture(drawing, width, speed);
+    return kind == "png" ? detail::png_picture(drawing, moments, width)
+                         : detail::svg_picture(drawing, moments, width);
+  });
+}
+
+}  // namespace
+
+void add_page(py::module_& module) {
+  module.def("_page", &page);
+  module.def("_write_file", [](const std::filesystem::path& path, const py::bytes& bytes) {
+    write_file(path, bytes);
+  });
+  module.def("_picture", &picture);
+}
+
+}  // namespace grove::python

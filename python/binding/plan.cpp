@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/numpy.h>
+
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+#include "python/binding/values.h"
+
+namespace grove::python {
+namespace {
+
+using Point = std::pair<double, double>;
+
+// Metres, of places of a roadmap.
+class Metres {
+ public:
+  explicit Metres(const World& world) : edges_(world.edges()) {
+    for (const RoadmapVertex& vertex : world.vertices()) at_[vertex.id] = {vertex.x, vertex.y};
+  }
+  Point operator()(const Place& place) const {
+    if (const auto* vertex = std::get_if<Vertex>(&place)) return at_.at(vertex->id);
+    const auto& road = std::get<OnRoad>(place);
+    const auto [x, y] = at_.at(road.from);
+    const auto [to_x, to_y] = at_.at(road.to);
+    const double share = static_cast<double>(road.steps) / length(road);
+    return {x + share * (to_x - x), y + share * (to_y - y)};
+  }
+
+ private:
+  int length(const OnRoad& road) const {
+    if (road.edge) return edges_[*road.edge].steps;
+    for (const RoadmapEdge& edge : edges_)
+      if ((edge.from == road.from && edge.to == road.to) ||
+          (edge.from == road.to && edge.to == road.from))
+        return edge.steps;
+    throw Error("a robot is on a road that is not there");
+  }
+
+  std::vector<RoadmapEdge> edges_;
+  std::unordered_map<std::string, Point> at_;
+};
+
+py::array cells(const Plan& plan) {
+  const auto agents = static_cast<py::ssize_t>(plan.agents.size());
+  const py::ssize_t times = plan.makespan() + 1;
+  py::array_t<std::int32_t> all({agents, times, py::ssize_t{2}});
+  auto at = all.mutable_unchecked<3>();
+  for (py::ssize_t a = 0; a < agents; ++a)
+    for (py::ssize_t t = 0; t < times; ++t) {
+      const Cell cell = std::get<Cell>(plan.pose(a, static_cast<int>(t)).place);
+      at(a, t, 0) = cell.x;
+      at(a, t, 1) = cell.y;
+    }
+  return all;
+}
+
+py::array points(const Plan& plan, const World& world) {
+  const Metres metres(world);
+  const auto agents = static_cast<py::ssize_t>(plan.agents.size());
+  const py::ssize_t times = plan.makespan() + 1;
+  py::array_t<double> all({agents, times, py::ssize_t{2}});
+  auto at = all.mutable_unchecked<3>();
+  for (py::ssize_t a = 0; a < agents; ++a)
+    for (py::ssize_t t = 0; t < times; ++t) {
+      const Point point = metres(plan.pose(a, static_cast<int>(t)).place);
+      at(a, t, 0) = point.first;
+      at(a, t, 1) = point.second;
+    }
+  return all;
+}
+
+void require_paths(const Plan& plan) {
+  for (std::size_t i = 0; i < plan.agents.size(); ++i)
+    if (plan.agents[i].path.empty())
+      throw InvalidArgument("/agents/" + std::to_string(i) + "/path", "is empty");
+}
+
+py::array positions(const OwnPlan& own) {
+  require_paths(*own.plan);
+  const World world = own.instance.world();
+  return world.is_grid() ? cells(*own.plan) : points(*own.plan, world);
+}
+
+py::array headings(const OwnPlan& own) {
+  const Plan& plan = *own.plan;
+  require_paths(plan);
+  const auto agents = static_cast<py::ssize_t>(plan.agents.size());
+  const py::ssize_t times = plan.makespan() + 1;
+  py::array_t<std::int8_t> all({agents, times});
+  auto at = all.mutable_unchecked<2>();
+  for (py::ssize_t a = 0; a < agents; ++a)
+    for (py::ssize_t t = 0; t < times; ++t) {
+      const auto heading = plan.pose(a, static_cast<int>(t)).heading;
+      at(a, t) = heading ? static_cast<std::int8_t>(*heading) : std::int8_t{-1};
+    }
+  return all;
+}
+
+std::vector<Place> path_of(const AgentPlan& agent) {
+  std::vector<Place> path;
+  for (const Pose& pose : agent.path) path.push_back(pose.place);
+  return path;
+}
+
+py::list work_of(const AgentPlan& agent) {
+  py::list all;
+  for (const Work& work : agent.work) all.append(py::make_tuple(work.task, work.begin, work.end));
+  return all;
+}
+
+OwnPlan from_paths(const Instance& instance, const std::vector<std::vector<Place>>& paths) {
+  return {instance, std::make_shared<const Plan>(plan_from_paths(instance, paths))};
+}
+
+py::list told(const std::vector<Violation>& violations) {
+  py::list all;
+  for (const Violation& v : violations) all.append(py::make_tuple(v.place, v.message));
+  return all;
+}
+
+std::string text_of(const OwnSolution& solution) {
+  std::string text = "<grove.Solution: " + std::string(to_string(solution.facts.status));
+  if (solution.plan) text += ", cost " + std::to_string(solution.plan->plan->cost);
+  if (solution.facts.status == Status::infeasible) return text + ">";
+  return text + ", lower bound " + std::to_string(solution.facts.lower_bound) + ">";
+}
+
+OwnSolution unclaimed(const OwnPlan& plan) {
+  return {plan.instance,
+          {.status = Status::feasible, .omega = std::numeric_limits<double>::infinity()},
+          plan};
+}
+
+std::optional<double> gap_of(const OwnSolution& solution) {
+  return solution.whole().gap();
+}
+
+void add_agent_plan(py::module_& module) {
+  py::class_<AgentPlan>(module, "AgentPlan", "What one robot does.")
+      .def_readonly("id", &AgentPlan::id)
+      .def_readonly("cost", &AgentPlan::cost,
+                    "The step from which on it rests, with everything done.")
+      .def_property_readonly("path", &path_of, "Places at times 0, 1, ..., cost.")
+      .def_readonly("tasks", &AgentPlan::tasks, "In the order in which they are completed.")
+      .def_property_readonly("work", &work_of,
+                             "[(task, begin, end), ...] of tasks with a duration.")
+      .def("__repr__", [](const AgentPlan& agent) {
+        return "<grove.AgentPlan: " + agent.id + ", cost " + std::to_string(agent.cost) + ">";
+      });
+}
+
+}  // namespace
+
+void add_plan(py::module_& module) {
+  add_agent_plan(module);
+  py::class_<OwnPlan>(module, "Plan",
+                      "A path for every robot of an instance.\n\n"
+                      "Plan(instance, paths): from anybody's paths, or an array of agents x times "
+                      "x 2; costs and the order of tasks are worked out.")
+      .def(py::init(&from_paths), py::arg("instance"), py::arg("paths"))
+      .def_property_readonly("instance", [](const OwnPlan& p) { return p.instance; })
+      .def_property_readonly("cost", [](const OwnPlan& p) { return p.plan->cost; },
+                             "The sum of the robots'.")
+      .def_property_readonly("makespan", [](const OwnPlan& p) { return p.plan->makespan(); },
+                             "The step from which on everybody rests.")
+      .def_property_readonly("agents", [](const OwnPlan& p) { return p.plan->agents; })
+      .def("positions", &positions,
+           "Where all are, agents x times x 2: cells (x, y) on a grid, metres on a roadmap.")
+      .def("headings", &headings,
+           "Where all look, agents x times: 0 north, 1 east, 2 south, 3 west; -1 where that does "
+           "not matter.")
+      .def("__repr__", [](const OwnPlan& p) {
+        return "<grove.Plan: " + std::to_string(p.plan->agents.size()) + " agents, cost " +
+               std::to_string(p.plan->cost) + ">";
+      });
+  py::class_<OwnSolution>(module, "Solution",
+                          "What a solve ends with: a status, perhaps a plan, always a bound.\n\n"
+                          "Solution(plan): anybody's plan, of which nothing is claimed.")
+      .def(py::init(&unclaimed), py::arg("plan"))
+      .def_property_readonly("instance", [](const OwnSolution& s) { return s.instance; })
+      .def_property_readonly(
+          "status", [](const OwnSolution& s) { return std::string(to_string(s.facts.status)); },
+          "'optimal', 'bounded' (within omega), 'feasible', 'infeasible' or 'unknown'.")
+      .def_readonly("plan", &OwnSolution::plan, "None if there is none.")
+      .def_property_readonly("lower_bound",
+                             [](const OwnSolution& s) { return s.facts.lower_bound; },
+                             "Proven: no plan costs less.")
+      .def_property_readonly("omega", [](const OwnSolution& s) { return s.facts.omega; })
+      .def_property_readonly("gap", &gap_of,
+                             "How much dearer than the best the plan is at most: 0.02 is 2 %.")
+      .def_property_readonly("counts", [](const OwnSolution& s) { return s.facts.counts; },
+                             "What the search did.")
+      .def_property_readonly("measures", [](const OwnSolution& s) { return s.facts.measures; })
+      .def("write",
+           [](const OwnSolution& s, const std::filesystem::path& path) {
+             write_plan(path, s.instance, s.whole());
+           },
+           py::arg("path"), "Writes a plan file.")
+      .def("__repr__", &text_of);
+  py::implicitly_convertible<OwnPlan, OwnSolution>();
+  module.def("_check_plan", [](const OwnPlan& plan, std::size_t limit) {
+    return told(check(plan.instance, *plan.plan, limit));
+  });
+  module.def("_check_solution", [](const OwnSolution& solution, std::size_t limit) {
+    return told(check(solution.instance, solution.whole(), limit));
+  });
+  module.def(
+      "read_plan",
+      [](const std::filesystem::path& path, const Instance& instance) {
+        return OwnSolution::of(instance, read_plan(path, instance));
+      },
+      py::arg("path"), py::arg("instance"),
+      "Reads a plan file of this instance; believes what it says.");
+}
+
+}  // namespace grove::python

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "python/binding/solving.h"
+
+namespace grove::python {
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenSignals{20};
+
+// A function of Python that threads of a search call, and let go of, without the interpreter lock.
+std::shared_ptr<py::object> shared(const py::object& function) {
+  return {new py::object(function), [](py::object* held) {
+            const py::gil_scoped_acquire lock;
+            delete held;
+          }};
+}
+
+template <class T>
+T argument(const py::dict& arguments, const char* name) {
+  try {
+    return arguments[name].cast<T>();
+  } catch (const py::cast_error&) {
+    const std::string found = py::repr(arguments[name]);
+    throw py::type_error(std::string(name) + ": found " + found + ", of another type than expected");
+  }
+}
+
+void set_callbacks(Options& options, const Instance& instance, const py::dict& arguments) {
+  if (const py::object tell = arguments["progress"]; !tell.is_none())
+    options.on_progress = [tell = shared(tell)](const Progress& progress) {
+      const py::gil_scoped_acquire lock;
+      (*tell)(progress);
+    };
+  if (const py::object tell = arguments["incumbent"]; !tell.is_none())
+    options.on_incumbent = [tell = shared(tell), instance](const Plan& plan,
+                                                           const Progress& progress) {
+      const py::gil_scoped_acquire lock;
+      (*tell)(OwnPlan{instance, std::make_shared<const Plan>(plan)}, progress);
+    };
+}
+
+// A search that ends on another thread.
+class Aside {
+ public:
+  explicit Aside(const std::function<Solution()>& solve)
+      : thread_([this, &solve] {
+          try {
+            solution_ = solve();
+          } catch (...) {
+            failure_ = std::current_exception();
+          }
+          const std::lock_guard lock(mutex_);
+          done_ = true;
+          ended_.notify_one();
+        }) {}
+
+  // Whether it has ended by then.
+  bool wait() {
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, kBetweenSignals, [this] { return done_; });
+  }
+  void join() { thread_.join(); }
+  std::exception_ptr failure() const { return failure_; }
+  Solution take() { return std::move(solution_); }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool done_ = false;
+  Solution solution_;
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+Call::Call(const Instance& instance, const py::dict& arguments) : stop(arguments["stop"]) {
+  options.omega = argument<double>(arguments, "omega");
+  options.time_limit = argument<std::optional<double>>(arguments, "time_limit");
+  options.memory_limit = argument<std::optional<std::size_t>>(arguments, "memory_limit");
+  options.stop = source.get_token();
+  options.threads = argument<int>(arguments, "threads");
+  options.deterministic = argument<bool>(arguments, "deterministic");
+  options.seed = argument<std::uint64_t>(arguments, "seed");
+  options.method = argument<std::string>(arguments, "method");
+  if (const auto start = argument<std::optional<OwnPlan>>(arguments, "start"))
+    options.start = *start->plan;
+  options.progress_interval = argument<double>(arguments, "progress_interval");
+  set_callbacks(options, instance, arguments);
+}
+
+Solution run_aside(Call& call, const std::function<Solution()>& solve) {
+  std::exception_ptr interrupt;
+  std::unique_ptr<Aside> search;
+  const auto ended = [&] {
+    const py::gil_scoped_release release;
+    if (!search) search = std::make_unique<Aside>(solve);
+    return search->wait();
+  };
+  while (!ended()) {
+    if (interrupt) continue;  // it is about to end
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!call.stop.is_none() && call.stop.attr("is_set")().cast<bool>())
+        call.source.request_stop();
+    } catch (...) {
+      interrupt = std::current_exception();
+      call.source.request_stop();
+    }
+  }
+  search->join();
+  if (interrupt) std::rethrow_exception(interrupt);
+  if (search->failure()) std::rethrow_exception(search->failure());
+  return search->take();
+}
+
+void add_solve(py::module_& module) {
+  py::class_<Progress>(module, "Progress", "Where a run stands.")
+      .def_readonly("seconds", &Progress::seconds, "Since it began.")
+      .def_readonly("nodes_expanded", &Progress::nodes_expanded)
+      .def_readonly("nodes_open", &Progress::nodes_open)
+      .def_readonly("lower_bound", &Progress::lower_bound, "Proven so far.")
+      .def_readonly("cost", &Progress::cost, "Of the best plan so far, or None.")
+      .def("__repr__", [](const Progress& p) {
+        return "<grove.Progress: cost " + (p.cost ? std::to_string(*p.cost) : "-") +
+               ", lower bound " + std::to_string(p.lower_bound) + ">";
+      });
+  module.def("_solve", [](const Instance& instance, const py::dict& arguments) {
+    Call call(instance, arguments);
+    return OwnSolution::of(instance,
+                           run_aside(call, [&] { return solve(instance, call.options); }));
+  });
+}
+
+}  // namespace grove::python

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// What Python sees of the front door's values: places as tuples and words, plans and solutions with
+// the instance that they are of.
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "grove/grove.hpp"
+
+namespace grove::python {
+
+namespace py = pybind11;
+
+// A plan and its instance; shared, for plans are large.
+struct OwnPlan {
+  Instance instance;
+  std::shared_ptr<const Plan> plan;
+};
+
+struct OwnSolution {
+  Instance instance;
+  Solution facts;  // without the plan
+  std::optional<OwnPlan> plan;
+
+  static OwnSolution of(const Instance& instance, Solution solution) {
+    OwnSolution own{instance, {}, {}};
+    if (solution.plan)
+      own.plan = OwnPlan{instance, std::make_shared<const Plan>(*std::move(solution.plan))};
+    solution.plan.reset();
+    own.facts = std::move(solution);
+    return own;
+  }
+  Solution whole() const {
+    Solution solution = facts;
+    if (plan) solution.plan = *plan->plan;
+    return solution;
+  }
+};
+
+// "north", ...; and -1 for none in arrays.
+inline const char* name_of(Heading heading) {
+  constexpr const char* kNames[] = {"north", "east", "south", "west"};
+  return kNames[static_cast<int>(heading)];
+}
+
+void add_world(py::module_& module);
+void add_instance(py::module_& module);
+void add_plan(py::module_& module);
+void add_solve(py::module_& module);
+void add_session(py::module_& module);
+void add_page(py::module_& module);
+
+}  // namespace grove::python
+
+namespace pybind11::detail {
+
+// (x, y), "A" or ("A", "B", steps[, edge]).
+template <>
+struct type_caster<grove::Place> {
+  PYBIND11_TYPE_CASTER(grove::Place, const_name("Place"));
+
+  bool load(handle source, bool convert) {
+    if (isinstance<str>(source)) {
+      value = grove::Vertex{source.cast<std::string>()};
+      return true;
+    }
+    if (!isinstance<sequence>(source)) return false;
+    const auto parts = reinterpret_borrow<sequence>(source);
+    if (parts.size() == 2) return load_cell(parts, convert);
+    return (parts.size() == 3 || parts.size() == 4) && load_road(parts);
+  }
+
+  static handle cast(const grove::Place& place, return_value_policy, handle) {
+    if (const auto* cell = std::get_if<grove::Cell>(&place))
+      return pybind11::make_tuple(cell->x, cell->y).release();
+    if (const auto* vertex = std::get_if<grove::Vertex>(&place)) return str(vertex->id).release();
+    const auto& road = std::get<grove::OnRoad>(place);
+    if (road.edge) return pybind11::make_tuple(road.from, road.to, road.steps, *road.edge).release();
+    return pybind11::make_tuple(road.from, road.to, road.steps).release();
+  }
+
+ private:
+  bool load_cell(const sequence& parts, bool convert) {
+    make_caster<int> x, y;
+    if (!x.load(object(parts[0]), convert) || !y.load(object(parts[1]), convert)) return false;
+    value = grove::Cell{cast_op<int>(x), cast_op<int>(y)};
+    return true;
+  }
+  bool load_road(const sequence& parts) {
+    if (!isinstance<str>(object(parts[0])) || !isinstance<str>(object(parts[1]))) return false;
+    grove::OnRoad road{parts[0].cast<std::string>(), parts[1].cast<std::string>(),
+                       parts[2].cast<int>(), std::nullopt};
+    if (parts.size() == 4) road.edge = parts[3].cast<int>();
+    value = std::move(road);
+    return true;
+  }
+};
+
+}  // namespace pybind11::detail

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: MIT
+"""Plans for many robots, without collisions, with a proven bound on how far from the best they are.
+
+>>> import grove
+>>> world = grove.World('''
+... ......
+... .@@.@.
+... ......''')
+>>> instance = grove.Instance(
+...     world,
+...     agents=[{"id": "red", "start": (0, 0), "goal": (5, 2)},
+...             {"id": "blue", "start": (5, 0), "goal": (0, 2)}],
+...     tasks=[{"id": "press", "cell": (3, 1), "agents": ["red", "blue"]}])
+>>> solution = grove.solve(instance)
+>>> solution
+<grove.Solution: optimal, cost 14, lower bound 14>
+>>> solution.plan.positions()[0, :4].tolist()       # of red: x and y at times 0, 1, 2, 3
+[[0, 0], [1, 0], [2, 0], [3, 0]]
+
+Steps are the unit of time of plans, seconds that of clocks. What is wrong raises grove.Error:
+InputError for files, InvalidArgument for values. See docs/python.md.
+"""
+
+from __future__ import annotations
+
+import html as _html
+import os as _os
+
+from grove import _grove
+from grove._grove import (
+    AgentPlan,
+    Error,
+    InputError,
+    Instance,
+    InvalidArgument,
+    Plan,
+    Progress,
+    Solution,
+    World,
+    __version__,
+    read_instance,
+    read_plan,
+    read_scenario,
+)
+
+__all__ = [
+    "AgentPlan", "Error", "InputError", "Instance", "InvalidArgument", "Plan", "Progress", "Session",
+    "Solution", "View", "World", "__version__", "check", "data_frame", "instance_from_arrays",
+    "instance_from_dict", "picture", "read_instance", "read_plan", "read_scenario", "solve", "view",
+    "visits",
+]
+
+
+def _plain(value):
+    """What json does not know: arrays and numbers of numpy."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"{value!r} is a {type(value).__name__}; expected numbers, words, lists or dicts")
+
+
+# --- instances ---
+
+def instance_from_dict(data, folder=".", *, following=True):
+    """An instance from the dict of a *.cts.json file.
+
+    Its map is a World, a list of rows, or the name of a file, relative to `folder`; "roadmap" is a
+    World or such a name.
+    """
+    rest = {key: value for key, value in data.items() if key not in ("map", "roadmap")}
+    worlds = [data[key] for key in ("map", "roadmap") if key in data]
+    if len(worlds) != 1:
+        raise InvalidArgument("expected 'map' or 'roadmap', and not both")
+    unknown = set(rest) - {"agents", "tasks"}
+    if unknown:
+        raise InvalidArgument(f"there is no key {sorted(unknown)[0]!r} of an instance; "
+                              "expected 'map' or 'roadmap', 'agents' and 'tasks'")
+    world = worlds[0]
+    if isinstance(world, (str, _os.PathLike)):
+        world = World.read(_os.path.join(folder, world))
+    elif not isinstance(world, World):
+        world = World(world)
+    return Instance(world, rest.get("agents", []), rest.get("tasks", []), following=following)
+
+
+def instance_from_arrays(world, starts, goals=None, tasks=None, *, following=True):
+    """An instance on a grid from arrays of cells (x, y).
+
+    `starts` and `goals`: a row for each agent; goals may be left out: an agent ends on its last
+    task. `tasks`: for each agent the cells that it has to visit. Agents are called a0, a1, ..., and
+    tasks t0, t1, ...; a cell that several agents visit is one task of them all.
+
+    >>> instance_from_arrays(World("....\\n...."), starts=[(0, 0), (3, 0)], tasks=[[(3, 1)], [(0, 1)]])
+    <grove.Instance: 2 agents, 2 tasks>
+    """
+    count = len(starts)
+    for name, rows in (("goals", goals), ("tasks", tasks)):
+        if rows is not None and len(rows) != count:
+            raise InvalidArgument(f"{len(rows)} {name} for {count} starts; expected as many")
+    agents = [{"id": f"a{i}", "start": start} for i, start in enumerate(starts)]
+    for agent, goal in zip(agents, goals if goals is not None else []):
+        agent["goal"] = goal
+    visitors = {}
+    for agent, cells in zip(agents, tasks if tasks is not None else []):
+        for cell in cells:
+            ids = visitors.setdefault((int(cell[0]), int(cell[1])), [])
+            if agent["id"] not in ids:
+                ids.append(agent["id"])
+    all_tasks = [{"id": f"t{i}", "cell": cell, "agents": ids}
+                 for i, (cell, ids) in enumerate(visitors.items())]
+    return Instance(world, agents, all_tasks, following=following)
+
+
+# --- solving ---
+
+def solve(instance, *, omega=0.0, time_limit=None, memory_limit=None, threads=1, deterministic=False,
+          seed=0, method="auto", start=None, progress=None, incumbent=None, progress_interval=0.1,
+          stop=None):
+    """Finds a plan, and proves how good it is.
+
+    omega: how far from the best a plan may be: at most 1 + omega times the lower bound; 0: the best.
+    time_limit, memory_limit: seconds, and bytes of this process; the best plan so far comes back.
+    threads, deterministic, seed: the same plan for any number of threads, if deterministic.
+    method: "auto", or a published method to compare with (`grove solve --help` lists them).
+    start: a valid plan to begin with.
+    progress: called with a Progress every `progress_interval` seconds.
+    incumbent: called with every better plan, and a Progress. What either raises ends the solve.
+    stop: a threading.Event that ends it like a limit when it is set. Ctrl-C raises
+    KeyboardInterrupt. Other threads of Python go on.
+    """
+    return _grove._solve(instance, {
+        "omega": omega, "time_limit": time_limit, "memory_limit": memory_limit, "threads": threads,
+        "deterministic": deterministic, "seed": seed, "method": method, "start": start,
+        "progress": progress, "incumbent": incumbent, "progress_interval": progress_interval,
+        "stop": stop})
+
+
+def check(plan, limit=20):
+    """Everything that is wrong with a Plan, or with a Solution and what it claims: (place, message).
+
+    Worked out by a checker that shares nothing with the search; empty: it is valid.
+
+    >>> world = World("...")
+    >>> swapping = instance_from_arrays(world, [(0, 0), (1, 0)], goals=[(1, 0), (0, 0)])
+    >>> check(Plan(swapping, [[(0, 0), (1, 0)], [(1, 0), (0, 0)]]))
+    [('/agents/0/path/1', "agents 'a0' and 'a1' swap [0, 0] and [1, 0] between times 0 and 1")]
+    """
+    if isinstance(plan, Solution):
+        return _grove._check_solution(plan, limit)
+    return _grove._check_plan(plan, limit)
+
+
+class Session:
+    """A plan while time goes on and minds change. Session(plan), or Session(instance)."""
+
+    def __init__(self, plan):
+        self._session = _grove._Session(plan)
+
+    @property
+    def instance(self):
+        """As it is now, time from 0."""
+        return self._session.instance()
+
+    @property
+    def plan(self):
+        """A valid plan of it; None before the first replan, and where none was found."""
+        return self._session.plan()
+
+    def advance(self, steps, late=None):
+        """So many steps pass; `late`, {"red": 2}: who is where the plan had it so many steps ago."""
+        self._session.advance(steps, dict(late or {}))
+
+    def change(self, new_tasks=(), dropped_tasks=(), blocked=()):
+        """What else is to be done, what no more (ids), and what is closed (cells, vertices)."""
+        self._session.change(list(new_tasks), list(dropped_tasks), list(blocked))
+
+    def replan(self, *, commit=0, omega=0.0, time_limit=None, memory_limit=None, threads=1,
+               deterministic=False, seed=0, method="auto", progress=None, incumbent=None,
+               progress_interval=0.1, stop=None):
+        """Solves what is left, from the old plan repaired, to which all keep for `commit` steps."""
+        return self._session.replan(commit, {
+            "omega": omega, "time_limit": time_limit, "memory_limit": memory_limit,
+            "threads": threads, "deterministic": deterministic, "seed": seed, "method": method,
+            "start": None, "progress": progress, "incumbent": incumbent,
+            "progress_interval": progress_interval, "stop": stop})
+
+
+# --- looking at plans ---
+
+def visits(plan):
+    """What is done when: (agent, task, begin, end), in steps; end is begin where it takes no time."""
+    cells = {task["id"]: task["cell"] for task in plan.instance.tasks}
+    cells = {task: cell if isinstance(cell, str) else tuple(cell) for task, cell in cells.items()}
+    rows = []
+    for agent in plan.agents:
+        working = {task: (begin, end) for task, begin, end in agent.work}
+        path, time = agent.path, 0
+        for task in agent.tasks:
+            if task in working:
+                begin, end = working[task]
+            else:
+                begin = end = next((t for t in range(time, len(path)) if path[t] == cells[task]), time)
+            rows.append((agent.id, task, begin, end))
+            time = end
+    return rows
+
+
+def data_frame(plan):
+    """A pandas.DataFrame of a plan: a row for each agent and time, with x and y."""
+    import pandas
+
+    positions = plan.positions()
+    agents, times = positions.shape[:2]
+    columns = {
+        "agent": [agent.id for agent in plan.agents for _ in range(times)],
+        "time": list(range(times)) * agents,
+        "x": positions[:, :, 0].reshape(-1),
+        "y": positions[:, :, 1].reshape(-1),
+    }
+    headings = plan.headings()
+    if (headings >= 0).any():
+        names = {-1: None, 0: "north", 1: "east", 2: "south", 3: "west"}
+        columns["heading"] = [names[int(h)] for h in headings.reshape(-1)]
+    return pandas.DataFrame(columns)
+
+
+class View:
+    """A page that plays plans: shown by notebooks, or written to a file by save()."""
+
+    def __init__(self, html, height):
+        self.html = html
+        self.height = height
+
+    def save(self, path):
+        """Writes the page, whole or not at all: one file that needs nothing beside it."""
+        _grove._write_file(path, self.html.encode())
+
+    def _repr_html_(self):
+        return (f'<iframe srcdoc="{_html.escape(self.html)}" width="100%" height="{self.height}" '
+                'style="border:0"></iframe>')
+
+    def __repr__(self):
+        return f"<grove.View: {len(self.html) // 1000} kB; save(path) writes it>"
+
+
+def view(*plans, title="plan", height=600):
+    """A page that plays a Plan or Solution, or two of one instance side by side.
+
+    The last value of a notebook's cell, it is shown there. An Instance is shown as it starts.
+    """
+    if not 1 <= len(plans) <= 2:
+        raise InvalidArgument(f"{len(plans)} plans; expected one or two")
+    if isinstance(plans[0], Instance):
+        return View(_grove._page(plans[0], title, []), height)
+    solutions = [(f"plan {i + 1}" if len(plans) > 1 else title, plan) for i, plan in enumerate(plans)]
+    return View(_grove._page(plans[0].instance, title, solutions), height)
+
+
+def picture(plan, path, *, at=(0,), width=800, speed=4.0):
+    """Writes a picture: .svg and .png of the moments `at`, .gif of all, `speed` steps a second."""
+    kind = _os.path.splitext(_os.fspath(path))[1][1:].lower()
+    if kind not in ("svg", "png", "gif"):
+        raise InvalidArgument(f"{path}: expected a name that ends in .svg, .png or .gif")
+    if isinstance(plan, Instance):
+        instance, shown = plan, None
+    else:
+        instance, shown = plan.instance, plan.plan if isinstance(plan, Solution) else plan
+    _grove._write_file(path, _grove._picture(instance, shown, kind, list(at), width, speed))

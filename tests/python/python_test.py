@@ -1,0 +1,286 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The Python module, as its users use it.
+
+    python_test.py SOURCE_DIR PACKAGE_DIR
+
+Exit code 77: a package that only tests need is not there.
+"""
+import contextlib
+import doctest
+import importlib.util
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+SOURCE, PACKAGE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+sys.path.insert(0, str(PACKAGE))
+import grove  # noqa: E402
+
+ROWS = [".....", ".@.@.", "....."]
+
+
+def small():
+    return grove.Instance(
+        grove.World(ROWS),
+        [{"id": "red", "start": (0, 0), "goal": (4, 2)}, {"id": "blue", "start": (4, 0), "goal": (0, 2)}],
+        [{"id": "press", "cell": (2, 1), "agents": ["red", "blue"], "duration": 3},
+         {"id": "look", "cell": (2, 0), "agents": ["red"]}])
+
+
+def crowd(robots=14):
+    """Robots that want to pass one another in a corridor: hours of search."""
+    return grove.instance_from_arrays(grove.World(["." * robots] * 2), [(i, 0) for i in range(robots)],
+                                      [(robots - 1 - i, 1) for i in range(robots)])
+
+
+class Documents(unittest.TestCase):
+    def test_docstrings(self):
+        self.assertEqual(doctest.testmod(grove).failed, 0)
+
+    def test_the_guide(self):
+        done = doctest.testfile(str(SOURCE / "docs/python.md"), module_relative=False,
+                                optionflags=doctest.NORMALIZE_WHITESPACE)
+        self.assertGreater(done.attempted, 15)
+        self.assertEqual(done.failed, 0)
+
+    def test_the_example_is_short_and_runs(self):
+        example = SOURCE / "examples/python/warehouse.py"
+        self.assertLessEqual(len(example.read_text().splitlines()), 25)
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, example], cwd=folder, capture_output=True, text=True,
+                                  env={**os.environ, "PYTHONPATH": str(PACKAGE)}, timeout=120)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("optimal", done.stdout)
+            self.assertTrue((Path(folder) / "warehouse.gif").read_bytes().startswith(b"GIF89a"))
+            self.assertIn("<html", (Path(folder) / "warehouse.html").read_text())
+
+    @unittest.skipUnless(importlib.util.find_spec("mypy"), "no mypy")
+    def test_stubs_are_what_is_there(self):
+        with tempfile.TemporaryDirectory() as folder:
+            # What is compiled has another metaclass than stubs can say.
+            allowed = Path(folder) / "allowed"
+            allowed.write_text("grove\\.(AgentPlan|Instance|Plan|Progress|Solution|World)(\\.__init__)?\n")
+            done = subprocess.run(
+                [sys.executable, "-m", "mypy.stubtest", "grove", "--allowlist", allowed,
+                 "--ignore-missing-stub"], cwd=folder, capture_output=True, text=True,
+                env={**os.environ, "MYPYPATH": str(PACKAGE), "PYTHONPATH": str(PACKAGE)}, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+class Instances(unittest.TestCase):
+    def test_come_back_as_they_were_made(self):
+        instance = small()
+        again = grove.Instance(instance.world, instance.agents, instance.tasks)
+        self.assertEqual(again.agents, instance.agents)
+        self.assertEqual(again.tasks[0], {"id": "press", "cell": [2, 1], "agents": ["red", "blue"],
+                                          "duration": 3})
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "x.cts.json"
+            small().write(path)
+            self.assertEqual(grove.read_instance(path).agents, small().agents)
+            data = json.loads(path.read_text())
+            self.assertEqual(grove.instance_from_dict(data, folder).tasks, small().tasks)
+            solution = grove.solve(small())
+            solution.write(str(path) + ".plan")
+            back = grove.read_plan(str(path) + ".plan", small())
+            self.assertEqual((back.status, back.plan.cost), ("optimal", solution.plan.cost))
+
+    def test_arrays(self):
+        import numpy
+        passable = numpy.array([[c == "." for c in row] for row in ROWS])
+        world = grove.World.grid(passable)
+        self.assertTrue((world.passable == passable).all())
+        self.assertTrue((grove.World.grid(passable.T).passable == passable.T).all())  # not contiguous
+        starts = numpy.array([[0, 0], [4, 0]])
+        instance = grove.instance_from_arrays(world, starts, starts[::-1],
+                                              [numpy.array([[2, 1]]), numpy.zeros((0, 2), int)])
+        solution = grove.solve(instance)
+        positions = solution.plan.positions()
+        self.assertEqual(positions.shape, (2, solution.plan.makespan + 1, 2))
+        self.assertTrue((positions[:, 0] == starts).all())
+        self.assertTrue((positions[:, -1] == starts[::-1]).all())
+        self.assertLessEqual(abs(numpy.diff(positions, axis=1)).sum(axis=2).max(), 1)
+        again = grove.Plan(instance, positions)
+        self.assertEqual(again.cost, solution.plan.cost)
+        self.assertEqual(grove.check(again), [])
+        self.assertNotEqual(grove.check(grove.Plan(instance, positions[:, ::-1])), [])
+
+    def test_roadmaps(self):
+        world = grove.World.roadmap({"A": (0, 0), "B": (6, 0), "C": (6, 3)},
+                                    [("A", "B", 3), ("B", "C", 1, True)])
+        instance = grove.Instance(world, [{"id": "r", "start": "A", "goal": "C"}])
+        plan = grove.solve(instance).plan
+        self.assertEqual(plan.agents[0].path, ["A", ("A", "B", 1), ("A", "B", 2), "B", "C"])
+        self.assertEqual(plan.positions()[0].tolist(), [[0, 0], [2, 0], [4, 0], [6, 0], [6, 3]])
+        self.assertEqual(world.roads[1], ("B", "C", 1, True))
+        self.assertEqual(grove.check(grove.Plan(instance, [plan.agents[0].path])), [])
+
+    def test_turning(self):
+        instance = grove.Instance(grove.World(["...", "..."]), [
+            {"id": "r", "start": (0, 0), "goal": (0, 1), "motion": "turning", "heading": "E"}])
+        plan = grove.solve(instance).plan
+        self.assertEqual(plan.headings().tolist(), [[1, 2, 2]])
+        self.assertEqual(list(grove.data_frame(plan)["heading"]), ["east", "south", "south"])
+
+    def test_following(self):
+        ring = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        for following, expected in ((True, ["optimal"]), (False, ["unknown", "infeasible"])):
+            instance = grove.instance_from_arrays(grove.World(["..", ".."]), ring, ring[1:] + ring[:1],
+                                                  following=following)
+            self.assertEqual(instance.following, following)
+            self.assertIn(grove.solve(instance, time_limit=0.2).status, expected)
+
+
+class Solving(unittest.TestCase):
+    def test_tells_how_it_goes(self):
+        seen, plans = [], []
+        solution = grove.solve(small(), progress=seen.append, progress_interval=0,
+                               incumbent=lambda plan, at: plans.append((plan.cost, at.cost)))
+        self.assertEqual(seen[-1].lower_bound, solution.lower_bound)
+        self.assertEqual(plans[-1], (solution.plan.cost, solution.plan.cost))
+
+    def test_a_limit_is_no_answer(self):
+        begin = time.monotonic()
+        solution = grove.solve(crowd(), time_limit=0.5)
+        self.assertLess(time.monotonic() - begin, 5)
+        self.assertIn(solution.status, ("feasible", "unknown"))
+
+    def test_what_functions_raise_comes_out(self):
+        with self.assertRaises(ZeroDivisionError):
+            grove.solve(crowd(), time_limit=60, progress=lambda progress: 1 / 0)
+
+    def test_ctrl_c(self):
+        timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            grove.solve(crowd(), time_limit=60)
+        self.assertLess(time.monotonic() - begin, 20)
+
+    def test_stops_when_asked_and_other_threads_go_on(self):
+        stop = threading.Event()
+        ticks = []
+
+        def count():
+            for _ in range(5):
+                time.sleep(0.05)
+                ticks.append(time.monotonic())
+            stop.set()
+
+        counter = threading.Thread(target=count)
+        counter.start()
+        solution = grove.solve(crowd(), time_limit=60, stop=stop)
+        counter.join()
+        self.assertEqual(len(ticks), 5)
+        self.assertIn(solution.status, ("feasible", "unknown"))
+
+    def test_several_at_once(self):
+        expected = grove.solve(small()).plan.cost
+        costs = []
+        threads = [threading.Thread(target=lambda: costs.append(grove.solve(small()).plan.cost))
+                   for _ in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(costs, [expected] * 6)
+
+    def test_infeasible_and_start(self):
+        walled = grove.instance_from_arrays(grove.World([".@."]), [(0, 0)], [(2, 0)])
+        self.assertEqual(grove.solve(walled).status, "infeasible")
+        plan = grove.solve(small()).plan
+        first = []
+        grove.solve(small(), start=plan, incumbent=lambda p, at: first.append(p.cost))
+        self.assertEqual(first[:1], [plan.cost])
+
+    def test_sessions(self):
+        session = grove.Session(small())
+        self.assertIsNone(session.plan)
+        first = session.replan()
+        session.advance(2, late={"blue": 1})
+        self.assertEqual(session.instance.agents[1]["start"], list(first.plan.agents[1].path[1]))
+        session.change(new_tasks=[{"id": "more", "cell": (0, 1), "agents": ["red"]}],
+                       dropped_tasks=["look"] if "look" in [t["id"] for t in session.instance.tasks] else [],
+                       blocked=[(4, 1)])
+        again = session.replan(commit=1, time_limit=5)
+        self.assertEqual(grove.check(again), [])
+        self.assertIn(("red", "more"), [row[:2] for row in grove.visits(again.plan)])
+        with self.assertRaises(grove.InvalidArgument):
+            session.change(dropped_tasks=["nothing"])
+
+
+class Errors(unittest.TestCase):
+    def test_say_what_is_wrong(self):
+        world = grove.World(ROWS)
+        robot = {"id": "r", "start": (0, 0), "goal": (4, 2)}
+        cases = [
+            (lambda: grove.solve(small(), omega=-1), grove.InvalidArgument, "/omega"),
+            (lambda: grove.solve(small(), method="best"), grove.InvalidArgument, "best"),
+            (lambda: grove.solve(small(), threads="x"), TypeError, "threads"),
+            (lambda: grove.Instance(world, [{**robot, "start": (1, 1)}]), grove.InputError, "/agents/0/start"),
+            (lambda: grove.Instance(world, [{**robot, "heading": "E"}]), grove.InputError, "heading"),
+            (lambda: grove.Instance(world, [robot, robot]), grove.InputError, "/agents/1"),
+            (lambda: grove.World(["..", "."]), grove.InvalidArgument, "row"),
+            (lambda: grove.read_instance("nowhere.cts.json"), grove.InputError, "nowhere.cts.json"),
+            (lambda: grove.instance_from_dict({"agents": []}), grove.InvalidArgument, "map"),
+            (lambda: grove.instance_from_dict({"map": ROWS, "agent": []}), grove.InvalidArgument, "'agent'"),
+            (lambda: grove.instance_from_arrays(world, [(0, 0)], []), grove.InvalidArgument, "goals"),
+            (lambda: grove.Plan(small(), [[(0, 0)], [(4, 0)]]), grove.InvalidArgument, "tasks take time"),
+            (lambda: grove.picture(small(), "x.bmp"), grove.InvalidArgument, ".svg"),
+            (lambda: grove.view(), grove.InvalidArgument, "one or two"),
+            (lambda: grove.view(small()).save("/nowhere/x.html"), grove.InputError, "/nowhere"),
+        ]
+        for act, kind, part in cases:
+            with self.assertRaises(kind) as caught:
+                act()
+            self.assertIn(part, str(caught.exception))
+
+    def test_fields(self):
+        with self.assertRaises(grove.InvalidArgument) as caught:
+            grove.solve(small(), time_limit=-1)
+        self.assertEqual(caught.exception.field, "/time_limit")
+
+
+class Looking(unittest.TestCase):
+    def test_views_and_pictures(self):
+        solution = grove.solve(small())
+        for plans in ([small()], [solution], [solution.plan], [solution, solution.plan]):
+            view = grove.view(*plans)
+            self.assertIn("<html", view.html)
+            self.assertTrue(view._repr_html_().startswith("<iframe srcdoc=\"&lt;!"))
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            for name, begin in (("x.svg", b"<?xml"), ("x.png", b"\x89PNG"), ("x.gif", b"GIF89a")):
+                grove.picture(solution, name, at=[0, 3], width=100)
+                self.assertTrue(Path(name).read_bytes().startswith(begin))
+
+
+class Memory(unittest.TestCase):
+    @staticmethod
+    def resident():
+        return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+    def test_a_thousand_solves_do_not_grow_it(self):
+        instance = small()
+        for _ in range(200):
+            grove.solve(instance, incumbent=lambda plan, at: plan.positions())
+        before = self.resident()
+        for _ in range(1000):
+            grove.solve(instance, incumbent=lambda plan, at: plan.positions())
+        self.assertLess(self.resident() - before, 4 << 20)
+
+
+if __name__ == "__main__":
+    if not importlib.util.find_spec("numpy") or not importlib.util.find_spec("pandas"):
+        print("skipped: numpy or pandas is not there")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1])
