@@ -8,13 +8,16 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/input_error.h"
 #include "tools/common/commands.h"
 #include "tools/common/help_formatter.h"
+#include "tools/common/manual.h"
 #include "tools/common/parse_error.h"
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"
@@ -56,6 +59,25 @@ Words words_of(const CLI::App& app, int argc, char** argv) {
   return words;
 }
 
+// "grove help --completion bash", "grove help --manual FOLDER": of the whole program. Whether that is
+// what is asked for.
+bool tell_of_program(const CLI::App& app, const Words& words, bool speaks) {
+  if (words.size() < 2 || words[0] != "help" || !words[1].starts_with("--")) return false;
+  const std::string value = words.size() == 3 ? words[2] : "";
+  if (words[1] == "--completion" && std::ranges::count(kShells, value) == 1) {
+    if (speaks) fmt::print("{}", completion_script(command_text(app), value));
+    return true;
+  }
+  if (words[1] == "--manual" && !value.empty()) {
+    if (!speaks) return true;
+    for (const ManualPage& page : manual_pages(command_text(app), version_text()))
+      write_file_atomically(std::filesystem::path(value) / page.name, page.text);
+    return true;
+  }
+  throw CLI::ValidationError(
+      "help", "expected a command, '--completion bash', zsh or fish, or '--manual FOLDER'");
+}
+
 // A full disk or a closed pipe must not pass for success.
 int flush_output(const CLI::App& app) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kExitSuccess;
@@ -89,6 +111,10 @@ int run_program(CLI::App& app, int argc, char** argv, bool speaks,
     return kExitBadInput;
   };
   try {
+    if (tell_of_program(app, Words(argv + 1, argv + argc), speaks)) {
+      refused("was asked for what it says of itself alone");
+      return flush_output(app);
+    }
     Words words = words_of(app, argc, argv);
     std::ranges::reverse(words);  // as CLI11 wants them
     app.parse(std::move(words));

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Manual pages and the completions of shells.
+
+    manual_test.py GROVE
+
+Of the shells those are tried that are there; bash always.
+"""
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+GROVE = sys.argv[1]
+CASES = [
+    (["grove", "s"], {"solve"}),
+    (["grove", "solve", "--om"], {"--omega"}),
+    (["grove", "solve", "--policy", "f"], {"fixed", "free"}),
+    (["grove", "generate", "map", "rooms", "--wi"], {"--width"}),
+    (["grove", "view", "-"], {"--svg", "--drive", "-o"}),
+]
+
+
+def run(*command, **options):
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)
+
+
+def script(shell):
+    return run(GROVE, "help", "--completion", shell, check=True).stdout
+
+
+class Completions(unittest.TestCase):
+    def test_bash(self):
+        for words, expected in CASES:
+            asked = " ".join(f"'{word}'" for word in words)
+            done = run("bash", "-c", script("bash") + f"\nCOMP_WORDS=({asked}); COMP_CWORD={len(words) - 1}\n"
+                       '_grove; printf "%s\\n" "${COMPREPLY[@]}"')
+            self.assertEqual(done.stderr, "")
+            self.assertLessEqual(expected, set(done.stdout.split()))
+        # After an option that takes a file, bash's own completion of files comes.
+        done = run("bash", "-c", script("bash") + "\nCOMP_WORDS=(grove solve --output ''); COMP_CWORD=3\n"
+                   '_grove; echo "${#COMPREPLY[@]}"')
+        self.assertEqual(done.stdout, "0\n")
+
+    @unittest.skipUnless(shutil.which("fish"), "no fish")
+    def test_fish(self):
+        for words, expected in CASES:
+            done = run("fish", "--no-config", "-c", script("fish") + f"\ncomplete -C '{' '.join(words)}'")
+            offered = {line.split("\t")[0] for line in done.stdout.splitlines()}
+            self.assertLessEqual(expected - {"-o"}, offered, done.stderr)
+
+    @unittest.skipUnless(shutil.which("zsh"), "no zsh")
+    def test_zsh(self):
+        done = run("zsh", "-n", "/dev/stdin", input=script("zsh"))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_what_is_not_there(self):
+        for words in (["--completion", "csh"], ["--completion"], ["--manual"], ["--nonsense"]):
+            done = run(GROVE, "help", *words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("expected a command", done.stderr)
+
+
+class Manual(unittest.TestCase):
+    def test_a_page_for_each_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(run(GROVE, "help", "--manual", folder).returncode, 0)
+            pages = {path.name: path.read_text() for path in Path(folder).iterdir()}
+            self.assertLessEqual({"grove.1", "grove-solve.1", "grove-report.1"}, set(pages))
+            self.assertIn("\\fB\\-\\-omega\\fR \\fIW|inf\\fR", pages["grove-solve.1"])
+            self.assertIn(".SH grove generate map rooms", pages["grove-generate.1"])
+            for name, text in pages.items():
+                self.assertTrue(text.startswith(".TH "), name)
+            if not shutil.which("groff"):
+                return
+            for name in pages:
+                done = run("groff", "-man", "-Tutf8", "-ww", str(Path(folder) / name))
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

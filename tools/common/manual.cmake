@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# Manual pages and completions of a program, from its own table of options: in build/<preset>/manual,
+# and where cmake --install puts them.
+function(grove_manual program)
+  set(folder ${PROJECT_BINARY_DIR}/manual)
+  set(pages ${folder}/man1/${program})
+  add_custom_command(OUTPUT ${folder}/${program}.bash ${folder}/_${program} ${folder}/${program}.fish ${pages}
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${pages}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}
+    COMMAND ${program} help --manual ${pages}
+    COMMAND ${program} help --completion bash > ${folder}/${program}.bash
+    COMMAND ${program} help --completion zsh > ${folder}/_${program}
+    COMMAND ${program} help --completion fish > ${folder}/${program}.fish
+    DEPENDS ${program} COMMENT "Writing the manual of ${program}" VERBATIM)
+  add_custom_target(${program}-manual ALL DEPENDS ${folder}/${program}.bash)
+  if(NOT GROVE_INSTALL)
+    return()
+  endif()
+  install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
+  install(FILES ${folder}/${program}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    RENAME ${program} COMPONENT programs)
+  install(FILES ${folder}/_${program} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT programs)
+  install(FILES ${folder}/${program}.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+    COMPONENT programs)
+endfunction()
