@@ -24,15 +24,28 @@ struct NamedNumbers {
   std::optional<std::int64_t> tasks;
 };
 
+// 3 of "den312d-random-3-50", or without the agents.
+std::optional<std::int64_t> moving_ai_number(std::string_view name) {
+  for (const std::string_view kind : {"-random-", "-even-"}) {
+    const std::size_t at = name.rfind(kind);
+    if (at == std::string_view::npos) continue;
+    const std::string_view rest = name.substr(at + kind.size());
+    if (const auto number = parse_number<std::int64_t>(rest.substr(0, rest.find('-')), 0)) return number;
+  }
+  return std::nullopt;
+}
+
 NamedNumbers numbers_in(std::string_view name) {
   std::vector<std::string_view> words;
   for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
     end = name.find('_', begin);
     words.push_back(name.substr(begin, end - begin));
   }
-  NamedNumbers numbers;
+  NamedNumbers numbers{.scenario = moving_ai_number(name), .tasks = std::nullopt};
   for (std::size_t i = 1; i + 1 < words.size(); ++i) {
-    if (!(numbers.scenario = numbered(words[i], 's'))) continue;
+    const auto scenario = numbered(words[i], 's');
+    if (!scenario) continue;
+    numbers.scenario = scenario;
     if (i + 2 < words.size() && numbered(words[i + 1], 'n'))
       numbers.tasks = numbered(words[i + 2], 'm');
     break;

@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
 #include <string_view>
 
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/model/check.h"
+#include "grove/detail/model/parse_number.h"
 
 namespace grove::detail::batch {
 namespace {
@@ -64,6 +68,43 @@ Outcome outcome_of(const Instance& instance, const Solution& solution) {
   outcome.solved = solution.plan.has_value() && outcome.error.empty();
   if (solution.status != Status::kInfeasible) outcome.lower_bound = solution.lower_bound;
   return outcome;
+}
+
+void thin_out(std::vector<TracePoint>& trace, std::size_t most) {
+  while (trace.size() > std::max<std::size_t>(most, 2)) {
+    std::vector<TracePoint> kept;
+    for (std::size_t i = 0; i < trace.size(); ++i)
+      if (i % 2 == 0 || i + 1 == trace.size()) kept.push_back(trace[i]);
+    trace = std::move(kept);
+  }
+}
+
+std::string trace_text(const std::vector<TracePoint>& trace) {
+  std::string text;
+  for (const TracePoint& point : trace)
+    text += fmt::format("{}{}:{}:{}", text.empty() ? "" : " ",
+                        std::round(point.seconds * 1e6) / 1e6, point.cost,
+                        point.lower_bound ? std::to_string(*point.lower_bound) : "-");
+  return text;
+}
+
+std::vector<TracePoint> parse_trace(const std::string& text) {
+  std::vector<TracePoint> trace;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::size_t first = word.find(':');
+    const std::size_t second = word.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos)
+      throw std::invalid_argument(fmt::format("trace '{}'", one_line(word)));
+    const auto seconds = parse_number<double>(word.substr(0, first), 0);
+    const auto cost = parse_number<Cost>(word.substr(first + 1, second - first - 1), 0);
+    const std::string bound = word.substr(second + 1);
+    const auto lower_bound = bound == "-" ? std::nullopt : parse_number<Cost>(bound, 0);
+    if (!seconds || !cost || (!lower_bound && bound != "-"))
+      throw std::invalid_argument(fmt::format("trace '{}'", one_line(word)));
+    trace.push_back({*seconds, *cost, lower_bound});
+  }
+  return trace;
 }
 
 }  // namespace grove::detail::batch

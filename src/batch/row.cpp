@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -84,7 +87,13 @@ std::vector<std::pair<std::string, Json>> columns(const Row& row) {
       {"memory_limit_gb", optional_json(settings.memory_limit_gb)},
       {"plan_file", text_or_null(row.plan_file)},
       {"instance_digest", row.run.digest},
-      {"counts", text_or_null(outcome.counts)}};
+      {"counts", text_or_null(outcome.counts)},
+      {"solver", text_or_null(row.solver)},
+      {"claimed_cost", optional_json(outcome.claimed_cost)},
+      {"claimed_lower_bound", optional_json(outcome.claimed_lower_bound)},
+      {"claimed_s", outcome.claimed_s ? Json(rounded(*outcome.claimed_s)) : Json(nullptr)},
+      {"anytime", outcome.anytime},
+      {"trace", text_or_null(trace_text(outcome.trace))}};
 }
 
 template <typename Value>
@@ -92,6 +101,12 @@ std::optional<Value> optional_member(const nlohmann::json& json, const char* key
   const auto& value = json.at(key);
   if (value.is_null()) return std::nullopt;
   return value.get<Value>();
+}
+
+// Of a column that older tables lack.
+template <typename Value>
+std::optional<Value> later_member(const nlohmann::json& json, const char* key) {
+  return json.contains(key) ? optional_member<Value>(json, key) : std::nullopt;
 }
 
 std::string text_member(const nlohmann::json& json, const char* key) {
@@ -126,13 +141,22 @@ Outcome outcome_of(const nlohmann::json& json) {
                   .nodes = optional_member<std::int64_t>(json, "nodes"),
                   .low_level_calls = optional_member<std::int64_t>(json, "low_level_calls"),
                   .peak_memory_mb = optional_member<double>(json, "peak_memory_mb"),
-                  .counts = json.contains("counts") ? text_member(json, "counts") : "",
+                  .counts = later_member<std::string>(json, "counts").value_or(""),
                   .version = json.at("version").get<std::string>(),
-                  .error = text_member(json, "error")};
-  if (!outcome.failed() && !parse_status(outcome.status))
+                  .error = text_member(json, "error"),
+                  .claimed_cost = later_member<Cost>(json, "claimed_cost"),
+                  .claimed_lower_bound = later_member<Cost>(json, "claimed_lower_bound"),
+                  .claimed_s = later_member<double>(json, "claimed_s"),
+                  .trace = parse_trace(later_member<std::string>(json, "trace").value_or("")),
+                  .anytime = later_member<bool>(json, "anytime").value_or(false)};
+  constexpr std::array<std::string_view, 4> kWithoutResult{kError, kWrongPlan, kClaimed,
+                                                           kUnsuitable};
+  const bool has_result =
+      std::ranges::find(kWithoutResult, outcome.status) == kWithoutResult.end();
+  if (has_result && !parse_status(outcome.status))
     throw std::invalid_argument(fmt::format("status '{}'", outcome.status));
-  if (outcome.failed() && (outcome.error.empty() || outcome.solved))
-    throw std::invalid_argument("status 'error' without one");
+  if (!has_result && (outcome.error.empty() || outcome.solved))
+    throw std::invalid_argument(fmt::format("status '{}' without an error", outcome.status));
   return outcome;
 }
 
@@ -164,7 +188,8 @@ Row parse_json_line(std::string_view line) {
             .ended_at = json.at("ended_at").get<std::string>(),
             .ranks = json.at("ranks").get<std::int64_t>(),
             .threads = json.at("threads").get<std::int64_t>(),
-            .plan_file = text_member(json, "plan_file")};
+            .plan_file = text_member(json, "plan_file"),
+            .solver = later_member<std::string>(json, "solver").value_or("")};
   } catch (const nlohmann::json::exception& error) {
     throw std::invalid_argument(error.what());
   }

@@ -120,6 +120,19 @@ void require_no_goals(const Instance& instance, std::string_view format) {
           Loss::kNothing);
 }
 
+void write_with_goals(const std::filesystem::path& path, const Instance& instance,
+                      fmt::format_string<std::string> goal_line) {
+  constexpr std::string_view kFormat = "libMultiRobotPlanning's YAML";
+  require_free_grid(instance, kFormat);
+  require_goals(instance, kFormat);
+  require_no_tasks(instance, kFormat);
+  std::string text = map_text(instance.grid()) + "agents:\n";
+  for (const Agent& agent : instance.agents())
+    text += head_text(instance.grid(), agent) +
+            fmt::format(goal_line, cell_text(instance.grid(), *agent.goal));
+  write_file_atomically(path, text);
+}
+
 }  // namespace
 
 Instance read_libmrp_instance(const std::filesystem::path& path,
@@ -148,15 +161,11 @@ Instance read_libmrp_instance(const std::filesystem::path& path,
 }
 
 void write_libmrp_instance(const std::filesystem::path& path, const Instance& instance) {
-  constexpr std::string_view kFormat = "libMultiRobotPlanning's YAML";
-  require_free_grid(instance, kFormat);
-  require_goals(instance, kFormat);
-  require_no_tasks(instance, kFormat);
-  std::string text = map_text(instance.grid()) + "agents:\n";
-  for (const Agent& agent : instance.agents())
-    text += head_text(instance.grid(), agent) +
-            fmt::format("    goal: {}\n", cell_text(instance.grid(), *agent.goal));
-  write_file_atomically(path, text);
+  write_with_goals(path, instance, "    goal: {}\n");
+}
+
+void write_potential_goals(const std::filesystem::path& path, const Instance& instance) {
+  write_with_goals(path, instance, "    potentialGoals:\n      - {}\n");
 }
 
 void write_mgcbs_instance(const std::filesystem::path& path, const Instance& instance) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -13,7 +14,9 @@
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/io/plan_file.h"
 #include "grove/detail/io/text_file.h"
+#include "grove/detail/model/parse_number.h"
 #include "plan_steps.h"
+#include "yaml_value.h"
 
 namespace grove::detail {
 namespace {
@@ -80,6 +83,10 @@ bool is_visualizer_text(std::string_view line) {
   return line.starts_with("agents=") || line == "solution=";
 }
 
+bool is_schedule(std::string_view line) {
+  return line == "schedule:";
+}
+
 bool is_path_list(std::string_view line) {
   return line.starts_with("Agent ");
 }
@@ -106,15 +113,68 @@ Paths read_path_lists(const std::filesystem::path& path, const Instance& instanc
   return paths;
 }
 
-struct VisualizerText {
+// Paths, and what their file claims of them.
+struct ToldPaths {
   std::optional<Paths> paths;  // none: not solved
   std::optional<Cost> cost;
   std::optional<Cost> lower_bound;
 };
 
-VisualizerText read_visualizer_text(const std::filesystem::path& path, const Instance& instance,
+// By its id; or "agent7" is number 7, for some tools know no names.
+AgentIndex agent_called(const Instance& instance, const YamlValue& name) {
+  const std::string text = name.text();
+  const auto agents = instance.agents();
+  const auto it = std::ranges::find(agents, text, &Agent::id);
+  if (it != agents.end()) return static_cast<AgentIndex>(it - agents.begin());
+  constexpr std::string_view kAgent = "agent";
+  const auto number =
+      text.starts_with(kAgent)
+          ? parse_number<AgentIndex>(std::string_view(text).substr(kAgent.size()), 0)
+          : std::nullopt;
+  if (!number || *number >= instance.agent_count())
+    name.fail(fmt::format("found '{}', which no agent of the instance is called; expected the name "
+                          "of one, or agent0 to agent{}",
+                          one_line(text), instance.agent_count() - 1));
+  return *number;
+}
+
+Path read_schedule_of_agent(const Instance& instance, const YamlValue& steps) {
+  const Grid& grid = instance.grid();
+  Path path;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const YamlValue step = steps.element(k);
+    const auto t = step.member("t");
+    if (t.integer(0, std::numeric_limits<int>::max()) != static_cast<int>(k))
+      t.fail(fmt::format("expected t: {}, for each step follows the one before", k));
+    path.push_back(grid.cell({step.member("x").integer(0, grid.width() - 1),
+                              step.member("y").integer(0, grid.height() - 1)}));
+  }
+  return path;
+}
+
+// libMultiRobotPlanning's, MGCBS's and ITA-CBS's.
+ToldPaths read_schedule(const std::filesystem::path& path, const Instance& instance,
+                        const std::string& name) {
+  const YamlDocument document(path);
+  ToldPaths told;
+  if (const auto statistics = document.root().find("statistics"))
+    if (const auto cost = statistics->find("cost"))
+      told.cost = cost->integer(0, std::numeric_limits<int>::max());
+  const YamlValue schedule = document.root().member("schedule");
+  if (schedule.node().IsNull()) return told;
+  told.paths.emplace(instance.agent_count());
+  for (const auto& pair : schedule.node()) {
+    const YamlValue key(pair.first, name);
+    Path& agent = (*told.paths)[agent_called(instance, key)];
+    if (!agent.empty()) key.fail("an agent appears twice");
+    agent = read_schedule_of_agent(instance, {pair.second, name});
+  }
+  return told;
+}
+
+ToldPaths read_visualizer_text(const std::filesystem::path& path, const Instance& instance,
                                     const std::vector<std::string_view>& lines) {
-  VisualizerText text;
+  ToldPaths text;
   std::size_t k = 0;
   for (; k < lines.size() && lines[k] != "solution="; ++k) {
     LineReader line(path, k + 1, lines[k]);
@@ -150,26 +210,67 @@ std::vector<TaskIndex> order_of_tasks(const Instance& instance, const Agent& age
   return tasks;
 }
 
-Solution solution_of(const Instance& instance, VisualizerText text) {
+Solution solution_of(const Instance& instance, ToldPaths text) {
   Solution solution;
   solution.omega = Omega::infinite();
   solution.lower_bound = text.lower_bound.value_or(0);
   if (!text.paths) return solution;
-  Cost cost = 0;
-  Plan& plan = solution.plan.emplace();
-  for (const Agent& agent : instance.agents()) {
-    Path& path = (*text.paths)[plan.agents.size()];
-    const auto finish = static_cast<Time>(std::max<std::size_t>(until_rest(path).size(), 1) - 1);
-    cost += finish;
-    auto tasks = order_of_tasks(instance, agent, path);
-    plan.agents.push_back({finish, std::move(tasks), std::move(path)});
-  }
-  plan.cost = text.cost.value_or(cost);
-  solution.status = cost == solution.lower_bound ? Status::kOptimal : Status::kFeasible;
+  Plan& plan = solution.plan.emplace(plan_of_paths(instance, *std::move(text.paths)));
+  solution.status = plan.cost == solution.lower_bound ? Status::kOptimal : Status::kFeasible;
+  plan.cost = text.cost.value_or(plan.cost);
   return solution;
 }
 
+Time finish_of(const Path& path) {
+  return static_cast<Time>(std::max<std::size_t>(until_rest(path).size(), 1) - 1);
+}
+
+void count_anew(Solution& solution) {
+  solution.omega = Omega::infinite();
+  solution.lower_bound = 0;
+  if (!solution.plan) return;
+  solution.plan->cost = 0;
+  for (AgentPlan& agent : solution.plan->agents) {
+    agent.cost = finish_of(agent.path);
+    solution.plan->cost += agent.cost;
+  }
+  solution.status = solution.plan->cost == 0 ? Status::kOptimal : Status::kFeasible;
+}
+
 }  // namespace
+
+Plan plan_of_paths(const Instance& instance, std::vector<Path> paths) {
+  Plan plan;
+  for (const Agent& agent : instance.agents()) {
+    Path& path = paths[plan.agents.size()];
+    const Time finish = finish_of(path);
+    plan.cost += finish;
+    auto tasks = order_of_tasks(instance, agent, path);
+    plan.agents.push_back({finish, std::move(tasks), std::move(path)});
+  }
+  return plan;
+}
+
+bool paths_are_places(const Instance& instance) {
+  const auto turns = [](const Agent& agent) { return agent.motion.turn_steps > 0; };
+  const auto takes_time = [](const Task& task) { return task.duration > 0; };
+  return std::ranges::none_of(instance.agents(), turns) &&
+         std::ranges::none_of(instance.tasks(), takes_time);
+}
+
+RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance& instance) {
+  ClaimedPlan claimed = read_plan_of_any_tool(path, instance);
+  RecountedPlan result;
+  const auto claims = [&](const char* what) {
+    return std::ranges::find(claimed.unclaimed, what) == claimed.unclaimed.end();
+  };
+  if (claimed.solution.plan && claims("cost")) result.claimed_cost = claimed.solution.plan->cost;
+  if (claimed.solution.plan && claims("lower bound"))
+    result.claimed_lower_bound = claimed.solution.lower_bound;
+  result.solution = std::move(claimed.solution);
+  if (paths_are_places(instance)) count_anew(result.solution);
+  return result;
+}
 
 ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Instance& instance,
                                   std::vector<std::string>* warnings) {
@@ -179,15 +280,17 @@ ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Insta
     throw InputError(path.string(), "line 1",
                      "expected a plan file (JSON), since the instance is on a roadmap");
   const std::vector<std::string_view> lines = split_lines(content);
-  VisualizerText text;
-  if (std::ranges::any_of(lines, is_path_list)) {
+  ToldPaths text;
+  if (std::ranges::any_of(lines, is_schedule)) {
+    text = read_schedule(path, instance, path.string());
+  } else if (std::ranges::any_of(lines, is_path_list)) {
     text.paths = read_path_lists(path, instance, lines);
   } else if (std::ranges::any_of(lines, is_visualizer_text)) {
     text = read_visualizer_text(path, instance, lines);
   } else {
     throw InputError(path.string(), "line 1",
-                     "expected a plan file (JSON), paths as 'Agent 0: (row,column)->' or the text "
-                     "of lacam, with 'solution='");
+                     "expected a plan file (JSON), paths as 'Agent 0: (row,column)->', the text of "
+                     "lacam, with 'solution=', or YAML with 'schedule:'");
   }
   ClaimedPlan plan;
   if (!text.cost) plan.unclaimed.emplace_back("cost");

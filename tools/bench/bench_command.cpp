@@ -5,10 +5,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "grove/detail/batch/manifest.h"
 #include "grove/detail/batch/result_table.h"
+#include "grove/detail/batch/scenario_sweep.h"
 #include "tools/bench/bench_methods.h"
 #include "tools/bench/bench_run.h"
 #include "tools/bench/rehearsal.h"
@@ -29,7 +35,8 @@ constexpr double kSmallestRoom_gb = 0.1;
 constexpr const char* kBenchFooter =
     R"(INSTANCES is a list (a path on each line, relative to the list, or FILE.scen --map M --agents
 K; # begins a comment), as 'grove generate paper' writes it, or a folder, with all *.cts.json below
-it.
+it; or Moving AI's scenarios, a folder or one of them, with --agents 10:100:10 or 10,20,50: the first
+so many rows of each.
 
 A run is 'NAME: OPTIONS OF grove solve'; NAME alone is short for 'NAME: --method NAME'. Each is a
 process of its own, on one thread and with omega 0.01 unless its options say otherwise. All methods
@@ -46,7 +53,13 @@ A run that went on until its limit is not solved, even with a plan: so methods t
 plan as long as they may (cts-cbs-c --anytime) fare worse here than they are. Exits with 130 when
 stopped with runs left.
 
+--solver sets a program of someone else beside it, by an adapter: eecbs, cbsh2-rtc, mapf-lns2, lacam3,
+mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md). What it writes is re-checked, and its costs
+are counted anew; a plan that is none is "wrong", one that it only speaks of "claimed".
+
 Examples:
+  grove bench movingai/ --agents 10:50:10 --scenarios 'random-32-32-20-random-*' --run 'grove: --omega 0' \
+        --solver 'eecbs=/opt/eecbs --suboptimality 1.05' --time-limit 30 --output-dir results
   grove bench paper/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir results
   grove bench instances/ --run 'exact: --omega 0' --run 'near: --omega 0.1' --time-limit 60 \
         --jobs 4 --output-dir results)";
@@ -54,6 +67,11 @@ Examples:
 struct BenchArguments {
   std::string instances;
   std::vector<std::string> runs;
+  std::vector<std::string> solvers;
+  std::vector<std::string> claims;
+  std::vector<std::int64_t> agents;
+  std::string scenarios = "*";
+  std::vector<std::int64_t> seeds;
   std::string output_dir;
   RunDefaults defaults;
   double memory_limit_gb = 0;
@@ -74,16 +92,83 @@ void share_memory(std::vector<bench::Method>& methods, int jobs) {
   const double share =
       std::max(kSmallestRoom_gb, std::floor(10 * kShareOfMemory * usable_memory_gb() / jobs) / 10);
   for (bench::Method& method : methods)
-    if (!method.settings.memory_limit_gb)
+    if (!method.solver && !method.settings.memory_limit_gb)
       method.arguments.insert(method.arguments.end(), {"--memory-limit", fmt::format("{}", share)});
+}
+
+// Those that find out about memory themselves are Grove's.
+std::vector<bench::Method> solvers_of(const BenchArguments& a) {
+  std::vector<bench::Method> methods;
+  for (const std::string& text : a.solvers) {
+    bench::NamedSolver solver = bench::read_solver_argument(text, a.claims);
+    methods.push_back(
+        {.settings = {.method = solver.name,
+                      .options = solver.options,
+                      .omega = "",
+                      .seed = a.defaults.seed,
+                      .time_limit_s = a.defaults.time_limit_s},
+         .threads = solver.solver.adapter.threads,
+         .solver = std::make_shared<bench::ForeignSolver>(std::move(solver.solver))});
+  }
+  return methods;
+}
+
+void require_distinct_names(const std::vector<bench::Method>& methods) {
+  std::set<std::string> names;
+  for (const bench::Method& method : methods)
+    if (!names.insert(method.settings.method).second)
+      throw CLI::ValidationError("--solver", fmt::format("a second '{}'; expected distinct names",
+                                                         method.settings.method));
+}
+
+// Each method with each seed.
+std::vector<bench::Method> with_seeds(const std::vector<bench::Method>& methods,
+                                      const std::vector<std::int64_t>& seeds) {
+  std::vector<bench::Method> all;
+  for (const std::int64_t seed : seeds)
+    for (bench::Method method : methods) {
+      method.settings.seed = seed;
+      const auto given = std::ranges::find(method.arguments, "--seed");
+      if (given != method.arguments.end()) *(given + 1) = std::to_string(seed);
+      all.push_back(std::move(method));
+    }
+  return all;
+}
+
+std::vector<bench::Method> methods_of(BenchArguments& a) {
+  std::vector<bench::Method> methods = read_runs(a.runs, a.defaults);
+  std::ranges::move(solvers_of(a), std::back_inserter(methods));
+  if (methods.empty()) throw CLI::RequiredError("--run or --solver");
+  require_distinct_names(methods);
+  for (const std::string& run : a.runs)
+    if (!a.seeds.empty() && run.find("--seed") != std::string::npos)
+      throw CLI::ValidationError("--seeds", "expected no --seed in a run with it");
+  return methods;
+}
+
+std::vector<batch::Entry> entries_of(const BenchArguments& a) {
+  if (a.agents.empty()) {
+    if (batch::holds_scenarios(a.instances))
+      throw CLI::ValidationError("--agents", "required with scenarios: how many of their rows, as "
+                                             "10:100:10 or 10,20,50");
+    return batch::read_manifest(a.instances);
+  }
+  const std::vector<int> agents(a.agents.begin(), a.agents.end());
+  batch::SweptScenarios swept =
+      batch::read_scenarios(a.instances, {.agents = agents, .scenarios = a.scenarios});
+  if (swept.too_short > 0)
+    say_on_stderr(fmt::format("grove: warning: {} scenario{} fewer rows than the most of --agents; "
+                              "what there is not is left out",
+                              swept.too_short, swept.too_short == 1 ? " has" : "s have"));
+  return std::move(swept.entries);
 }
 
 void run(const CLI::App& app, BenchArguments& a) {
   if (app.count("--memory-limit") > 0) a.defaults.memory_limit_gb = a.memory_limit_gb;
-  std::vector<bench::Method> methods = read_runs(a.runs, a.defaults);
+  std::vector<bench::Method> methods = methods_of(a);
   const int jobs = jobs_of(a, methods);
   share_memory(methods, jobs);
-  const auto instances = bench::balanced(batch::read_manifest(a.instances));
+  const auto instances = bench::balanced(entries_of(a));
 
   stop_on_signals();
   batch::ProgressDisplay display(stderr_style());
@@ -100,6 +185,7 @@ void run(const CLI::App& app, BenchArguments& a) {
       display.show(state.elapsed_s, progress_text(state));
   };
   rehearse(instances, methods, options);
+  if (!a.seeds.empty()) methods = with_seeds(methods, a.seeds);
   const bench::BenchState state = run_bench(instances, methods, options);
   if (!a.quiet) display.finish(progress_text(state));
   for (const std::string& version : state.other_versions)
@@ -119,15 +205,33 @@ void add_bench_command(CLI::App& root) {
       root.add_subcommand("bench", "Run methods on many instances, tabulate the results");
   app->footer(kBenchFooter);
   const auto a = std::make_shared<BenchArguments>();
-  app->add_option("INSTANCES", a->instances, "a list of instances, or a folder of them")
+  app->add_option("INSTANCES", a->instances, "a list of instances, a folder of them, or one; or scenarios")
       ->required()
       ->type_name("");
   app->add_option("--run", a->runs,
                   "a method: its name and its options of grove solve; once for each")
-      ->required()
       ->type_name("'NAME: OPTIONS'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--solver", a->solvers,
+                  "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
+                  "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
+                  "{agents}, {instance}, {time_limit}, {seed}, {output}")
+      ->type_name("'NAME=COMMAND'")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--claimed-cost", a->claims,
+                  "of a solver that shows no plan: group 1 of the last line that it prints in which "
+                  "this is found is the cost that it claims")
+      ->type_name("'NAME=REGEX'")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_counts(*app, "--agents", a->agents,
+             "of scenarios: the first so many rows, 10:100:10 being 10, 20, ..., 100");
+  app->add_option("--scenarios", a->scenarios, "only those, of a folder; * stands for anything")
+      ->type_name("NAME*")
+      ->capture_default_str();
+  add_ranges(*app, "--seeds", a->seeds, kSeeds, "", "each run with each of these seeds");
   app->add_option("--output-dir", a->output_dir, "the folder for the table; made if missing")
       ->required()
       ->type_name("DIR");

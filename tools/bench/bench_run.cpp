@@ -19,6 +19,7 @@
 
 #include "grove/detail/batch/batch_clock.h"
 #include "grove/detail/batch/result_table.h"
+#include "grove/detail/io/expressible.h"
 #include "grove/detail/io/input_error.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/judge.h"
@@ -91,7 +92,9 @@ class Bench {
     state_.work.left = static_cast<int>(runs_.size());
     state_.work.workers = static_cast<int>(std::max<std::size_t>(1, workers()));
     for (const Method& method : methods_) {
-      state_.methods.push_back(method.settings.method);
+      seeds_differ_ |= state_.counts.contains(method.settings.method);
+      if (!state_.counts.contains(method.settings.method))
+        state_.methods.push_back(method.settings.method);
       state_.counts[method.settings.method];
     }
     for (const batch::Run& run : runs_)
@@ -129,48 +132,94 @@ class Bench {
 
   bool must_stop() const { return failed_ || options_.stopped(); }
 
-  void do_run(std::size_t run, std::size_t worker) {
-    const BenchInstance& instance = instances_[instance_index(run)];
-    const Method& method = method_of(run);
-    const double time_limit_s = method.settings.time_limit_s;
-    const fs::path plan = scratch() / fmt::format("{}.plan.json", worker);
-    const fs::path said = scratch() / fmt::format("{}.txt", worker);
-    fs::remove(plan);
-    const ChildEnd end =
-        run_child(solve_command(options_.program, instance.entry, method, time_limit_s, plan), said,
-                  {.seconds = time_limit_s * options_.grace_factor + options_.grace_s,
-                   .cancelled = [this] { return must_stop(); }});
-    if (end.kind == ChildEnd::Kind::kCancelled) return;
-
-    batch::Row row{.run = runs_[run],
-                   .facts = instance.facts,
-                   .wall_s = end.wall_s,
-                   .machine = options_.machine,
-                   .ended_at = batch::machine_clock().utc(),
-                   .threads = method.threads};
-    judge(row, end, run, plan, said);
-    if (row.outcome.interrupted() && must_stop()) return;  // the signal was for us all
-    if (row.outcome.version.empty()) row.outcome.version = options_.version;
-    if (options_.keep_plans) keep(plan, row);
-    record(row);
+  // What a run writes, of each worker.
+  struct Files {
+    fs::path plan;
+    fs::path said;
+    fs::path log;
+    fs::path folder;  // of another solver
+  };
+  Files files_of(std::size_t worker) const {
+    const auto named = [&](const char* end) { return scratch() / fmt::format("{}{}", worker, end); };
+    return {named(".plan.json"), named(".txt"), named(".jsonl"), named(".folder")};
   }
 
-  // Reads the instance anew: what is re-checked depends on the files alone.
-  void judge(batch::Row& row, const ChildEnd& end, std::size_t run, const fs::path& plan,
-             const fs::path& said) {
-    const std::size_t index = instance_index(run);
+  void do_run(std::size_t run, std::size_t worker) {
+    const Method& method = method_of(run);
+    batch::Row row{.run = runs_[run],
+                   .facts = instances_[instance_index(run)].facts,
+                   .machine = options_.machine,
+                   .threads = method.threads,
+                   .solver = method.solver ? method.solver->adapter.name : ""};
     try {
-      const LoadedInstance loaded = load(instances_[index].entry);
-      row.outcome = judged(end, row.run.settings.time_limit_s, loaded.instance, plan, said);
-      row.root_cost = root_costs_.of(index, loaded.instance);
+      if (const auto why = method.unsuitable.find(row.facts.problem); why != method.unsuitable.end())
+        row.outcome = {.status = batch::kUnsuitable, .error = why->second};
+      else if (!(method.solver ? solve_by_other(row, run, files_of(worker))
+                               : solve(row, run, files_of(worker))))
+        return;
     } catch (const InputError& error) {
       row.outcome = {.error = error.what()};
     }
+    if (row.outcome.interrupted() && must_stop()) return;  // the signal was for us all
+    row.ended_at = batch::machine_clock().utc();
+    if (row.outcome.version.empty()) row.outcome.version = options_.version;
+    record(row);
+  }
+
+  ChildEnd run_one(const std::vector<std::string>& command, batch::Row& row,
+                   const Files& files) const {
+    const double limit = row.run.settings.time_limit_s;
+    const ChildEnd end = run_child(command, files.said,
+                                   {.seconds = limit * options_.grace_factor + options_.grace_s,
+                                    .cancelled = [this] { return must_stop(); }});
+    row.wall_s = end.wall_s;
+    return end;
+  }
+
+  // False: it was cancelled. Reads the instance anew when it has ended: what is re-checked depends
+  // on the files alone.
+  bool solve(batch::Row& row, std::size_t run, const Files& files) {
+    const std::size_t index = instance_index(run);
+    const double limit = row.run.settings.time_limit_s;
+    fs::remove(files.plan);
+    fs::remove(files.log);
+    auto command =
+        solve_command(options_.program, instances_[index].entry, method_of(run), limit, files.plan);
+    command.insert(command.end(), {"--log", files.log.string(), "--log-format", "jsonl"});
+    const ChildEnd end = run_one(command, row, files);
+    if (end.kind == ChildEnd::Kind::kCancelled) return false;
+    const LoadedInstance loaded = load(instances_[index].entry);
+    row.outcome = judged(end, limit, loaded.instance, files.plan, files.said);
+    row.outcome.trace = trace_of_log(files.log);
+    if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
+    row.root_cost = root_costs_.of(index, loaded.instance);
+    if (options_.keep_plans) keep(files.plan, row);
+    return true;
+  }
+
+  bool solve_by_other(batch::Row& row, std::size_t run, const Files& files) {
+    const std::size_t index = instance_index(run);
+    const LoadedInstance loaded = load(instances_[index].entry);
+    try {
+      const ForeignRun foreign(*method_of(run).solver, instances_[index].entry, loaded,
+                               row.run.settings, files.folder);
+      const ChildEnd end = run_one(foreign.command(), row, files);
+      if (end.kind == ChildEnd::Kind::kCancelled) return false;
+      row.outcome = foreign.judged(end, files.said);
+      if (options_.keep_plans) keep(foreign.plan(), row);
+    } catch (const NotExpressible& error) {
+      row.outcome = {.status = batch::kUnsuitable,
+                     .error = fmt::format("{}: {}", error.field(), error.what())};
+    }
+    row.root_cost = root_costs_.of(index, loaded.instance);
+    return true;
   }
 
   void keep(const fs::path& plan, batch::Row& row) const {
-    if (!fs::exists(plan)) return;
-    row.plan_file = batch::plan_file(row.run.settings.method + "/" + row.run.instance);
+    if (plan.empty() || !fs::exists(plan)) return;
+    const std::string seed =
+        seeds_differ_ ? fmt::format("+seed{}", row.run.settings.seed) : std::string();
+    row.plan_file = batch::plan_file(row.run.settings.method + seed + "/" + row.run.instance);
     const fs::path kept = options_.folder / row.plan_file;
     batch::make_folder(kept.parent_path());
     fs::rename(plan, kept);
@@ -213,6 +262,7 @@ class Bench {
   const std::vector<batch::Run> runs_;
   const std::vector<std::size_t> todo_;  // of runs_
   RootCosts root_costs_;
+  bool seeds_differ_ = false;
 
   std::mutex mutex_;  // guards the table and all below
   std::size_t next_ = 0;

@@ -6,10 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "tools/bench/bench_instances.h"
+#include "tools/bench/foreign_solver.h"
 #include "tools/bench/progress_text.h"
 
 namespace grove::detail::bench {
@@ -19,6 +22,10 @@ struct Method {
   std::int64_t threads = 1;
   // What `grove solve INSTANCE` is called with, but for the time limit and the plan file.
   std::vector<std::string> arguments = {};
+  // A program of someone else; null: Grove's own.
+  std::shared_ptr<const ForeignSolver> solver = {};
+  // Of problems (cts, mg, ...) that it is not for: why.
+  std::map<std::string, std::string> unsuitable = {};
 };
 
 struct BenchOptions {

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string_view>
+#include <system_error>
 
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/io/plan_file.h"
@@ -44,6 +47,22 @@ std::string last_words(const std::filesystem::path& said) {
   } catch (const InputError&) {
     return "";
   }
+}
+
+std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log) {
+  std::vector<batch::TracePoint> trace;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(log, error)) return trace;
+  const std::string text = read_text(log);
+  for (const std::string_view line : split_lines(text)) {
+    const auto row = nlohmann::json::parse(line, nullptr, false);
+    if (!row.is_object() || row.value("event", "") != "incumbent") continue;
+    trace.push_back({.seconds = row.value("time_s", 0.0),
+                     .cost = row.value("incumbent", Cost{0}),
+                     .lower_bound = row.value("lower_bound", Cost{0})});
+  }
+  batch::thin_out(trace, kMostTracePoints);
+  return trace;
 }
 
 batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,

@@ -2,8 +2,10 @@
 // What to make of a run that has ended.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "grove/detail/batch/outcome.h"
 #include "grove/detail/model/instance.h"
@@ -18,6 +20,13 @@ namespace grove::detail::bench {
 // clock now and then, and a process takes some time to begin and to end.
 batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
                       const std::filesystem::path& plan_file, const std::filesystem::path& said);
+
+// So many are kept.
+inline constexpr std::size_t kMostTracePoints = 200;
+
+// The plans that a run had on the way, from its log for programs (--log-format jsonl). A log that is
+// not there, or cut off, tells what it tells.
+std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log);
 
 // The last line that grove said, after a colon and a blank; empty if it said nothing.
 std::string last_words(const std::filesystem::path& said);

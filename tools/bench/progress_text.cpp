@@ -20,8 +20,14 @@ std::string median_text(std::vector<double> values) {
 }  // namespace
 
 void MethodCount::count(const batch::Row& row) {
+  if (row.outcome.status == batch::kUnsuitable) {
+    ++unsuitable;
+    return;
+  }
   ++runs;
   errors += row.outcome.failed() ? 1 : 0;
+  wrong += row.outcome.status == batch::kWrongPlan ? 1 : 0;
+  claimed += row.outcome.status == batch::kClaimed ? 1 : 0;
   solved += row.outcome.solved ? 1 : 0;
   runtimes_s.push_back(row.runtime_s());
 }
@@ -45,7 +51,7 @@ batch::ProgressText progress_text(const BenchState& state) {
     const MethodCount& count = state.counts.at(name);
     line += fmt::format("{}{} {}/{}", separator, name, count.solved, count.runs);
     separator = ", ";
-    errors += count.errors;
+    errors += count.errors + count.wrong;
   }
   if (errors > 0) line += fmt::format("; {} error{}", errors, errors == 1 ? "" : "s");
   return {state.work.done, total, std::move(line)};
@@ -53,16 +59,38 @@ batch::ProgressText progress_text(const BenchState& state) {
 
 std::string summary_table(const BenchState& state) {
   std::size_t width = std::string("method").size();
-  for (const std::string& name : state.methods) width = std::max(width, name.size());
-  std::string text = fmt::format("{:<{}}  {:>11}  {:>8}  {:>6}\n", "method", width, "solved/run",
+  int wrong = 0, claimed = 0, unsuitable = 0;
+  for (const std::string& name : state.methods) {
+    width = std::max(width, name.size());
+    const MethodCount& count = state.counts.at(name);
+    wrong += count.wrong;
+    claimed += count.claimed;
+    unsuitable += count.unsuitable;
+  }
+  std::string text = fmt::format("{:<{}}  {:>11}  {:>8}  {:>6}", "method", width, "solved/run",
                                  "median s", "errors");
+  const auto add = [&](int all, const std::string& value) {
+    if (all > 0) text += fmt::format("  {:>10}", value);
+  };
+  const auto add_others = [&](const auto& of_wrong, const auto& of_claimed, const auto& of_others) {
+    add(wrong, fmt::format("{}", of_wrong));
+    add(claimed, fmt::format("{}", of_claimed));
+    add(unsuitable, fmt::format("{}", of_others));
+    text += "\n";
+  };
+  add_others("wrong", "claimed", "unsuitable");
   for (const std::string& name : state.methods) {
     const MethodCount& count = state.counts.at(name);
-    text += fmt::format("{:<{}}  {:>11}  {:>8}  {:>6}\n", name, width,
+    text += fmt::format("{:<{}}  {:>11}  {:>8}  {:>6}", name, width,
                         fmt::format("{}/{}", count.solved, count.runs),
                         median_text(count.runtimes_s), count.errors);
+    add_others(count.wrong, count.claimed, count.unsuitable);
   }
-  return text + "median s: of all runs; one that is not solved counts as its time limit\n";
+  text += "median s: of all runs; one that is not solved counts as its time limit\n";
+  if (wrong > 0) text += "wrong: a plan that is none; which and why is in the table, column error\n";
+  if (claimed > 0) text += "claimed: the solver says that it has a plan, and shows none\n";
+  if (unsuitable > 0) text += "unsuitable: instances that the method is not for, left out\n";
+  return text;
 }
 
 }  // namespace grove::detail::bench

@@ -17,6 +17,9 @@ struct MethodCount {
   int runs = 0;
   int solved = 0;
   int errors = 0;
+  int wrong = 0;       // plans that are none
+  int claimed = 0;     // without a plan
+  int unsuitable = 0;  // instances that the method is not for; not among the runs
   std::vector<double> runtimes_s = {};  // of those not solved the time limit
 
   void count(const batch::Row& row);

@@ -44,28 +44,31 @@ class Scratch {
 // The last words of a run; that they begin with the instance goes without saying.
 std::string reason(const fs::path& said, const std::string& instance) {
   std::string words = last_words(said);
-  const std::string named = ": " + instance;
-  if (words.starts_with(named + ": ")) words.erase(0, named.size());
+  for (const std::string& told : {std::string(), instance})
+    if (words.starts_with(told + ": ")) words.erase(0, told.size() + 2);
   return words;
 }
 
 }  // namespace
 
-void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
+void rehearse(const std::vector<BenchInstance>& instances, std::vector<Method>& methods,
               const BenchOptions& options) {
   std::map<std::string, const BenchInstance*> first;  // of each problem
   for (const BenchInstance& instance : instances) first.emplace(instance.facts.problem, &instance);
   const Scratch scratch;
-  for (const Method& method : methods) {
+  for (Method& method : methods) {
+    if (method.solver) continue;
     for (const auto& [problem, instance] : first) {
       const ChildEnd end =
           run_child(solve_command(options.program, instance->entry, method, 0, scratch / "plan"),
                     scratch / "said", {.seconds = kPatience_s, .cancelled = options.stopped});
       if (end.kind == ChildEnd::Kind::kExited && end.code == kRefused)
-        throw InputError(instance->entry.path, "",
-                         fmt::format("is not for the run '{}'{}", method.settings.method,
-                                     reason(scratch / "said", instance->entry.path)));
+        method.unsuitable[problem] = reason(scratch / "said", instance->entry.path);
     }
+    if (method.unsuitable.size() < first.size() || first.empty()) continue;
+    const auto& [problem, why] = *method.unsuitable.begin();
+    throw InputError(first[problem]->entry.path, "",
+                     fmt::format("is not for the run '{}': {}", method.settings.method, why));
   }
 }
 

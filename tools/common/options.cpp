@@ -46,6 +46,21 @@ std::vector<std::int64_t> parse_range(const std::string& option, const std::stri
   return values;
 }
 
+// "7" or "10:100:10".
+std::vector<std::int64_t> parse_steps(const std::string& option, const std::string& text) {
+  constexpr IntegerRange kCounts{1, 1'000'000};
+  const auto parts = CLI::detail::split(text, ':');
+  if (parts.size() == 1) return {parse_integer(option, text, kCounts)};
+  if (parts.size() > 3) refuse(option, text, "FIRST:LAST:STEP");
+  const std::int64_t first = parse_integer(option, parts[0], kCounts);
+  const std::int64_t last = parse_integer(option, parts[1], kCounts);
+  const std::int64_t step = parts.size() == 3 ? parse_integer(option, parts[2], kCounts) : 1;
+  if (first > last) refuse(option, text, "the smaller number first");
+  std::vector<std::int64_t> values;
+  for (std::int64_t value = first; value <= last; value += step) values.push_back(value);
+  return values;
+}
+
 }  // namespace
 
 std::int64_t parse_integer(const std::string& option, const std::string& text, IntegerRange range) {
@@ -88,6 +103,21 @@ CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std:
     return true;
   };
   return app.add_option(name, read, description)->type_name("K-K,...")->default_str(shown);
+}
+
+CLI::Option* add_counts(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
+                        const std::string& description) {
+  const auto read = [&values, name](const CLI::results_t& results) {
+    values.clear();
+    for (const std::string& part : CLI::detail::split(results.front(), ','))
+      for (const std::int64_t value : parse_steps(name, part)) {
+        if (!values.empty() && value <= values.back())
+          refuse(name, results.front(), "rising integers");
+        values.push_back(value);
+      }
+    return true;
+  };
+  return app.add_option(name, read, description)->type_name("A:B:STEP,...");
 }
 
 std::string ranges_text(const std::vector<std::int64_t>& values) {

@@ -4,7 +4,8 @@
 //     DIR/results.jsonl   one line of JSON per run, appended when it has ended
 //     DIR/results.csv     the same for spreadsheets, made from it
 //
-// Every pair of an instance and a method has at most one row. Whatever kills the program leaves
+// Every pair of an instance and a method has at most one row, in a comparison of methods one for
+// each seed. Whatever kills the program leaves
 // whole rows and at most one torn line at the end, which the next run drops. The same command again
 // goes on where it stopped: a pair is run again only when
 //   - it has no row,
@@ -28,6 +29,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -75,9 +77,12 @@ class ResultTable {
   const Row* find(const Run& run) const;
 
  private:
-  using Pair = std::pair<std::string, std::string>;  // instance, method
+  using Pair = std::tuple<std::string, std::string, std::int64_t>;  // instance, method, seed
 
-  static Pair pair_of(const Run& run) { return {run.instance, run.settings.method}; }
+  Pair pair_of(const Run& run) const {
+    return {run.instance, run.settings.method,
+            what_ == TableOf::kMethods ? run.settings.seed : 0};
+  }
   void read();
   void require_same(const Row& row, const Run& run) const;
   bool stands(const Run& run) const;

@@ -9,12 +9,16 @@
 //     omega, seed, time_limit_s      of the run
 //     solved                         it ended by itself with a plan that was re-checked: no limit
 //                                    struck
-//     status                         as in the plan file; "error": it crashed, or its plan is wrong
-//     cost, lower_bound, gap         gap = (cost - lower bound) / lower bound
+//     status                         as in the plan file; or "error": it crashed, or Grove's plan is
+//                                    wrong; "unsuitable": the method is not for the instance; of
+//                                    other solvers "wrong": the plan is, "claimed": a cost without
+//                                    a plan
+//     cost, lower_bound, gap         of the plan that was re-checked; what Grove has proven; gap = (cost - lower bound) / lower bound
 //     root_cost, sqr                 the sum of the agents' best sequences, conflicts ignored; its
 //                                    ratio to the cost, of what is solved
-//     runtime_s, wall_s              wall time, or the time limit when not solved; wall time
-//     first_plan_s                   when the first plan was found
+//     runtime_s, wall_s              wall time, or the time limit when not solved, or when the first
+//                                    plan was found by what is anytime; wall time
+//     first_plan_s                   when the first plan was found, as the run says
 //     roots, rtsp_calls, nodes, low_level_calls, peak_memory_mb     as the plan file has them
 //     version, machine, ended_at     of grove; processor and cores; UTC
 //     error                          why the status is error, or the limit that struck
@@ -23,10 +27,16 @@
 //     plan_file                      relative to the table's folder; absent: it was not kept
 //     instance_digest                tells when an instance has changed
 //     counts                         what else the search counted: "bypasses=2 joint_pairs=77", by
-//     the
-//                                    names of the plan file, without zeros; absent in older tables
+//                                    the names of the plan file, without zeros
+//     solver                         what other solver it is: its adapter; absent: Grove itself
+//     claimed_cost, claimed_lower_bound, claimed_s     what that says of its plan, and of its time
+//     anytime                        it goes on until its time limit, which is no failure
+//     trace                          the plans on the way, as the run says: "0.25:120:100 1.5:118:-",
+//                                    seconds, cost, lower bound
+// From counts on they are absent in older tables.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -69,9 +79,14 @@ struct Row {
   std::int64_t ranks = 1;
   std::int64_t threads = 1;
   std::string plan_file = {};
+  std::string solver = {};  // empty: Grove itself
 
   // The paper counts a run that solved nothing with its limit.
-  double runtime_s() const { return outcome.solved ? wall_s : run.settings.time_limit_s; }
+  double runtime_s() const {
+    const double limit = run.settings.time_limit_s;
+    if (!outcome.solved) return limit;
+    return outcome.anytime ? std::min(outcome.first_plan_s.value_or(wall_s), limit) : wall_s;
+  }
 
   friend bool operator==(const Row&, const Row&) = default;
 };

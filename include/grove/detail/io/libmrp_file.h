@@ -36,6 +36,10 @@ Instance read_libmrp_instance(const std::filesystem::path& path,
 // tasks and for agents without a destination, InputError when the file cannot be written.
 void write_libmrp_instance(const std::filesystem::path& path, const Instance& instance);
 
+// The same for solvers that assign goals (CBS-TA, ITA-CBS): each agent has a list of potential
+// goals, of one.
+void write_potential_goals(const std::filesystem::path& path, const Instance& instance);
+
 // Writes MG-MAPF for MGCBS, whole or not at all. Throws NotExpressible for agents with a
 // destination and ids of tasks that are not the default ones, InputError when the file cannot be
 // written.

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "grove/detail/io/solver_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <regex>
+
+#include "grove/detail/io/input_error.h"
+#include "json_value.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::array<std::string_view, 11> kPlaceholders{
+    "program",    "map",           "scenario", "agents", "instance",
+    "time_limit", "time_limit_ms", "time_limit_whole", "seed", "output", "folder"};
+
+struct NamedInput {
+  std::string_view name;
+  SolverInput input;
+};
+constexpr std::array<NamedInput, 5> kInputs{{{"movingai", SolverInput::kMovingAi},
+                                             {"grove", SolverInput::kGrove},
+                                             {"libmrp", SolverInput::kLibmrp},
+                                             {"potential-goals", SolverInput::kPotentialGoals},
+                                             {"mgcbs", SolverInput::kMgcbs}}};
+
+struct NamedGroup {
+  std::string_view name;
+  TraceGroup group;
+};
+constexpr std::array<NamedGroup, 5> kGroups{{{"seconds", TraceGroup::kSeconds},
+                                             {"milliseconds", TraceGroup::kMilliseconds},
+                                             {"seconds_left", TraceGroup::kSecondsLeft},
+                                             {"cost", TraceGroup::kCost},
+                                             {"lower_bound", TraceGroup::kLowerBound}}};
+
+template <typename Names>
+std::string listed_names(const Names& names) {
+  std::string text;
+  for (const auto& each : names) text += fmt::format("{}{}", text.empty() ? "" : ", ", each.name);
+  return text;
+}
+
+template <typename Names>
+auto one_of_names(const JsonValue& value, const Names& names) {
+  const std::string text = value.text();
+  const auto it = std::ranges::find(names, text, [](const auto& each) { return each.name; });
+  if (it == names.end()) value.fail_expected("one of " + listed_names(names));
+  return *it;
+}
+
+void refuse_unknown_keys(const JsonValue& object, std::initializer_list<std::string_view> known) {
+  for (const auto& [key, value] : object.json().items())
+    if (std::ranges::find(known, key) == known.end())
+      object.fail(fmt::format("unknown key; expected one of {}", fmt::join(known, ", ")), key);
+}
+
+std::string template_of(const JsonValue& value) {
+  std::string text = value.text();
+  const std::string mistake = template_mistake(text);
+  if (!mistake.empty()) value.fail(mistake);
+  return text;
+}
+
+// Named, and with as many groups as are asked for.
+void require_regex(const JsonValue& value, const std::string& text, std::size_t groups) {
+  std::size_t found = 0;
+  try {
+    found = std::regex(text).mark_count();
+  } catch (const std::regex_error& error) {
+    value.fail(fmt::format("found '{}', which is no regular expression (ECMAScript): {}",
+                           one_line(text), error.what()));
+  }
+  if (found < groups)
+    value.fail(fmt::format("found {} groups in round brackets; expected {}", found, groups));
+}
+
+// "REGEX", or {"file": ..., "regex": ...}, which may have more keys.
+LinePattern pattern_of(const JsonValue& value, std::size_t groups) {
+  LinePattern pattern;
+  JsonValue regex = value;
+  if (value.json().is_object()) {
+    if (const auto file = value.find("file")) pattern.file = template_of(*file);
+    regex = value.member("regex");
+  }
+  pattern.regex = regex.text();
+  require_regex(regex, pattern.regex, groups);
+  return pattern;
+}
+
+double scale_of(const JsonValue& unit) {
+  const std::string text = unit.text();
+  if (text != "s" && text != "ms") unit.fail_expected("s or ms");
+  return text == "ms" ? 1e-3 : 1;
+}
+
+std::optional<LinePattern> claim_of(const JsonValue& claims, const char* key, std::size_t groups) {
+  const auto value = claims.find(key);
+  if (!value) return std::nullopt;
+  if (!value->json().is_object()) return pattern_of(*value, groups);
+  refuse_unknown_keys(*value, {"file", "regex", "unit"});
+  LinePattern pattern = pattern_of(*value, groups);
+  if (const auto unit = value->find("unit")) pattern.scale = scale_of(*unit);
+  return pattern;
+}
+
+TracePattern trace_of(const JsonValue& value) {
+  refuse_unknown_keys(value, {"file", "regex", "groups"});
+  const JsonValue groups = value.member("groups");
+  TracePattern trace;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    trace.groups.push_back(one_of_names(groups.element(i), kGroups).group);
+  const auto times = std::ranges::count_if(trace.groups, [](TraceGroup group) {
+    return group != TraceGroup::kCost && group != TraceGroup::kLowerBound;
+  });
+  if (times != 1 || std::ranges::count(trace.groups, TraceGroup::kCost) != 1)
+    groups.fail("expected the cost once and one time: seconds, milliseconds or seconds_left");
+  trace.line = pattern_of(value, trace.groups.size());
+  return trace;
+}
+
+bool is_plain_name(std::string_view name) {
+  const auto is_plain = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           std::string_view("-_.+=").find(c) != std::string_view::npos;
+  };
+  return !name.empty() && std::ranges::all_of(name, is_plain);
+}
+
+SolverAdapter solver_of(const JsonValue& root) {
+  refuse_unknown_keys(root, {"name", "about", "command", "instance", "plan", "anytime", "threads",
+                             "claims", "trace"});
+  SolverAdapter solver;
+  const JsonValue name = root.member("name");
+  solver.name = name.text();
+  if (!is_plain_name(solver.name))
+    name.fail_expected("a name of letters, digits and -_.+= without blanks");
+  if (const auto about = root.find("about")) solver.about = about->text();
+  const JsonValue command = root.member("command");
+  solver.command = template_of(command);
+  if (!command_words(solver.command)) command.fail("a quote is not closed");
+  if (const auto input = root.find("instance"))
+    solver.input = one_of_names(*input, kInputs).input;
+  if (const auto plan = root.find("plan"))
+    solver.plan = plan->json().is_null() ? "" : template_of(*plan);
+  if (const auto anytime = root.find("anytime")) solver.anytime = anytime->boolean();
+  if (const auto threads = root.find("threads")) solver.threads = threads->integer(1, 1024);
+  if (const auto claims = root.find("claims")) {
+    refuse_unknown_keys(*claims, {"solved", "cost", "lower_bound", "seconds", "first_plan"});
+    solver.solved = claim_of(*claims, "solved", 0);
+    solver.cost = claim_of(*claims, "cost", 1);
+    solver.lower_bound = claim_of(*claims, "lower_bound", 1);
+    solver.seconds = claim_of(*claims, "seconds", 1);
+    solver.first_plan = claim_of(*claims, "first_plan", 1);
+  }
+  if (const auto trace = root.find("trace"))
+    for (std::size_t i = 0; i < trace->size(); ++i)
+      solver.trace.push_back(trace_of(trace->element(i)));
+  if (solver.plan.empty() && !solver.cost && !solver.solved)
+    root.fail("there is neither a plan nor a claim to read; expected one of plan, claims");
+  return solver;
+}
+
+}  // namespace
+
+SolverAdapter read_solver(const std::filesystem::path& path) {
+  const JsonDocument document(path);
+  return solver_of(document.root());
+}
+
+SolverAdapter parse_solver(std::string_view text, const std::string& name) {
+  const JsonDocument document(text, name);
+  return solver_of(document.root());
+}
+
+std::optional<std::vector<std::string>> command_words(std::string_view text) {
+  std::vector<std::string> words;
+  bool within_word = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == ' ' || c == '\t' || c == '\n') {
+      within_word = false;
+      continue;
+    }
+    if (!within_word) words.emplace_back();
+    within_word = true;
+    if (c != '\'' && c != '"') {
+      words.back() += c;
+      continue;
+    }
+    const std::size_t end = text.find(c, i + 1);
+    if (end == std::string_view::npos) return std::nullopt;
+    words.back() += text.substr(i + 1, end - i - 1);
+    i = end;
+  }
+  return words;
+}
+
+std::vector<std::string> placeholders(std::string_view text) {
+  std::vector<std::string> names;
+  filled(text, [&](std::string_view name) {
+    names.emplace_back(name);
+    return std::string();
+  });
+  return names;
+}
+
+std::string template_mistake(std::string_view text) {
+  while (true) {
+    const std::size_t brace = text.find_first_of("{}");
+    if (brace == std::string_view::npos) return "";
+    const std::size_t close = text.find('}', brace);
+    if (text[brace] == '}' || close == std::string_view::npos)
+      return "a brace without its other one; expected names in braces, such as {map}";
+    const std::string_view name = text.substr(brace + 1, close - brace - 1);
+    if (std::ranges::find(kPlaceholders, name) == kPlaceholders.end())
+      return fmt::format("found {{{}}}; expected one of {{{}}}", one_line(name),
+                         fmt::join(kPlaceholders, "}, {"));
+    text.remove_prefix(close + 1);
+  }
+}
+
+}  // namespace grove::detail

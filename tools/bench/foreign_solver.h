@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// A program of someone else on the bench: what it is called with, and what is made of what it
+// leaves behind. Nothing that it says is believed: plans are re-checked and their costs counted
+// anew; the rest is kept as claims.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grove/detail/batch/entry.h"
+#include "grove/detail/batch/row.h"
+#include "grove/detail/io/solver_file.h"
+#include "tools/bench/child_process.h"
+
+namespace grove::detail::bench {
+
+struct ForeignSolver {
+  SolverAdapter adapter;
+  std::string program = {};             // {program}
+  std::vector<std::string> more = {};   // words after the adapter's
+};
+
+// One run of it.
+class ForeignRun {
+ public:
+  // Writes what the solver reads into `folder`, which is its own and made anew. Throws
+  // NotExpressible where it cannot be given this instance, InputError where files cannot be
+  // written. `loaded` is the instance of `entry`; all must outlive this.
+  ForeignRun(const ForeignSolver& solver, const batch::Entry& entry, const LoadedInstance& loaded,
+             const batch::Settings& settings, std::filesystem::path folder);
+
+  std::vector<std::string> command() const;
+  // The outcome of a run that has ended and was not cancelled; it said what is in the file `said`.
+  batch::Outcome judged(const ChildEnd& end, const std::filesystem::path& said) const;
+  // The plan that it wrote, perhaps.
+  std::filesystem::path plan() const;
+
+ private:
+  std::string value_of(std::string_view placeholder) const;
+  std::string told(const std::string& text) const;
+  void write_input(const batch::Entry& entry);
+  void write_moving_ai();
+  void read_claims(batch::Outcome& outcome, const std::filesystem::path& said) const;
+  void read_trace(batch::Outcome& outcome, const std::filesystem::path& said) const;
+  void read_plan(batch::Outcome& outcome) const;
+  std::optional<std::string> last_match(const LinePattern& pattern,
+                                        const std::filesystem::path& said) const;
+  std::optional<double> number_of(const std::optional<LinePattern>& pattern,
+                                  const std::filesystem::path& said) const;
+
+  const ForeignSolver& solver_;
+  const LoadedInstance& loaded_;
+  const batch::Settings& settings_;
+  const std::filesystem::path folder_;
+  std::filesystem::path map_;
+  std::filesystem::path scenario_;
+  std::filesystem::path instance_;
+};
+
+// Reads "NAME=COMMAND" of the command line, `claims` being "NAME=REGEX" of others:
+//   eecbs=/opt/eecbs --suboptimality 1.1       the adapter of that name, its program, more words
+//   fast=eecbs:/opt/eecbs --suboptimality 2    an adapter under another name
+//   mine=my.json:/opt/mine                     one of one's own
+//   mine=/opt/mine {instance} {output}         a command with places for what it is given
+// Throws CLI::ValidationError.
+struct NamedSolver {
+  std::string name;
+  std::string options;  // for the table: without where programs lie
+  ForeignSolver solver;
+};
+NamedSolver read_solver_argument(const std::string& text, const std::vector<std::string>& claims);
+
+// The names of the adapters that Grove brings.
+std::vector<std::string> known_adapters();
+
+}  // namespace grove::detail::bench
