@@ -7,6 +7,15 @@
 #include "rtsp_backends.h"
 
 namespace grove::detail {
+std::vector<RtspBackend> rtsp_backends() {
+  std::vector<RtspBackend> backends{RtspBackend::kAuto, RtspBackend::kHeldKarp,
+                                    RtspBackend::kBoundedDp};
+#ifdef GROVE_WITH_CBC
+  backends.push_back(RtspBackend::kCbc);
+#endif
+  return backends;
+}
+
 std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatrix& matrix,
                                              const Limits& limits) {
   switch (backend) {
@@ -18,7 +27,11 @@ std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatr
     case RtspBackend::kBoundedDp:
       return make_bounded_dp(matrix, limits);
     case RtspBackend::kCbc:
+#ifdef GROVE_WITH_CBC
       return make_cbc_rtsp(matrix, limits);
+#else
+      throw std::invalid_argument("this Grove was built without CBC (GROVE_WITH_CBC)");
+#endif
   }
   throw std::invalid_argument("unknown rTSP back end");
 }

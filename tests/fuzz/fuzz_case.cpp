@@ -206,6 +206,7 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.options.rtsp = random.pick<RtspBackend>(
       {RtspBackend::kAuto, RtspBackend::kAuto, RtspBackend::kHeldKarp, RtspBackend::kHeldKarp,
        RtspBackend::kBoundedDp, RtspBackend::kBoundedDp, RtspBackend::kCbc});
+  if (!is_built(fuzz_case.options.rtsp)) fuzz_case.options.rtsp = RtspBackend::kAuto;
   fuzz_case.options.seed = static_cast<std::uint64_t>(random.below(1000));
   fuzz_case.options.techniques = random_techniques(random);
   fuzz_case.strike = random_strike(random);

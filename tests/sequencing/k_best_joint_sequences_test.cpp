@@ -84,6 +84,7 @@ TEST(KBestJointSequences, ListsWhatTheProductOfTheListsHolds) {
 }
 
 TEST(KBestJointSequences, AgreesThroughCbc) {
+  if (!is_built(RtspBackend::kCbc)) GTEST_SKIP() << "built without CBC";
   Random random(22);
   Agents agents;
   for (int n : {2, 4, 0, 3}) agents.matrices.push_back(grid_matrix(n, Variant::kCts, random));

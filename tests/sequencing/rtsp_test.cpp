@@ -136,9 +136,7 @@ TEST_P(RtspBackendTest, TakesLongWays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, RtspBackendTest,
-                         ::testing::Values(RtspBackend::kAuto, RtspBackend::kHeldKarp,
-                                           RtspBackend::kBoundedDp, RtspBackend::kCbc),
-                         name_of);
+                         ::testing::ValuesIn(rtsp_backends()), name_of);
 
 // Bounds from relaxation alone, where the optimum is known.
 TEST(RelaxationBound, IsNeverAboveTheOptimum) {

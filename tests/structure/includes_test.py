@@ -13,7 +13,7 @@ from pathlib import Path
 
 from structure_test import CPP, ROOT, named_types, without_comments_and_strings
 
-FOLDERS = ["include", "src", "mpi", "tools", "tests", "benchmarks"]
+FOLDERS = ["include", "src", "mpi", "tools", "python", "tests", "benchmarks"]
 # What is named as std::<name>, by header. (Not what every other header brings, as std::move.)
 STANDARD = {
     "algorithm": "any_of all_of binary_search clamp copy count count_if equal_range fill find find_if "

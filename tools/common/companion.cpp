@@ -21,6 +21,12 @@ fs::path own_folder() {
   return fs::read_symlink("/proc/self/exe").parent_path();
 }
 
+// In a build folder all lie beside each other; where Grove is installed, apart.
+fs::path place_of(const std::string& companion) {
+  const fs::path installed = own_folder().parent_path() / "libexec/grove" / companion;
+  return fs::exists(installed) ? installed : own_folder() / companion;
+}
+
 // Only if it fails does it return.
 void replace_process(const std::string& program, std::vector<std::string> arguments) {
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
@@ -45,10 +51,11 @@ void become_standard_input(std::string_view text) {
 }
 
 void become(const std::string& companion, const std::vector<std::string>& arguments) {
-  const std::string program = (own_folder() / companion).string();
+  const std::string program = place_of(companion).string();
   if (!fs::exists(program))
     throw InputError(program, "",
-                     "there is no such file; expected it beside grove (build the target grove)");
+                     "there is no such file; expected it beside grove (build the target grove), or "
+                     "in ../libexec/grove where grove is installed");
   replace_process(program, arguments);
   const int error = errno;
   // It is there, so what is not is its interpreter.

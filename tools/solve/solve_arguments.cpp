@@ -31,6 +31,10 @@ std::string check_omega(const std::string& text) {
   }
 }
 
+std::string check_backend(const std::string& text) {
+  return is_built(kBackends.at(text)) ? "" : "this Grove was built without CBC; expected auto or dp";
+}
+
 std::string check_method(const std::string& text) {
   if (parse_method(text)) return {};
   std::string names;
@@ -144,6 +148,7 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
                  "CBC (cbc: slow, a cross-check), or Grove's choice (auto: dp)")
       ->type_name("auto|dp|cbc")
       ->check(one_of(keys_of(kBackends)))
+      ->check(CLI::Validator(check_backend, ""))
       ->capture_default_str();
   add_integer(
       app, "--seed", a.seed, kSeeds,

@@ -378,7 +378,8 @@ class Usage(Folder):
     def test_without_its_other_half(self):
         program = self.copy()
         self.assertEqual(self.complaint(run=run, program=program), "bin/grove-report: there is no such file; "
-                         "expected it beside grove (build the target grove)")
+                         "expected it beside grove (build the target grove), or in "
+                         "../libexec/grove where grove is installed")
 
     def test_without_python(self):
         program = self.copy()

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "grove/detail/model/grid.h"
 #include "grove/detail/model/limits.h"
@@ -60,6 +61,13 @@ enum class RtspBackend : std::uint8_t {
   kCbc,        // integer program with subtour cuts
 };
 
+// Those that this Grove is built with: all, or all but CBC.
+std::vector<RtspBackend> rtsp_backends();
+inline bool is_built(RtspBackend backend) {
+  return backend != RtspBackend::kCbc || rtsp_backends().back() == backend;
+}
+
+// Throws std::invalid_argument if the back end is not built.
 // `matrix` and `limits` must outlive the solver. Tables that the limits' memory does not allow are
 // not built: the answers are then kStopped, and so is the run (Limits::memory_exhausted).
 std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatrix& matrix,

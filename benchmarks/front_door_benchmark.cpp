@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// What the front door costs: a small solve through it and without it, microseconds. overhead.py
+// sets Python and the program beside it.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+
+#include "grove/detail/engine/method.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/grove.hpp"
+
+namespace {
+
+const std::filesystem::path kInstance =
+    std::filesystem::path(GROVE_SOURCE_DIR) / "benchmarks/data/random-32x32-20_n5_m10.cts.json";
+
+void BM_FrontDoor(benchmark::State& state) {
+  const grove::Instance instance = grove::read_instance(kInstance);
+  for (auto _ : state) benchmark::DoNotOptimize(grove::solve(instance));
+}
+BENCHMARK(BM_FrontDoor)->Unit(benchmark::kMicrosecond);
+
+void BM_Inside(benchmark::State& state) {
+  const grove::detail::LoadedInstance loaded = grove::detail::read_instance(kInstance);
+  grove::detail::SolveOptions options;
+  options.omega = grove::detail::Omega::from_double(0);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(grove::detail::solve(loaded.instance, options, {}, nullptr));
+}
+BENCHMARK(BM_Inside)->Unit(benchmark::kMicrosecond);
+
+void BM_Reading(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(grove::read_instance(kInstance));
+}
+BENCHMARK(BM_Reading)->Unit(benchmark::kMicrosecond);
+
+}  // namespace

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What a small solve costs from C++, from Python and as a program, in microseconds.
+
+    overhead.py [BUILD]        (build/release)
+
+Solves benchmarks/data/random-32x32-20_n5_m10.cts.json, 5 robots and 10 tasks, to the optimum: the
+median of 200 solves, of 30 runs of the program. Needs front_door_benchmark and the Python module.
+"""
+import json
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parent.parent
+BUILD = Path(sys.argv[1] if len(sys.argv) > 1 else SOURCE / "build/release").resolve()
+INSTANCE = SOURCE / "benchmarks/data/random-32x32-20_n5_m10.cts.json"
+
+
+def microseconds(act, times):
+    taken = []
+    for _ in range(times):
+        begin = time.perf_counter()
+        act()
+        taken.append(time.perf_counter() - begin)
+    return 1e6 * statistics.median(taken)
+
+
+def of_benchmarks():
+    done = subprocess.run([BUILD / "bin/front_door_benchmark", "--benchmark_format=json",
+                           "--benchmark_repetitions=5"], capture_output=True, text=True, check=True)
+    return {row["run_name"]: row["real_time"] for row in json.loads(done.stdout)["benchmarks"]
+            if row.get("aggregate_name") == "median"}
+
+
+def main():
+    sys.path.insert(0, str(BUILD / "python"))
+    import grove
+    compiled = of_benchmarks()
+    instance = grove.read_instance(INSTANCE)
+    solution = grove.solve(instance)
+    program = [BUILD / "bin/grove", "solve", INSTANCE, "--omega", "0", "--threads", "1", "--quiet",
+               "--output", "/dev/null"]
+    rows = [
+        ("the search alone, C++", compiled["BM_Inside"]),
+        ("grove::solve()", compiled["BM_FrontDoor"]),
+        ("grove.solve() of Python", microseconds(lambda: grove.solve(instance), 200)),
+        ("with plan.positions()", microseconds(lambda: grove.solve(instance).plan.positions(), 200)),
+        ("grove solve, the program", microseconds(lambda: subprocess.run(program, check=True), 30)),
+        ("reading the instance, C++", compiled["BM_Reading"]),
+    ]
+    print(f"{instance}, cost {solution.plan.cost}")
+    for name, value in rows:
+        print(f"{name:28}{value:10.0f} us")
+
+
+if __name__ == "__main__":
+    main()

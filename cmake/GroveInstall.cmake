@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+# What `cmake --install` installs. Components: libraries, development, programs.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS grove_library EXPORT groveTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT development)
+if(GROVE_WITH_MPI)
+  install(TARGETS grove_mpi_library EXPORT groveMpiTargets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT development)
+else()
+  set(grove_no_mpi PATTERN mpi.hpp EXCLUDE)
+endif()
+install(TARGETS grove_static EXPORT groveTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/grove/ ${PROJECT_BINARY_DIR}/include/grove/
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/grove COMPONENT development
+  FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE ${grove_no_mpi})
+
+# How other projects find them: find_package(grove), or pkg-config.
+set(grove_package ${CMAKE_INSTALL_LIBDIR}/cmake/grove)
+install(EXPORT groveTargets NAMESPACE grove:: DESTINATION ${grove_package} COMPONENT development)
+if(GROVE_WITH_MPI)
+  install(EXPORT groveMpiTargets NAMESPACE grove:: DESTINATION ${grove_package} COMPONENT development)
+endif()
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/groveConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/groveConfig.cmake INSTALL_DESTINATION ${grove_package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/groveConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/groveConfig.cmake ${PROJECT_BINARY_DIR}/groveConfigVersion.cmake
+  DESTINATION ${grove_package} COMPONENT development)
+
+list(TRANSFORM grove_needs PREPEND "-l" OUTPUT_VARIABLE grove_private)
+string(JOIN " " grove_private ${grove_private})
+file(RELATIVE_PATH grove_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(${CMAKE_CURRENT_LIST_DIR}/grove.pc.in ${PROJECT_BINARY_DIR}/grove.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/grove.pc
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGES.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libraries)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/front_door
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development
+  FILES_MATCHING PATTERN "*.cpp")
+
+if(GROVE_WITH_PYTHON)
+  # Where Python looks is known when PREFIX is: a virtual environment has site-packages, Debian's
+  # Python dist-packages.
+  set(grove_python python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
+  if(Python_SITELIB MATCHES dist-packages)
+    set(grove_outside dist-packages)
+  else()
+    set(grove_outside site-packages)
+  endif()
+  install(CODE "
+    if(EXISTS \"\${CMAKE_INSTALL_PREFIX}/pyvenv.cfg\")
+      set(grove_packages lib/${grove_python}/site-packages)
+    elseif(\"\${CMAKE_INSTALL_PREFIX}\" STREQUAL /usr AND ${grove_outside} STREQUAL dist-packages)
+      set(grove_packages lib/python3/dist-packages)
+    else()
+      set(grove_packages lib/${grove_python}/${grove_outside})
+    endif()" COMPONENT python)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/python/grove DESTINATION "\${grove_packages}" COMPONENT python
+    PATTERN __pycache__ EXCLUDE)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/python
+    DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT python)
+endif()
+
+if(NOT GROVE_BUILD_TOOLS)
+  return()
+endif()
+
+install(TARGETS grove grove-sim RUNTIME COMPONENT programs)
+if(GROVE_WITH_MPI)
+  install(TARGETS grove-mpi RUNTIME COMPONENT programs)
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bench/solvers
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)
+# What `grove report` and others become lies apart: nobody calls it by itself. There is a grove beside
+# it for what calls that.
+set(grove_companions ${CMAKE_INSTALL_LIBEXECDIR}/grove)
+install(TARGETS grove-follow RUNTIME DESTINATION ${grove_companions} COMPONENT programs)
+foreach(program report toio vda5050)
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/${program}/grove-${program}
+    DESTINATION ${grove_companions} COMPONENT programs)
+endforeach()
+foreach(package driving report toio vda5050)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/${package}/grove_${package}
+    DESTINATION ${grove_companions} COMPONENT programs PATTERN __pycache__ EXCLUDE)
+endforeach()
+file(RELATIVE_PATH grove_from_companions
+  ${CMAKE_INSTALL_FULL_LIBEXECDIR}/grove ${CMAKE_INSTALL_FULL_BINDIR}/grove)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/companion)
+file(CREATE_LINK ${grove_from_companions} ${PROJECT_BINARY_DIR}/companion/grove SYMBOLIC)
+install(FILES ${PROJECT_BINARY_DIR}/companion/grove DESTINATION ${grove_companions} COMPONENT programs)

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+# The library as others see it: all layers below the front door in one file, shared or static.
+set(grove_library_layers model execution io sequencing planning conflicts search primal baselines engine api)
+list(TRANSFORM grove_library_layers PREPEND grove_)
+
+# What both have in common. Before 1.0 minor versions may break the interface: they are in the SONAME.
+function(grove_library target name)
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} LINKER_LANGUAGE CXX
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  target_include_directories(${target} INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+    $<INSTALL_INTERFACE:include>)
+endfunction()
+
+add_library(grove_library SHARED $<TARGET_OBJECTS:grove_api>)
+add_library(grove::grove ALIAS grove_library)
+grove_library(grove_library grove)
+target_link_libraries(grove_library PRIVATE grove_api)
+# Nothing of the layers, nor of the libraries that they use, is seen from outside.
+target_link_options(grove_library PRIVATE -Wl,--exclude-libs,ALL)
+set_target_properties(grove_library PROPERTIES EXPORT_NAME grove)
+
+# All of it again, and grove::mpi::solve(): one of the two is enough for a program.
+if(GROVE_WITH_MPI)
+  add_library(grove_mpi_library SHARED $<TARGET_OBJECTS:grove_api> ${PROJECT_SOURCE_DIR}/mpi/front_door.cpp)
+  add_library(grove::mpi ALIAS grove_mpi_library)
+  grove_library(grove_mpi_library grove-mpi)
+  target_include_directories(grove_mpi_library PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(grove_mpi_library PUBLIC MPI::MPI_CXX PRIVATE grove_options grove_api grove_mpi)
+  target_link_options(grove_mpi_library PRIVATE -Wl,--exclude-libs,ALL)
+  set_target_properties(grove_mpi_library PROPERTIES EXPORT_NAME mpi)
+endif()
+
+set(objects ${grove_library_layers})
+list(TRANSFORM objects REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>")
+add_library(grove_static STATIC ${objects})
+add_library(grove::grove_static ALIAS grove_static)
+grove_library(grove_static grove)
+# Who links it links what it needs: by name, since they are where the linker looks.
+set(grove_needs fmt tbb z yaml-cpp pugixml pthread)
+if(GROVE_WITH_CBC)
+  list(APPEND grove_needs Cbc Cgl OsiClp ClpSolver Clp Osi CoinUtils)
+endif()
+target_link_libraries(grove_static INTERFACE ${grove_needs})

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <exception>
+#include <string>
+
+#include "src/api/access.h"
+#include "src/api/run.h"
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/model/fingerprint.h"
+#include "grove/detail/search/problem.h"
+#include "grove/mpi.hpp"
+#include "mpi/mpi_transport.h"
+#include "mpi/solve_distributed.h"
+
+namespace grove::mpi {
+namespace {
+
+void require_mpi() {
+  int initialized = 0;
+  int finalized = 0;
+  int provided = MPI_THREAD_SINGLE;
+  MPI_Initialized(&initialized);
+  MPI_Finalized(&finalized);
+  if (initialized == 1 && finalized == 0) MPI_Query_thread(&provided);
+  if (provided < MPI_THREAD_FUNNELED)
+    throw Error("MPI is not there for threads; expected MPI_Init_thread with MPI_THREAD_FUNNELED");
+}
+
+// All ranks.
+std::int64_t least(std::int64_t mine, MPI_Comm communicator) {
+  std::int64_t all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_MIN, communicator);
+  return all;
+}
+
+// All ranks: what `act` throws on one of them, something is thrown on all.
+template <class Act>
+void together(MPI_Comm communicator, Act&& act) {
+  std::exception_ptr failure;
+  try {
+    act();
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  const bool all_well = least(failure ? 0 : 1, communicator) == 1;
+  if (failure) std::rethrow_exception(failure);
+  if (!all_well) throw InvalidArgument("", "another rank was given what it refuses");
+}
+
+void require_same(const detail::Instance& instance, MPI_Comm communicator) {
+  const auto mine = static_cast<std::int64_t>(detail::fingerprint(instance));
+  const std::int64_t smallest = least(mine, communicator);
+  const std::int64_t greatest = ~least(~mine, communicator);
+  if (smallest != greatest)
+    throw InvalidArgument("/instance", "ranks are given different instances; expected one");
+}
+
+detail::SolveOptions shared_options(const detail::Instance& instance, const Options& options) {
+  detail::SolveOptions search = search_options_of(instance, options);
+  if (search.deterministic)
+    throw InvalidArgument("/deterministic", "is for one process; expected false");
+  const auto method = detail::parse_method(options.method);
+  if (method && detail::is_adaptation(*method))
+    throw InvalidArgument("/method", fmt::format("'{}' is for one process", options.method));
+  return search;
+}
+
+}  // namespace
+
+std::optional<Solution> solve(const Instance& instance, const Options& options,
+                              MPI_Comm communicator) {
+  require_mpi();
+  const detail::Instance& inner = Access::instance(instance);
+  detail::SolveOptions search;
+  together(communicator, [&] { search = shared_options(inner, options); });
+  require_same(inner, communicator);
+  int rank = 0;
+  MPI_Comm_rank(communicator, &rank);
+
+  Run run(inner, options);
+  std::optional<detail::Solution> answer;
+  detail::Solution told =
+      run([&](const detail::Limits& limits, detail::RunObserver& observer) -> detail::Solution {
+        return translated([&] {
+          detail::RunObserver silent;
+          detail::RunObserver& listener = rank == 0 ? observer : silent;
+          const detail::Problem problem(inner, limits);
+          answer = answer_without_search(problem, search, limits, listener);
+          const bool all_search = least(answer ? 0 : 1, communicator) == 1;
+          if (all_search) {
+            detail::MpiTransport network(communicator);
+            answer = solve_distributed(problem, search, limits, network, listener, [] {});
+          } else if (rank == 0 && !answer) {  // a limit has struck elsewhere
+            answer = detail::solve(problem, search, limits, &listener);
+          }
+          return answer.value_or(detail::Solution());
+        });
+      });
+  if (rank != 0) return std::nullopt;
+  return told_solution(inner, told);
+}
+
+}  // namespace grove::mpi
