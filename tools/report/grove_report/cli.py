@@ -89,7 +89,7 @@ def _parse(arguments):
     add("--method", type=_names, default=(), metavar="NAMES", help="only rows of these methods (default: all); "
         "which instances are common depends on it")
     add("--baseline", type=_names, metavar="NAMES", help="methods that the others are measured by (default: "
-        f"{DEFAULT_BASELINES}, and all other solvers)")
+        f"{DEFAULT_BASELINES}, and all solvers of others that are not anytime)")
     add("--problem", type=_names, default=(), metavar="NAMES",
         help=f"only these of {', '.join(PROBLEMS)} (default: all there are)")
     add("--study", type=_names, metavar="NAMES",
@@ -147,7 +147,7 @@ def _write_report(a, results, logs, known):
         raise BadInput(f"{sys.executable} has no {error.name}, which draws the figures; "
                        "expected the Debian package python3-matplotlib") from None
     from .page import page
-    baselines = a.baseline or {*DEFAULT_BASELINES.split(","), *(row.method for row in results.rows if row.solver)}
+    baselines = a.baseline or {*DEFAULT_BASELINES.split(","), *(row.method for row in results.rows if row.solver and not row.anytime)}
     folder = Path(a.output)
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -12,8 +12,9 @@ from .figures import (COLUMN, FAINT, SETTINGS, SHORTEST_S, SMALLEST, add_caption
 from .scales import dodged, rounded_down
 from .style import COLOURS, DASHES, MARKERS, depth, plot_arguments
 
-TITLE = 0.36  # inches, of two lines
+TITLE = 0.4  # inches, of two lines
 LEFT, RIGHT = 0.46, 0.06
+DIGITS = 0.13  # more on the left, where numbers have four
 MOST_STEPS = 300  # of a curve that are drawn
 
 ANYTIME_CAPTION = (
@@ -57,7 +58,7 @@ def success(groups, lines, looks):
                 points = [(agents + offsets[line], 100 * by_agents[agents][line].success) for agents in numbers
                           if line in by_agents[agents]]
                 ax.plot(*zip(*points) if points else ([], []),
-                        **plot_arguments(looks.style(line), depth(rank, len(lines))))
+                        **plot_arguments(looks.style(line), 0.6 * depth(rank, len(lines))))
             _set_agents(ax, numbers)
             ax.set_ylim(-6, 106)
             ax.yaxis.set_major_locator(FixedLocator([0, 25, 50, 75, 100]))
@@ -76,7 +77,7 @@ def _set_agents(ax, numbers):
 
 
 def _name_panel(ax, title, below):
-    ax.set_title(f"{title}\n", pad=2, fontweight="bold", linespacing=1.1)
+    ax.set_title(f"{title}\n", pad=3, fontweight="bold", linespacing=1.35)
     ax.annotate(below, (0.5, 1), xycoords="axes fraction", xytext=(0, 3), textcoords="offset points", ha="center",
                 va="bottom", fontsize=SMALLEST, color="#555555")
 
@@ -117,7 +118,7 @@ def _quality(ax, curve, limit, style):
     full = [step for step in known if step.common_with_plan >= 1 - 1e-9]
     if few:
         _stairs(ax, [(step.seconds, step.cost_ratio) for step in few], full[0].seconds if full else limit,
-                arguments | {"linewidth": 0.5, "alpha": 0.7}, 0)
+                arguments | {"linewidth": 0.6, "alpha": 0.8}, 0)
     if full:
         _stairs(ax, [(step.seconds, step.cost_ratio) for step in full], limit, dict(arguments), 4)
     bounds = [(step.seconds, step.bound_ratio) for step in curve.steps if step.bound_ratio is not None]
@@ -131,10 +132,10 @@ def _with_plan(ax, curve, limit, style):
     _stairs(ax, [(points[0][0], 0), *points], limit, plot_arguments(style, 0.15) | {"linewidth": 0.9}, 3)
 
 
-def _set_time(ax, first, last):
+def _set_time(ax, first, last, most=6):
     ax.set_xscale("log")
     ax.set_xlim(first, last * 1.05)
-    ax.xaxis.set_major_locator(LogLocator(numticks=6))
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if last / first < 30 else (1,), numticks=most))
     ax.xaxis.set_minor_locator(NullLocator())
     ax.xaxis.set_major_formatter(FuncFormatter(number))
 
@@ -150,13 +151,13 @@ def anytime(panels, lines, looks):
         height = legend + down * block + end
         figure = new_figure(height, COLUMN)
         gap = 0.44
-        width = (COLUMN - LEFT - RIGHT - gap * (across - 1)) / across
+        width = (COLUMN - LEFT - DIGITS - RIGHT - gap * (across - 1)) / across
         limit = max(line.time_limit_s for line in lines)
         seen = [step.seconds for panel in panels for curve in panel.curves.values() for step in curve.steps]
         first = rounded_down(min(max(min(seen), SHORTEST_S), limit / 10))
         rows = []
         for place, panel in enumerate(panels):
-            left = LEFT + (place % across) * (width + gap)
+            left = LEFT + DIGITS + (place % across) * (width + gap)
             top = height - legend - (place // across) * block - TITLE
             above = figure.add_axes([left / COLUMN, (top - upper) / height, width / COLUMN, upper / height])
             below = figure.add_axes([left / COLUMN, (top - upper - between - lower) / height, width / COLUMN,
@@ -169,12 +170,12 @@ def anytime(panels, lines, looks):
             below.set_ylim(-6, 106)
             below.yaxis.set_major_locator(FixedLocator([0, 50, 100]))
             for ax in (above, below):
-                _set_time(ax, first, limit)
+                _set_time(ax, first, limit, 6 if across == 1 else 4)
             above.tick_params(labelbottom=False)
             below.set_xlabel("time (s)")
             if place % across == 0:
                 above.set_ylabel("mean cost ratio")
-                below.set_ylabel("with plan\n(%)")
+                below.set_ylabel("plans (%)")
             _name_panel(above, panel.title, f"{panel.common} common of {panel.instances}")
             rows += [[above, below]]
         _pin_blocks(rows)
@@ -187,7 +188,7 @@ def _pin_blocks(rows):
     for above, below in rows:
         for ax in (above, below):
             box = ax.get_position()
-            ax.yaxis.set_label_coords(-0.3 / box.width / COLUMN, 0.5)
+            ax.yaxis.set_label_coords(-(0.3 + DIGITS) / box.width / COLUMN, 0.5)
             ax.xaxis.set_label_coords(0.5, -0.23 / box.height / ax.figure.get_figheight())
 
 

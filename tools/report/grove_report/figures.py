@@ -184,7 +184,7 @@ def plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
 
 def _legend_columns(labels, width=WIDTH):
     """How many entries fit side by side."""
-    entry = 0.62 + 0.068 * max(map(len, labels))
+    entry = 0.62 + 0.068 * max(map(len, labels)) if width == WIDTH else 0.4 + 0.062 * max(map(len, labels))
     fitting = max(1, int((width - 0.1) / entry))
     lines = math.ceil(len(labels) / fitting)
     return math.ceil(len(labels) / lines)  # equally long lines
@@ -206,9 +206,10 @@ def legend_height(lines, looks, width=WIDTH):
 def add_legend(figure, lines, looks, nested):
     """On top, as wide as the figure."""
     labels = [looks.label(line) for line in lines]
+    is_wide = figure.get_figwidth() == WIDTH
     figure.legend(handles=_handles(lines, labels, looks, nested), loc="upper center", frameon=False,
-                  ncol=_legend_columns(labels, figure.get_figwidth()), handlelength=2.6,
-                  columnspacing=1.6, borderaxespad=0.2)
+                  ncol=_legend_columns(labels, figure.get_figwidth()), handlelength=2.6 if is_wide else 2.2,
+                  columnspacing=1.6 if is_wide else 0.9, handletextpad=0.8 if is_wide else 0.5, borderaxespad=0.2)
 
 
 def _values(cells, lines, metric):
@@ -235,7 +236,7 @@ def columns_of(cells):
                        "M (tasks)", lambda key: f"N = {key[1]}")
     keys = sorted({(cell.map, cell.tasks) for cell in cells})
     return Columns(keys, lambda cell: (cell.map, cell.tasks), lambda cell: cell.agents,
-                   "N (agents)", lambda key: f"M = {key[1]}")
+                   "N (agents)", lambda key: f"M = {key[1]}" if key[1] else "")
 
 
 def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COMMON_SQR, COST_RATIO)):

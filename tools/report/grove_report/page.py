@@ -81,8 +81,9 @@ def _file(report, before, name):
     return f'<p>{_text(before)}: <a download="{name}" href="{_data("text/csv", report.files[name])}">{name}</a>.</p>'
 
 
-def _figure(figure, caption=""):
-    return (f'<figure><img alt="{_text(figure.title)}" src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
+def _figure(figure, caption="", kind=""):
+    """`kind`: "column": as wide as a column of a paper"""
+    return (f'<figure class="{kind}"><img alt="{_text(figure.title)}" src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
             f"<figcaption><b>{_text(figure.title)}.</b> {_text(caption)}</figcaption></figure>")
 
 
@@ -98,7 +99,7 @@ def _alarm(report):
     found = report.contradictions
     if not found:
         return _box("good", [_paragraph(
-            "No claims contradict each other: costs called optimal agree wherever several methods found "
+            "No proofs contradict each other: costs called optimal agree wherever several methods found "
             f"one ({report.agreements} instances), and no plan is cheaper than a proven lower bound.")])
     instances = len({(each.problem, each.instance) for each in found})
     shown = [f"{each.problem}: {each.instance}: {each.what}" for each in found[:MOST_LISTED]]
@@ -310,7 +311,7 @@ def _over_time(report, problem):
     return ["<h3>Quality over time</h3>",
             _figure(problem.anytime, "Of methods that improve their plans while they run, as their runs tell on the way; the "
                     "last plan was re-checked. Below: the share of all instances with a plan. A lower bound that another "
-                    "solver only claims is drawn as it claims it."),
+                    "solver only claims is drawn as it claims it.", "column"),
             "<details><summary>Table: mean cost ratio by time</summary>",
             _paragraph("Mean over the common instances; with a share behind it, over as many of them as have a plan by then. "
                        "Hold the pointer over a number for the share of all instances with a plan."),
@@ -324,7 +325,7 @@ def _success(report, problem):
     pooled = len({cell.tasks for cell in problem.cells}) > 1
     return [_figure(problem.success, "Share of the runs that are solved"
                     + (", whatever the number of tasks." if pooled else ".")
-                    + " Under the name of a map: what is behind each point of a line."),
+                    + " Under the name of a map: what is behind each point of a line.", "column"),
             _file(report, "As a file", f"success_{problem.name}.csv")]
 
 
@@ -546,7 +547,7 @@ def _runs(report):
              Entry(seconds(run.end_s)), word(run.options)] for run in report.logs if run.moments]
     return ['<h2 id="runs">Single runs</h2>',
             _figure(report.runs, "Bound and best plan over time of the runs whose logs were read. grove view --run shows one "
-                    "of them as a page."),
+                    "of them as a page.", "column"),
             html_table(["log", "instance", Entry("N"), "status", Entry("cost"), Entry("lower bound"), Entry("s"),
                         "options"], rows),
             _file(report, "As a file", "runs.csv")]
@@ -585,7 +586,7 @@ def page(report):
         _paragraph("Methods for multi-agent path finding with tasks, compared on the same instances: how "
                    "many they solve, how fast, and how good the plans are."),
         "<nav>" + "".join(f'<a href="#{name}">{_text(text)}</a>' for name, text in links) + "</nav>",
-        *([_alarm(report), _false_claims(report)] if report.results.rows else [])]
+        *([_false_claims(report), _alarm(report)] if report.results.rows else [])]
     if report.notes:
         parts.append(_box("note", ["<b>Before you compare</b>", _list(report.notes)]))
     parts.append(_errors(report))

@@ -345,7 +345,7 @@ def _omegas(problem, lines):
 def _guarantee(line, solved, lines):
     """What the `solved` rows of a line do not prove though they count as solved."""
     outside = [row for row in solved if metrics.within_omega(row) is False]
-    unproven = [row for row in solved if line.omega in metrics.NO_PROMISE and row.status != "optimal"]
+    unproven = [row for row in solved if not row.solver and line.omega in metrics.NO_PROMISE and row.status != "optimal"]
     statuses = "status " + ", ".join(sorted({row.status for row in outside or unproven}))
     if outside:
         yield (f"{lines.label(line)}: {len(outside)} of {len(solved)} solved runs are outside ω "
@@ -365,6 +365,10 @@ def _notes(results, rows, lines, problems):
     solved = metrics.by_line([row for row in rows if row.solved])
     for line in lines.all:
         yield from _guarantee(line, solved.get(line, []), lines)
+    others = sorted({lines.label(line_of(row)) for row in rows if row.solver})
+    if others:
+        yield (f"What other solvers guarantee is not checked here ({_listed(others, 12)}): only that their plans are plans, "
+               "and what these cost.")
     limits = sorted({row.time_limit_s for row in rows})
     if len(limits) > 1:
         yield (f"The rows have several time limits ({_listed(map(seconds_text, limits))}). No figure "
@@ -372,9 +376,9 @@ def _notes(results, rows, lines, problems):
                "runtimes and PAR-2 do not compare.")
     seeds = sorted({row.seed for row in rows if row.seed is not None})
     if len(seeds) > 1:
-        yield (f"The rows have several seeds ({_listed(map(str, seeds))}). Rates and means are over "
-               "all their runs; where instances are counted or compared one by one, the median run "
-               "stands for its instance.")
+        yield (f"The rows have several seeds ({_listed(map(str, seeds))}). Runs that differ in the "
+               "seed alone are repetitions: rates and means are first over these, then over instances; where "
+               "instances are counted or compared one by one, the median run stands for its instance.")
     for what, values in (("versions", {row.version for row in rows} - {""}),
                          ("machines", {row.machine for row in rows} - {""}),
                          ("numbers of ranks", {str(row.ranks) for row in rows if row.ranks is not None}),
