@@ -280,8 +280,9 @@ def _setting(problem, family, map_name, agents, rows):
 
 
 def _studies(output, rows_of, best, looks, options):
-    """Of the first problem, CTS-MAPF first as in the paper, where lines differ in omega alone."""
-    for name in ("cts", *PROBLEMS):
+    """Of the first problem, CTS-MAPF first as in the paper, where lines differ in omega alone. By tasks, which
+    classical MAPF has none."""
+    for name in ("cts", "mg", "mixed"):
         rows = rows_of.get(name, [])
         found = families(rows, options.study_methods)
         stems = [f"omega_study_{number}" if len(found) > 1 else "omega_study"

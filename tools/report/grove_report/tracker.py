@@ -240,11 +240,11 @@ def comparisons(rows, known):
     """Of all rows whose instance is known; `known`: read_known()."""
     found = []
     groups = grouped(rows, lambda row: (row.problem, row.instance, line_of(row)))
-    for (_, instance, line), group in sorted(groups.items()):
+    for (_, instance, line), group in groups.items():
         place = place_of(group[0])
         if place not in known:
             continue
         found.append(Comparison(instance, place, known[place], line,
                                 min((row.cost for row in group if has_plan(row)), default=None),
                                 next(iter(best_bounds(group).values()), None)))
-    return found
+    return sorted(found, key=lambda each: (each.place, each.line))
