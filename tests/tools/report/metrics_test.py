@@ -598,13 +598,6 @@ class Tracker(Folder):
             line = tracker.submission(found, metrics.best_costs(found)).text.split("\n")[1]
             self.assertTrue(line.startswith(f"random-32-32-20,random,3,2,{bound},5,"), (values, line))
 
-    def test_plans_of_others(self):
-        for text in ("Agent 0: (2,0)->(2,1)->(1,1)->(1,1)->\nAgent 1: (5,5)->(5,5)->(5,5)->(5,6)->\n",
-                     "agents=2\nsolved=1\nsolution=\n0:(0,2),(5,5),\n1:(1,2),(5,5),\n2:(1,1),(5,5),\n3:(1,1),(6,5),\n"):
-            paths = plans.read_plan(Path(self.plan("p", text)), 2)
-            self.assertEqual([plans.motion_string(path) for path in paths], ["ru", "2wr"])
-            self.assertEqual(plans.recounted(paths), 5)
-
     def test_plans_that_are_none(self):
         def said(text, agents=2):
             with self.assertRaises(plans.BadPlan) as caught:
@@ -615,7 +608,9 @@ class Tracker(Folder):
         self.assertEqual(said(self.grove_plan([[0, 0], [1, 0]], [[2, 0], [2, 1], [2, 0], [1, 0]])),
                          "two agents are on one cell at time 3")
         self.assertEqual(said(self.grove_plan([[0, 0]])), "paths of 1 agents; expected 2")
-        self.assertEqual(said("nothing"), "expected a plan file of Grove, path lists, or lacam's text")
+        self.assertEqual(said("nothing"), "no plan is in it; expected a plan file of Grove")
+        self.assertEqual(said(self.grove_plan([["a"], ["b"]], [[5, 5]])), "agent 0 jumps at time 1")
+        self.assertEqual(said(self.grove_plan(7, [[5, 5]])), "no plan is in it; expected a plan file of Grove")
         # A rotation is none.
         ring = [[0, 0], [1, 0], [1, 1], [0, 1]]
         turned = self.grove_plan(*([ring[at], ring[(at + 1) % 4]] for at in range(4)))
