@@ -53,7 +53,8 @@ def plans_over_time(row):
         if point.cost >= row.cost and (not found or point.cost < found[-1][1]):
             found.append((point.seconds, point.cost))
     if not found or found[-1][1] > row.cost:
-        found.append((row.ended_s, row.cost))
+        # What ends by itself may be a moment late; what was late has nothing at its limit.
+        found.append((min(row.ended_s, row.time_limit_s) if row.solved else row.ended_s, row.cost))
     return found
 
 
@@ -64,11 +65,10 @@ def first_plan(row):
 
 
 def bounds_over_time(row):
-    """[(seconds, bound)], rising. What another solver claims counts here as it says: its curve is its claim."""
-    last = row.claimed_lower_bound if row.lower_bound is None else row.lower_bound
+    """[(seconds, bound)], rising; of other solvers what they tell on the way, which is their claim."""
     points = [(point.seconds, point.lower_bound) for point in row.trace if point.lower_bound is not None]
     found = []
-    for seconds, bound in [*points, *([] if last is None else [(row.ended_s, last)])]:
+    for seconds, bound in [*points, *([] if row.lower_bound is None else [(row.ended_s, row.lower_bound)])]:
         if not found or bound > found[-1][1]:
             found.append((seconds, bound))
     return found

@@ -62,9 +62,24 @@ class FalseClaim(NamedTuple):
     what: str
 
 
-def _lies(row, plan, bound):
-    """(kind, claimed, checked, what) of what a row says against what was checked. `plan`: the cheapest plan of its
-    instance; `bound`: the highest proven bound. None: there is none."""
+class _Checked(NamedTuple):
+    """Of an instance. None: there is none."""
+    plan: Optional[int]   # the cost of the cheapest
+    bound: Optional[int]  # the highest that is proven
+    planner: str          # who has them
+    prover: str
+
+
+def _checked(rows, plan, bound):
+    def who(found):
+        return ", ".join(sorted({method_name(row.method) for row in found})) or "MAPF Tracker"
+    return _Checked(plan, bound, who(row for row in rows if has_plan(row) and row.cost == plan),
+                    who(row for row in rows if row.lower_bound == bound and row.bounds_every_plan))
+
+
+def _lies(row, checked):
+    """(kind, claimed, checked, what) of what a row says against what was checked of its instance."""
+    plan, bound = checked.plan, checked.bound
     if row.status == WRONG:
         yield "plan", row.claimed_cost, None, row.error or "the plan is wrong"
     if row.claimed_cost is not None and has_plan(row) and row.claimed_cost < row.cost:
@@ -72,22 +87,26 @@ def _lies(row, plan, bound):
                f"says that its plan costs {row.claimed_cost}; recounted: {row.cost}")
     if row.status == CLAIMED and None not in (row.claimed_cost, bound) and row.claimed_cost < bound:
         yield ("cost", row.claimed_cost, bound,
-               f"says that it has a plan of cost {row.claimed_cost}, and shows none; proven lower bound: {bound}")
+               f"says that it has a plan of cost {row.claimed_cost}, and shows none; "
+               f"proven lower bound: {bound} ({checked.prover})")
     cheaper = [point for point in row.trace if row.solver and has_plan(row) and point.cost < row.cost]
     if cheaper:
         yield ("cost", cheaper[0].cost, row.cost, f"says that after {cheaper[0].seconds:g} s it had a plan of cost "
                f"{cheaper[0].cost}; the plan it shows in the end costs {row.cost}")
     if None not in (row.claimed_lower_bound, plan) and row.claimed_lower_bound > plan:
         yield ("lower bound", row.claimed_lower_bound, plan,
-               f"says that no plan costs less than {row.claimed_lower_bound}; a checked plan costs {plan}")
+               f"says that no plan costs less than {row.claimed_lower_bound}; a checked plan costs {plan} "
+               f"({checked.planner})")
 
 
 def false_claims(rows, known_costs=()):
     """`known_costs`: as in best_costs(); of plans from elsewhere."""
     rows = [row for row in rows if row.status != "error"]
     plans, bounds = best_costs(rows, known_costs), best_bounds(rows)
-    return [FalseClaim(row.problem, row.instance, row.method, row.omega, row.seed, *lie) for row in rows
-            for lie in _lies(row, plans.get((row.problem, row.instance)), bounds.get((row.problem, row.instance)))]
+    return [FalseClaim(*key, row.method, row.omega, row.seed, *lie)
+            for key, group in grouped(rows, lambda row: (row.problem, row.instance)).items()
+            for checked in [_checked(group, plans.get(key), bounds.get(key))]
+            for row in group for lie in _lies(row, checked)]
 
 
 def _against(rows, known):
