@@ -15,6 +15,7 @@ from .style import COLOURS, DASHES, MARKERS, depth, plot_arguments
 TITLE = 0.4  # inches, of two lines
 LEFT, RIGHT = 0.46, 0.06
 DIGITS = 0.13  # more on the left, where numbers have four
+RUN_DASHES = [pattern for pattern in DASHES if pattern[0] > 2]  # bounds are dotted
 MOST_STEPS = 300  # of a curve that are drawn
 
 ANYTIME_CAPTION = (
@@ -224,14 +225,14 @@ def runs(groups):
                                for place, run in enumerate(found)], loc="upper left", frameon=False, handlelength=2.6,
                       bbox_to_anchor=(0, -0.36 / panel), borderaxespad=0)
             top -= block
-        add_caption(figure, ["Whole lines: cost of the best plan. Dotted: proven", "lower bound."])
+        add_caption(figure, ["Falling: cost of the best plan. Rising, thin: proven", "lower bound."])
         return figure
 
 
 def _look(place):
     return {"color": COLOURS[place % len(COLOURS)], "marker": MARKERS[place % len(MARKERS)], "markersize": 3.6,
             "markeredgecolor": "white", "markeredgewidth": 0.4, "linewidth": 1.1,
-            "linestyle": "-" if place == 0 else (0, DASHES[(place - 1) % len(DASHES)])}
+            "linestyle": "-" if place == 0 else (0, RUN_DASHES[(place - 1) % len(RUN_DASHES)])}
 
 
 def _plot_runs(ax, found):

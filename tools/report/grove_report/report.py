@@ -431,7 +431,9 @@ def _runs_figure(output, logs):
     named = {run.instance for run in logs}
     short = {name: Path(name).name for name in named} if len({Path(name).name for name in named}) == len(named) \
         else {name: name for name in named}
-    groups = grouped(logs, lambda run: short[run.instance])
+    # Of a scenario the first rows, so many as there are agents.
+    groups = grouped(logs, lambda run: short[run.instance]
+                     + (f", N = {run.agents}" if run.instance.endswith(".scen") else ""))
     output.table("runs", ["log", "instance", "agents", "options", "status", "time_s", "cost", "lower_bound"],
                  [[run.name, run.instance, run.agents, run.options, run.status, *moment]
                   for run in logs for moment in run.moments])
