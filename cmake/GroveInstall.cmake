@@ -73,7 +73,7 @@ install(TARGETS grove grove-sim RUNTIME COMPONENT programs)
 if(GROVE_WITH_MPI)
   install(TARGETS grove-mpi RUNTIME COMPONENT programs)
 endif()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bench/solvers
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bench/solvers ${PROJECT_SOURCE_DIR}/docs/schemas
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)
 # What `grove report` and others become lies apart: nobody calls it by itself. There is a grove beside
 # it for what calls that.
