@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // grove._grove: the front door for Python. What is nicer said in Python stands in
 // grove/__init__.py.
+#include <exception>
+
 #include "python/binding/values.h"
 
 namespace grove::python {
