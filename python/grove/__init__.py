@@ -224,7 +224,11 @@ def data_frame(plan):
 
 
 class View:
-    """A page that plays plans: shown by notebooks, or written to a file by save()."""
+    """A page that plays plans: shown by notebooks, or written to a file by save().
+
+    html: its text.
+    height: in pixels, within a notebook.
+    """
 
     def __init__(self, html, height):
         self.html = html

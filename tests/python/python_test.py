@@ -51,6 +51,13 @@ class Documents(unittest.TestCase):
         self.assertGreater(done.attempted, 15)
         self.assertEqual(done.failed, 0)
 
+    def test_the_page_of_every_name_is_what_it_is_made_of(self):
+        done = subprocess.run([sys.executable, SOURCE / "python/api_page.py", PACKAGE], capture_output=True, text=True,
+                              timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        if done.stdout != (SOURCE / "docs/python-api.md").read_text():
+            self.fail(f"docs/python-api.md is old: python/api_page.py {PACKAGE} > docs/python-api.md")
+
     def test_the_example_is_short_and_runs(self):
         example = SOURCE / "examples/python/warehouse.py"
         self.assertLessEqual(len(example.read_text().splitlines()), 25)
