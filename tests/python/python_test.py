@@ -11,6 +11,7 @@ import doctest
 import importlib.util
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -80,6 +81,26 @@ class Documents(unittest.TestCase):
                  "--ignore-missing-stub"], cwd=folder, capture_output=True, text=True,
                 env={**os.environ, "MYPYPATH": str(PACKAGE), "PYTHONPATH": str(PACKAGE)}, timeout=300)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+class Packaging(unittest.TestCase):
+    @unittest.skipUnless(importlib.util.find_spec("tomllib"), "no tomllib")
+    def test_pyproject_names_what_is_there(self):
+        import tomllib
+        project = tomllib.loads((SOURCE / "pyproject.toml").read_text())
+        ours = project["tool"]["scikit-build"]
+        version = ours["metadata"]["version"]
+        found = re.search(version["regex"], (SOURCE / version["input"]).read_text())
+        self.assertEqual(found.group("value"), grove.__version__)
+        cmake = "".join(path.read_text() for path in [SOURCE / "CMakeLists.txt", SOURCE / "python/CMakeLists.txt",
+                                                      *(SOURCE / "cmake").glob("*.cmake")])
+        for option in ours["cmake"]["define"]:
+            self.assertRegex(cmake, rf"option\({option}\b")
+        for target in ours["build"]["targets"]:
+            self.assertIn(f"module({target} ", cmake)
+        for component in ours["install"]["components"]:
+            self.assertIn(f"COMPONENT {component}\n", cmake)
+        self.assertTrue((SOURCE / project["project"]["readme"]).exists())
 
 
 class Instances(unittest.TestCase):
