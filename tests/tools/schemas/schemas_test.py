@@ -259,7 +259,7 @@ class WhatIsWritten(Case):
             self.assert_valid("instance", load(self.folder / "made.cts.json"), kind)
 
     def test_tables_of_results(self):
-        self.write("mine.json", {"name": "mine", "command": "false {map} {scenario}", "plan": None,
+        self.write("mine.json", {"name": "mine", "command": "{program} {map} {scenario}", "plan": None,
                                  "claims": {"cost": "cost (\\d+)"}})
         (self.folder / "list.txt").write_text("first.cts.json\nrandom-32x32-20_n5_m10_mg.cts.json\n"
                                               "empty-32x32.scen --map empty-32x32.map --agents 3\n")
@@ -270,8 +270,9 @@ class WhatIsWritten(Case):
         self.assertGreaterEqual(len(rows), 6)
         for row in rows:
             self.assert_valid("results-row", row, row)
-        self.assertIn("error", {row["status"] for row in rows})
+        self.assertIn("unsuitable", {row["status"] for row in rows})
         self.assertTrue(any(row["solved"] for row in rows))
+        self.assertTrue(any(row["solver"] == "mine" for row in rows))
 
 
 class WhatIsRefused(Case):
@@ -450,8 +451,8 @@ class WhatIsRefused(Case):
             ("change", {"tasks": [{"id": "t", "cell": [0, 0], "agents": ["red"], "durations": 1}]}),
             ("change", {}),
             ("solver", {**solver, "name": "a b"}),
-            ("solver", {**solver, "command": "{program} {maps}"}),
-            ("solver", {**solver, "command": "{program} {map"}),
+            ("solver", {**solver, "command": "{program} {maps} {map} {scenario}"}),
+            ("solver", {**solver, "command": "{program} {map} {scenario} {map"}),
             ("solver", {**solver, "colour": "red"}),
             ("solver", {**solver, "instance": "xml"}),
             ("solver", {**solver, "threads": 0}),
@@ -483,7 +484,7 @@ class TheKeyOfEditors(Case):
         plan = {"$schema": "plan.schema.json", **load(self.folder / "x.plan.json")}
         self.assert_valid("plan", plan)
         self.assertEqual(grove("check", instance, self.write("y.plan.json", plan)).stderr, "")
-        adapter = {"$schema": "solver.schema.json", "name": "mine", "command": "{program}"}
+        adapter = {"$schema": "solver.schema.json", "name": "mine", "command": "{program} {map} {scenario}"}
         self.assert_valid("solver", adapter)
         done = grove("bench", DATA / "empty-32x32.scen", "--agents", 1, "--time-limit", 1, "--quiet", "--output-dir", "table", "--solver",
                      f"mine={self.write('mine.json', adapter)}:/bin/false", cwd=self.folder, code=None)
