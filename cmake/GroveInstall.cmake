@@ -77,7 +77,7 @@ install(TARGETS grove grove-sim RUNTIME COMPONENT programs)
 if(GROVE_WITH_MPI)
   install(TARGETS grove-mpi RUNTIME COMPONENT programs)
 endif()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bench/solvers ${PROJECT_SOURCE_DIR}/docs/schemas
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bench/solvers
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)
 # What `grove report` and others become lies apart: nobody calls it by itself. There is a grove beside
 # it for what calls that.
@@ -96,3 +96,6 @@ file(RELATIVE_PATH grove_from_companions
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/companion)
 file(CREATE_LINK ${grove_from_companions} ${PROJECT_BINARY_DIR}/companion/grove SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/companion/grove DESTINATION ${grove_companions} COMPONENT programs)
+# For editors: docs/formats.md.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/schemas
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)

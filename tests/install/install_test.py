@@ -170,7 +170,8 @@ class Installed(unittest.TestCase):
 
     def test_manual(self):
         for file in ("man/man1/grove-solve.1", "man/man1/grove-sim.1", "bash-completion/completions/grove",
-                     "zsh/site-functions/_grove", "fish/vendor_completions.d/grove.fish"):
+                     "zsh/site-functions/_grove", "fish/vendor_completions.d/grove.fish",
+                     "grove/schemas/instance.schema.json"):
             self.assertGreater((self.prefix / "share" / file).stat().st_size, 100, file)
 
     def test_the_interface_is_the_front_door(self):
