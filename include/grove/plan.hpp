@@ -77,7 +77,7 @@ struct Solution {
 
   /// (cost - lower bound) / lower bound: how much dearer than the best the plan is at most. None
   /// without a plan, or with a bound of 0 below a plan that costs something.
-  std::optional<double> gap() const;
+  GROVE_API std::optional<double> gap() const;
 };
 
 /// One thing that is wrong with a plan.

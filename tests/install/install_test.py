@@ -27,6 +27,7 @@ int main() {
   const grove::Instance instance(grove::World::from_rows({"...."}),
                                  {{.id = "a", .start = {grove::Cell{0, 0}}, .goal = grove::Cell{3, 0}}}, {});
   const grove::Solution solution = grove::solve(instance);
+  if (solution.gap() != 0.0) return 3;
   std::printf("cost %d\\n", static_cast<int>(solution.plan->cost));
 }
 """
