@@ -49,9 +49,10 @@ class GROVE_API Session {
   /// others perhaps for their sake. Throws InvalidArgument, and nothing has changed.
   void advance(int steps, const std::vector<Late>& late = {});
 
-  /// Throws InvalidArgument, and nothing has changed, where it cannot be: somebody is on what is to
-  /// be closed, or has to go there; an id is taken, or there is none such. field() is
-  /// "/new_tasks/<i>/...", "/dropped_tasks/<i>" or "/blocked/<i>".
+  /// From now on it is so; the next replan() heeds it. Throws InvalidArgument, and nothing has
+  /// changed, where it cannot be: somebody is on what is to be closed, or has to go there; an id is
+  /// taken, or there is none such. field() is "/new_tasks/<i>/...", "/dropped_tasks/<i>" or
+  /// "/blocked/<i>".
   void change(const Change& change);
 
   /// Solves what is left, from the old plan repaired. All keep to the old plan, or what is left of
