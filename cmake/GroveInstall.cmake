@@ -52,7 +52,7 @@ if(GROVE_WITH_PYTHON)
     set(grove_outside site-packages)
   endif()
   install(CODE "
-    if(\"${SKBUILD}\")  # a wheel (pyproject.toml)
+    if(NOT \"${SKBUILD}\" STREQUAL \"\")  # a wheel (pyproject.toml)
       set(grove_packages .)
     elseif(EXISTS \"\${CMAKE_INSTALL_PREFIX}/pyvenv.cfg\")
       set(grove_packages lib/${grove_python}/site-packages)
