@@ -6,8 +6,8 @@
     documents_test.py --slow ROOT BIN_DIR DOCUMENT...    also what is not
 
 Commands are all lines of ```sh blocks and, of ```console blocks, those after "$ " (and "> ", where they go on).
-The blocks of a document run one after the other, each in a bash that ends at the first command that fails, in a
-folder of the document's own: a copy of the tree at ROOT, with BIN_DIR as build/release/bin.
+They run as if one typed the document into one shell, whose folder is a copy of the tree at ROOT, with BIN_DIR as
+build/release/bin; a block ends at the first command that fails.
 
 What a ```console block shows below a command must be what the block prints, but for numbers and spaces; a line
 "..." stands for lines, "..." at the end of one for the rest of it.
@@ -17,7 +17,8 @@ A comment of its own line before a block says that it is left out, and why:
     <!-- slow: some ten minutes -->      only with --slow
     <!-- not run: needs a cluster -->    never
 
-Without one a block may only name programs that do no harm to who runs the tests (HARMLESS).
+Without one a block may only name programs that do no harm to who runs the tests (HARMLESS). Commands of ours
+nowhere else: lines set in by blanks, and blocks of no language, may not begin with one.
 
 Exit codes: 0 all ran, 1 one did not, 77 no program yet.
 """
@@ -32,11 +33,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 SKIPPED = 77
-SECONDS = {False: 120, True: 3600}  # of a block, by whether it may be slow
+SECONDS = {False: 120, True: 4 * 3600}  # of a block, by whether it may be slow
 BLOCK = re.compile(r"(?:^<!-- (?P<mark>slow|not run): (?P<why>[^\n]+) -->\n\s*)?"
                    r"^```(?P<language>console|sh)[ ]*\n(?P<body>.*?)^```", re.M | re.S)
-HARMLESS = re.compile(r"(?:\w+=\S* )*(?:build/release/bin/)?(?:grove(?:-[\w-]+)?|mpirun|cat|cd|cp|echo|export|head|ls|mkdir|"
-                      r"benchmarks/\w+\.py|python3|jq|wc)(?:\s|$)")
+HARMLESS = re.compile(r"(?:\w+=\S* )*(?:build/release/bin/)?(?:grove(?:-[\w-]+)?|mpirun|benchmarks/\w+\.py|"
+                      r"python3|cat|cd|cp|echo|export|head|jq|ls|mkdir|wc)(?:\s|$)")
+HIDDEN = re.compile(r"^ {4,}(?:\$ )?(?:build/release/bin/|benchmarks/\w+\.py|grove(?:-\w+)? |mpirun )[^\n]*|"
+                    r"^```\n\s*\$ [^\n]*", re.M)
 HERE = re.compile(r"<<-?\s*'?(\w+)'?")
 # What mpirun minds: root, and fewer cores than ranks.
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
@@ -88,6 +91,12 @@ def harmful(block):
     return next((part for part in parts if not HARMLESS.match(part)), None)
 
 
+def hidden(document):
+    """Commands that no test would run."""
+    fenced = re.sub(r"^```\w+[ ]*\n.*?^```", "", document, flags=re.M | re.S)
+    return [found.group().strip() for found in HIDDEN.finditer(fenced)]
+
+
 def bare(line):
     """A line without what differs from run to run."""
     return re.sub(r"\d[\w.,]*", "#", " ".join(line.split()))
@@ -103,18 +112,25 @@ def unsaid(shown, output):
     return None
 
 
-def run(block, folder):
+def start_shell(folder):
+    """What the shell of a document knows: its folder and, after the first block, its variables."""
+    state = folder / ".shell"
+    state.write_text(f'export PATH="{folder}/build/release/bin:$PATH"\ncd "{folder}"\n', encoding="utf-8")
+    return state
+
+
+def run(block, state):
     """What went wrong, or nothing."""
-    path = f"{folder}/build/release/bin:{os.environ['PATH']}"
     seconds = SECONDS[block.mark == "slow"]
+    script = f". {state}\nset -ev -o pipefail\n{block.script}\nset +v\n" \
+        f"{{ export -p; printf 'cd %q\\n' \"$PWD\"; }} >{state}\n"
     try:
-        done = subprocess.run(["bash", "-e", "-o", "pipefail", "-v", "-c", block.script], cwd=folder, timeout=seconds,
-                              env={**os.environ, **MPI, "PATH": path}, stdin=subprocess.DEVNULL, check=False,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        done = subprocess.run(["bash", "-c", script], timeout=seconds, env={**os.environ, **MPI}, check=False,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     except subprocess.TimeoutExpired:
         return f"no end after {seconds} s:\n{block.script}"
     if done.returncode != 0:
-        return f"exit {done.returncode}:\n{block.script}{done.stdout}"
+        return f"exit {done.returncode}:\n{done.stdout}"
     if line := unsaid([line for line in block.shown if line.strip()], done.stdout):
         return f"shows '{line}', but what is printed is:\n{done.stdout}"
     return None
@@ -133,23 +149,29 @@ def tree(root, programs, folder, has_copies):
 
 
 def run_document(path, root, programs, is_slow):
-    found = blocks(path.read_text(encoding="utf-8"))
+    text = path.read_text(encoding="utf-8")
+    found = blocks(text)
     wanted = [block for block in found if block.mark == "" or (is_slow and block.mark == "slow")]
+    lost = hidden(text)
+    for command in lost:
+        print(f"FAILED: {path.relative_to(root)}: '{command}' is never run; expected a ```sh or ```console block")
     failed = 0
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name) / "grove"
         if wanted:
             tree(root, programs, folder, is_slow)
+            state = start_shell(folder)
         for block in wanted:
             place = f"{path.relative_to(root)}:{block.line}"
-            other = "" if block.mark else harmful(block)
+            other = None if block.mark else harmful(block)
             wrong = f"'{other}' may do harm; expected a comment <!-- slow: WHY --> or <!-- not run: WHY --> before " \
-                "the block" if other else run(block, folder)
-            failed += bool(wrong)
-            print(f"FAILED: {place}: {wrong}" if wrong else f"ok: {place}: {len(commands(block.script))} commands", flush=True)
+                "the block" if other else run(block, state)
+            failed += wrong is not None
+            print(f"FAILED: {place}: {wrong}" if wrong else f"ok: {place}: {len(commands(block.script))} commands",
+                  flush=True)
     print(f"{path.relative_to(root)}: {len(wanted) - failed} of {len(found)} blocks ran, {failed} failed, "
           f"{len(found) - len(wanted)} left out")
-    return failed
+    return failed + len(lost)
 
 
 def self_test():
@@ -165,10 +187,13 @@ def self_test():
     assert harmful(Block("grove x && rm y\n", [], "", 1)) == "rm y"
     assert unsaid(["some 3.5 s of output", "...", "so..."], "some 12 s of output\nso it is") is None
     assert unsaid(["other 3.5 s"], "some 12 s") == "other 3.5 s"
-    with tempfile.TemporaryDirectory() as folder:
-        assert run(Block("export A=1\ntest $A = 1\n", [], "", 1), folder) is None
-        assert run(Block("exit 3\n", [], "", 1), folder).startswith("exit 3")
-        assert run(Block("false\ntrue\n", [], "", 1), folder) and run(Block("echo 1\n", ["a"], "", 1), folder)
+    assert hidden("a\n    grove solve x\n    ls\n```sh\n    grove y\n```\n```\n$ z\n```\n") == ["grove solve x", "```\n$ z"]
+    with tempfile.TemporaryDirectory() as name:
+        state = start_shell(Path(name))
+        assert run(Block("export A='b c'\nmkdir d\ncd d\n", [], "", 1), state) is None
+        assert run(Block('test "$A" = "b c"\ntest "$PWD" -ef ../d\n', [], "", 1), state) is None
+        assert run(Block("exit 3\n", [], "", 1), state).startswith("exit 3")
+        assert run(Block("false\ntrue\n", [], "", 1), state) and run(Block("echo 1\n", ["a"], "", 1), state)
 
 
 def main():
