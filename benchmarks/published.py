@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: MIT
 """What the paper publishes beside what came out here, as Markdown.
 
-    published.py claims    its statements and what our runs say of each     (docs/researchers.md)
-    published.py omega     its study of omega                               (docs/researchers.md)
-    published.py cells     every cell of its comparison, in our figures     (results/paper/cells.md)
-    published.py write     puts all three where they belong
+    published.py           prints its statements and what our runs say of each, its study of omega (both are in
+                           docs/researchers.md), and every cell of its comparison (results/paper/cells.md)
+    published.py --write   puts the tables into these pages
 
 Our runs are results/paper/results.csv, what it says is results/paper/published.csv. Nothing is typed in here.
 """
 import argparse
 import csv
+import functools
 import re
 import statistics
 import sys
@@ -209,16 +209,19 @@ def omega_table(rows):
                          for each in published() if each["claim"] in shown])
 
 
-def cells_table(rows):
-    def entry(one):
-        quality = f"{one.mean_sqr:.3f}" if one.solved else "-"
-        return f"{100 * one.success:.0f}, {seconds(one.mean_runtime_s)}, {quality}"
+MEASURES = {"cells, success": lambda one: f"{100 * one.success:.0f}",
+            "cells, runtime": lambda one: seconds(one.mean_runtime_s),
+            "cells, quality": lambda one: f"{one.mean_sqr:.3f}" if one.solved else "-"}
+
+
+def cells_table(rows, shown):
     return tables.table(["map", "N", "M", *NAMES.values()],
-                        [[cell.map, cell.agents, cell.tasks, *[entry(lines[method]) for method in NAMES]]
+                        [[cell.map, cell.agents, cell.tasks, *[shown(lines[method]) for method in NAMES]]
                          for cell, lines in comparison(rows).items()])
 
 
-PARTS = {"claims": (claims_table, GUIDE), "omega": (omega_table, GUIDE), "cells": (cells_table, PAPER / "cells.md")}
+PARTS = {"claims": (claims_table, GUIDE), "omega": (omega_table, GUIDE)} | {
+    name: (functools.partial(cells_table, shown=shown), PAPER / "cells.md") for name, shown in MEASURES.items()}
 
 
 def marked(name):
@@ -237,12 +240,12 @@ def write(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=[*PARTS, "write"])
-    what = parser.parse_args().what
-    if what == "write":
+    parser.add_argument("--write", action="store_true")
+    if parser.parse_args().write:
         write(our_rows())
     else:
-        print(PARTS[what][0](our_rows()))
+        rows = our_rows()
+        print("\n\n".join(f"{name}:\n\n{table(rows)}" for name, (table, _) in PARTS.items()))
 
 
 if __name__ == "__main__":
