@@ -38,6 +38,7 @@ BLOCK = re.compile(r"(?:^<!-- (?P<mark>slow|not run): (?P<why>[^\n]+) -->\n\s*)?
                    r"^```(?P<language>console|sh)[ ]*\n(?P<body>.*?)^```", re.M | re.S)
 HARMLESS = re.compile(r"(?:\w+=\S* )*(?:build/release/bin/)?(?:grove(?:-[\w-]+)?|mpirun|benchmarks/\w+\.py|"
                       r"python3|cat|cd|cp|echo|export|head|jq|ls|mkdir|wc)(?:\s|$)")
+SOURCES = {"cmake", "include", "mpi", "python", "src", "tests", "tools"}
 HIDDEN = re.compile(r"^ {4,}(?:\$ )?(?:build/release/bin/|benchmarks/\w+\.py|grove(?:-\w+)? |mpirun )[^\n]*|"
                     r"^```\n\s*\$ [^\n]*", re.M)
 HERE = re.compile(r"<<-?\s*'?(\w+)'?")
@@ -136,13 +137,17 @@ def run(block, state):
     return None
 
 
-def tree(root, programs, folder, has_copies):
-    """A copy of the tree; with copies of the programs where they may be built again."""
+def tree(root, programs, folder, may_build):
+    """A copy of the tree. Where nothing is built, programs and sources are only linked: no command writes there."""
+    linked = set() if may_build else SOURCES
+    left_out = {"build", ".git", "results"} | linked
     shutil.copytree(root, folder, symlinks=True,
-                    ignore=lambda at, names: {"build", ".git", "results"} & set(names) if at == str(root) else set())
+                    ignore=lambda at, names: left_out & set(names) if Path(at) == root else set())
+    for name in linked:
+        (folder / name).symlink_to(root / name)
     target = folder / "build/release/bin"
     target.parent.mkdir(parents=True)
-    if has_copies:
+    if may_build:
         shutil.copytree(programs, target, symlinks=True)
     else:
         target.symlink_to(programs)
