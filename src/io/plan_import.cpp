@@ -225,15 +225,19 @@ Time finish_of(const Path& path) {
   return static_cast<Time>(std::max<std::size_t>(until_rest(path).size(), 1) - 1);
 }
 
-void count_anew(Solution& solution) {
+void count_anew(Plan& plan) {
+  plan.cost = 0;
+  for (AgentPlan& agent : plan.agents) {
+    agent.cost = finish_of(agent.path);
+    plan.cost += agent.cost;
+  }
+}
+
+// But for the costs of its plan.
+void forget_claims(Solution& solution) {
   solution.omega = Omega::infinite();
   solution.lower_bound = 0;
   if (!solution.plan) return;
-  solution.plan->cost = 0;
-  for (AgentPlan& agent : solution.plan->agents) {
-    agent.cost = finish_of(agent.path);
-    solution.plan->cost += agent.cost;
-  }
   solution.status = solution.plan->cost == 0 ? Status::kOptimal : Status::kFeasible;
 }
 
@@ -265,10 +269,10 @@ RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance
     return std::ranges::find(claimed.unclaimed, what) == claimed.unclaimed.end();
   };
   if (claimed.solution.plan && claims("cost")) result.claimed_cost = claimed.solution.plan->cost;
-  if (claimed.solution.plan && claims("lower bound"))
-    result.claimed_lower_bound = claimed.solution.lower_bound;
+  if (claims("lower bound")) result.claimed_lower_bound = claimed.solution.lower_bound;
   result.solution = std::move(claimed.solution);
-  if (paths_are_places(instance)) count_anew(result.solution);
+  if (result.solution.plan && paths_are_places(instance)) count_anew(*result.solution.plan);
+  forget_claims(result.solution);
   return result;
 }
 

@@ -31,6 +31,7 @@ namespace {
 
 constexpr double kShareOfMemory = 0.8;
 constexpr double kSmallestRoom_gb = 0.1;
+constexpr const char* kAll = "*";
 
 constexpr const char* kBenchFooter =
     R"(INSTANCES is a list (a path on each line, relative to the list, or FILE.scen --map M --agents
@@ -70,7 +71,7 @@ struct BenchArguments {
   std::vector<std::string> solvers;
   std::vector<std::string> claims;
   std::vector<std::int64_t> agents;
-  std::string scenarios = "*";
+  std::string scenarios = kAll;
   std::vector<std::int64_t> seeds;
   std::string output_dir;
   RunDefaults defaults;
@@ -91,25 +92,27 @@ int jobs_of(const BenchArguments& a, const std::vector<bench::Method>& methods) 
 void share_memory(std::vector<bench::Method>& methods, int jobs) {
   const double share =
       std::max(kSmallestRoom_gb, std::floor(10 * kShareOfMemory * usable_memory_gb() / jobs) / 10);
-  for (bench::Method& method : methods)
-    if (!method.solver && !method.settings.memory_limit_gb)
+  for (bench::Method& method : methods) {
+    if (method.settings.memory_limit_gb) continue;
+    if (method.solver)
+      method.memory_gb = share;
+    else
       method.arguments.insert(method.arguments.end(), {"--memory-limit", fmt::format("{}", share)});
+  }
 }
 
-// Those that find out about memory themselves are Grove's.
 std::vector<bench::Method> solvers_of(const BenchArguments& a) {
   std::vector<bench::Method> methods;
-  for (const std::string& text : a.solvers) {
-    bench::NamedSolver solver = bench::read_solver_argument(text, a.claims);
-    methods.push_back(
-        {.settings = {.method = solver.name,
-                      .options = solver.options,
-                      .omega = "",
-                      .seed = a.defaults.seed,
-                      .time_limit_s = a.defaults.time_limit_s},
-         .threads = solver.solver.adapter.threads,
-         .solver = std::make_shared<bench::ForeignSolver>(std::move(solver.solver))});
-  }
+  for (bench::NamedSolver& solver : bench::read_solver_arguments(a.solvers, a.claims))
+    methods.push_back({.settings = {.method = solver.name,
+                                    .options = solver.options,
+                                    .omega = "",
+                                    .seed = a.defaults.seed,
+                                    .time_limit_s = a.defaults.time_limit_s,
+                                    .memory_limit_gb = a.defaults.memory_limit_gb},
+                       .threads = solver.solver.adapter.threads,
+                       .memory_gb = a.defaults.memory_limit_gb,
+                       .solver = std::make_shared<bench::ForeignSolver>(std::move(solver.solver))});
   return methods;
 }
 
@@ -148,18 +151,21 @@ std::vector<bench::Method> methods_of(BenchArguments& a) {
 
 std::vector<batch::Entry> entries_of(const BenchArguments& a) {
   if (a.agents.empty()) {
+    if (a.scenarios != kAll) throw CLI::ValidationError("--scenarios", "expected --agents with it");
     if (batch::holds_scenarios(a.instances))
-      throw CLI::ValidationError("--agents", "required with scenarios: how many of their rows, as "
-                                             "10:100:10 or 10,20,50");
+      throw CLI::ValidationError("--agents",
+                                 "required with scenarios: how many of their rows, as "
+                                 "10:100:10 or 10,20,50");
     return batch::read_manifest(a.instances);
   }
   const std::vector<int> agents(a.agents.begin(), a.agents.end());
   batch::SweptScenarios swept =
       batch::read_scenarios(a.instances, {.agents = agents, .scenarios = a.scenarios});
   if (swept.too_short > 0)
-    say_on_stderr(fmt::format("grove: warning: {} scenario{} fewer rows than the most of --agents; "
-                              "what there is not is left out",
-                              swept.too_short, swept.too_short == 1 ? " has" : "s have"));
+    say_on_stderr(
+        fmt::format("grove: warning: {} scenario{} fewer rows than the most of --agents; "
+                    "what there is not is left out",
+                    swept.too_short, swept.too_short == 1 ? " has" : "s have"));
   return std::move(swept.entries);
 }
 
@@ -205,7 +211,8 @@ void add_bench_command(CLI::App& root) {
       root.add_subcommand("bench", "Run methods on many instances, tabulate the results");
   app->footer(kBenchFooter);
   const auto a = std::make_shared<BenchArguments>();
-  app->add_option("INSTANCES", a->instances, "a list of instances, a folder of them, or one; or scenarios")
+  app->add_option("INSTANCES", a->instances,
+                  "a list of instances, a folder of them, or one; or scenarios")
       ->required()
       ->type_name("");
   app->add_option("--run", a->runs,
@@ -213,16 +220,18 @@ void add_bench_command(CLI::App& root) {
       ->type_name("'NAME: OPTIONS'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option("--solver", a->solvers,
-                  "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
-                  "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
-                  "{agents}, {instance}, {time_limit}, {seed}, {output}")
+  app->add_option(
+         "--solver", a->solvers,
+         "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
+         "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
+         "{agents}, {instance}, {time_limit}, {seed}, {output}")
       ->type_name("'NAME=COMMAND'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option("--claimed-cost", a->claims,
-                  "of a solver that shows no plan: group 1 of the last line that it prints in which "
-                  "this is found is the cost that it claims")
+  app->add_option(
+         "--claimed-cost", a->claims,
+         "of a solver that shows no plan: group 1 of the last line that it prints in which "
+         "this is found is the cost that it claims")
       ->type_name("'NAME=REGEX'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -9,14 +9,17 @@
 //     omega, seed, time_limit_s      of the run
 //     solved                         it ended by itself with a plan that was re-checked: no limit
 //                                    struck
-//     status                         as in the plan file; or "error": it crashed, or Grove's plan is
+//     status                         as in the plan file; or "error": it crashed, or Grove's plan
+//     is
 //                                    wrong; "unsuitable": the method is not for the instance; of
 //                                    other solvers "wrong": the plan is, "claimed": a cost without
 //                                    a plan
-//     cost, lower_bound, gap         of the plan that was re-checked; what Grove has proven; gap = (cost - lower bound) / lower bound
-//     root_cost, sqr                 the sum of the agents' best sequences, conflicts ignored; its
+//     cost, lower_bound, gap         of the plan that was re-checked; what Grove has proven; gap =
+//     (cost - lower bound) / lower bound root_cost, sqr                 the sum of the agents' best
+//     sequences, conflicts ignored; its
 //                                    ratio to the cost, of what is solved
-//     runtime_s, wall_s              wall time, or the time limit when not solved, or when the first
+//     runtime_s, wall_s              wall time, or the time limit when not solved, or when the
+//     first
 //                                    plan was found by what is anytime; wall time
 //     first_plan_s                   when the first plan was found, as the run says
 //     roots, rtsp_calls, nodes, low_level_calls, peak_memory_mb     as the plan file has them
@@ -31,7 +34,8 @@
 //     solver                         what other solver it is: its adapter; absent: Grove itself
 //     claimed_cost, claimed_lower_bound, claimed_s     what that says of its plan, and of its time
 //     anytime                        it goes on until its time limit, which is no failure
-//     trace                          the plans on the way, as the run says: "0.25:120:100 1.5:118:-",
+//     trace                          the plans on the way, as the run says:
+//     "0.25:120:100 1.5:118:-",
 //                                    seconds, cost, lower bound
 // From counts on they are absent in older tables.
 #pragma once
