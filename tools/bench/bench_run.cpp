@@ -21,6 +21,7 @@
 #include "grove/detail/batch/result_table.h"
 #include "grove/detail/io/expressible.h"
 #include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_file.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/judge.h"
 #include "tools/bench/root_costs.h"
@@ -198,7 +199,7 @@ class Bench {
     row.outcome.trace = trace_of_log(files.log);
     if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
     row.root_cost = root_costs_.of(index, loaded.instance);
-    if (options_.keep_plans) keep(files.plan, row);
+    if (options_.keep_plans) keep(files.plan, plan_name(row), row);
     return true;
   }
 
@@ -207,13 +208,13 @@ class Bench {
     const LoadedInstance loaded = load(instances_[index].entry);
     try {
       const Method& method = method_of(run);
-      const ForeignRun foreign(*method.solver, instances_[index].entry, loaded, row.run.settings,
-                               files.folder);
+      ForeignRun foreign(*method.solver, instances_[index].entry, loaded, row.run.settings,
+                         files.folder);
       const ChildEnd end =
           run_one(foreign.command(), row, files, foreign.knows_the_limit(), method.memory_gb);
       if (end.kind == ChildEnd::Kind::kCancelled) return false;
       row.outcome = foreign.judged(end, files.said);
-      if (options_.keep_plans) keep(foreign.plan(), row);
+      if (options_.keep_plans) keep(foreign, loaded.instance, files, row);
     } catch (const NotExpressible& error) {
       row.outcome = {.status = batch::kUnsuitable,
                      .error = fmt::format("{}: {}", error.field(), error.what())};
@@ -222,14 +223,29 @@ class Bench {
     return true;
   }
 
-  void keep(const fs::path& plan, batch::Row& row) const {
-    if (plan.empty() || !fs::exists(plan)) return;
-    const std::int64_t given = row.run.settings.seed;
-    const std::string seed = given == 0 ? "" : fmt::format("+seed{}", given);
-    row.plan_file = batch::plan_file(row.run.settings.method + seed + "/" + row.run.instance);
-    const fs::path kept = options_.folder / row.plan_file;
+  static std::string plan_name(const batch::Row& row) {
+    const batch::Settings& settings = row.run.settings;
+    const std::string seed = settings.seed == 0 ? "" : fmt::format("+seed{}", settings.seed);
+    return batch::plan_file(settings.method + seed + "/" + row.run.instance);
+  }
+
+  void keep(const fs::path& file, const std::string& name, batch::Row& row) const {
+    if (!fs::exists(file)) return;
+    row.plan_file = name;
+    const fs::path kept = options_.folder / name;
     batch::make_folder(kept.parent_path());
-    fs::rename(plan, kept);
+    fs::rename(file, kept);
+  }
+
+  // Of another solver: as a plan file of Grove's; what is none as it is.
+  void keep(const ForeignRun& foreign, const Instance& instance, const Files& files,
+            batch::Row& row) const {
+    if (foreign.shown()) {
+      write_solution(files.plan, instance, *foreign.shown());
+      keep(files.plan, plan_name(row), row);
+    } else if (row.outcome.status == batch::kWrongPlan) {
+      keep(foreign.plan(), plan_name(row) + ".wrong", row);
+    }
   }
 
   void record(const batch::Row& row) {

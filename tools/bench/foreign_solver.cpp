@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "grove/detail/io/expressible.h"
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/io/libmrp_file.h"
 #include "grove/detail/io/map_file.h"
@@ -87,6 +88,22 @@ std::vector<batch::TracePoint> better_and_better(std::vector<batch::TracePoint> 
   return better;
 }
 
+// Without the names that its format has no place for, or that it may forget.
+Instance as_told(const Instance& instance, SolverInput input) {
+  if (input == SolverInput::kGrove) return instance;
+  Instance told = with_default_agent_ids(instance);
+  return input == SolverInput::kMgcbs ? with_default_task_ids(told) : told;
+}
+
+// A valid plan of the same agents, whose tasks have other names here.
+Solution in_terms_of(const Instance& instance, Solution solution) {
+  if (!paths_are_places(instance)) return solution;
+  std::vector<Path> paths;
+  for (AgentPlan& agent : solution.plan->agents) paths.push_back(std::move(agent.path));
+  solution.plan = plan_of_paths(instance, std::move(paths));
+  return solution;
+}
+
 // Empty: as it should, and in time.
 std::string what_went_wrong(const ChildEnd& end, double time_limit_s, const fs::path& said) {
   if (end.wall_s > time_limit_s) return kTimeLimit;
@@ -112,14 +129,17 @@ std::vector<batch::TracePoint> borne_out(std::vector<batch::TracePoint> trace, C
 ForeignRun::ForeignRun(const ForeignSolver& solver, const batch::Entry& entry,
                        const LoadedInstance& loaded, const batch::Settings& settings,
                        fs::path folder)
-    : solver_(solver), loaded_(loaded), settings_(settings), folder_(fs::absolute(folder)) {
+    : solver_(solver),
+      loaded_(loaded),
+      told_(as_told(loaded.instance, solver.adapter.input)),
+      settings_(settings),
+      folder_(fs::absolute(folder)) {
   fs::remove_all(folder_);
   fs::create_directories(folder_);
   write_input(entry);
 }
 
 void ForeignRun::write_input(const batch::Entry& entry) {
-  const Instance& instance = loaded_.instance;
   instance_ = entry.path;
   switch (solver_.adapter.input) {
     case SolverInput::kMovingAi:
@@ -127,13 +147,13 @@ void ForeignRun::write_input(const batch::Entry& entry) {
     case SolverInput::kGrove:
       if (entry.agents == 0) return;
       instance_ = folder_ / "instance.cts.json";
-      return write_instance(instance_, instance, fs::absolute(entry.map).string());
+      return write_instance(instance_, told_, fs::absolute(entry.map).string());
     case SolverInput::kLibmrp:
-      return write_libmrp_instance(instance_ = folder_ / "instance.yaml", instance);
+      return write_libmrp_instance(instance_ = folder_ / "instance.yaml", told_);
     case SolverInput::kPotentialGoals:
-      return write_potential_goals(instance_ = folder_ / "instance.yaml", instance);
+      return write_potential_goals(instance_ = folder_ / "instance.yaml", told_);
     case SolverInput::kMgcbs:
-      return write_mgcbs_instance(instance_ = folder_ / "instance.yaml", instance);
+      return write_mgcbs_instance(instance_ = folder_ / "instance.yaml", told_);
   }
 }
 
@@ -142,8 +162,8 @@ void ForeignRun::write_input(const batch::Entry& entry) {
 void ForeignRun::write_moving_ai() {
   map_ = folder_ / "map.map";
   scenario_ = folder_ / "map.scen";
-  write_scenario_instance(scenario_, loaded_.instance, "map.map");
-  write_map(map_, loaded_.instance.grid());
+  write_scenario_instance(scenario_, told_, "map.map");
+  write_map(map_, told_.grid());
 }
 
 std::string ForeignRun::value_of(std::string_view placeholder) const {
@@ -151,7 +171,7 @@ std::string ForeignRun::value_of(std::string_view placeholder) const {
   if (placeholder == "program") return solver_.program;
   if (placeholder == "map") return map_.string();
   if (placeholder == "scenario") return scenario_.string();
-  if (placeholder == "agents") return std::to_string(loaded_.instance.agent_count());
+  if (placeholder == "agents") return std::to_string(told_.agent_count());
   if (placeholder == "instance") return instance_.string();
   if (placeholder == "time_limit") return fmt::format("{}", limit);
   if (placeholder == "time_limit_ms") return fmt::format("{:.0f}", limit * 1e3);
@@ -167,14 +187,13 @@ std::string ForeignRun::told(const std::string& text) const {
 
 std::vector<std::string> ForeignRun::command() const {
   std::vector<std::string> words = solver_.adapter.command;
-  words.insert(words.end(), solver_.more.begin(), solver_.more.end());
   for (std::string& word : words) word = told(word);
   return words;
 }
 
 bool ForeignRun::knows_the_limit() const {
   return std::ranges::any_of(kTimeLimits, [this](std::string_view place) {
-    return names(solver_.adapter.command, place) || names(solver_.more, place);
+    return names(solver_.adapter.command, place);
   });
 }
 
@@ -229,19 +248,20 @@ void ForeignRun::read_trace(batch::Outcome& outcome, const fs::path& said) const
   outcome.trace = better_and_better(std::move(outcome.trace));
 }
 
-void ForeignRun::read_plan(batch::Outcome& outcome) const {
+void ForeignRun::read_plan(batch::Outcome& outcome) {
   const fs::path file = plan();
   std::error_code error;
   if (file.empty() || !fs::is_regular_file(file, error)) return;
   try {
-    const RecountedPlan told = read_and_recount(file, loaded_.instance);
+    const RecountedPlan told = read_and_recount(file, told_);
     if (!outcome.claimed_cost) outcome.claimed_cost = told.claimed_cost;
     if (!outcome.claimed_lower_bound) outcome.claimed_lower_bound = told.claimed_lower_bound;
     if (!told.solution.plan) return;
-    const auto wrong = check(loaded_.instance, told.solution, 1);
+    const auto wrong = check(told_, told.solution, 1);
     if (!wrong.empty()) throw InputError("", wrong.front().place, wrong.front().message);
     outcome.cost = told.solution.plan->cost;
     outcome.status = to_string(Status::kFeasible);
+    shown_ = in_terms_of(loaded_.instance, told.solution);
   } catch (const InputError& broken) {
     outcome.status = batch::kWrongPlan;
     outcome.error = fmt::format("the plan is wrong: {}", broken.what());
@@ -279,7 +299,7 @@ void ForeignRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& en
   }
 }
 
-batch::Outcome ForeignRun::judged(const ChildEnd& end, const fs::path& said) const {
+batch::Outcome ForeignRun::judged(const ChildEnd& end, const fs::path& said) {
   batch::Outcome outcome;
   outcome.peak_memory_mb = end.peak_memory_mb;
   outcome.anytime = solver_.adapter.anytime;

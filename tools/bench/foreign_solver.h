@@ -19,8 +19,7 @@ namespace grove::detail::bench {
 
 struct ForeignSolver {
   SolverAdapter adapter;
-  std::string program;                 // {program}
-  std::vector<std::string> more = {};  // words after the adapter's
+  std::string program;  // {program}
 };
 
 // One run of it.
@@ -36,8 +35,10 @@ class ForeignRun {
   // Whether it is told of the time limit, and so may end by itself when that strikes.
   bool knows_the_limit() const;
   // The outcome of a run that has ended and was not cancelled; it said what is in the file `said`.
-  batch::Outcome judged(const ChildEnd& end, const std::filesystem::path& said) const;
-  // The plan that it wrote, perhaps.
+  batch::Outcome judged(const ChildEnd& end, const std::filesystem::path& said);
+  // The plan that it wrote and that was found to be one.
+  const std::optional<Solution>& shown() const { return shown_; }
+  // The file in which it wrote one, perhaps.
   std::filesystem::path plan() const;
 
  private:
@@ -47,7 +48,7 @@ class ForeignRun {
   void write_moving_ai();
   void read_claims(batch::Outcome& outcome, const std::filesystem::path& said) const;
   void read_trace(batch::Outcome& outcome, const std::filesystem::path& said) const;
-  void read_plan(batch::Outcome& outcome) const;
+  void read_plan(batch::Outcome& outcome);
   void finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
                         const std::filesystem::path& said) const;
   void finish_without_plan(batch::Outcome& outcome, const ChildEnd& end,
@@ -59,11 +60,13 @@ class ForeignRun {
 
   const ForeignSolver& solver_;
   const LoadedInstance& loaded_;
+  const Instance told_;
   const batch::Settings& settings_;
   const std::filesystem::path folder_;
   std::filesystem::path map_;
   std::filesystem::path scenario_;
   std::filesystem::path instance_;
+  std::optional<Solution> shown_;
 };
 
 struct NamedSolver {

@@ -92,14 +92,26 @@ ForeignSolver solver_of_command(const std::string& name, std::vector<std::string
   return solver;
 }
 
+// What is given replaces what the adapter says: many programs refuse an option given twice.
+void drop_option(std::vector<std::string>& command, const std::string& option) {
+  if (!option.starts_with('-')) return;
+  const auto it = std::ranges::find(command, option);
+  if (it == command.end()) return;
+  const bool has_value = it + 1 != command.end() && !(it + 1)->starts_with('-');
+  command.erase(it, it + (has_value ? 2 : 1));
+}
+
 // "eecbs=/opt/eecbs", or another adapter before the first colon.
 ForeignSolver solver_of_adapter(const std::string& name, const std::vector<std::string>& words,
                                 const std::string& text) {
   const std::size_t colon = words[0].find(':');
   const bool is_named = colon != std::string::npos;
-  return {.adapter = adapter_called(is_named ? words[0].substr(0, colon) : name, text),
-          .program = path_of_program(is_named ? words[0].substr(colon + 1) : words[0], text),
-          .more = {words.begin() + 1, words.end()}};
+  ForeignSolver solver{
+      .adapter = adapter_called(is_named ? words[0].substr(0, colon) : name, text),
+      .program = path_of_program(is_named ? words[0].substr(colon + 1) : words[0], text)};
+  for (std::size_t i = 1; i < words.size(); ++i) drop_option(solver.adapter.command, words[i]);
+  solver.adapter.command.insert(solver.adapter.command.end(), words.begin() + 1, words.end());
+  return solver;
 }
 
 NamedSolver read_solver_argument(const std::string& text) {
