@@ -45,8 +45,10 @@ std::string against_cost(const Row& row, const Known& known) {
   const Outcome& outcome = row.outcome;
   if (!outcome.claimed_cost) return "";
   const Cost claimed = *outcome.claimed_cost;
-  if (outcome.cost && claimed < *outcome.cost)
-    return fmt::format("claims a cost of {}, but its own paths cost {}", claimed, *outcome.cost);
+  if (outcome.cost)
+    return claimed >= *outcome.cost ? ""
+                                    : fmt::format("claims a cost of {}, but its own paths cost {}",
+                                                  claimed, *outcome.cost);
   if (known.highest && claimed < *known.highest->outcome.lower_bound)
     return fmt::format("claims a cost of {}, but {} has proven that no plan costs less than {}",
                        claimed, known.highest->run.settings.method,

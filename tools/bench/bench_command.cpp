@@ -258,8 +258,9 @@ void add_bench_command(CLI::App& root) {
       ->type_name("J")
       ->default_str("");
   add_integer(*app, "--seed", a->defaults.seed, kSeeds, "the seed of runs that do not name one");
-  app->add_flag("--keep-plans", a->keep_plans,
-                "keep the plan files, as DIR/plans/NAME/ID.plan.json");
+  app->add_flag(
+      "--keep-plans", a->keep_plans,
+      "keep the plan files, as DIR/plans/NAME/ID.plan.json; NAME+seed7 with another seed than 0");
   app->add_flag("--quiet", a->quiet, "no progress on the screen");
   app->callback([app, a] { run(*app, *a); });
 }

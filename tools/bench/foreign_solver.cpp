@@ -258,13 +258,15 @@ void ForeignRun::read_plan(batch::Outcome& outcome) {
     if (!outcome.claimed_lower_bound) outcome.claimed_lower_bound = told.claimed_lower_bound;
     if (!told.solution.plan) return;
     const auto wrong = check(told_, told.solution, 1);
-    if (!wrong.empty()) throw InputError("", wrong.front().place, wrong.front().message);
+    if (!wrong.empty()) throw InputError(file.string(), wrong.front().place, wrong.front().message);
     outcome.cost = told.solution.plan->cost;
     outcome.status = to_string(Status::kFeasible);
     shown_ = in_terms_of(loaded_.instance, told.solution);
   } catch (const InputError& broken) {
     outcome.status = batch::kWrongPlan;
-    outcome.error = fmt::format("the plan is wrong: {}", broken.what());
+    std::string text = broken.what();
+    if (text.starts_with(folder_.string())) text.erase(0, folder_.string().size() + 1);
+    outcome.error = fmt::format("the plan is wrong: {}", text);
   }
 }
 

@@ -43,7 +43,8 @@ def main():
         write(output, paths)
         print(f"cost {cost} bound {cost}")
     elif kind == "collides":
-        write(output, [paths[0], paths[1][:1] + paths[0][1:-1] + paths[1][-2:], *paths[2:]])
+        first = paths[0][:2] + [(1, 1)] + paths[0][1:]  # where the second one is at that time
+        write(output, [first, straight(*rows[1], waits=1), *paths[2:]])
         print(f"cost {cost}")
     elif kind == "boasts":
         print(f"cost {cost - 1}")
