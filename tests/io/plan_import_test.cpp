@@ -112,7 +112,7 @@ TEST_F(PlanImport, RefusesSchedulesWithThePlace) {
   EXPECT_EQ(refused(replaced(kSchedule, "  a1:", "  a0:")),
             "plan: line 15, column 3: an agent appears twice");
   EXPECT_EQ(refused(replaced(kSchedule, "x: 3, y: 0, t: 6", "x: 3, y: 0, t: 7")),
-            "plan: line 14, column 22: expected t: 6, for each step follows the one before");
+            "plan: line 14, column 23: expected t: 6, for each step follows the one before");
   EXPECT_NE(refused(replaced(kSchedule, "x: 3, y: 0", "x: 4, y: 0")), "accepted");
   EXPECT_NE(refused(replaced(kSchedule, "x: 3, y: 0", "x: 3, y: -1")), "accepted");
   EXPECT_NE(refused(replaced(kSchedule, "x: 3, ", "")), "accepted");

@@ -46,17 +46,20 @@ before any second: what is done at any moment is balanced.
 
 DIR/results.jsonl gets a row when a run has ended and its plan was re-checked; DIR/results.csv is
 made from it. The same command goes on where an earlier one stopped, however it stopped: Ctrl-C,
-killed, or with more runs or instances to do. What ended in an error is tried again; rows of the
-same names with other options, limits, seed or instances are refused. A run counts as solved when it
+killed, or with more runs, seeds or instances to do. What ended in an error is tried again; rows of
+the same names with other options, limits or instances are refused. A run counts as solved when it
 ended by itself with a plan, before any limit.
 
 A run that went on until its limit is not solved, even with a plan: so methods that improve their
 plan as long as they may (cts-cbs-c --anytime) fare worse here than they are. Exits with 130 when
 stopped with runs left.
 
---solver sets a program of someone else beside it, by an adapter: eecbs, cbsh2-rtc, mapf-lns2, lacam3,
-mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md). What it writes is re-checked, and its costs
-are counted anew; a plan that is none is "wrong", one that it only speaks of "claimed".
+--solver sets a program of someone else beside it, by an adapter: eecbs, cbsh2-rtc, mapf-lns2,
+lacam3, mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md); options after the program come to
+those of the adapter, or replace them. What it writes is re-checked, and its costs are counted anew; a
+plan that is none is "wrong", one that it only speaks of "claimed", and what cannot be, of anybody,
+is "refuted" at the end. One that goes on until its limit, as its adapter says, is solved when it has
+a plan in time.
 
 Examples:
   grove bench movingai/ --agents 10:50:10 --scenarios 'random-32-32-20-random-*' --run 'grove: --omega 0' \
