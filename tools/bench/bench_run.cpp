@@ -196,7 +196,7 @@ class Bench {
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     const LoadedInstance loaded = load(instances_[index].entry);
     row.outcome = judged(end, limit, loaded.instance, files.plan, files.said);
-    row.outcome.trace = trace_of_log(files.log);
+    if (!row.outcome.failed()) row.outcome.trace = trace_of_log(files.log);
     if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
     row.root_cost = root_costs_.of(index, loaded.instance);
     if (options_.keep_plans) keep(files.plan, plan_name(row), row);

@@ -4,6 +4,7 @@
 import json
 import os
 import shlex
+import signal
 import time
 import unittest
 from pathlib import Path
@@ -140,6 +141,18 @@ class Solvers(Foreign):
                          ("unknown", False, "time limit", 0.5))
         self.assertLess(row["wall_s"], 5)
         child = Path("/proc") / (self.folder / "pids").read_text()
+        self.wait_until(lambda: not child.exists() or "\nState:\tZ" in (child / "status").read_text())
+
+    def test_ctrl_c_ends_it_without_a_row(self):
+        self.add_scenario("open-random-1", 2)
+        running = self.start(*self.sweep(solvers=[self.solver("hangs")], runs=(), limit=60))
+        pids = self.folder / "pids"
+        child = Path("/proc") / self.wait_until(lambda: pids.exists() and pids.read_text())
+        running.send_signal(signal.SIGINT)
+        _, err = running.communicate(timeout=PATIENCE_S)
+        self.assertEqual((running.returncode, err),
+                         (130, "grove: stopped with 1 run left; the same command goes on\n"))
+        self.assertEqual(self.lines(), [])
         self.wait_until(lambda: not child.exists() or "\nState:\tZ" in (child / "status").read_text())
 
     def test_ones_that_crash(self):
