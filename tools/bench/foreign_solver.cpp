@@ -95,9 +95,8 @@ Instance as_told(const Instance& instance, SolverInput input) {
   return input == SolverInput::kMgcbs ? with_default_task_ids(told) : told;
 }
 
-// A valid plan of the same agents, whose tasks have other names here.
+// A valid plan of the same agents, whose tasks may have other names and numbers here.
 Solution in_terms_of(const Instance& instance, Solution solution) {
-  if (!paths_are_places(instance)) return solution;
   std::vector<Path> paths;
   for (AgentPlan& agent : solution.plan->agents) paths.push_back(std::move(agent.path));
   solution.plan = plan_of_paths(instance, std::move(paths));
@@ -248,7 +247,7 @@ void ForeignRun::read_trace(batch::Outcome& outcome, const fs::path& said) const
   outcome.trace = better_and_better(std::move(outcome.trace));
 }
 
-void ForeignRun::read_plan(batch::Outcome& outcome) {
+void ForeignRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
   const fs::path file = plan();
   std::error_code error;
   if (file.empty() || !fs::is_regular_file(file, error)) return;
@@ -261,8 +260,10 @@ void ForeignRun::read_plan(batch::Outcome& outcome) {
     if (!wrong.empty()) throw InputError(file.string(), wrong.front().place, wrong.front().message);
     outcome.cost = told.solution.plan->cost;
     outcome.status = to_string(Status::kFeasible);
-    shown_ = in_terms_of(loaded_.instance, told.solution);
+    const bool same = solver_.adapter.input == SolverInput::kGrove;
+    shown_ = same ? told.solution : in_terms_of(loaded_.instance, told.solution);
   } catch (const InputError& broken) {
+    if (end.kind != ChildEnd::Kind::kExited || end.code != 0) return;  // while it wrote, perhaps
     outcome.status = batch::kWrongPlan;
     std::string text = broken.what();
     if (text.starts_with(folder_.string())) text.erase(0, folder_.string().size() + 1);
@@ -312,7 +313,7 @@ batch::Outcome ForeignRun::judged(const ChildEnd& end, const fs::path& said) {
   outcome.status = to_string(Status::kUnknown);
   read_claims(outcome, said);
   read_trace(outcome, said);
-  read_plan(outcome);
+  read_plan(outcome, end);
   if (outcome.status == batch::kWrongPlan) {
     outcome.trace.clear();
     outcome.first_plan_s.reset();

@@ -48,7 +48,7 @@ class ForeignRun {
   void write_moving_ai();
   void read_claims(batch::Outcome& outcome, const std::filesystem::path& said) const;
   void read_trace(batch::Outcome& outcome, const std::filesystem::path& said) const;
-  void read_plan(batch::Outcome& outcome);
+  void read_plan(batch::Outcome& outcome, const ChildEnd& end);
   void finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
                         const std::filesystem::path& said) const;
   void finish_without_plan(batch::Outcome& outcome, const ChildEnd& end,

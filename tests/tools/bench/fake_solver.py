@@ -58,6 +58,9 @@ def main():
         print(f"cost {cost} bound {cost + 5}")
     elif kind == "garbage":
         Path(output).write_text("I am no plan\n")
+    elif kind == "torn":
+        write(output, [path[:3] for path in paths])
+        time.sleep(600)
     elif kind == "silent":
         print("nothing found")
     elif kind == "hangs":

@@ -128,6 +128,10 @@ class Solvers(Foreign):
         self.assertEqual(row["status"], "wrong")
         self.assertIn("expected a plan file", row["error"])
 
+    def test_one_that_is_killed_as_it_writes(self):
+        row = self.row_of("torn", limit=0.5)
+        self.assertEqual((row["status"], row["error"]), ("unknown", "time limit"))
+
     def test_one_that_finds_nothing(self):
         row = self.row_of("silent")
         self.assertEqual((row["status"], row["solved"], row["error"]),
@@ -200,6 +204,29 @@ class Commands(Foreign):
         self.run_well("bench", "instances", "--solver", command, "--output-dir", "more", "--quiet")
         row = json.loads((self.folder / "more/results.jsonl").read_text())
         self.assertEqual((row["problem"], row["solved"], row["status"]), ("cts", True, "feasible"))
+
+    def test_instances_in_other_forms(self):
+        """A program that reads YAML: grove convert, then grove solve."""
+        (self.folder / "reader.sh").write_text(
+            f'#!/bin/sh\n"{GROVE}" convert "$1" "$3/i.cts.json" --from "$4" &&\n'
+            f'"{GROVE}" solve "$3/i.cts.json" --output "$2" --omega 0 --quiet --threads 1\n')
+        (self.folder / "reader.sh").chmod(0o755)
+        solvers = []
+        for form, reads in (("libmrp", "libmrp"), ("potential-goals", "libmrp"), ("mgcbs", "mgcbs")):
+            (self.folder / f"{form}.json").write_text(json.dumps(
+                {"name": form, "instance": form, "command": "{program} {instance} {output} {folder} " + reads}))
+            solvers += ["--solver", f"{form}={form}.json:./reader.sh"]
+        self.generate("a_s1_n3_m5_mg", 3, 5, 4, "--mg")
+        self.generate("a_s1_n3_m0", 3, 0, 4)
+        self.run_well("bench", "instances", "--run", "grove: --omega 0", *solvers, "--output-dir", "out", "--quiet",
+                      "--keep-plans")
+        for (instance, method), row in self.rows().items():
+            fits = method == "grove" or (method == "mgcbs") == instance.endswith("mg")
+            self.assertEqual(row["status"] == "unsuitable", not fits, row)
+            if fits:
+                self.assertEqual(row["cost"], self.rows()[instance, "grove"]["cost"], row["error"])
+                self.run_well("check", self.folder / f"instances/{instance}.cts.json",
+                              self.folder / "out" / row["plan_file"])
 
     def test_a_cost_that_is_printed(self):
         self.add_scenario("open-random-1", 2)
