@@ -132,9 +132,10 @@ AgentIndex agent_called(const Instance& instance, const YamlValue& name) {
           ? parse_number<AgentIndex>(std::string_view(text).substr(kAgent.size()), 0)
           : std::nullopt;
   if (!number || *number >= instance.agent_count())
-    name.fail(fmt::format("found '{}', which no agent of the instance is called; expected the name "
-                          "of one, or agent0 to agent{}",
-                          one_line(text), instance.agent_count() - 1));
+    name.fail(
+        fmt::format("found '{}', which no agent of the instance is called; expected the name "
+                    "of one, or agent0 to agent{}",
+                    one_line(text), instance.agent_count() - 1));
   return *number;
 }
 
@@ -173,7 +174,7 @@ ToldPaths read_schedule(const std::filesystem::path& path, const Instance& insta
 }
 
 ToldPaths read_visualizer_text(const std::filesystem::path& path, const Instance& instance,
-                                    const std::vector<std::string_view>& lines) {
+                               const std::vector<std::string_view>& lines) {
   ToldPaths text;
   std::size_t k = 0;
   for (; k < lines.size() && lines[k] != "solution="; ++k) {

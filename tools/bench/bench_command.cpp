@@ -36,8 +36,8 @@ constexpr const char* kAll = "*";
 constexpr const char* kBenchFooter =
     R"(INSTANCES is a list (a path on each line, relative to the list, or FILE.scen --map M --agents
 K; # begins a comment), as 'grove generate paper' writes it, or a folder, with all *.cts.json below
-it; or Moving AI's scenarios, a folder or one of them, with --agents 10:100:10 or 10,20,50: the first
-so many rows of each.
+it; or Moving AI's scenarios, a folder or one of them, with --agents 10:100:10 or 10,20,50: the
+first so many rows of each.
 
 A run is 'NAME: OPTIONS OF grove solve'; NAME alone is short for 'NAME: --method NAME'. Each is a
 process of its own, on one thread and with omega 0.01 unless its options say otherwise. All methods
@@ -55,15 +55,16 @@ plan as long as they may (cts-cbs-c --anytime) fare worse here than they are. Ex
 stopped with runs left.
 
 --solver sets a program of someone else beside it, by an adapter: eecbs, cbsh2-rtc, mapf-lns2,
-lacam3, mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md); options after the program come to
-those of the adapter, or replace them. What it writes is re-checked, and its costs are counted anew; a
-plan that is none is "wrong", one that it only speaks of "claimed", and what cannot be, of anybody,
-is "refuted" at the end. One that goes on until its limit, as its adapter says, is solved when it has
-a plan in time.
+lacam3, mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md); options after the program come
+to those of the adapter, or replace them. What it writes is re-checked, and its costs are counted
+anew; a plan that is none is "wrong", one that it only speaks of "claimed", and what cannot be, of
+anybody, is "refuted" at the end. One that goes on until its limit, as its adapter says, is solved
+when it has a plan in time.
 
 Examples:
-  grove bench movingai/ --agents 10:50:10 --scenarios 'random-32-32-20-random-*' --run 'grove: --omega 0' \
-        --solver 'eecbs=/opt/eecbs --suboptimality 1.05' --time-limit 30 --output-dir results
+  grove bench movingai/ --agents 10:50:10 --scenarios 'random-32-32-20-random-*' \
+        --run 'grove: --omega 0' --solver 'eecbs=/opt/eecbs --suboptimality 1.05' \
+        --time-limit 30 --output-dir results
   grove bench paper/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir results
   grove bench instances/ --run 'exact: --omega 0' --run 'near: --omega 0.1' --time-limit 60 \
         --jobs 4 --output-dir results)";
@@ -241,8 +242,7 @@ void add_bench_command(CLI::App& root) {
   add_counts(*app, "--agents", a->agents,
              "of scenarios: the first so many rows, 10:100:10 being 10, 20, ..., 100");
   app->add_option("--scenarios", a->scenarios, "only those, of a folder; * stands for anything")
-      ->type_name("NAME*")
-      ->capture_default_str();
+      ->type_name("NAME*");
   add_ranges(*app, "--seeds", a->seeds, kSeeds, "", "each run with each of these seeds");
   app->add_option("--output-dir", a->output_dir, "the folder for the table; made if missing")
       ->required()
