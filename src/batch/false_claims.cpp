@@ -16,10 +16,15 @@ using InstanceKey = std::pair<std::string, std::string>;  // its id and digest
 struct Known {
   const Row* cheapest = nullptr;  // of the plans that were re-checked
   const Row* highest = nullptr;   // of the bounds that Grove has proven
+  const Row* hopeless = nullptr;  // proven by Grove: there is no plan
 };
 
 InstanceKey key_of(const Row& row) {
   return {row.run.instance, row.run.digest};
+}
+
+bool says_infeasible(const Row& row) {
+  return row.outcome.status == to_string(Status::kInfeasible);
 }
 
 bool has_proof(const Row& row) {
@@ -36,6 +41,7 @@ std::map<InstanceKey, Known> known_of(std::span<const Row> rows) {
     if (has_proof(row) &&
         (!known.highest || *outcome.lower_bound > *known.highest->outcome.lower_bound))
       known.highest = &row;
+    if (says_infeasible(row)) known.hopeless = &row;
   }
   return all;
 }
@@ -62,6 +68,18 @@ std::string against_bound(std::optional<Cost> bound, std::string_view verb, cons
                      known.cheapest->run.settings.method, *known.cheapest->outcome.cost);
 }
 
+std::string against_plan(const Row& row, const Known& known) {
+  if (row.outcome.status != kClaimed || !known.hopeless) return "";
+  return fmt::format("claims a plan, but {} has proven that there is none",
+                     known.hopeless->run.settings.method);
+}
+
+std::string against_despair(const Row& row, const Known& known) {
+  if (!says_infeasible(row) || !known.cheapest) return "";
+  return fmt::format("proves that there is no plan, but {} has one that costs {}",
+                     known.cheapest->run.settings.method, *known.cheapest->outcome.cost);
+}
+
 }  // namespace
 
 std::vector<FalseClaim> false_claims(std::span<const Row> rows) {
@@ -71,7 +89,8 @@ std::vector<FalseClaim> false_claims(std::span<const Row> rows) {
     const Known& known = all.at(key_of(row));
     const auto proven = has_proof(row) ? row.outcome.lower_bound : std::nullopt;
     for (std::string what :
-         {against_cost(row, known), against_bound(row.outcome.claimed_lower_bound, "claims", known),
+         {against_plan(row, known), against_despair(row, known), against_cost(row, known),
+          against_bound(row.outcome.claimed_lower_bound, "claims", known),
           against_bound(proven, "proves", known)})
       if (!what.empty())
         found.push_back({row.run.settings.method, row.run.instance, std::move(what)});

@@ -78,6 +78,21 @@ TEST(FalseClaims, AreProofsOfGrovesOwn) {
                                       "costs 105"}}));
 }
 
+TEST(FalseClaims, AreProofsThatThereIsNoPlan) {
+  Row hopeless = solved_row("i", "grove");
+  hopeless.outcome = {.status = "infeasible"};
+  EXPECT_EQ(
+      false_claims(std::vector<Row>{hopeless, honest_row()}),
+      (std::vector<FalseClaim>{
+          {"grove", "i", "proves that there is no plan, but honest has one that costs 105"}}));
+  Row boaster = row_of_other("boaster");
+  boaster.outcome = {.status = kClaimed, .error = "claims"};
+  EXPECT_EQ(false_claims(std::vector<Row>{hopeless, boaster}),
+            (std::vector<FalseClaim>{
+                {"boaster", "i", "claims a plan, but grove has proven that there is none"}}));
+  EXPECT_TRUE(false_claims({&hopeless, 1}).empty());
+}
+
 TEST(FalseClaims, AreOfOneInstance) {
   Row other = honest_row();
   other.run.digest = "another";

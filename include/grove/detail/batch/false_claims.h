@@ -20,7 +20,8 @@ struct FalseClaim {
 
 // Of rows of one instance, whatever their methods and seeds: a claimed cost below that of the plan
 // shown with it, or, where none is, below a bound that Grove has proven; a lower bound, claimed or
-// Grove's own, above the cost of a plan that was re-checked. In the order of the rows.
+// Grove's own, above the cost of a plan that was re-checked; a plan where Grove has proven that
+// there is none, or the other way round. In the order of the rows.
 std::vector<FalseClaim> false_claims(std::span<const Row> rows);
 
 }  // namespace grove::detail::batch
