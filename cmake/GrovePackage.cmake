@@ -6,27 +6,27 @@ if(NOT PROJECT_IS_TOP_LEVEL OR NOT GROVE_BUILD_TOOLS OR NOT CMAKE_INSTALL_PREFIX
 endif()
 
 set(GROVE_MAINTAINER "The Grove authors <grove@localhost>" CACHE STRING
-  "Who answers for the packages: \"Name <address>\"")
+  "Who answers for the packages: Name <address>")
 set(CPACK_PACKAGE_CONTACT ${GROVE_MAINTAINER})
 set(CPACK_GENERATOR DEB)
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
-set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0grove1)  # older than Debian's own would be
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_SOURCE grove)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(grove_debian ${PROJECT_SOURCE_DIR}/cmake/package)
-# Copyright, changelogs, compressed manual pages: what Debian wants in every package.
+# Stripped programs, copyright, changelogs, compressed manual pages: what Debian wants.
 set(CPACK_PRE_BUILD_SCRIPTS ${grove_debian}/finish.cmake)
 
 # grove_package(COMPONENT NAME SECTION SUMMARY TEXT [FIELD VALUE]...)
-set(grove_packages "")
 macro(grove_package component name section summary text)
   string(TOUPPER ${component} upper)
   list(APPEND CPACK_COMPONENTS_ALL ${component})
@@ -41,8 +41,11 @@ macro(grove_package component name section summary text)
   endforeach()
 endmacro()
 
-set(grove_what "Many robots on a grid or a roadmap, each with places to visit in any order; \
-none may collide. Grove finds a plan for all of them, and proves how far from the best it is.\n\n")
+set(grove_what "Many robots on a grid or a roadmap, each with places to visit in any order;
+none may collide. Grove finds a plan for all of them, and proves how far from
+the best it is.
+
+This package holds ")
 set(grove_abi ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(grove_same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 
@@ -51,15 +54,14 @@ set(CPACK_COMPONENTS_ALL "")
 # Bluetooth and MQTT are for some: each says what it lacks.
 grove_package(programs grove science
   "solver for multi-agent path finding with tasks and proven bounds"
-  "${grove_what}This package holds the programs: grove, grove-mpi for many processes and machines, and \
-grove-sim, which predicts how that would fare."
+  "${grove_what}the programs: grove, grove-mpi for many processes
+and machines, and grove-sim, which predicts how that would fare."
   DEPENDS python3 RECOMMENDS "openmpi-bin, python3-matplotlib"
   SUGGESTS "python3-bleak, python3-paho-mqtt, python3-grove")
 grove_package(libraries libgrove${grove_abi} libs
   "solver for multi-agent path finding with tasks - shared library"
-  "${grove_what}This package holds the library for programs in C++.")
+  "${grove_what}the library for programs in C++.")
 set(CPACK_DEBIAN_LIBRARIES_PACKAGE_CONTROL_EXTRA ${grove_debian}/triggers)
-set(CPACK_DEBIAN_LIBRARIES_PACKAGE_SHLIBS ON)
 set(grove_needs_libraries "libgrove${grove_abi} ${grove_same}")
 set(grove_may_need "libfmt-dev, libtbb-dev, zlib1g-dev, libyaml-cpp-dev, libpugixml-dev")
 if(GROVE_WITH_CBC)
@@ -69,7 +71,7 @@ if(GROVE_WITH_MPI)
   # By itself, since it brings an MPI.
   grove_package(mpi_libraries libgrove-mpi${grove_abi} libs
     "solver for multi-agent path finding with tasks - shared MPI library"
-    "${grove_what}This package holds the library for programs in C++ of many processes.")
+    "${grove_what}the library for programs in C++ of many processes.")
   set(CPACK_DEBIAN_MPI_LIBRARIES_PACKAGE_CONTROL_EXTRA ${grove_debian}/triggers)
   string(APPEND grove_needs_libraries ", libgrove-mpi${grove_abi} ${grove_same}")
   string(APPEND grove_may_need ", libopenmpi-dev")
@@ -77,13 +79,14 @@ endif()
 # The static library needs what it is made of, the component mpi an MPI: few want one of them.
 grove_package(development libgrove-dev libdevel
   "solver for multi-agent path finding with tasks - development files"
-  "${grove_what}This package holds headers, the static library, and what CMake and pkg-config ask for."
+  "${grove_what}headers, the static library, and what CMake and
+pkg-config ask for."
   DEPENDS ${grove_needs_libraries} SUGGESTS ${grove_may_need})
 if(GROVE_WITH_PYTHON)
   math(EXPR grove_next_python "${Python_VERSION_MINOR} + 1")
   grove_package(python python3-grove python
     "solver for multi-agent path finding with tasks - Python module"
-    "${grove_what}This package holds the module for Python 3."
+    "${grove_what}the module for Python 3."
     DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~), python3 (<< ${Python_VERSION_MAJOR}.${grove_next_python}~)"
     RECOMMENDS python3-numpy SUGGESTS python3-pandas)
 endif()
