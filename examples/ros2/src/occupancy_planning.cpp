@@ -85,7 +85,9 @@ grove::Instance instance_of(const PlanningGrid& grid, const std::vector<Errand>&
     if (errand.places.empty())
       throw grove::InvalidArgument(errand.robot, "has no places; expected where it is, at least");
     const std::size_t last = errand.places.size() - 1;
-    agents.push_back({.id = errand.robot, .start = {.place = cell(0)}, .goal = cell(last)});
+    const grove::Cell start = cell(0);
+    const grove::Cell goal = cell(last);
+    agents.push_back({.id = errand.robot, .start = {.place = start}, .goal = goal});
     for (std::size_t i = 1; i < last; ++i)
       tasks.push_back({.id = errand.robot + "/" + std::to_string(i),
                        .place = cell(i),
