@@ -11,6 +11,8 @@ target_compile_options(grove_options INTERFACE
   $<$<BOOL:${GROVE_WERROR}>:-Werror>
   # GCC 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # Clang 17 and later warn of what std::stable_sort of GCC 12's library calls.
+  $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,17>>:-Wno-error=deprecated-declarations>
   # It does not take several sources compiled as one for what they are, and warns of classes with
   # members from unnamed namespaces.
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
