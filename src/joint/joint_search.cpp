@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+// A joint state says of every agent what it is in (agent_graph.h); a step moves all at once and
+// costs as many as are not at rest. So a way costs the sum of the finish times. To rest for ever is
+// a decision: who could may as well go on, and pays for it.
+//
+// The estimate is the sum of what the agents cost alone. A move of an agent costs 1 and lowers its
+// estimate by at most 1, or costs 0 and leaves it 0: so it is consistent, a state is taken from the
+// queue at its least cost, and the first one taken in which nothing is left to pay for ends an
+// optimal plan. What is in the queue bounds all plans: each passes through a state in it. States
+// whose estimate reaches the cutoff are dropped, for plans through them cost as much; an empty queue
+// proves that no plan costs less than the cutoff - without one, none.
+//
+// Enhanced partial expansion (Goldenberg et al., JAIR 2014). A move's detour is what it adds to cost
+// and estimate, never less than 0; a state is taken with a budget, brings forth exactly those next
+// ones that use it up, and goes back into the queue with the next budget that there is: so what
+// costs more than the optimum is never made. Choosing moves agent by agent, the next budget is the
+// least sum above the budget of a beginning without collisions: each can be gone on with without a
+// detour, or else collides and comes again, for nothing, with a greater one.
+#include "grove/detail/joint/joint_search.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace grove::detail {
+namespace {
+
+using Node = AgentGraph::Node;
+using Index = std::uint32_t;
+constexpr Index kNone = std::numeric_limits<Index>::max();
+constexpr std::size_t kMostAgents = 16;
+constexpr std::int64_t kStatesPerPoll = 256;
+
+}  // namespace
+
+class JointSearch::Search {
+ public:
+  Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes)
+      : instance_(instance),
+        agents_(std::move(agents)),
+        most_bytes_(most_bytes),
+        from_on_(static_cast<std::size_t>(instance.world().place_count()), kNobody),
+        to_on_(from_on_) {
+    std::vector<Node> start(agents_.size(), AgentGraph::start());
+    for (const AgentGraph& agent : agents_) lower_bound_ += agent.count() > 0 ? agent.to_go(0) : 0;
+    first_layer_ = lower_bound_;
+    if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
+    reach(start, kNone, 0, lower_bound_);
+  }
+
+  Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
+    for (; states > 0 && !plan_; --states) {
+      const Index state = pop();
+      if (state == kNone) {
+        lower_bound_ = kInfiniteCost;
+        return Outcome::kEnded;
+      }
+      if (lower_bound_ >= cutoff) return Outcome::kEnded;
+      if (++states_ % kStatesPerPoll == 0 && (limits.stop_requested() || bytes() > most_bytes_))
+        return Outcome::kTooLarge;
+      if (is_final(state))
+        plan_ = plan_to(state);
+      else
+        expand(state, cutoff);
+    }
+    return plan_ ? Outcome::kEnded : Outcome::kWorking;
+  }
+
+  Cost lower_bound() const { return lower_bound_; }
+  const std::optional<Plan>& plan() const { return plan_; }
+  std::int64_t states() const { return states_; }
+
+ private:
+  static constexpr std::int8_t kNobody = -1;
+
+  struct Record {
+    Index parent;
+    std::int32_t cost;  // from the start
+    std::int32_t layer; // least cost of a plan by a way not yet looked at
+    std::int32_t estimate;
+  };
+
+  std::size_t size() const { return agents_.size(); }
+  const Node* nodes_of(Index state) const { return nodes_.data() + state * size(); }
+  std::size_t bytes() const {
+    return nodes_.capacity() * sizeof(Node) + records_.capacity() * sizeof(Record) +
+           slots_.capacity() * sizeof(Index) + queued_ * sizeof(Index);
+  }
+
+  // --- the queue: by layer, last in, first out ---
+
+  void push(Index state) {
+    const auto layer = static_cast<std::size_t>(records_[state].layer - first_layer_);
+    if (layer >= layers_.size()) layers_.resize(layer + 1);
+    layers_[layer].push_back(state);
+    ++queued_;
+  }
+  Index pop() {
+    for (; at_ < layers_.size(); ++at_, ++lower_bound_) {
+      std::vector<Index>& layer = layers_[at_];
+      while (!layer.empty()) {
+        const Index state = layer.back();
+        layer.pop_back();
+        --queued_;
+        if (records_[state].layer == lower_bound_) return state;  // else it is queued elsewhere
+      }
+      std::vector<Index>().swap(layer);
+    }
+    return kNone;
+  }
+
+  // --- states ---
+
+  std::size_t slot_of(const Node* nodes) const {
+    std::uint64_t hash = 0;
+    for (std::size_t i = 0; i < size(); ++i) hash = (hash ^ nodes[i]) * 0x9e3779b97f4a7c15;
+    std::size_t slot = (hash ^ hash >> 32) & (slots_.size() - 1);
+    while (slots_[slot] != kNone && !std::equal(nodes, nodes + size(), nodes_of(slots_[slot])))
+      slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
+  }
+  void grow() {
+    slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), kNone);
+    for (Index state = 0; state < records_.size(); ++state) slots_[slot_of(nodes_of(state))] = state;
+  }
+  void reach(const std::vector<Node>& nodes, Index parent, std::int32_t cost, Cost layer) {
+    if (2 * (records_.size() + 1) > slots_.size()) grow();
+    Index& slot = slots_[slot_of(nodes.data())];
+    if (slot == kNone) {
+      slot = static_cast<Index>(records_.size());
+      records_.push_back({kNone, std::numeric_limits<std::int32_t>::max(), 0, 0});
+      nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+    }
+    Record& record = records_[slot];
+    if (record.cost <= cost) return;
+    record = {parent, cost, static_cast<std::int32_t>(layer),
+              static_cast<std::int32_t>(layer) - cost};
+    push(slot);
+  }
+  bool is_final(Index state) const { return records_[state].estimate == 0; }
+
+  // --- one step of all ---
+
+  void expand(Index state, Cost cutoff) {
+    parent_ = state;
+    cutoff_ = cutoff;
+    from_.assign(nodes_of(state), nodes_of(state) + size());
+    to_.resize(size());
+    budget_ = records_[state].layer - records_[state].cost - records_[state].estimate;
+    next_budget_ = kNever;
+    most_.assign(size() + 1, 0);
+    for (std::size_t i = size(); i-- > 0;)
+      most_[i] = most_[i + 1] + agents_[i].moves(from_[i]).back().detour;
+    for (std::size_t i = 0; i < size(); ++i)
+      from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
+    choose(0, 0, 0);
+    for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNobody;
+    if (next_budget_ == kNever) return;
+    Record& record = records_[state];
+    const Cost layer = record.cost + record.estimate + next_budget_;
+    if (layer >= cutoff) return;
+    record.layer = static_cast<std::int32_t>(layer);
+    push(state);
+  }
+
+  std::size_t place(std::size_t agent, const std::vector<Node>& nodes) const {
+    return static_cast<std::size_t>(agents_[agent].place(nodes[agent]));
+  }
+
+  // The moves of `agent` and all after it; those before have chosen and pay `cost`.
+  void choose(std::size_t agent, Time detour, std::int32_t cost) {
+    if (agent == size()) {
+      const Record& from = records_[parent_];
+      reach(to_, parent_, from.cost + cost, from.layer);
+      return;
+    }
+    const AgentGraph& graph = agents_[agent];
+    const std::size_t here = place(agent, from_);
+    for (const AgentGraph::Move& move : graph.moves(from_[agent])) {
+      const Time sum = detour + move.detour;
+      if (sum + most_[agent + 1] < budget_) continue;
+      const auto there = static_cast<std::size_t>(graph.place(move.to));
+      if (collides(agent, here, there)) continue;
+      if (sum > budget_) {
+        next_budget_ = std::min(next_budget_, sum);
+        return;  // the others are no less
+      }
+      to_[agent] = move.to;
+      to_on_[there] = static_cast<std::int8_t>(agent);
+      choose(agent + 1, sum, cost + (graph.rests(move.to) ? 0 : 1));
+      to_on_[there] = kNobody;
+    }
+  }
+
+  // With those who have chosen; without following with all.
+  bool collides(std::size_t agent, std::size_t here, std::size_t there) const {
+    if (to_on_[there] != kNobody) return true;
+    if (here == there) return false;
+    const std::int8_t who = from_on_[there];
+    if (who == kNobody) return false;
+    if (!instance_.may_follow()) return true;
+    return who < static_cast<std::int8_t>(agent) && place(static_cast<std::size_t>(who), to_) == here;
+  }
+
+  // --- the plan ---
+
+  Plan plan_to(Index last) const {
+    std::vector<Index> way;
+    for (Index state = last; state != kNone; state = records_[state].parent) way.push_back(state);
+    std::ranges::reverse(way);
+    Plan plan;
+    for (std::size_t agent = 0; agent < size(); ++agent) {
+      Path path;
+      for (const Index state : way) {
+        const Node node = nodes_of(state)[agent];
+        if (!agents_[agent].rests(node)) path.push_back(agents_[agent].state(node));
+      }
+      plan.agents.push_back(plan_of(agents_[agent].agent(), path));
+      plan.cost += plan.agents.back().cost;
+    }
+    return plan;
+  }
+
+  // Stops in the order of their first visits; where it rests on one of them, that is the last.
+  AgentPlan plan_of(AgentIndex agent, const Path& path) const {
+    const std::vector<TaskIndex>& stops = instance_.agent(agent).stops;
+    std::vector<std::uint8_t> order(stops.size());
+    std::iota(order.begin(), order.end(), std::uint8_t{0});
+    const bool ends_on_a_stop = instance_.rests_on_last_stop(agent);
+    std::ranges::stable_sort(order, {}, [&](std::uint8_t stop) {
+      const auto visits = [&](State state) { return instance_.is_visited(stops[stop], state); };
+      const bool last = ends_on_a_stop && visits(path.back());
+      return (last ? path.end() : std::ranges::find_if(path, visits)) - path.begin();
+    });
+    return agent_plan(instance_, agent, order, path);
+  }
+
+  const Instance& instance_;
+  const std::vector<AgentGraph> agents_;
+  const std::size_t most_bytes_;
+  std::vector<Node> nodes_;  // by state, then agent
+  std::vector<Record> records_;
+  std::vector<Index> slots_;  // a power of two
+  std::vector<std::vector<Index>> layers_;
+  std::size_t at_ = 0;  // in layers_
+  std::size_t queued_ = 0;
+  Cost first_layer_ = 0;
+  Cost lower_bound_ = 0;  // of the layer at_
+  std::int64_t states_ = 0;
+  std::optional<Plan> plan_;
+  // The expansion under way.
+  Index parent_ = kNone;
+  Cost cutoff_ = kInfiniteCost;
+  Time budget_ = 0;
+  Time next_budget_ = kNever;
+  std::vector<Node> from_;
+  std::vector<Node> to_;
+  std::vector<Time> most_;  // detours of an agent and all after it
+  std::vector<std::int8_t> from_on_;  // by place: the agent that is there
+  std::vector<std::int8_t> to_on_;    // and that has chosen to be
+};
+
+JointSearch::JointSearch(std::unique_ptr<Search> search) : search_(std::move(search)) {}
+JointSearch::~JointSearch() = default;
+
+std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, std::size_t most_bytes) {
+  const auto count = static_cast<std::size_t>(instance.agent_count());
+  if (count > kMostAgents) return nullptr;
+  std::vector<AgentGraph> agents;
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+    auto graph = AgentGraph::make(instance, agent);
+    if (!graph) return nullptr;
+    agents.push_back(std::move(*graph));
+  }
+  return std::unique_ptr<JointSearch>(
+      new JointSearch(std::make_unique<Search>(instance, std::move(agents), most_bytes)));
+}
+
+JointSearch::Outcome JointSearch::run(std::int64_t states, Cost cutoff, const Limits& limits) {
+  return search_->run(states, cutoff, limits);
+}
+Cost JointSearch::lower_bound() const {
+  return search_->lower_bound();
+}
+const std::optional<Plan>& JointSearch::plan() const {
+  return search_->plan();
+}
+std::int64_t JointSearch::states() const {
+  return search_->states();
+}
+
+}  // namespace grove::detail
