@@ -3,26 +3,33 @@
 // costs as many as are not at rest. So a way costs the sum of the finish times. To rest for ever is
 // a decision: who could may as well go on, and pays for it.
 //
-// The estimate is the sum of what the agents cost alone. A move of an agent costs 1 and lowers its
-// estimate by at most 1, or costs 0 and leaves it 0: so it is consistent, a state is taken from the
-// queue at its least cost, and the first one taken in which nothing is left to pay for ends an
-// optimal plan. What is in the queue bounds all plans: each passes through a state in it. States
-// whose estimate reaches the cutoff are dropped, for plans through them cost as much; an empty queue
-// proves that no plan costs less than the cutoff - without one, none.
+// The estimate is the sum of what the agents cost alone, and of what pairs of them cost more together
+// (pair_table.h), pairs that share no agent: of all ways to pair agents the best. Each pays in any
+// plan what its pair pays at least, so no plan is cheaper. States stand in the queue by cost and
+// estimate, their *layer*; the layers are emptied from the least on. On the way to any plan there is
+// always a state in the queue whose layer is no more than the plan's cost; so the layer that is being
+// emptied bounds all plans, and the first state taken with nothing left to pay for ends an optimal
+// one. (A state that is reached at less cost goes into the queue again, whatever became of it
+// before.) States whose layer reaches the cutoff are dropped, for plans through them cost as much; an
+// empty queue proves that no plan costs less than the cutoff - without one, none.
 //
-// Enhanced partial expansion (Goldenberg et al., JAIR 2014). A move's detour is what it adds to cost
-// and estimate, never less than 0; a state is taken with a budget, brings forth exactly those next
-// ones that use it up, and goes back into the queue with the next budget that there is: so what
-// costs more than the optimum is never made. Choosing moves agent by agent, the next budget is the
-// least sum above the budget of a beginning without collisions: each can be gone on with without a
-// detour, or else collides and comes again, for nothing, with a greater one.
+// Enhanced partial expansion (Goldenberg et al., JAIR 2014). A move's detour is what it adds to what
+// its agent costs alone, never less than 0. A state brings forth those next ones whose detours are
+// within the budget that its layer leaves, and goes back into the queue with the next budget that
+// there is: what costs more than the optimum even by the sum over agents is never made. Choosing
+// moves agent by agent, the next budget is the least sum above the budget of a beginning without
+// collisions: each can be gone on with without a detour, or else collides and comes again, for
+// nothing, with a greater one.
 #include "grove/detail/joint/joint_search.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "grove/detail/joint/pair_table.h"
 
 namespace grove::detail {
 namespace {
@@ -31,6 +38,7 @@ using Node = AgentGraph::Node;
 using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
 constexpr std::size_t kMostAgents = 16;
+constexpr std::size_t kMostPaired = 8;  // beyond, the best pairing takes too long to find
 constexpr std::int64_t kStatesPerPoll = 256;
 
 }  // namespace
@@ -43,11 +51,13 @@ class JointSearch::Search {
         most_bytes_(most_bytes),
         from_on_(static_cast<std::size_t>(instance.world().place_count()), kNobody),
         to_on_(from_on_) {
-    std::vector<Node> start(agents_.size(), AgentGraph::start());
-    for (const AgentGraph& agent : agents_) lower_bound_ += agent.count() > 0 ? agent.to_go(0) : 0;
-    first_layer_ = lower_bound_;
     if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
-    reach(start, kNone, 0, lower_bound_);
+    std::vector<Node> start(agents_.size(), AgentGraph::start());
+    std::int32_t alone = 0;
+    for (const AgentGraph& agent : agents_) alone += agent.to_go(AgentGraph::start());
+    make_pairs();
+    first_layer_ = lower_bound_ = alone;
+    reach(start, kNone, 0, alone);
   }
 
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
@@ -77,10 +87,25 @@ class JointSearch::Search {
 
   struct Record {
     Index parent;
-    std::int32_t cost;  // from the start
-    std::int32_t layer; // least cost of a plan by a way not yet looked at
-    std::int32_t estimate;
+    std::int32_t cost;   // from the start
+    std::int32_t layer;  // no plan by a way not yet looked at costs less
+    std::int32_t alone;  // the sum of what its agents cost alone from there
+    std::int32_t looked_at;  // detours up to this; -1: none
   };
+
+  struct Pair {
+    std::size_t a;
+    std::size_t b;  // > a
+    PairTable table;
+  };
+
+  void make_pairs() {
+    if (size() < 3 || size() > kMostPaired) return;
+    for (std::size_t a = 0; a < size(); ++a)
+      for (std::size_t b = a + 1; b < size(); ++b)
+        if (auto table = PairTable::make(instance_, agents_[a], agents_[b]))
+          pairs_.push_back({a, b, std::move(*table)});
+  }
 
   std::size_t size() const { return agents_.size(); }
   const Node* nodes_of(Index state) const { return nodes_.data() + state * size(); }
@@ -125,21 +150,45 @@ class JointSearch::Search {
     slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), kNone);
     for (Index state = 0; state < records_.size(); ++state) slots_[slot_of(nodes_of(state))] = state;
   }
-  void reach(const std::vector<Node>& nodes, Index parent, std::int32_t cost, Cost layer) {
+  void reach(const std::vector<Node>& nodes, Index parent, std::int32_t cost, std::int32_t alone) {
+    const Cost excess = excess_of(nodes);
+    const Cost layer = std::max(lower_bound_, cost + alone + excess);
+    if (layer >= cutoff_) return;
     if (2 * (records_.size() + 1) > slots_.size()) grow();
     Index& slot = slots_[slot_of(nodes.data())];
     if (slot == kNone) {
       slot = static_cast<Index>(records_.size());
-      records_.push_back({kNone, std::numeric_limits<std::int32_t>::max(), 0, 0});
+      records_.push_back({kNone, std::numeric_limits<std::int32_t>::max(), 0, 0, -1});
       nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
     }
     Record& record = records_[slot];
     if (record.cost <= cost) return;
-    record = {parent, cost, static_cast<std::int32_t>(layer),
-              static_cast<std::int32_t>(layer) - cost};
+    record = {parent, cost, static_cast<std::int32_t>(layer), alone, -1};
     push(slot);
   }
-  bool is_final(Index state) const { return records_[state].estimate == 0; }
+  bool is_final(Index state) const { return records_[state].alone == 0; }
+
+  // What pairs cost more together, at least: over all agents, the best way to pair them.
+  Cost excess_of(const std::vector<Node>& nodes) {
+    for (const Pair& pair : pairs_) {
+      const std::uint8_t excess = pair.table.excess(nodes[pair.a], nodes[pair.b]);
+      if (excess == PairTable::kNoWay) return kInfiniteCost;
+      excess_[pair.a][pair.b] = excess;
+    }
+    return pairs_.empty() ? 0 : best_pairing((1u << size()) - 1);
+  }
+  Cost best_pairing(unsigned agents) const {
+    if (std::popcount(agents) < 2) return 0;
+    const auto first = static_cast<std::size_t>(std::countr_zero(agents));
+    agents &= agents - 1;
+    Cost best = best_pairing(agents);
+    for (unsigned others = agents; others != 0; others &= others - 1) {
+      const auto other = static_cast<std::size_t>(std::countr_zero(others));
+      if (const int excess = excess_[first][other]; excess > 0)
+        best = std::max(best, excess + best_pairing(agents & ~(1u << other)));
+    }
+    return best;
+  }
 
   // --- one step of all ---
 
@@ -148,19 +197,22 @@ class JointSearch::Search {
     cutoff_ = cutoff;
     from_.assign(nodes_of(state), nodes_of(state) + size());
     to_.resize(size());
-    budget_ = records_[state].layer - records_[state].cost - records_[state].estimate;
+    const Record& record_now = records_[state];
+    budget_ = record_now.layer - record_now.cost - record_now.alone;
+    looked_at_ = record_now.looked_at;
     next_budget_ = kNever;
     most_.assign(size() + 1, 0);
     for (std::size_t i = size(); i-- > 0;)
       most_[i] = most_[i + 1] + agents_[i].moves(from_[i]).back().detour;
     for (std::size_t i = 0; i < size(); ++i)
       from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
-    choose(0, 0, 0);
+    choose(0, 0, 0, 0);
     for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNobody;
     if (next_budget_ == kNever) return;
     Record& record = records_[state];
-    const Cost layer = record.cost + record.estimate + next_budget_;
+    const Cost layer = record.cost + record.alone + next_budget_;
     if (layer >= cutoff) return;
+    record.looked_at = budget_;
     record.layer = static_cast<std::int32_t>(layer);
     push(state);
   }
@@ -170,17 +222,16 @@ class JointSearch::Search {
   }
 
   // The moves of `agent` and all after it; those before have chosen and pay `cost`.
-  void choose(std::size_t agent, Time detour, std::int32_t cost) {
+  void choose(std::size_t agent, Time detour, std::int32_t cost, std::int32_t alone) {
     if (agent == size()) {
-      const Record& from = records_[parent_];
-      reach(to_, parent_, from.cost + cost, from.layer);
+      reach(to_, parent_, records_[parent_].cost + cost, alone);
       return;
     }
     const AgentGraph& graph = agents_[agent];
     const std::size_t here = place(agent, from_);
     for (const AgentGraph::Move& move : graph.moves(from_[agent])) {
       const Time sum = detour + move.detour;
-      if (sum + most_[agent + 1] < budget_) continue;
+      if (sum + most_[agent + 1] <= looked_at_) continue;
       const auto there = static_cast<std::size_t>(graph.place(move.to));
       if (collides(agent, here, there)) continue;
       if (sum > budget_) {
@@ -189,7 +240,7 @@ class JointSearch::Search {
       }
       to_[agent] = move.to;
       to_on_[there] = static_cast<std::int8_t>(agent);
-      choose(agent + 1, sum, cost + (graph.rests(move.to) ? 0 : 1));
+      choose(agent + 1, sum, cost + (graph.rests(move.to) ? 0 : 1), alone + graph.to_go(move.to));
       to_on_[there] = kNobody;
     }
   }
@@ -240,6 +291,8 @@ class JointSearch::Search {
   const Instance& instance_;
   const std::vector<AgentGraph> agents_;
   const std::size_t most_bytes_;
+  std::vector<Pair> pairs_;
+  std::array<std::array<int, kMostPaired>, kMostPaired> excess_{};  // of the state being made
   std::vector<Node> nodes_;  // by state, then agent
   std::vector<Record> records_;
   std::vector<Index> slots_;  // a power of two
@@ -253,6 +306,7 @@ class JointSearch::Search {
   // The expansion under way.
   Index parent_ = kNone;
   Cost cutoff_ = kInfiniteCost;
+  Time looked_at_ = -1;
   Time budget_ = 0;
   Time next_budget_ = kNever;
   std::vector<Node> from_;
