@@ -86,13 +86,15 @@ class JointSearch::Search {
   static constexpr std::int8_t kNobody = -1;
 
   struct Record {
-    Index parent;
-    std::int32_t cost;   // from the start
-    std::int32_t layer;  // no plan by a way not yet looked at costs less
-    std::int32_t alone;  // the sum of what its agents cost alone from there
-    std::int32_t looked_at;  // detours up to this; -1: none
+    Index parent = kNone;
+    std::int32_t cost = 0;        // from the start
+    std::int32_t layer = 0;       // no plan by a way not yet looked at costs less
+    std::int32_t alone = 0;       // the sum of what its agents cost alone from there
+    std::int32_t looked_at = -1;  // detours up to this; -1: none
   };
 
+  // Pairs that share no agent, by number; the rest is none.
+  using Pairing = std::array<std::uint8_t, kMostPaired / 2>;
   struct Pair {
     std::size_t a;
     std::size_t b;  // > a
@@ -105,6 +107,23 @@ class JointSearch::Search {
       for (std::size_t b = a + 1; b < size(); ++b)
         if (auto table = PairTable::make(instance_, agents_[a], agents_[b]))
           pairs_.push_back({a, b, std::move(*table)});
+    excess_.assign(pairs_.size() + 1, 0);
+    Pairing none;
+    none.fill(static_cast<std::uint8_t>(pairs_.size()));
+    add_pairings(0, 0, none, 0);
+  }
+  // All ways to go on with pairs from `first` on, of agents that are free, until nobody can be paired.
+  void add_pairings(std::size_t first, unsigned taken, Pairing so_far, std::size_t count) {
+    bool ends = true;
+    for (std::size_t i = 0; i < pairs_.size() && count < so_far.size(); ++i) {
+      const unsigned both = 1u << pairs_[i].a | 1u << pairs_[i].b;
+      if ((taken & both) != 0) continue;
+      ends = false;
+      if (i < first) continue;
+      so_far[count] = static_cast<std::uint8_t>(i);
+      add_pairings(i + 1, taken | both, so_far, count + 1);
+    }
+    if (ends && count > 0) pairings_.push_back(so_far);
   }
 
   std::size_t size() const { return agents_.size(); }
@@ -150,42 +169,36 @@ class JointSearch::Search {
     slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), kNone);
     for (Index state = 0; state < records_.size(); ++state) slots_[slot_of(nodes_of(state))] = state;
   }
+  // Is it of use to reach a state at this cost? What is known already needs no estimate.
   void reach(const std::vector<Node>& nodes, Index parent, std::int32_t cost, std::int32_t alone) {
-    const Cost excess = excess_of(nodes);
-    const Cost layer = std::max(lower_bound_, cost + alone + excess);
-    if (layer >= cutoff_) return;
     if (2 * (records_.size() + 1) > slots_.size()) grow();
     Index& slot = slots_[slot_of(nodes.data())];
+    if (slot != kNone && records_[slot].cost <= cost) return;
+    const Cost layer = std::max(lower_bound_, cost + alone + excess_of(nodes));
+    if (layer >= cutoff_) return;
     if (slot == kNone) {
       slot = static_cast<Index>(records_.size());
-      records_.push_back({kNone, std::numeric_limits<std::int32_t>::max(), 0, 0, -1});
+      records_.emplace_back();
       nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
     }
-    Record& record = records_[slot];
-    if (record.cost <= cost) return;
-    record = {parent, cost, static_cast<std::int32_t>(layer), alone, -1};
+    records_[slot] = {parent, cost, static_cast<std::int32_t>(layer), alone, -1};
     push(slot);
   }
   bool is_final(Index state) const { return records_[state].alone == 0; }
 
   // What pairs cost more together, at least: over all agents, the best way to pair them.
   Cost excess_of(const std::vector<Node>& nodes) {
-    for (const Pair& pair : pairs_) {
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const Pair& pair = pairs_[i];
       const std::uint8_t excess = pair.table.excess(nodes[pair.a], nodes[pair.b]);
       if (excess == PairTable::kNoWay) return kInfiniteCost;
-      excess_[pair.a][pair.b] = excess;
+      excess_[i] = excess;
     }
-    return pairs_.empty() ? 0 : best_pairing((1u << size()) - 1);
-  }
-  Cost best_pairing(unsigned agents) const {
-    if (std::popcount(agents) < 2) return 0;
-    const auto first = static_cast<std::size_t>(std::countr_zero(agents));
-    agents &= agents - 1;
-    Cost best = best_pairing(agents);
-    for (unsigned others = agents; others != 0; others &= others - 1) {
-      const auto other = static_cast<std::size_t>(std::countr_zero(others));
-      if (const int excess = excess_[first][other]; excess > 0)
-        best = std::max(best, excess + best_pairing(agents & ~(1u << other)));
+    int best = 0;
+    for (const Pairing& pairing : pairings_) {
+      int sum = 0;
+      for (const std::uint8_t pair : pairing) sum += excess_[pair];
+      best = std::max(best, sum);
     }
     return best;
   }
@@ -292,7 +305,8 @@ class JointSearch::Search {
   const std::vector<AgentGraph> agents_;
   const std::size_t most_bytes_;
   std::vector<Pair> pairs_;
-  std::array<std::array<int, kMostPaired>, kMostPaired> excess_{};  // of the state being made
+  std::vector<Pairing> pairings_;  // all maximal ones
+  std::vector<int> excess_;        // of the state being made, by pair; one more, of none: 0
   std::vector<Node> nodes_;  // by state, then agent
   std::vector<Record> records_;
   std::vector<Index> slots_;  // a power of two
