@@ -25,6 +25,16 @@ void Announcements::tell(RunEvent event, const Progress& progress) {
 
 void Announcements::bound(Cost lower_bound) {
   const std::lock_guard lock(mutex_);
+  bound_locked(lower_bound);
+}
+
+void Announcements::joint_bound(Cost lower_bound) {
+  const std::lock_guard lock(mutex_);
+  if (lower_bound > announced_bound_) observer_.on_joint_bound();
+  bound_locked(lower_bound);
+}
+
+void Announcements::bound_locked(Cost lower_bound) {
   if (lower_bound <= announced_bound_) return;
   const Progress progress = progress_();
   announced_bound_ = progress.lower_bound;

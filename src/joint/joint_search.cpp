@@ -24,7 +24,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -37,9 +37,10 @@ namespace {
 using Node = AgentGraph::Node;
 using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
-constexpr std::size_t kMostAgents = 16;
 constexpr std::size_t kMostPaired = 8;  // beyond, the best pairing takes too long to find
 constexpr std::int64_t kStatesPerPoll = 256;
+constexpr std::int64_t kMadePerWork = 2;    // joint states; see search/work.h
+constexpr std::int64_t kMovesPerWork = 20;  // of two agents, in their table
 
 }  // namespace
 
@@ -81,6 +82,7 @@ class JointSearch::Search {
   Cost lower_bound() const { return lower_bound_; }
   const std::optional<Plan>& plan() const { return plan_; }
   std::int64_t states() const { return states_; }
+  std::int64_t work() const { return table_work_ + made_ / kMadePerWork; }
 
  private:
   static constexpr std::int8_t kNobody = -1;
@@ -105,8 +107,11 @@ class JointSearch::Search {
     if (size() < 3 || size() > kMostPaired) return;
     for (std::size_t a = 0; a < size(); ++a)
       for (std::size_t b = a + 1; b < size(); ++b)
-        if (auto table = PairTable::make(instance_, agents_[a], agents_[b]))
+        if (auto table = PairTable::make(instance_, agents_[a], agents_[b])) {
           pairs_.push_back({a, b, std::move(*table)});
+          table_work_ += static_cast<std::int64_t>(agents_[a].move_count() * agents_[b].move_count()) /
+                         kMovesPerWork;
+        }
     excess_.assign(pairs_.size() + 1, 0);
     Pairing none;
     none.fill(static_cast<std::uint8_t>(pairs_.size()));
@@ -171,6 +176,7 @@ class JointSearch::Search {
   }
   // Is it of use to reach a state at this cost? What is known already needs no estimate.
   void reach(const std::vector<Node>& nodes, Index parent, std::int32_t cost, std::int32_t alone) {
+    ++made_;
     if (2 * (records_.size() + 1) > slots_.size()) grow();
     Index& slot = slots_[slot_of(nodes.data())];
     if (slot != kNone && records_[slot].cost <= cost) return;
@@ -316,6 +322,8 @@ class JointSearch::Search {
   Cost first_layer_ = 0;
   Cost lower_bound_ = 0;  // of the layer at_
   std::int64_t states_ = 0;
+  std::int64_t made_ = 0;  // joint states, again and again
+  std::int64_t table_work_ = 0;
   std::optional<Plan> plan_;
   // The expansion under way.
   Index parent_ = kNone;
@@ -330,16 +338,25 @@ class JointSearch::Search {
   std::vector<std::int8_t> to_on_;    // and that has chosen to be
 };
 
+namespace {
+
+std::size_t most_nodes_within(double bits) {
+  return static_cast<std::size_t>(std::exp2(std::clamp(bits, 0.0, 16.0)));
+}
+
+}  // namespace
+
 JointSearch::JointSearch(std::unique_ptr<Search> search) : search_(std::move(search)) {}
 JointSearch::~JointSearch() = default;
 
-std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, std::size_t most_bytes) {
-  const auto count = static_cast<std::size_t>(instance.agent_count());
-  if (count > kMostAgents) return nullptr;
+std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double most_bits,
+                                               std::size_t most_bytes) {
+  if (instance.agent_count() > kMostAgents) return nullptr;
   std::vector<AgentGraph> agents;
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    auto graph = AgentGraph::make(instance, agent);
+    auto graph = AgentGraph::make(instance, agent, most_nodes_within(most_bits));
     if (!graph) return nullptr;
+    most_bits -= std::log2(std::max<std::size_t>(graph->count(), 1));
     agents.push_back(std::move(*graph));
   }
   return std::unique_ptr<JointSearch>(
@@ -357,6 +374,9 @@ const std::optional<Plan>& JointSearch::plan() const {
 }
 std::int64_t JointSearch::states() const {
   return search_->states();
+}
+std::int64_t JointSearch::work() const {
+  return search_->work();
 }
 
 }  // namespace grove::detail

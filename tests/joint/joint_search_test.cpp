@@ -10,6 +10,7 @@
 #include "grove/detail/model/check.h"
 #include "grove/detail/model/omega.h"
 #include "tests/fuzz/random_instance.h"
+#include "tests/fuzz/random_puzzle.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/support/fuzz_factor.h"
 
@@ -19,7 +20,7 @@ namespace joint_search_test {
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 
 std::unique_ptr<JointSearch> search_of(const Instance& instance) {
-  return JointSearch::make(instance, kMostBytes);
+  return JointSearch::make(instance, 64, kMostBytes);
 }
 
 fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
@@ -80,12 +81,17 @@ TEST(JointSearch, ProvesTheCutoff) {
 }
 
 TEST(JointSearch, GivesUpWhereMemoryEnds) {
-  const Instance instance = fuzz::TinyInstance::parse(
-      "map\n......\n.@.@..\n......\nagents\n0,0 -> 5,2\n5,2 -> 0,0\n0,2 -> 5,0\n5,0 -> 0,2\n").build();
-  const auto search = JointSearch::make(instance, 1);
+  const Instance instance = fuzz::random_puzzle(39).build();
+  const auto search = JointSearch::make(instance, 64, 1);
   ASSERT_TRUE(search);
   EXPECT_EQ(search->run(1'000'000, kInfiniteCost, {}), JointSearch::Outcome::kTooLarge);
   EXPECT_FALSE(search->plan());
+}
+
+TEST(JointSearch, IsForFewJointStates) {
+  const Instance instance = fuzz::random_puzzle(39).build();
+  EXPECT_FALSE(JointSearch::make(instance, 20, kMostBytes));
+  EXPECT_TRUE(JointSearch::make(instance, 40, kMostBytes));
 }
 
 }  // namespace joint_search_test

@@ -66,6 +66,8 @@ char letter_of(PlanSource source) {
       return 'C';
     case PlanSource::kNeighborhood:
       return 'L';
+    case PlanSource::kJointSearch:
+      return 'J';
     case PlanSource::kTree:
       break;
   }

@@ -39,6 +39,7 @@ class AgentGraph {
   bool rests(Node node) const { return rests_[node] != 0; }
   // Least cost until it can rest, alone; 0 exactly where it rests or may.
   Time to_go(Node node) const { return to_go_[node]; }
+  std::size_t move_count() const { return moves_.size(); }
   // By detour, the least first: 0, always.
   std::span<const Move> moves(Node node) const {
     return {moves_.data() + first_move_[node], moves_.data() + first_move_[node + 1]};

@@ -18,9 +18,12 @@ namespace grove::detail {
 // and at every moment it knows a lower bound on all plans. For one thread at a time.
 class JointSearch {
  public:
-  // None: not for this method, since some agent can come to too much, or all together. `instance`
-  // must outlive it. `most_bytes`: that it may hold.
-  static std::unique_ptr<JointSearch> make(const Instance& instance, std::size_t most_bytes);
+  static constexpr int kMostAgents = 16;
+
+  // None: not for this method, since there are more agents or more than 2^`most_bits` joint states.
+  // `instance` must outlive it. `most_bytes`: that it may hold.
+  static std::unique_ptr<JointSearch> make(const Instance& instance, double most_bits,
+                                           std::size_t most_bytes);
   ~JointSearch();
 
   enum class Outcome : std::uint8_t {
@@ -36,8 +39,9 @@ class JointSearch {
   Cost lower_bound() const;
   // An optimal one, if it has been found.
   const std::optional<Plan>& plan() const;
-  // Joint states looked at.
+  // Joint states looked at; and what all has cost, in the unit of search/work.h.
   std::int64_t states() const;
+  std::int64_t work() const;
 
  private:
   class Search;
