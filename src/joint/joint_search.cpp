@@ -3,9 +3,9 @@
 // costs as many as are not at rest. So a way costs the sum of the finish times. To rest for ever is
 // a decision: who could may as well go on, and pays for it.
 //
-// The estimate is the sum of what the agents cost alone, and of what pairs of them cost more together
-// (pair_table.h), pairs that share no agent: of all ways to pair agents the best. Each pays in any
-// plan what its pair pays at least, so no plan is cheaper. States stand in the queue by cost and
+// The estimate is the sum of what the agents cost alone, and of what groups of two or three cost more
+// together (group_table.h), groups that share no agent: of all ways to group agents the best. In any
+// plan each group pays at least that, so none is cheaper. States stand in the queue by cost and
 // estimate, their *layer*; the layers are emptied from the least on. On the way to any plan there is
 // always a state in the queue whose layer is no more than the plan's cost; so the layer that is being
 // emptied bounds all plans, and the first state taken with nothing left to pay for ends an optimal
@@ -25,11 +25,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numeric>
 #include <utility>
 
-#include "grove/detail/joint/pair_table.h"
+#include "grove/detail/joint/group_table.h"
 
 namespace grove::detail {
 namespace {
@@ -37,10 +38,11 @@ namespace {
 using Node = AgentGraph::Node;
 using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
-constexpr std::size_t kMostPaired = 8;  // beyond, the best pairing takes too long to find
+constexpr std::size_t kMostGrouped = 8;  // beyond, the best grouping takes too long to find
+constexpr std::size_t kMostEntries = std::size_t{1} << 18;  // of a table
+constexpr std::int64_t kMostTableWork = 4'000'000;         // of all; see search/work.h
 constexpr std::int64_t kStatesPerPoll = 256;
 constexpr std::int64_t kMadePerWork = 2;    // joint states; see search/work.h
-constexpr std::int64_t kMovesPerWork = 20;  // of two agents, in their table
 
 }  // namespace
 
@@ -53,15 +55,18 @@ class JointSearch::Search {
         from_on_(static_cast<std::size_t>(instance.world().place_count()), kNobody),
         to_on_(from_on_) {
     if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
-    std::vector<Node> start(agents_.size(), AgentGraph::start());
     std::int32_t alone = 0;
     for (const AgentGraph& agent : agents_) alone += agent.to_go(AgentGraph::start());
-    make_pairs();
+    plan_tables();
     first_layer_ = lower_bound_ = alone;
-    reach(start, kNone, 0, alone);
+    if (tables_to_come_.empty()) begin();
   }
 
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
+    if (!tables_to_come_.empty()) {
+      make_table();
+      return Outcome::kWorking;
+    }
     for (; states > 0 && !plan_; --states) {
       const Index state = pop();
       if (state == kNone) {
@@ -95,47 +100,60 @@ class JointSearch::Search {
     std::int32_t looked_at = -1;  // detours up to this; -1: none
   };
 
-  // Pairs that share no agent, by number; the rest is none.
-  using Pairing = std::array<std::uint8_t, kMostPaired / 2>;
-  struct Pair {
-    std::size_t a;
-    std::size_t b;  // > a
-    PairTable table;
-  };
+  // Groups that share no agent, by number; the rest is none.
+  using Grouping = std::array<std::uint8_t, kMostGrouped / 2>;
 
-  void make_pairs() {
-    if (size() < 3 || size() > kMostPaired) return;
+  // All pairs, then threes, those that are small enough. (Of two agents the search is the table.)
+  void plan_tables() {
+    if (size() < 3 || size() > kMostGrouped) return;
     for (std::size_t a = 0; a < size(); ++a)
+      for (std::size_t b = a + 1; b < size(); ++b) plan_table({a, b});
+    for (std::size_t a = 0; a < size() && size() > 3; ++a)
       for (std::size_t b = a + 1; b < size(); ++b)
-        if (auto table = PairTable::make(instance_, agents_[a], agents_[b])) {
-          pairs_.push_back({a, b, std::move(*table)});
-          table_work_ += static_cast<std::int64_t>(agents_[a].move_count() * agents_[b].move_count()) /
-                         kMovesPerWork;
-        }
-    excess_.assign(pairs_.size() + 1, 0);
-    Pairing none;
-    none.fill(static_cast<std::uint8_t>(pairs_.size()));
-    add_pairings(0, 0, none, 0);
+        for (std::size_t c = b + 1; c < size(); ++c) plan_table({a, b, c});
   }
-  // All ways to go on with pairs from `first` on, of agents that are free, until nobody can be paired.
-  void add_pairings(std::size_t first, unsigned taken, Pairing so_far, std::size_t count) {
+  void plan_table(std::vector<std::size_t> members) {
+    const std::int64_t work = GroupTable::work(agents_, members);
+    if (GroupTable::entries(agents_, members) > kMostEntries) return;
+    if (planned_work_ + work > kMostTableWork) return;
+    planned_work_ += work;
+    tables_to_come_.push_back(std::move(members));
+  }
+  void make_table() {
+    tables_.emplace_back(instance_, agents_, std::move(tables_to_come_.front()));
+    tables_to_come_.pop_front();
+    table_work_ += GroupTable::work(agents_, tables_.back().members());
+    table_bytes_ += GroupTable::entries(agents_, tables_.back().members());
+    if (tables_to_come_.empty()) begin();
+  }
+  void begin() {
+    excess_.assign(tables_.size() + 1, 0);
+    Grouping none;
+    none.fill(static_cast<std::uint8_t>(tables_.size()));
+    add_groupings(0, 0, none, 0);
+    reach(std::vector<Node>(size(), AgentGraph::start()), kNone, 0,
+          static_cast<std::int32_t>(first_layer_));
+  }
+  // All ways to go on with groups from `first` on, of agents that are free, until there is none.
+  void add_groupings(std::size_t first, unsigned taken, Grouping so_far, std::size_t count) {
     bool ends = true;
-    for (std::size_t i = 0; i < pairs_.size() && count < so_far.size(); ++i) {
-      const unsigned both = 1u << pairs_[i].a | 1u << pairs_[i].b;
-      if ((taken & both) != 0) continue;
+    for (std::size_t i = 0; i < tables_.size() && count < so_far.size(); ++i) {
+      unsigned members = 0;
+      for (const std::size_t member : tables_[i].members()) members |= 1u << member;
+      if ((taken & members) != 0) continue;
       ends = false;
       if (i < first) continue;
       so_far[count] = static_cast<std::uint8_t>(i);
-      add_pairings(i + 1, taken | both, so_far, count + 1);
+      add_groupings(i + 1, taken | members, so_far, count + 1);
     }
-    if (ends && count > 0) pairings_.push_back(so_far);
+    if (ends && count > 0) groupings_.push_back(so_far);
   }
 
   std::size_t size() const { return agents_.size(); }
   const Node* nodes_of(Index state) const { return nodes_.data() + state * size(); }
   std::size_t bytes() const {
     return nodes_.capacity() * sizeof(Node) + records_.capacity() * sizeof(Record) +
-           slots_.capacity() * sizeof(Index) + queued_ * sizeof(Index);
+           slots_.capacity() * sizeof(Index) + queued_ * sizeof(Index) + table_bytes_;
   }
 
   // --- the queue: by layer, last in, first out ---
@@ -192,18 +210,17 @@ class JointSearch::Search {
   }
   bool is_final(Index state) const { return records_[state].alone == 0; }
 
-  // What pairs cost more together, at least: over all agents, the best way to pair them.
+  // What groups cost more together, at least: over all agents, the best way to group them.
   Cost excess_of(const std::vector<Node>& nodes) {
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const Pair& pair = pairs_[i];
-      const std::uint8_t excess = pair.table.excess(nodes[pair.a], nodes[pair.b]);
-      if (excess == PairTable::kNoWay) return kInfiniteCost;
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+      const std::uint8_t excess = tables_[i].excess(nodes.data());
+      if (excess == GroupTable::kNoWay) return kInfiniteCost;
       excess_[i] = excess;
     }
     int best = 0;
-    for (const Pairing& pairing : pairings_) {
+    for (const Grouping& grouping : groupings_) {
       int sum = 0;
-      for (const std::uint8_t pair : pairing) sum += excess_[pair];
+      for (const std::uint8_t table : grouping) sum += excess_[table];
       best = std::max(best, sum);
     }
     return best;
@@ -310,9 +327,11 @@ class JointSearch::Search {
   const Instance& instance_;
   const std::vector<AgentGraph> agents_;
   const std::size_t most_bytes_;
-  std::vector<Pair> pairs_;
-  std::vector<Pairing> pairings_;  // all maximal ones
-  std::vector<int> excess_;        // of the state being made, by pair; one more, of none: 0
+  std::deque<std::vector<std::size_t>> tables_to_come_;  // their members
+  std::int64_t planned_work_ = 0;
+  std::vector<GroupTable> tables_;
+  std::vector<Grouping> groupings_;  // all that no group could be added to
+  std::vector<int> excess_;  // of the state being made, by table; one more, of none: 0
   std::vector<Node> nodes_;  // by state, then agent
   std::vector<Record> records_;
   std::vector<Index> slots_;  // a power of two
@@ -324,6 +343,7 @@ class JointSearch::Search {
   std::int64_t states_ = 0;
   std::int64_t made_ = 0;  // joint states, again and again
   std::int64_t table_work_ = 0;
+  std::size_t table_bytes_ = 0;
   std::optional<Plan> plan_;
   // The expansion under way.
   Index parent_ = kNone;

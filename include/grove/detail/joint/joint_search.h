@@ -31,7 +31,7 @@ class JointSearch {
     kEnded,     // there is no plan below the cutoff but plan(), if that is there
     kTooLarge,  // out of memory or stopped: nothing more will come
   };
-  // Looks at so many joint states. Plans that cost `cutoff` or more are of no interest.
+  // Looks at so many joint states, or makes a table that guides it. Plans that cost `cutoff` or more are of no interest.
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits);
 
   // Proven: no plan costs less, but those that cost the cutoff or more. kInfiniteCost: there is
