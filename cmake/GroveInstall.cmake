@@ -52,7 +52,9 @@ if(GROVE_WITH_PYTHON)
     set(grove_outside site-packages)
   endif()
   install(CODE "
-    if(EXISTS \"\${CMAKE_INSTALL_PREFIX}/pyvenv.cfg\")
+    if(NOT \"${SKBUILD}\" STREQUAL \"\")  # a wheel (pyproject.toml)
+      set(grove_packages .)
+    elseif(EXISTS \"\${CMAKE_INSTALL_PREFIX}/pyvenv.cfg\")
       set(grove_packages lib/${grove_python}/site-packages)
     elseif(\"\${CMAKE_INSTALL_PREFIX}\" STREQUAL /usr AND ${grove_outside} STREQUAL dist-packages)
       set(grove_packages lib/python3/dist-packages)
@@ -61,8 +63,10 @@ if(GROVE_WITH_PYTHON)
     endif()" COMPONENT python)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/python/grove DESTINATION "\${grove_packages}" COMPONENT python
     PATTERN __pycache__ EXCLUDE)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/python
-    DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT python)
+  if(NOT SKBUILD)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/python
+      DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT python)
+  endif()
 endif()
 
 if(NOT GROVE_BUILD_TOOLS)
@@ -92,3 +96,6 @@ file(RELATIVE_PATH grove_from_companions
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/companion)
 file(CREATE_LINK ${grove_from_companions} ${PROJECT_BINARY_DIR}/companion/grove SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/companion/grove DESTINATION ${grove_companions} COMPONENT programs)
+# For editors: docs/formats.md.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/schemas
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the library throws: these, and std::bad_alloc. what() is one line, fit for a person.
+/// \file
+/// What the library throws: these, and std::bad_alloc.
 #pragma once
 
 #include <stdexcept>
@@ -9,34 +10,35 @@
 
 namespace grove {
 
-// Everything below; by itself: a part of the search turned out to be broken.
+/// Everything below; by itself: a part of the search turned out to be broken. what() is one line,
+/// fit for a person.
 class GROVE_API Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
-  Error(const Error&) = default;
-  Error& operator=(const Error&) = default;
+  using std::runtime_error::runtime_error;   ///< Of its text.
+  Error(const Error&) = default;             ///< A copy.
+  Error& operator=(const Error&) = default;  ///< Makes it a copy.
   ~Error() override;
 };
 
-// A file, or the text of one, that cannot be used: "FILE: PLACE: what is wrong and what was
-// expected".
+/// A file, or the text of one, that cannot be used: what() is "FILE: PLACE: what is wrong and what
+/// was expected".
 class GROVE_API InputError : public Error {
  public:
-  using Error::Error;
-  InputError(const InputError&) = default;
-  InputError& operator=(const InputError&) = default;
+  using Error::Error;                                  ///< Of its text.
+  InputError(const InputError&) = default;             ///< A copy.
+  InputError& operator=(const InputError&) = default;  ///< Makes it a copy.
   ~InputError() override;
 };
 
-// A world, instance, plan or option that is against a rule. field() is what is wrong, as a JSON
-// path:
-// "/agents/2/goal", "/omega".
+/// A world, instance, plan or option that is against a rule.
 class GROVE_API InvalidArgument : public Error {
  public:
+  /// what() is both: "/omega: expected a number from 0".
   InvalidArgument(std::string field, const std::string& message);
-  InvalidArgument(const InvalidArgument&) = default;
-  InvalidArgument& operator=(const InvalidArgument&) = default;
+  InvalidArgument(const InvalidArgument&) = default;             ///< A copy.
+  InvalidArgument& operator=(const InvalidArgument&) = default;  ///< Makes it a copy.
   ~InvalidArgument() override;
+  /// What is wrong, as a JSON path: "/agents/2/goal", "/omega"; empty where it is the whole.
   const std::string& field() const noexcept { return field_; }
 
  private:

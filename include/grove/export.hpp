@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What users of the library may call.
+/// \file
+/// What the shared library shows.
 #pragma once
 
+/// Marks what users of the library may call.
 #if defined(_WIN32) || defined(__CYGWIN__)
 #define GROVE_API
 #else

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One solve by many processes, for programs that speak MPI. Not part of <grove/grove.hpp>: it needs
-// <mpi.h>, and is in the library of the component `mpi`.
+/// \file
+/// One solve by many processes, for programs that speak MPI. Not part of <grove/grove.hpp>: it
+/// needs <mpi.h>, and is in the library of the component `mpi`.
 #pragma once
 
 #include <mpi.h>
@@ -10,17 +11,21 @@
 #include "grove/export.hpp"
 #include "grove/solve.hpp"
 
+/// For programs that speak MPI.
 namespace grove::mpi {
 
-// Collective: all ranks of `communicator` call it, each with the same instance and options but for
-// its own threads and memory limit. Each searches with its threads beside the calling one, which
-// speaks: the one that initialised MPI, with MPI_THREAD_FUNNELED or more. Rank 0 returns the
-// solution, the others nothing. The time limit, the stop token and the functions of rank 0 count;
-// any rank's memory limit ends the run.
-//
-// Throws on all ranks what solve() throws, if any of them is given what it refuses; and
-// InvalidArgument, "/instance", if they are not given the same one, and "/deterministic" if that is
-// set. What goes wrong later goes wrong on one rank alone: then call MPI_Abort.
+/// Finds a plan, and proves how good it is, as grove::solve(), by all processes of `communicator`.
+///
+/// Collective: all its ranks call it, each with the same instance and options but for its own
+/// threads and memory limit. Each searches with its threads beside the calling one, which speaks:
+/// the one that initialised MPI, with MPI_THREAD_FUNNELED or more. Rank 0 returns the solution, the
+/// others nothing. The time limit, the stop token and the functions of rank 0 count; any rank's
+/// memory limit ends the run. Nothing else may go on in the communicator meanwhile.
+///
+/// Throws on all ranks what grove::solve() throws, if any of them is given what it refuses; and
+/// InvalidArgument, "/instance", if they are not given the same one, "/deterministic" if that is
+/// set, and "/method" for methods that are for one process. What goes wrong later goes wrong on one
+/// rank alone: then call MPI_Abort.
 GROVE_API std::optional<Solution> solve(const Instance& instance, const Options& options = {},
                                         MPI_Comm communicator = MPI_COMM_WORLD);
 

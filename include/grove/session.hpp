@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An instance and its plan while time goes on and minds change.
+/// \file
+/// An instance and its plan while time goes on and minds change.
 #pragma once
 
 #include <memory>
@@ -12,46 +13,51 @@
 
 namespace grove {
 
-// The robot is where the plan had it so many steps ago.
+/// A robot that is where the plan had it some steps ago.
 struct Late {
-  std::string agent = {};
-  int steps = 0;
+  std::string agent = {};  ///< Its id.
+  int steps = 0;           ///< So many steps ago, at least 0.
 };
 
-// What else is to be done, or no more, and what is closed.
+/// What else is to be done, or no more, and what is closed.
 struct Change {
-  std::vector<Task> new_tasks = {};
-  std::vector<std::string> dropped_tasks = {};  // ids
-  std::vector<Place> blocked = {};              // cells, or vertices with all their roads
+  std::vector<Task> new_tasks = {};             ///< Of robots that there are.
+  std::vector<std::string> dropped_tasks = {};  ///< Ids of tasks that nobody has to visit now.
+  std::vector<Place> blocked = {};              ///< Cells, or vertices with all their roads.
 };
 
-// Keeps the world, the distances in it and the plan from one solve to the next, which then takes
-// milliseconds. One thread at a time may use it.
+/// Keeps the world, the distances in it and the plan from one solve to the next, which then takes
+/// milliseconds. One thread at a time may use it. It owns all it holds; a session that was moved
+/// from may be assigned to or destroyed, and nothing else.
 class GROVE_API Session {
  public:
+  /// Without a plan yet.
   explicit Session(Instance instance);
-  // With a valid plan of it. Throws InvalidArgument.
+  /// With a valid plan of it. Throws InvalidArgument, "/plan", for one that is not.
   Session(Instance instance, const Plan& plan);
   ~Session();
-  Session(Session&&) noexcept;
-  Session& operator=(Session&&) noexcept;
+  Session(Session&&) noexcept;             ///< Moves it.
+  Session& operator=(Session&&) noexcept;  ///< Moves it.
 
-  // As it is now, time from 0.
+  /// As it is now, time from 0.
   Instance instance() const;
-  // A valid plan of it; none before the first replan(), after a change that concerns it, and where
-  // none was found.
+  /// A valid plan of it; none before the first replan(), after a change that concerns it, and where
+  /// none was found.
   std::optional<Plan> plan() const;
 
-  // So many steps pass, by the plan, which must be there; at their end these robots are late, and
-  // others perhaps for their sake. Throws InvalidArgument, and nothing has changed.
+  /// So many steps pass, by the plan, which must be there; at their end these robots are late, and
+  /// others perhaps for their sake. Throws InvalidArgument, and nothing has changed.
   void advance(int steps, const std::vector<Late>& late = {});
 
-  // Throws InvalidArgument, and nothing has changed: somebody is there, or has to go there.
+  /// From now on it is so; the next replan() heeds it. Throws InvalidArgument, and nothing has
+  /// changed, where it cannot be: somebody is on what is to be closed, or has to go there; an id is
+  /// taken, or there is none such. field() is "/new_tasks/<i>/...", "/dropped_tasks/<i>" or
+  /// "/blocked/<i>".
   void change(const Change& change);
 
-  // Solves what is left, from the old plan repaired. All keep to the old plan, or what is left of
-  // it, for `commit` steps. (Options::start is not looked at.) Throws as solve() does, and
-  // InvalidArgument where a path is closed before the committed steps end.
+  /// Solves what is left, from the old plan repaired. All keep to the old plan, or what is left of
+  /// it, for `commit` steps, at least 0. (Options::start is not looked at.) Throws as solve() does,
+  /// and InvalidArgument, "/commit", where a path is closed before the committed steps end.
   Solution replan(const Options& options = {}, int commit = 0);
 
  private:

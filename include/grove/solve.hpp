@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds a plan, and proves how good it is.
+/// \file
+/// Finds a plan, and proves how good it is.
 #pragma once
 
 #include <cstddef>
@@ -14,42 +15,50 @@
 
 namespace grove {
 
-// Where a run stands.
+/// Where a run stands.
 struct Progress {
-  double seconds = 0;  // since it began
-  std::int64_t nodes_expanded = 0;
-  std::int64_t nodes_open = 0;
-  std::int64_t lower_bound = 0;           // proven so far
-  std::optional<std::int64_t> cost = {};  // of the best plan so far
+  double seconds = 0;                     ///< Since it began.
+  std::int64_t nodes_expanded = 0;        ///< Of constraint trees.
+  std::int64_t nodes_open = 0;            ///< Nodes that wait.
+  std::int64_t lower_bound = 0;           ///< Proven so far.
+  std::optional<std::int64_t> cost = {};  ///< Of the best plan so far.
 };
 
+/// How solve() goes about it; the defaults ask for an optimal plan, however long that takes.
 struct Options {
-  // How far from optimal a plan may be: its cost is to be at most 1 + omega times the lower bound.
-  // 0: optimal; infinity: any plan. In steps of 1e-9.
+  /// How far from optimal a plan may be: its cost is to be at most 1 + omega times the lower bound.
+  /// 0: optimal; infinity: any plan. In steps of 1e-9.
   double omega = 0;
-  // Seconds, and bytes that the process may hold. When a limit strikes the best plan so far comes
-  // back, with the bound proven so far. None: no limit.
+  /// Seconds, from 0. When it is over the best plan so far comes back, with the bound proven so
+  /// far. None: no limit.
   std::optional<double> time_limit = std::nullopt;
+  /// Bytes that the process may hold. Near it the search forgets what can be found again, then
+  /// gives up its worst nodes, whose bound still counts; if that does not help it ends like the
+  /// time limit. None: no limit.
   std::optional<std::size_t> memory_limit = std::nullopt;
-  // Ends the run like a limit; from any thread.
+  /// Ends the run like a limit; from any thread.
   std::stop_token stop = {};
-  int threads = 1;
-  // The same plan for any number of threads, limits aside.
+  int threads = 1;  ///< That search: from 1 to 1024.
+  /// The same plan for any number of threads, limits aside.
   bool deterministic = false;
-  std::uint64_t seed = 0;
-  // "auto", or one of the published methods to compare with (grove solve --help lists them).
+  std::uint64_t seed = 0;  ///< Of what is left to chance; any will do.
+  /// "auto", or one of the published methods to compare with (`grove solve --help` lists them).
   std::string method = "auto";
-  // A valid plan to begin with.
+  /// A valid plan to begin with.
   std::optional<Plan> start = std::nullopt;
-  // Told of every better plan, and where the run stands, about every `progress_interval` seconds;
-  // from threads of the run, one at a time. What they throw ends the run and comes out of solve().
+  /// Told of every better plan. Called from threads of the run, one call at a time, on_progress
+  /// included; the search of that thread waits meanwhile. What it throws ends the run and comes out
+  /// of solve().
   std::function<void(const Plan&, const Progress&)> on_incumbent = {};
+  /// Told where the run stands, about every `progress_interval` seconds and at the end; called as
+  /// on_incumbent is.
   std::function<void(const Progress&)> on_progress = {};
-  double progress_interval = 0.1;
+  double progress_interval = 0.1;  ///< Seconds, from 0.
 };
 
-// Any number of solves may go on at once. Throws InvalidArgument for options that do not go
-// together or with the instance, and Error.
+/// Finds a plan, and proves how good it is; returns when that is done or a limit strikes. Any
+/// number of solves may go on at once, on one instance, too. Throws InvalidArgument for options
+/// that do not go together or with the instance, what a function of the options throws, and Error.
 GROVE_API Solution solve(const Instance& instance, const Options& options = {});
 
 }  // namespace grove

@@ -53,10 +53,13 @@ void add_instance(py::module_& module) {
       "{'id': 'press', 'cell': (1, 2), 'agents': ['red'], 'duration': 3}.")
       .def(py::init(&made), py::arg("world"), py::arg("agents"), py::arg("tasks") = py::list(),
            py::kw_only(), py::arg("following") = true)
-      .def_property_readonly("world", &Instance::world)
-      .def_property_readonly("agents", [](const Instance& i) { return told(i, "agents"); })
-      .def_property_readonly("tasks", [](const Instance& i) { return told(i, "tasks"); })
-      .def_property_readonly("following", [](const Instance& i) { return i.rules().following; })
+      .def_property_readonly("world", &Instance::world, "What they move on.")
+      .def_property_readonly("agents", [](const Instance& i) { return told(i, "agents"); },
+                             "Dicts as in *.cts.json files.")
+      .def_property_readonly("tasks", [](const Instance& i) { return told(i, "tasks"); },
+                             "Dicts as in *.cts.json files.")
+      .def_property_readonly("following", [](const Instance& i) { return i.rules().following; },
+                             "May a robot enter a place in the step in which another leaves it?")
       .def("write", [](const Instance& i, const std::filesystem::path& path) {
              write_instance(path, i);
            }, py::arg("path"), "Writes *.cts.json and its map or roadmap beside it.")

@@ -37,8 +37,9 @@ void add_errors(py::module_& module) {
   const auto exception = py::reinterpret_borrow<py::object>(PyExc_Exception);
   const auto value_error = py::reinterpret_borrow<py::object>(PyExc_ValueError);
   errors = new Errors;
-  errors->base =
-      error_class(module, "Error", py::make_tuple(exception), "What Grove raises; see below it.");
+  errors->base = error_class(
+      module, "Error", py::make_tuple(exception),
+      "What Grove raises: one of those below; by itself: a part of the search is broken.");
   errors->input =
       error_class(module, "InputError", py::make_tuple(errors->base, value_error),
                   "A file or text that cannot be used: where, and what was expected.");

@@ -139,11 +139,11 @@ std::optional<double> gap_of(const OwnSolution& solution) {
 
 void add_agent_plan(py::module_& module) {
   py::class_<AgentPlan>(module, "AgentPlan", "What one robot does.")
-      .def_readonly("id", &AgentPlan::id)
+      .def_readonly("id", &AgentPlan::id, "The agent's.")
       .def_readonly("cost", &AgentPlan::cost,
                     "The step from which on it rests, with everything done.")
       .def_property_readonly("path", &path_of, "Places at times 0, 1, ..., cost.")
-      .def_readonly("tasks", &AgentPlan::tasks, "In the order in which they are completed.")
+      .def_readonly("tasks", &AgentPlan::tasks, "Ids, in the order in which they are completed.")
       .def_property_readonly("work", &work_of,
                              "[(task, begin, end), ...] of tasks with a duration.")
       .def("__repr__", [](const AgentPlan& agent) {
@@ -160,12 +160,14 @@ void add_plan(py::module_& module) {
                       "Plan(instance, paths): from anybody's paths, or an array of agents x times "
                       "x 2; costs and the order of tasks are worked out.")
       .def(py::init(&from_paths), py::arg("instance"), py::arg("paths"))
-      .def_property_readonly("instance", [](const OwnPlan& p) { return p.instance; })
+      .def_property_readonly("instance", [](const OwnPlan& p) { return p.instance; },
+                             "Whose plan it is.")
       .def_property_readonly("cost", [](const OwnPlan& p) { return p.plan->cost; },
                              "The sum of the robots'.")
       .def_property_readonly("makespan", [](const OwnPlan& p) { return p.plan->makespan(); },
                              "The step from which on everybody rests.")
-      .def_property_readonly("agents", [](const OwnPlan& p) { return p.plan->agents; })
+      .def_property_readonly("agents", [](const OwnPlan& p) { return p.plan->agents; },
+                             "What each does, in the instance's order.")
       .def("positions", &positions,
            "Where all are, agents x times x 2: cells (x, y) on a grid, metres on a roadmap.")
       .def("headings", &headings,
@@ -179,7 +181,8 @@ void add_plan(py::module_& module) {
                           "What a solve ends with: a status, perhaps a plan, always a bound.\n\n"
                           "Solution(plan): anybody's plan, of which nothing is claimed.")
       .def(py::init(&unclaimed), py::arg("plan"))
-      .def_property_readonly("instance", [](const OwnSolution& s) { return s.instance; })
+      .def_property_readonly("instance", [](const OwnSolution& s) { return s.instance; },
+                             "What was solved.")
       .def_property_readonly(
           "status", [](const OwnSolution& s) { return std::string(to_string(s.facts.status)); },
           "'optimal', 'bounded' (within omega), 'feasible', 'infeasible' or 'unknown'.")
@@ -187,12 +190,15 @@ void add_plan(py::module_& module) {
       .def_property_readonly("lower_bound",
                              [](const OwnSolution& s) { return s.facts.lower_bound; },
                              "Proven: no plan costs less.")
-      .def_property_readonly("omega", [](const OwnSolution& s) { return s.facts.omega; })
+      .def_property_readonly("omega", [](const OwnSolution& s) { return s.facts.omega; },
+                             "That was asked for.")
       .def_property_readonly("gap", &gap_of,
-                             "How much dearer than the best the plan is at most: 0.02 is 2 %.")
+                             "How much dearer than the best the plan is at most: 0.02 is 2 %. None "
+                             "without a plan, or with a bound of 0.")
       .def_property_readonly("counts", [](const OwnSolution& s) { return s.facts.counts; },
-                             "What the search did.")
-      .def_property_readonly("measures", [](const OwnSolution& s) { return s.facts.measures; })
+                             "What the search did, by the names of the plan file: nodes_expanded.")
+      .def_property_readonly("measures", [](const OwnSolution& s) { return s.facts.measures; },
+                             "Likewise, real numbers: wall_s.")
       .def("write",
            [](const OwnSolution& s, const std::filesystem::path& path) {
              write_plan(path, s.instance, s.whole());
@@ -212,7 +218,7 @@ void add_plan(py::module_& module) {
         return OwnSolution::of(instance, read_plan(path, instance));
       },
       py::arg("path"), py::arg("instance"),
-      "Reads a plan file of this instance; believes what it says.");
+      "Reads a plan file of this instance; believes what it says: check() does not.");
 }
 
 }  // namespace grove::python

@@ -122,8 +122,8 @@ Solution run_aside(Call& call, const std::function<Solution()>& solve) {
 void add_solve(py::module_& module) {
   py::class_<Progress>(module, "Progress", "Where a run stands.")
       .def_readonly("seconds", &Progress::seconds, "Since it began.")
-      .def_readonly("nodes_expanded", &Progress::nodes_expanded)
-      .def_readonly("nodes_open", &Progress::nodes_open)
+      .def_readonly("nodes_expanded", &Progress::nodes_expanded, "Of constraint trees.")
+      .def_readonly("nodes_open", &Progress::nodes_open, "Nodes that wait.")
       .def_readonly("lower_bound", &Progress::lower_bound, "Proven so far.")
       .def_readonly("cost", &Progress::cost, "Of the best plan so far, or None.")
       .def("__repr__", [](const Progress& p) {

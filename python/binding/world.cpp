@@ -94,10 +94,10 @@ void add_world(py::module_& module) {
                   "...]; True: one way.")
       .def_static("read", &World::read, py::arg("path"),
                   "A Moving AI map (*.map), or a roadmap (*.roadmap.json).")
-      .def_property_readonly("is_grid", &World::is_grid)
+      .def_property_readonly("is_grid", &World::is_grid, "Else it is a roadmap.")
       .def_property_readonly("width", &World::width, "In cells; 0 of a roadmap.")
       .def_property_readonly("height", &World::height, "In cells; 0 of a roadmap.")
-      .def_property_readonly("passable", &passable, "An array of rows and columns.")
+      .def_property_readonly("passable", &passable, "An array of rows and columns, true where one can go.")
       .def_property_readonly("vertices", &vertices, "{'A': (x, y), ...}, in metres.")
       .def_property_readonly("roads", &roads, "[(from, to, steps, one_way), ...].")
       .def("__repr__", &text_of);

@@ -70,7 +70,7 @@ def instance_from_dict(data, folder=".", *, following=True):
     worlds = [data[key] for key in ("map", "roadmap") if key in data]
     if len(worlds) != 1:
         raise InvalidArgument("expected 'map' or 'roadmap', and not both")
-    unknown = set(rest) - {"agents", "tasks"}
+    unknown = set(rest) - {"agents", "tasks", "$schema"}
     if unknown:
         raise InvalidArgument(f"there is no key {sorted(unknown)[0]!r} of an instance; "
                               "expected 'map' or 'roadmap', 'agents' and 'tasks'")
@@ -224,7 +224,11 @@ def data_frame(plan):
 
 
 class View:
-    """A page that plays plans: shown by notebooks, or written to a file by save()."""
+    """A page that plays plans: shown by notebooks, or written to a file by save().
+
+    html: its text.
+    height: in pixels, within a notebook.
+    """
 
     def __init__(self, html, height):
         self.html = html

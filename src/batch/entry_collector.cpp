@@ -58,12 +58,12 @@ void EntryCollector::add(Entry entry, const std::string& place) {
 }
 
 void EntryCollector::require_new(Places& places, const std::string& key, const std::string& place,
-                 const std::string& what) const {
+                                 const std::string& what) const {
   const auto [first, is_new] = places.try_emplace(key, place);
   if (is_new) return;
   throw InputError(source_.string(), place,
-                   fmt::format("{} {}; expected each instance once, under a name of its own",
-                               what, first->second));
+                   fmt::format("{} {}; expected each instance once, under a name of its own", what,
+                               first->second));
 }
 
 }  // namespace grove::detail::batch

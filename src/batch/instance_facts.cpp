@@ -30,7 +30,8 @@ std::optional<std::int64_t> moving_ai_number(std::string_view name) {
     const std::size_t at = name.rfind(kind);
     if (at == std::string_view::npos) continue;
     const std::string_view rest = name.substr(at + kind.size());
-    if (const auto number = parse_number<std::int64_t>(rest.substr(0, rest.find('-')), 0)) return number;
+    if (const auto number = parse_number<std::int64_t>(rest.substr(0, rest.find('-')), 0))
+      return number;
   }
   return std::nullopt;
 }

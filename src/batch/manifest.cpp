@@ -9,10 +9,10 @@
 #include <string_view>
 #include <system_error>
 
+#include "entry_collector.h"
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/io/text_file.h"
 #include "grove/detail/model/parse_number.h"
-#include "entry_collector.h"
 
 namespace grove::detail::batch {
 namespace {

@@ -82,9 +82,9 @@ void thin_out(std::vector<TracePoint>& trace, std::size_t most) {
 std::string trace_text(const std::vector<TracePoint>& trace) {
   std::string text;
   for (const TracePoint& point : trace)
-    text += fmt::format("{}{}:{}:{}", text.empty() ? "" : " ",
-                        std::round(point.seconds * 1e6) / 1e6, point.cost,
-                        point.lower_bound ? std::to_string(*point.lower_bound) : "-");
+    text +=
+        fmt::format("{}{}:{}:{}", text.empty() ? "" : " ", std::round(point.seconds * 1e6) / 1e6,
+                    point.cost, point.lower_bound ? std::to_string(*point.lower_bound) : "-");
   return text;
 }
 

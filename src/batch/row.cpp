@@ -151,8 +151,7 @@ Outcome outcome_of(const nlohmann::json& json) {
                   .anytime = later_member<bool>(json, "anytime").value_or(false)};
   constexpr std::array<std::string_view, 4> kWithoutResult{kError, kWrongPlan, kClaimed,
                                                            kUnsuitable};
-  const bool has_result =
-      std::ranges::find(kWithoutResult, outcome.status) == kWithoutResult.end();
+  const bool has_result = std::ranges::find(kWithoutResult, outcome.status) == kWithoutResult.end();
   if (has_result && !parse_status(outcome.status))
     throw std::invalid_argument(fmt::format("status '{}'", outcome.status));
   if (!has_result && (outcome.error.empty() || outcome.solved))

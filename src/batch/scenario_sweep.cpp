@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <string_view>
 #include <system_error>
@@ -20,8 +21,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kScenario = ".scen";
 
 struct Found {
-  std::vector<fs::path> scenarios;        // by name
-  std::map<std::string, fs::path> maps;   // by file name
+  std::vector<fs::path> scenarios;            // by name
+  std::multimap<std::string, fs::path> maps;  // by file name
   bool has_instances = false;
 };
 
@@ -60,16 +61,20 @@ std::pair<std::string, long> natural(const fs::path& path) {
   return {stem.substr(0, digits), number.empty() ? 0 : std::stol(number)};
 }
 
+// Beside the scenario, or the only one of that name.
 fs::path map_of(const fs::path& scenario, const Found& found,
                 const std::vector<ScenarioRow>& rows) {
   const std::string name = fs::path(rows.front().map).filename().string();
-  const auto it = found.maps.find(name);
-  if (it == found.maps.end())
-    throw InputError(scenario.string(), fmt::format("line {}", rows.front().line),
-                     fmt::format("there is no map {} there; expected it in the folder of the "
-                                 "scenarios or below",
-                                 name));
-  return it->second;
+  const auto [first, last] = found.maps.equal_range(name);
+  for (auto it = first; it != last; ++it)
+    if (it->second.parent_path() == scenario.parent_path()) return it->second;
+  const auto count = std::distance(first, last);
+  if (count == 1) return first->second;
+  throw InputError(scenario.string(), fmt::format("line {}", rows.front().line),
+                   fmt::format("{} map{} {} there; expected it beside the scenario, or once in the "
+                               "folder of the scenarios or below",
+                               count == 0 ? "there is no" : fmt::format("there are {}", count),
+                               count == 0 ? "" : "s", name));
 }
 
 }  // namespace
@@ -113,7 +118,8 @@ SweptScenarios read_scenarios(const fs::path& place, const ScenarioSweep& sweep)
         ++swept.too_short;
         break;
       }
-      Entry entry{.id = id_of(scenario, fs::is_directory(place, error) ? place : place.parent_path(), agents),
+      Entry entry{.id = id_of(scenario,
+                              fs::is_directory(place, error) ? place : place.parent_path(), agents),
                   .path = scenario.string(),
                   .map = map,
                   .agents = agents};
@@ -122,9 +128,9 @@ SweptScenarios read_scenarios(const fs::path& place, const ScenarioSweep& sweep)
   }
   swept.entries = collector.take();
   if (swept.entries.empty())
-    throw InputError(place.string(), "",
-                     fmt::format("no scenario has {} rows; expected fewer agents",
-                                 sweep.agents.front()));
+    throw InputError(
+        place.string(), "",
+        fmt::format("no scenario has {} rows; expected fewer agents", sweep.agents.front()));
   return swept;
 }
 

@@ -119,6 +119,7 @@ JsonDocument::JsonDocument(const std::filesystem::path& path)
 JsonDocument::JsonDocument(std::string_view text, std::string name)
     : file_(std::move(name)), json_(parse_json(text, file_)) {
   if (!json_.is_object()) root().fail_expected("a JSON object");
+  json_.erase("$schema");
 }
 
 namespace {

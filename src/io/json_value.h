@@ -57,7 +57,7 @@ class JsonValue {
 };
 
 // A parsed file. Throws InputError unless it is one JSON object of bounded depth in which no object
-// repeats a key.
+// repeats a key. Its key "$schema" is for editors (docs/formats.md), and is left out.
 class JsonDocument {
  public:
   explicit JsonDocument(const std::filesystem::path& path);

@@ -132,9 +132,10 @@ AgentIndex agent_called(const Instance& instance, const YamlValue& name) {
           ? parse_number<AgentIndex>(std::string_view(text).substr(kAgent.size()), 0)
           : std::nullopt;
   if (!number || *number >= instance.agent_count())
-    name.fail(fmt::format("found '{}', which no agent of the instance is called; expected the name "
-                          "of one, or agent0 to agent{}",
-                          one_line(text), instance.agent_count() - 1));
+    name.fail(
+        fmt::format("found '{}', which no agent of the instance is called; expected the name "
+                    "of one, or agent0 to agent{}",
+                    one_line(text), instance.agent_count() - 1));
   return *number;
 }
 
@@ -173,7 +174,7 @@ ToldPaths read_schedule(const std::filesystem::path& path, const Instance& insta
 }
 
 ToldPaths read_visualizer_text(const std::filesystem::path& path, const Instance& instance,
-                                    const std::vector<std::string_view>& lines) {
+                               const std::vector<std::string_view>& lines) {
   ToldPaths text;
   std::size_t k = 0;
   for (; k < lines.size() && lines[k] != "solution="; ++k) {
@@ -225,15 +226,19 @@ Time finish_of(const Path& path) {
   return static_cast<Time>(std::max<std::size_t>(until_rest(path).size(), 1) - 1);
 }
 
-void count_anew(Solution& solution) {
+void count_anew(Plan& plan) {
+  plan.cost = 0;
+  for (AgentPlan& agent : plan.agents) {
+    agent.cost = finish_of(agent.path);
+    plan.cost += agent.cost;
+  }
+}
+
+// But for the costs of its plan.
+void forget_claims(Solution& solution) {
   solution.omega = Omega::infinite();
   solution.lower_bound = 0;
   if (!solution.plan) return;
-  solution.plan->cost = 0;
-  for (AgentPlan& agent : solution.plan->agents) {
-    agent.cost = finish_of(agent.path);
-    solution.plan->cost += agent.cost;
-  }
   solution.status = solution.plan->cost == 0 ? Status::kOptimal : Status::kFeasible;
 }
 
@@ -265,10 +270,10 @@ RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance
     return std::ranges::find(claimed.unclaimed, what) == claimed.unclaimed.end();
   };
   if (claimed.solution.plan && claims("cost")) result.claimed_cost = claimed.solution.plan->cost;
-  if (claimed.solution.plan && claims("lower bound"))
-    result.claimed_lower_bound = claimed.solution.lower_bound;
+  if (claims("lower bound")) result.claimed_lower_bound = claimed.solution.lower_bound;
   result.solution = std::move(claimed.solution);
-  if (paths_are_places(instance)) count_anew(result.solution);
+  if (result.solution.plan && paths_are_places(instance)) count_anew(*result.solution.plan);
+  forget_claims(result.solution);
   return result;
 }
 

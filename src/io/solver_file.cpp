@@ -15,8 +15,8 @@ namespace grove::detail {
 namespace {
 
 constexpr std::array<std::string_view, 11> kPlaceholders{
-    "program",    "map",           "scenario", "agents", "instance",
-    "time_limit", "time_limit_ms", "time_limit_whole", "seed", "output", "folder"};
+    "program",          "map",  "scenario", "agents", "instance", "time_limit", "time_limit_ms",
+    "time_limit_whole", "seed", "output",   "folder"};
 
 struct NamedInput {
   std::string_view name;
@@ -66,19 +66,6 @@ std::string template_of(const JsonValue& value) {
   return text;
 }
 
-// Named, and with as many groups as are asked for.
-void require_regex(const JsonValue& value, const std::string& text, std::size_t groups) {
-  std::size_t found = 0;
-  try {
-    found = std::regex(text).mark_count();
-  } catch (const std::regex_error& error) {
-    value.fail(fmt::format("found '{}', which is no regular expression (ECMAScript): {}",
-                           one_line(text), error.what()));
-  }
-  if (found < groups)
-    value.fail(fmt::format("found {} groups in round brackets; expected {}", found, groups));
-}
-
 // "REGEX", or {"file": ..., "regex": ...}, which may have more keys.
 LinePattern pattern_of(const JsonValue& value, std::size_t groups) {
   LinePattern pattern;
@@ -88,7 +75,8 @@ LinePattern pattern_of(const JsonValue& value, std::size_t groups) {
     regex = value.member("regex");
   }
   pattern.regex = regex.text();
-  require_regex(regex, pattern.regex, groups);
+  const std::string mistake = regex_mistake(pattern.regex, groups);
+  if (!mistake.empty()) regex.fail(mistake);
   return pattern;
 }
 
@@ -123,6 +111,15 @@ TracePattern trace_of(const JsonValue& value) {
   return trace;
 }
 
+std::vector<std::string> command_of(const JsonValue& value, SolverInput input) {
+  const auto words = command_words(template_of(value));
+  if (!words) value.fail("a quote is not closed");
+  if (!names(*words, "program")) value.fail("expected {program} where the program stands");
+  if (const std::string mistake = input_mistake(input, *words); !mistake.empty())
+    value.fail(mistake);
+  return *words;
+}
+
 bool is_plain_name(std::string_view name) {
   const auto is_plain = [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
@@ -140,11 +137,8 @@ SolverAdapter solver_of(const JsonValue& root) {
   if (!is_plain_name(solver.name))
     name.fail_expected("a name of letters, digits and -_.+= without blanks");
   if (const auto about = root.find("about")) solver.about = about->text();
-  const JsonValue command = root.member("command");
-  solver.command = template_of(command);
-  if (!command_words(solver.command)) command.fail("a quote is not closed");
-  if (const auto input = root.find("instance"))
-    solver.input = one_of_names(*input, kInputs).input;
+  if (const auto input = root.find("instance")) solver.input = one_of_names(*input, kInputs).input;
+  solver.command = command_of(root.member("command"), solver.input);
   if (const auto plan = root.find("plan"))
     solver.plan = plan->json().is_null() ? "" : template_of(*plan);
   if (const auto anytime = root.find("anytime")) solver.anytime = anytime->boolean();
@@ -200,13 +194,32 @@ std::optional<std::vector<std::string>> command_words(std::string_view text) {
   return words;
 }
 
-std::vector<std::string> placeholders(std::string_view text) {
-  std::vector<std::string> names;
-  filled(text, [&](std::string_view name) {
-    names.emplace_back(name);
-    return std::string();
-  });
-  return names;
+bool names(const std::vector<std::string>& command, std::string_view name) {
+  const std::string place = fmt::format("{{{}}}", name);
+  return std::ranges::any_of(
+      command, [&](const std::string& word) { return word.find(place) != std::string::npos; });
+}
+
+std::string input_mistake(SolverInput input, const std::vector<std::string>& command) {
+  const bool has_map = names(command, "map") || names(command, "scenario");
+  const bool has_instance = names(command, "instance");
+  if (has_map && has_instance) return "expected {instance}, or {map} and {scenario}, and not both";
+  if (input == SolverInput::kMovingAi)
+    return names(command, "map") && names(command, "scenario") ? ""
+                                                               : "expected {map} and {scenario}";
+  return has_instance ? "" : "expected {instance}";
+}
+
+std::string regex_mistake(const std::string& text, std::size_t groups) {
+  try {
+    const std::size_t found = std::regex(text).mark_count();
+    if (found >= groups) return "";
+    return fmt::format("found {} group{} in round brackets; expected {}", found,
+                       found == 1 ? "" : "s", groups);
+  } catch (const std::regex_error& error) {
+    return fmt::format("found '{}', which is no regular expression (ECMAScript): {}",
+                       one_line(text), error.what());
+  }
 }
 
 std::string template_mistake(std::string_view text) {

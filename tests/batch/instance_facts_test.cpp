@@ -45,5 +45,14 @@ TEST(InstanceFacts, KnowAScenarioWhenTheySeeOne) {
     EXPECT_EQ(facts(other, {agent}).scenario, std::nullopt) << other;
 }
 
+TEST(InstanceFacts, KnowScenariosOfMovingAi) {
+  const AgentSpec agent{{0, 0}, Position{3, 0}};
+  EXPECT_EQ(facts("den312d-random-3-50", {agent}).scenario, 3);
+  EXPECT_EQ(facts("scen-even/den312d-even-12", {agent}).scenario, 12);
+  EXPECT_EQ(facts("random-32-32-20-random-7-50", {agent}).scenario, 7);
+  for (const char* other : {"random-32-32-20-50", "den312d-random-", "den312d-odd-3-50"})
+    EXPECT_EQ(facts(other, {agent}).scenario, std::nullopt) << other;
+}
+
 }  // namespace instance_facts_test
 }  // namespace grove::detail::batch

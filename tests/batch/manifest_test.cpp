@@ -131,10 +131,16 @@ TEST_F(Manifests, RefuseAnInstanceThatOccursTwice) {
             "under a name of its own");
 }
 
-TEST_F(Manifests, RefuseWhatIsNoManifest) {
+TEST_F(Manifests, MayBeOneInstance) {
   add_file("a.cts.json");
-  EXPECT_EQ(refusal([&] { read_manifest(directory_ / "a.cts.json"); }),
-            "a.cts.json: is no manifest; expected a folder, or a text file with the path of an "
+  EXPECT_EQ(ids(read_manifest(directory_ / "a.cts.json")), Ids{"a"});
+  EXPECT_NE(refusal([&] { read_manifest(directory_ / "b.cts.json"); }), "accepted");
+}
+
+TEST_F(Manifests, RefuseWhatIsNoManifest) {
+  add_file("a.json");
+  EXPECT_EQ(refusal([&] { read_manifest(directory_ / "a.json"); }),
+            "a.json: is no manifest; expected a folder, or a text file with the path of an "
             "instance on each line");
   EXPECT_NE(refusal([&] { read_manifest(directory_ / "none"); }).find("none: cannot be read"),
             std::string::npos);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "tests/support/instances.h"
 
 namespace grove::detail::batch {
@@ -98,6 +101,31 @@ TEST_F(Outcomes, SeeWhatWasStoppedFromOutside) {
   solution_.stats.texts["stopped_by"] = "interrupt";
   EXPECT_TRUE(outcome().interrupted());
   EXPECT_FALSE(outcome().solved);
+}
+
+TEST(Traces, AreTextAndBack) {
+  const std::vector<TracePoint> trace{{0.25, 120, 100}, {1.5, 118, std::nullopt}, {2, 0, 0}};
+  EXPECT_EQ(trace_text(trace), "0.25:120:100 1.5:118:- 2:0:0");
+  EXPECT_EQ(parse_trace(trace_text(trace)), trace);
+  EXPECT_EQ(trace_text({}), "");
+  EXPECT_TRUE(parse_trace("").empty());
+  EXPECT_EQ(trace_text({{1.0 / 3, 1, {}}}), "0.333333:1:-");
+  for (const char* text : {"1", "1:2", "1:2:", "1:2:3:4", "a:2:3", "1:b:-", "-1:2:3", "1:-2:3"})
+    EXPECT_THROW(parse_trace(text), std::invalid_argument) << text;
+}
+
+TEST(Traces, AreThinnedOutBetweenTheirEnds) {
+  std::vector<TracePoint> trace;
+  for (int k = 0; k < 1000; ++k) trace.push_back({1.0 * k, 5000 - k, {}});
+  const auto whole = trace;
+  thin_out(trace, 1000);
+  EXPECT_EQ(trace, whole);
+  thin_out(trace, 200);
+  EXPECT_LE(trace.size(), 200u);
+  EXPECT_GE(trace.size(), 100u);
+  EXPECT_EQ(trace.front(), whole.front());
+  EXPECT_EQ(trace.back(), whole.back());
+  EXPECT_TRUE(std::ranges::is_sorted(trace, {}, &TracePoint::seconds));
 }
 
 }  // namespace outcome_test

@@ -127,7 +127,6 @@ TEST_F(Tables, RefuseRowsOfOtherRuns) {
   expect([](batch::Run& run) { run.settings.options = "--omega 0"; },
          "options '--omega 0.01' there, '--omega 0' here)");
   expect([](batch::Run& run) { run.settings.omega = "0"; }, "omega '0.01' there, '0' here)");
-  expect([](batch::Run& run) { run.settings.seed = 8; }, "seed '7' there, '8' here)");
   expect([](batch::Run& run) { run.settings.time_limit_s = 0.5; },
          "time limit '60' there, '0.5' here)");
   expect([](batch::Run& run) { run.settings.memory_limit_gb.reset(); },
@@ -135,6 +134,15 @@ TEST_F(Tables, RefuseRowsOfOtherRuns) {
   expect([](batch::Run& run) { run.digest = "x"; }, "the instance or its map has changed");
   EXPECT_EQ(left(), (Positions{2, 3}));
   EXPECT_EQ(lines(), lines_of({0, 1}));
+}
+
+TEST_F(Tables, HaveARowForEachSeed) {
+  run({0, 1, 2, 3});
+  rows_[1].run.settings.seed = 8;
+  EXPECT_EQ(left(), Positions{1});
+  run({1});
+  EXPECT_EQ(left(), Positions());
+  EXPECT_EQ(open().rows().size(), 5U);
 }
 
 // As plans are wanted of what an instance is now.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
@@ -79,27 +81,55 @@ TEST(Rows, AreCsvWithTheSameColumns) {
             "instance,method,options,map,scenario,agents,tasks,problem,omega,seed,time_limit_s,"
             "solved,status,cost,lower_bound,gap,root_cost,sqr,runtime_s,wall_s,first_plan_s,roots,"
             "rtsp_calls,nodes,low_level_calls,peak_memory_mb,version,machine,ended_at,error,ranks,"
-            "threads,memory_limit_gb,plan_file,instance_digest,counts\n");
+            "threads,memory_limit_gb,plan_file,instance_digest,counts,solver,claimed_cost,"
+            "claimed_lower_bound,claimed_s,anytime,trace\n");
   EXPECT_EQ(csv_line(solved_row()),
             "set/a_s3_n2_m4_mg,auto,--omega 0.01,\"a, \"\"b\"\"\",3,2,4,mg,0.01,7,60.0,true,"
             "bounded,200,160,0.25,150,0.75,1.25,1.25,0.25,3,4,5,6,7.25,grove 0.1.0 (git 0123),\"a "
             "processor, 2 cores\",2026-11-30T23:59:59Z,,4,2,1.5,,0123456789abcdef,bypasses=8 "
-            "splits_bar=9\n");
+            "splits_bar=9,,,,,false,\n");
   EXPECT_EQ(
       csv_line(failed_row()),
       "i,auto,--omega 0.01,\"a, \"\"b\"\"\",,2,4,mg,0.01,7,60.0,false,error,,,,150,,60.0,1.25,"
       ",,,,,,grove,\"a processor, 2 cores\",2026-11-30T23:59:59Z,ended by signal 9 (Killed),4,2,"
-      ",,0123456789abcdef,\n");
+      ",,0123456789abcdef,,,,,,false,\n");
   Row row = failed_row();
   row.outcome.error = "two\nlines";
   EXPECT_NE(csv_line(row).find(",\"two\nlines\","), std::string::npos);
   EXPECT_NE(csv_line(limited_row()).find(",\"plans/a, \"\"b\"\".plan.json\","), std::string::npos);
 }
 
-// Tables from before there were counts are gone on with.
-TEST(Rows, NeedNoCounts) {
+// What another solver says comes back, in both formats.
+TEST(Rows, TellClaims) {
+  Row row = solved_row();
+  row.solver = "lacam3";
+  row.outcome.claimed_cost = 198;
+  row.outcome.claimed_lower_bound = 150;
+  row.outcome.claimed_s = 0.75;
+  row.outcome.anytime = true;
+  row.outcome.trace = {{0.25, 210, std::nullopt}, {1, 200, 160}};
+  EXPECT_EQ(parse_json_line(json_line(row)), row);
+  EXPECT_TRUE(csv_line(row).ends_with(",lacam3,198,150,0.75,true,0.25:210:- 1:200:160\n"));
+  EXPECT_EQ(row.runtime_s(), 0.25);  // when it had its first plan
+  row.outcome.first_plan_s.reset();
+  EXPECT_EQ(row.runtime_s(), row.wall_s);
+  row.wall_s = 61;
+  EXPECT_EQ(row.runtime_s(), 60);
+  for (const char* status : {kWrongPlan, kClaimed, kUnsuitable}) {
+    Row none = failed_row();
+    none.outcome.status = status;
+    EXPECT_EQ(parse_json_line(json_line(none)), none);
+    EXPECT_EQ(none.runtime_s(), 60);
+  }
+}
+
+constexpr std::array<std::string_view, 7> kLater{
+    "counts", "solver", "claimed_cost", "claimed_lower_bound", "claimed_s", "anytime", "trace"};
+
+// Tables from before there were these are gone on with.
+TEST(Rows, NeedNoLaterColumns) {
   json line = json::parse(json_line(solved_row()));
-  line.erase("counts");
+  for (const std::string_view column : kLater) line.erase(std::string(column));
   Row expected = solved_row();
   expected.outcome.counts = "";
   EXPECT_EQ(parse_json_line(line.dump()), expected);
@@ -129,7 +159,7 @@ TEST(Rows, RefuseWhatIsNone) {
       continue;  // these follow, and are not read
     json without = good;
     without.erase(key);
-    if (key != "counts") bad.push_back(without.dump());  // older tables have none
+    if (std::ranges::find(kLater, key) == kLater.end()) bad.push_back(without.dump());
     json wrong = good;
     wrong[key] = json::array({1});
     bad.push_back(wrong.dump());

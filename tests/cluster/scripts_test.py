@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The job scripts with every option that the README documents, and with a second one of those that
+"""The job scripts with every option that docs/command-line.md tells, and with a second one of those that
 they give themselves: without Slurm, whose commands are stood in for, and on one rank."""
 import json
 import os
@@ -33,7 +33,7 @@ OF_SCENARIOS = {"--map": DATA / "empty-32x32.map", "--agents": "3"}
 
 
 def documented():
-    table = (ROOT / "README.md").read_text(encoding="utf-8").split("## Options of grove solve", 1)[1]
+    table = (ROOT / "docs/command-line.md").read_text(encoding="utf-8").split("## Options of grove solve", 1)[1]
     rows = [line.split("|")[1] for line in table.split("\n#", 1)[0].splitlines()
             if line.startswith("| `--")]
     return {option for row in rows for option in re.findall(r"--[a-z][a-z-]*", row)}

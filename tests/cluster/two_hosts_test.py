@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A solve by two hosts without Slurm, as cluster/README.md says. Run by cluster/two_hosts."""
+"""A solve by two hosts without Slurm, as docs/operators.md says. Run by cluster/two_hosts."""
 import os
 import tempfile
 import unittest

@@ -27,6 +27,7 @@ int main() {
   const grove::Instance instance(grove::World::from_rows({"...."}),
                                  {{.id = "a", .start = {grove::Cell{0, 0}}, .goal = grove::Cell{3, 0}}}, {});
   const grove::Solution solution = grove::solve(instance);
+  if (solution.gap() != 0.0) return 3;
   std::printf("cost %d\\n", static_cast<int>(solution.plan->cost));
 }
 """
@@ -170,7 +171,8 @@ class Installed(unittest.TestCase):
 
     def test_manual(self):
         for file in ("man/man1/grove-solve.1", "man/man1/grove-sim.1", "bash-completion/completions/grove",
-                     "zsh/site-functions/_grove", "fish/vendor_completions.d/grove.fish"):
+                     "zsh/site-functions/_grove", "fish/vendor_completions.d/grove.fish",
+                     "grove/schemas/instance.schema.json"):
             self.assertGreater((self.prefix / "share" / file).stat().st_size, 100, file)
 
     def test_the_interface_is_the_front_door(self):

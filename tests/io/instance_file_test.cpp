@@ -79,6 +79,12 @@ TEST_F(InstanceFile, WarnsAboutEachUnknownKeyOnce) {
             std::string::npos);
 }
 
+TEST_F(InstanceFile, LeavesTheKeyOfEditorsAlone) {
+  const std::string rest = kMap + "," + kAgents + "," + kTasks + "}";
+  EXPECT_TRUE(read(R"({"$schema": "instance.schema.json", )" + rest).warnings.empty());
+  EXPECT_EQ(read(R"({"$schem": "instance.schema.json", )" + rest).warnings.size(), 1U);
+}
+
 // It would be another instance without it.
 TEST_F(InstanceFile, RefusesAKeyThatIsMisspelt) {
   for (const auto& [found, meant] :

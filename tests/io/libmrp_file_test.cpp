@@ -89,6 +89,15 @@ TEST_F(LibmrpFile, IsWrittenAsTheToolReadsIt) {
   EXPECT_EQ(file_content(directory_ / "o.yaml"), kMgMapf);
 }
 
+TEST_F(LibmrpFile, IsWrittenForSolversThatAssignGoals) {
+  write_potential_goals(directory_ / "o.yaml", mapf());
+  const std::string text = file_content(directory_ / "o.yaml");
+  EXPECT_NE(text.find("    start: [0, 0]\n    potentialGoals:\n      - [4, 0]\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(told(read(text)), told(mapf()));
+}
+
 TEST_F(LibmrpFile, IsReadBack) {
   EXPECT_EQ(told(read(kMapf)), told(mapf()));
   EXPECT_EQ(told(read(kMapf)), "5x3 @(1,0) @(3,2) @(4,2) agent0(0,0)(4,0) on(3,0)(1,2)");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "grove/detail/io/input_error.h"
@@ -42,6 +43,10 @@ class PlanImport : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
 // (row,column), as EECBS writes them; LNS2 has no blank after the colon.
 const std::string kLists =
     "Agent 0: (0,0)->(0,0)->(1,0)->(1,1)->(1,2)->(1,3)->(0,3)->\n"
@@ -80,6 +85,65 @@ TEST_F(PlanImport, ReadsPlanFilesToo) {
   EXPECT_EQ(plan.unclaimed, Words());
 }
 
+// x and y; agents by number, as ITA-CBS2 writes them, and by name, as MGCBS does.
+const std::string kSchedule =
+    "statistics:\n  cost: 10\n  runtime: 0.1\nschedule:\n"
+    "  agent0:\n    - x: 0\n      y: 0\n      t: 0\n    - {x: 0, y: 0, t: 1}\n"
+    "    - {x: 0, y: 1, t: 2}\n    - {x: 1, y: 1, t: 3}\n    - {x: 2, y: 1, t: 4}\n"
+    "    - {x: 3, y: 1, t: 5}\n    - {x: 3, y: 0, t: 6}\n"
+    "  a1:\n    - {x: 2, y: 2, t: 0}\n    - {x: 1, y: 2, t: 1}\n    - {x: 0, y: 2, t: 2}\n"
+    "    - {x: 0, y: 2, t: 3}\n    - {x: 0, y: 1, t: 4}\n    - {x: 0, y: 1, t: 5}\n";
+
+TEST_F(PlanImport, ReadsSchedules) {
+  const ClaimedPlan plan = read(kSchedule);
+  EXPECT_EQ(check(mapf_, plan.solution).size(), 0u);
+  EXPECT_EQ(plan.solution.plan->cost, 10);
+  EXPECT_EQ(plan.solution.plan->agents[1].cost, 4);
+  EXPECT_EQ(plan.unclaimed, Words{"lower bound"});
+  EXPECT_EQ(read(kSchedule.substr(kSchedule.find("schedule:"))).unclaimed,
+            (Words{"cost", "lower bound"}));
+  EXPECT_FALSE(read("statistics:\n  cost: 3\nschedule:\n").solution.plan);
+}
+
+TEST_F(PlanImport, RefusesSchedulesWithThePlace) {
+  EXPECT_EQ(refused(replaced(kSchedule, "agent0", "agent2")),
+            "plan: line 5, column 3: found 'agent2', which no agent of the instance is called; "
+            "expected the name of one, or agent0 to agent1");
+  EXPECT_EQ(refused(replaced(kSchedule, "  a1:", "  a0:")),
+            "plan: line 15, column 3: an agent appears twice");
+  EXPECT_EQ(refused(replaced(kSchedule, "x: 3, y: 0, t: 6", "x: 3, y: 0, t: 7")),
+            "plan: line 14, column 23: expected t: 6, for each step follows the one before");
+  EXPECT_NE(refused(replaced(kSchedule, "x: 3, y: 0", "x: 4, y: 0")), "accepted");
+  EXPECT_NE(refused(replaced(kSchedule, "x: 3, y: 0", "x: 3, y: -1")), "accepted");
+  EXPECT_NE(refused(replaced(kSchedule, "x: 3, ", "")), "accepted");
+  EXPECT_NE(refused(replaced(kSchedule, "  cost: 10", "  cost: ten")), "accepted");
+}
+
+// Whatever is claimed, the costs are those of the paths.
+TEST_F(PlanImport, CountsAnew) {
+  const auto recounted = [&](const std::string& text) {
+    return read_and_recount(directory_.write("plan", text), mapf_);
+  };
+  const RecountedPlan lie = recounted(replaced(kText, "soc=10", "soc=7"));
+  EXPECT_EQ(lie.solution.plan->cost, 10);
+  EXPECT_EQ(lie.solution.lower_bound, 0);
+  EXPECT_EQ(lie.claimed_cost, 7);
+  EXPECT_EQ(lie.claimed_lower_bound, 8);
+  EXPECT_EQ(check(mapf_, lie.solution).size(), 0u);
+  EXPECT_EQ(recounted(kLists).claimed_cost, std::nullopt);
+  EXPECT_EQ(recounted(kSchedule).claimed_cost, 10);
+  EXPECT_FALSE(recounted(replaced(kText, "solved=1", "solved=0")).solution.plan);
+  // Of a plan file, too: its bound is a claim like any other.
+  Solution solution = read(kText).solution;
+  solution.status = Status::kOptimal;
+  solution.lower_bound = 10;
+  write_solution(directory_ / "plan.json", mapf_, solution);
+  const RecountedPlan file = read_and_recount(directory_ / "plan.json", mapf_);
+  EXPECT_EQ(file.claimed_lower_bound, 10);
+  EXPECT_EQ(file.solution.lower_bound, 0);
+  EXPECT_EQ(file.solution.status, Status::kFeasible);
+}
+
 // What Grove exports comes back, with the order of tasks found out.
 TEST_F(PlanImport, FindsTheOrderOfTasks) {
   InstanceBuilder builder(testing::grid_of({"....", "...."}));
@@ -112,10 +176,6 @@ TEST_F(PlanImport, FindsTheOrderOfTasks) {
     EXPECT_EQ(plan.solution.plan->agents[1].sequence, (std::vector<TaskIndex>{0, 2}));
     EXPECT_EQ(plan.unclaimed.back(), "order of tasks");
   }
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
 }
 
 TEST_F(PlanImport, LeavesLiesToTheChecker) {
@@ -165,8 +225,8 @@ TEST_F(PlanImport, RefusesWithThePlace) {
   for (const char* text : {"a,b\n1,2\n", "cost 7"})
     EXPECT_EQ(
         refused(text),
-        "plan: line 1: expected a plan file (JSON), paths as 'Agent 0: (row,column)->' or the "
-        "text of lacam, with 'solution='");
+        "plan: line 1: expected a plan file (JSON), paths as 'Agent 0: (row,column)->', the text "
+        "of lacam, with 'solution=', or YAML with 'schedule:'");
   EXPECT_EQ(refused("\n"), "plan: is empty; expected a JSON object");
   EXPECT_EQ(refused(" [1]"), "plan: /: found an array; expected a JSON object");
 }
@@ -177,7 +237,7 @@ TEST_F(PlanImport, SurvivesBrokenFiles) {
   int accepted = 0;
   const int rounds = testing::fuzz_rounds(1000);
   for (int round = 0; round < rounds; ++round) {
-    std::string text = round % 2 == 0 ? kLists : kText;
+    std::string text = std::array{kLists, kText, kSchedule}[round % 3];
     for (int k = 0; k < 2; ++k)
       text[random() % text.size()] = "0123456789(),->:= \nA\xff"[random() % 22];
     SCOPED_TRACE(text);

@@ -11,6 +11,7 @@ import doctest
 import importlib.util
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -51,6 +52,13 @@ class Documents(unittest.TestCase):
         self.assertGreater(done.attempted, 15)
         self.assertEqual(done.failed, 0)
 
+    def test_the_page_of_every_name_is_what_it_is_made_of(self):
+        done = subprocess.run([sys.executable, SOURCE / "python/api_page.py", PACKAGE], capture_output=True, text=True,
+                              timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        if done.stdout != (SOURCE / "docs/python-api.md").read_text():
+            self.fail(f"docs/python-api.md is old: python/api_page.py {PACKAGE} > docs/python-api.md")
+
     def test_the_example_is_short_and_runs(self):
         example = SOURCE / "examples/python/warehouse.py"
         self.assertLessEqual(len(example.read_text().splitlines()), 25)
@@ -75,6 +83,26 @@ class Documents(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
+class Packaging(unittest.TestCase):
+    @unittest.skipUnless(importlib.util.find_spec("tomllib"), "no tomllib")
+    def test_pyproject_names_what_is_there(self):
+        import tomllib
+        project = tomllib.loads((SOURCE / "pyproject.toml").read_text())
+        ours = project["tool"]["scikit-build"]
+        version = ours["metadata"]["version"]
+        found = re.search(version["regex"], (SOURCE / version["input"]).read_text())
+        self.assertEqual(found.group("value"), grove.__version__)
+        cmake = "".join(path.read_text() for path in [SOURCE / "CMakeLists.txt", SOURCE / "python/CMakeLists.txt",
+                                                      *(SOURCE / "cmake").glob("*.cmake")])
+        for option in ours["cmake"]["define"]:
+            self.assertRegex(cmake, rf"option\({option}\b")
+        for target in ours["build"]["targets"]:
+            self.assertIn(f"module({target} ", cmake)
+        for component in ours["install"]["components"]:
+            self.assertIn(f"COMPONENT {component}\n", cmake)
+        self.assertTrue((SOURCE / project["project"]["readme"]).exists())
+
+
 class Instances(unittest.TestCase):
     def test_come_back_as_they_were_made(self):
         instance = small()
@@ -89,7 +117,7 @@ class Instances(unittest.TestCase):
             small().write(path)
             self.assertEqual(grove.read_instance(path).agents, small().agents)
             data = json.loads(path.read_text())
-            self.assertEqual(grove.instance_from_dict(data, folder).tasks, small().tasks)
+            self.assertEqual(grove.instance_from_dict({**data, "$schema": "x"}, folder).tasks, small().tasks)
             solution = grove.solve(small())
             solution.write(str(path) + ".plan")
             back = grove.read_plan(str(path) + ".plan", small())

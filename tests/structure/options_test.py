@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The option table of the README is the program's.
+"""The option table of docs/command-line.md is the program's.
 
-    options_test.py README GROVE
+    options_test.py PAGE GROVE
 
 Every option of `grove solve --help` must stand in the table below "## Options of grove solve", and
 every option of that table in the help; so must every
@@ -16,8 +16,8 @@ from pathlib import Path
 OPTION = re.compile(r"--[a-z][a-z-]*")
 
 
-def documented(readme):
-    section = readme.split("## Options of grove solve", 1)[1].split("\n## ", 1)[0]
+def documented(page):
+    section = page.split("## Options of grove solve", 1)[1].split("\n## ", 1)[0]
     first_columns = [line.split("|")[1] for line in section.splitlines() if line.startswith("| `")]
     return {option for column in first_columns for option in OPTION.findall(column)}
 
@@ -28,8 +28,8 @@ def offered(help_text):
     return {option for name in names for option in OPTION.findall(name)} - {"--help"}
 
 
-def documented_techniques(readme):
-    section = readme.split("The techniques that `--without` and `--with` know", 1)[1].split("\n\n`grove ", 1)[0]
+def documented_techniques(page):
+    section = page.split("The techniques that `--without` and `--with` know", 1)[1].split("\n## ", 1)[0]
     return set(re.findall(r"^\| `([a-z-]+)` \|", section, re.M))
 
 
@@ -43,22 +43,22 @@ def offered_techniques(program):
 
 
 def main():
-    readme, program = (Path(argument) for argument in sys.argv[1:])
+    page, program = (Path(argument) for argument in sys.argv[1:])
     if not program.exists():
         print(f"skipped: there is no {program}")
         return 77
     help_text = subprocess.run([program, "solve", "--help"], capture_output=True, text=True,
                                check=True).stdout
-    in_readme, in_help = documented(readme.read_text(encoding="utf-8")), offered(help_text)
+    in_page, in_help = documented(page.read_text(encoding="utf-8")), offered(help_text)
     assert in_help, "no option found in the help"
-    for option in sorted(in_help - in_readme):
-        print(f"FAILED: {option} is not in the README's table")
-    for option in sorted(in_readme - in_help):
-        print(f"FAILED: {option} of the README's table is no option of grove solve")
-    techniques = documented_techniques(readme.read_text(encoding="utf-8"))
+    for option in sorted(in_help - in_page):
+        print(f"FAILED: {option} is not in the page's table")
+    for option in sorted(in_page - in_help):
+        print(f"FAILED: {option} of the page's table is no option of grove solve")
+    techniques = documented_techniques(page.read_text(encoding="utf-8"))
     for name in sorted(techniques ^ offered_techniques(program)):
-        print(f"FAILED: technique {name} is not in both the README and the program")
-    return 0 if in_help == in_readme and techniques == offered_techniques(program) else 1
+        print(f"FAILED: technique {name} is not in both the page and the program")
+    return 0 if in_help == in_page and techniques == offered_techniques(program) else 1
 
 
 if __name__ == "__main__":

@@ -31,12 +31,13 @@ namespace {
 
 constexpr double kShareOfMemory = 0.8;
 constexpr double kSmallestRoom_gb = 0.1;
+constexpr const char* kAll = "*";
 
 constexpr const char* kBenchFooter =
     R"(INSTANCES is a list (a path on each line, relative to the list, or FILE.scen --map M --agents
 K; # begins a comment), as 'grove generate paper' writes it, or a folder, with all *.cts.json below
-it; or Moving AI's scenarios, a folder or one of them, with --agents 10:100:10 or 10,20,50: the first
-so many rows of each.
+it; or Moving AI's scenarios, a folder or one of them, with --agents 10:100:10 or 10,20,50: the
+first so many rows of each.
 
 A run is 'NAME: OPTIONS OF grove solve'; NAME alone is short for 'NAME: --method NAME'. Each is a
 process of its own, on one thread and with omega 0.01 unless its options say otherwise. All methods
@@ -45,21 +46,25 @@ before any second: what is done at any moment is balanced.
 
 DIR/results.jsonl gets a row when a run has ended and its plan was re-checked; DIR/results.csv is
 made from it. The same command goes on where an earlier one stopped, however it stopped: Ctrl-C,
-killed, or with more runs or instances to do. What ended in an error is tried again; rows of the
-same names with other options, limits, seed or instances are refused. A run counts as solved when it
+killed, or with more runs, seeds or instances to do. What ended in an error is tried again; rows of
+the same names with other options, limits or instances are refused. A run counts as solved when it
 ended by itself with a plan, before any limit.
 
 A run that went on until its limit is not solved, even with a plan: so methods that improve their
 plan as long as they may (cts-cbs-c --anytime) fare worse here than they are. Exits with 130 when
 stopped with runs left.
 
---solver sets a program of someone else beside it, by an adapter: eecbs, cbsh2-rtc, mapf-lns2, lacam3,
-mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md). What it writes is re-checked, and its costs
-are counted anew; a plan that is none is "wrong", one that it only speaks of "claimed".
+--solver sets a program of someone else beside it, by an adapter: eecbs, cbsh2-rtc, mapf-lns2,
+lacam3, mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md); options after the program come
+to those of the adapter, or replace them. What it writes is re-checked, and its costs are counted
+anew; a plan that is none is "wrong", one that it only speaks of "claimed", and what cannot be, of
+anybody, is "refuted" at the end. One that goes on until its limit, as its adapter says, is solved
+when it has a plan in time.
 
 Examples:
-  grove bench movingai/ --agents 10:50:10 --scenarios 'random-32-32-20-random-*' --run 'grove: --omega 0' \
-        --solver 'eecbs=/opt/eecbs --suboptimality 1.05' --time-limit 30 --output-dir results
+  grove bench movingai/ --agents 10:50:10 --scenarios 'random-32-32-20-random-*' \
+        --run 'grove: --omega 0' --solver 'eecbs=/opt/eecbs --suboptimality 1.05' \
+        --time-limit 30 --output-dir results
   grove bench paper/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir results
   grove bench instances/ --run 'exact: --omega 0' --run 'near: --omega 0.1' --time-limit 60 \
         --jobs 4 --output-dir results)";
@@ -70,7 +75,7 @@ struct BenchArguments {
   std::vector<std::string> solvers;
   std::vector<std::string> claims;
   std::vector<std::int64_t> agents;
-  std::string scenarios = "*";
+  std::string scenarios = kAll;
   std::vector<std::int64_t> seeds;
   std::string output_dir;
   RunDefaults defaults;
@@ -91,25 +96,27 @@ int jobs_of(const BenchArguments& a, const std::vector<bench::Method>& methods) 
 void share_memory(std::vector<bench::Method>& methods, int jobs) {
   const double share =
       std::max(kSmallestRoom_gb, std::floor(10 * kShareOfMemory * usable_memory_gb() / jobs) / 10);
-  for (bench::Method& method : methods)
-    if (!method.solver && !method.settings.memory_limit_gb)
+  for (bench::Method& method : methods) {
+    if (method.settings.memory_limit_gb) continue;
+    if (method.solver)
+      method.memory_gb = share;
+    else
       method.arguments.insert(method.arguments.end(), {"--memory-limit", fmt::format("{}", share)});
+  }
 }
 
-// Those that find out about memory themselves are Grove's.
 std::vector<bench::Method> solvers_of(const BenchArguments& a) {
   std::vector<bench::Method> methods;
-  for (const std::string& text : a.solvers) {
-    bench::NamedSolver solver = bench::read_solver_argument(text, a.claims);
-    methods.push_back(
-        {.settings = {.method = solver.name,
-                      .options = solver.options,
-                      .omega = "",
-                      .seed = a.defaults.seed,
-                      .time_limit_s = a.defaults.time_limit_s},
-         .threads = solver.solver.adapter.threads,
-         .solver = std::make_shared<bench::ForeignSolver>(std::move(solver.solver))});
-  }
+  for (bench::NamedSolver& solver : bench::read_solver_arguments(a.solvers, a.claims))
+    methods.push_back({.settings = {.method = solver.name,
+                                    .options = solver.options,
+                                    .omega = "",
+                                    .seed = a.defaults.seed,
+                                    .time_limit_s = a.defaults.time_limit_s,
+                                    .memory_limit_gb = a.defaults.memory_limit_gb},
+                       .threads = solver.solver.adapter.threads,
+                       .memory_gb = a.defaults.memory_limit_gb,
+                       .solver = std::make_shared<bench::ForeignSolver>(std::move(solver.solver))});
   return methods;
 }
 
@@ -148,18 +155,21 @@ std::vector<bench::Method> methods_of(BenchArguments& a) {
 
 std::vector<batch::Entry> entries_of(const BenchArguments& a) {
   if (a.agents.empty()) {
+    if (a.scenarios != kAll) throw CLI::ValidationError("--scenarios", "expected --agents with it");
     if (batch::holds_scenarios(a.instances))
-      throw CLI::ValidationError("--agents", "required with scenarios: how many of their rows, as "
-                                             "10:100:10 or 10,20,50");
+      throw CLI::ValidationError("--agents",
+                                 "required with scenarios: how many of their rows, as "
+                                 "10:100:10 or 10,20,50");
     return batch::read_manifest(a.instances);
   }
   const std::vector<int> agents(a.agents.begin(), a.agents.end());
   batch::SweptScenarios swept =
       batch::read_scenarios(a.instances, {.agents = agents, .scenarios = a.scenarios});
   if (swept.too_short > 0)
-    say_on_stderr(fmt::format("grove: warning: {} scenario{} fewer rows than the most of --agents; "
-                              "what there is not is left out",
-                              swept.too_short, swept.too_short == 1 ? " has" : "s have"));
+    say_on_stderr(
+        fmt::format("grove: warning: {} scenario{} fewer rows than the most of --agents; "
+                    "what there is not is left out",
+                    swept.too_short, swept.too_short == 1 ? " has" : "s have"));
   return std::move(swept.entries);
 }
 
@@ -205,7 +215,8 @@ void add_bench_command(CLI::App& root) {
       root.add_subcommand("bench", "Run methods on many instances, tabulate the results");
   app->footer(kBenchFooter);
   const auto a = std::make_shared<BenchArguments>();
-  app->add_option("INSTANCES", a->instances, "a list of instances, a folder of them, or one; or scenarios")
+  app->add_option("INSTANCES", a->instances,
+                  "a list of instances, a folder of them, or one; or scenarios")
       ->required()
       ->type_name("");
   app->add_option("--run", a->runs,
@@ -213,24 +224,25 @@ void add_bench_command(CLI::App& root) {
       ->type_name("'NAME: OPTIONS'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option("--solver", a->solvers,
-                  "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
-                  "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
-                  "{agents}, {instance}, {time_limit}, {seed}, {output}")
+  app->add_option(
+         "--solver", a->solvers,
+         "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
+         "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
+         "{agents}, {instance}, {time_limit}, {seed}, {output}")
       ->type_name("'NAME=COMMAND'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option("--claimed-cost", a->claims,
-                  "of a solver that shows no plan: group 1 of the last line that it prints in which "
-                  "this is found is the cost that it claims")
+  app->add_option(
+         "--claimed-cost", a->claims,
+         "of a solver that shows no plan: group 1 of the last line that it prints in which "
+         "this is found is the cost that it claims")
       ->type_name("'NAME=REGEX'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_counts(*app, "--agents", a->agents,
              "of scenarios: the first so many rows, 10:100:10 being 10, 20, ..., 100");
   app->add_option("--scenarios", a->scenarios, "only those, of a folder; * stands for anything")
-      ->type_name("NAME*")
-      ->capture_default_str();
+      ->type_name("NAME*");
   add_ranges(*app, "--seeds", a->seeds, kSeeds, "", "each run with each of these seeds");
   app->add_option("--output-dir", a->output_dir, "the folder for the table; made if missing")
       ->required()
@@ -249,8 +261,9 @@ void add_bench_command(CLI::App& root) {
       ->type_name("J")
       ->default_str("");
   add_integer(*app, "--seed", a->defaults.seed, kSeeds, "the seed of runs that do not name one");
-  app->add_flag("--keep-plans", a->keep_plans,
-                "keep the plan files, as DIR/plans/NAME/ID.plan.json");
+  app->add_flag(
+      "--keep-plans", a->keep_plans,
+      "keep the plan files, as DIR/plans/NAME/ID.plan.json; NAME+seed7 with another seed than 0");
   app->add_flag("--quiet", a->quiet, "no progress on the screen");
   app->callback([app, a] { run(*app, *a); });
 }

@@ -21,6 +21,7 @@
 #include "grove/detail/batch/result_table.h"
 #include "grove/detail/io/expressible.h"
 #include "grove/detail/io/input_error.h"
+#include "grove/detail/io/plan_file.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/judge.h"
 #include "tools/bench/root_costs.h"
@@ -67,6 +68,7 @@ class Bench {
     if (failure_) std::rethrow_exception(failure_);
     table_.flush();
     table_.write_csv();
+    state_.false_claims = batch::false_claims(table_.rows());
     return state();
   }
 
@@ -92,7 +94,6 @@ class Bench {
     state_.work.left = static_cast<int>(runs_.size());
     state_.work.workers = static_cast<int>(std::max<std::size_t>(1, workers()));
     for (const Method& method : methods_) {
-      seeds_differ_ |= state_.counts.contains(method.settings.method);
       if (!state_.counts.contains(method.settings.method))
         state_.methods.push_back(method.settings.method);
       state_.counts[method.settings.method];
@@ -140,7 +141,9 @@ class Bench {
     fs::path folder;  // of another solver
   };
   Files files_of(std::size_t worker) const {
-    const auto named = [&](const char* end) { return scratch() / fmt::format("{}{}", worker, end); };
+    const auto named = [&](const char* end) {
+      return scratch() / fmt::format("{}{}", worker, end);
+    };
     return {named(".plan.json"), named(".txt"), named(".jsonl"), named(".folder")};
   }
 
@@ -152,7 +155,8 @@ class Bench {
                    .threads = method.threads,
                    .solver = method.solver ? method.solver->adapter.name : ""};
     try {
-      if (const auto why = method.unsuitable.find(row.facts.problem); why != method.unsuitable.end())
+      if (const auto why = method.unsuitable.find(row.facts.problem);
+          why != method.unsuitable.end())
         row.outcome = {.status = batch::kUnsuitable, .error = why->second};
       else if (!(method.solver ? solve_by_other(row, run, files_of(worker))
                                : solve(row, run, files_of(worker))))
@@ -166,12 +170,14 @@ class Bench {
     record(row);
   }
 
-  ChildEnd run_one(const std::vector<std::string>& command, batch::Row& row,
-                   const Files& files) const {
+  ChildEnd run_one(const std::vector<std::string>& command, batch::Row& row, const Files& files,
+                   bool knows_the_limit, std::optional<double> memory_gb) const {
     const double limit = row.run.settings.time_limit_s;
+    const double grace = limit * (options_.grace_factor - 1) + options_.grace_s;
     const ChildEnd end = run_child(command, files.said,
-                                   {.seconds = limit * options_.grace_factor + options_.grace_s,
-                                    .cancelled = [this] { return must_stop(); }});
+                                   {.seconds = knows_the_limit ? limit + grace : limit,
+                                    .cancelled = [this] { return must_stop(); },
+                                    .memory_gb = memory_gb});
     row.wall_s = end.wall_s;
     return end;
   }
@@ -186,14 +192,14 @@ class Bench {
     auto command =
         solve_command(options_.program, instances_[index].entry, method_of(run), limit, files.plan);
     command.insert(command.end(), {"--log", files.log.string(), "--log-format", "jsonl"});
-    const ChildEnd end = run_one(command, row, files);
+    const ChildEnd end = run_one(command, row, files, true, std::nullopt);
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     const LoadedInstance loaded = load(instances_[index].entry);
     row.outcome = judged(end, limit, loaded.instance, files.plan, files.said);
-    row.outcome.trace = trace_of_log(files.log);
+    if (!row.outcome.failed()) row.outcome.trace = trace_of_log(files.log);
     if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
     row.root_cost = root_costs_.of(index, loaded.instance);
-    if (options_.keep_plans) keep(files.plan, row);
+    if (options_.keep_plans) keep(files.plan, plan_name(row), row);
     return true;
   }
 
@@ -201,12 +207,14 @@ class Bench {
     const std::size_t index = instance_index(run);
     const LoadedInstance loaded = load(instances_[index].entry);
     try {
-      const ForeignRun foreign(*method_of(run).solver, instances_[index].entry, loaded,
-                               row.run.settings, files.folder);
-      const ChildEnd end = run_one(foreign.command(), row, files);
+      const Method& method = method_of(run);
+      ForeignRun foreign(*method.solver, instances_[index].entry, loaded, row.run.settings,
+                         files.folder);
+      const ChildEnd end =
+          run_one(foreign.command(), row, files, foreign.knows_the_limit(), method.memory_gb);
       if (end.kind == ChildEnd::Kind::kCancelled) return false;
       row.outcome = foreign.judged(end, files.said);
-      if (options_.keep_plans) keep(foreign.plan(), row);
+      if (options_.keep_plans) keep(foreign, loaded.instance, files, row);
     } catch (const NotExpressible& error) {
       row.outcome = {.status = batch::kUnsuitable,
                      .error = fmt::format("{}: {}", error.field(), error.what())};
@@ -215,14 +223,29 @@ class Bench {
     return true;
   }
 
-  void keep(const fs::path& plan, batch::Row& row) const {
-    if (plan.empty() || !fs::exists(plan)) return;
-    const std::string seed =
-        seeds_differ_ ? fmt::format("+seed{}", row.run.settings.seed) : std::string();
-    row.plan_file = batch::plan_file(row.run.settings.method + seed + "/" + row.run.instance);
-    const fs::path kept = options_.folder / row.plan_file;
+  static std::string plan_name(const batch::Row& row) {
+    const batch::Settings& settings = row.run.settings;
+    const std::string seed = settings.seed == 0 ? "" : fmt::format("+seed{}", settings.seed);
+    return batch::plan_file(settings.method + seed + "/" + row.run.instance);
+  }
+
+  void keep(const fs::path& file, const std::string& name, batch::Row& row) const {
+    if (!fs::exists(file)) return;
+    row.plan_file = name;
+    const fs::path kept = options_.folder / name;
     batch::make_folder(kept.parent_path());
-    fs::rename(plan, kept);
+    fs::rename(file, kept);
+  }
+
+  // Of another solver: as a plan file of Grove's; what is none as it is.
+  void keep(const ForeignRun& foreign, const Instance& instance, const Files& files,
+            batch::Row& row) const {
+    if (foreign.shown()) {
+      write_solution(files.plan, instance, *foreign.shown());
+      keep(files.plan, plan_name(row), row);
+    } else if (row.outcome.status == batch::kWrongPlan) {
+      keep(foreign.plan(), plan_name(row) + ".wrong", row);
+    }
   }
 
   void record(const batch::Row& row) {
@@ -262,7 +285,6 @@ class Bench {
   const std::vector<batch::Run> runs_;
   const std::vector<std::size_t> todo_;  // of runs_
   RootCosts root_costs_;
-  bool seeds_differ_ = false;
 
   std::mutex mutex_;  // guards the table and all below
   std::size_t next_ = 0;

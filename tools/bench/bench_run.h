@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct Method {
   std::int64_t threads = 1;
   // What `grove solve INSTANCE` is called with, but for the time limit and the plan file.
   std::vector<std::string> arguments = {};
+  // Of a program of someone else: of data; it gets no more.
+  std::optional<double> memory_gb = {};
   // A program of someone else; null: Grove's own.
   std::shared_ptr<const ForeignSolver> solver = {};
   // Of problems (cts, mg, ...) that it is not for: why.

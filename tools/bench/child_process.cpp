@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,17 +23,18 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kLookInterval_ms = 100;
-constexpr int kCannotBeStarted = 127;
 
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
 // Between fork() and exec(), where only what is safe in a signal handler may be called.
-[[noreturn]] void become(char* const* arguments, pid_t parent, int input, int output) {
+[[noreturn]] void become(char* const* arguments, pid_t parent, int input, int output,
+                         const rlimit* memory) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::setpgid(0, 0);
   const bool orphaned = ::getppid() != parent;  // before the line above could help
+  if (memory != nullptr) ::setrlimit(RLIMIT_DATA, memory);
   if (!orphaned && ::dup2(input, STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
       ::dup2(output, STDERR_FILENO) >= 0)
     ::execv(arguments[0], arguments);
@@ -41,10 +43,19 @@ constexpr int kCannotBeStarted = 127;
 
 ChildEnd ended(pid_t pid) {
   int status = 0;
-  while (::waitpid(pid, &status, 0) < 0)
-    if (errno != EINTR) fail("waitpid");
-  if (WIFSIGNALED(status)) return {ChildEnd::Kind::kSignalled, WTERMSIG(status)};
-  return {ChildEnd::Kind::kExited, WEXITSTATUS(status)};
+  rusage used{};
+  while (::wait4(pid, &status, 0, &used) < 0)
+    if (errno != EINTR) fail("wait4");
+  ChildEnd end{.peak_memory_mb = static_cast<double>(used.ru_maxrss) * 1024 / 1e6};
+  end.kind = WIFSIGNALED(status) ? ChildEnd::Kind::kSignalled : ChildEnd::Kind::kExited;
+  end.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+  return end;
+}
+
+// A child that is not waited for yet, and its group, which it may not have made yet.
+void kill_all(pid_t pid) {
+  ::kill(-pid, SIGKILL);
+  ::kill(pid, SIGKILL);
 }
 
 double seconds_since(Clock::time_point start) {
@@ -63,11 +74,15 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   const Descriptor output(said, O_WRONLY | O_CREAT | O_TRUNC);
   if (!output.is_open()) fail(said.c_str());
 
+  rlimit memory{};
+  memory.rlim_cur = memory.rlim_max = static_cast<rlim_t>(limits.memory_gb.value_or(0) * 1e9);
   const pid_t parent = ::getpid();
   const Clock::time_point start = Clock::now();
   const pid_t pid = ::fork();
   if (pid < 0) fail("fork");
-  if (pid == 0) become(arguments.data(), parent, input.get(), output.get());
+  if (pid == 0)
+    become(arguments.data(), parent, input.get(), output.get(),
+           limits.memory_gb ? &memory : nullptr);
 
   // glibc 2.36 declares pidfd_open() for C alone.
   const Descriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
@@ -85,8 +100,9 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
     if (killed != ChildEnd::Kind::kExited) continue;
     if (limits.cancelled()) killed = ChildEnd::Kind::kCancelled;
     if (seconds_since(start) > limits.seconds) killed = ChildEnd::Kind::kTooLong;
-    if (killed != ChildEnd::Kind::kExited) ::kill(pid, SIGKILL);
+    if (killed != ChildEnd::Kind::kExited) kill_all(pid);
   }
+  kill_all(pid);  // what it left behind
   const double wall_s = seconds_since(start);
   ChildEnd end = ended(pid);
   end.wall_s = wall_s;

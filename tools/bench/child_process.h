@@ -5,14 +5,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace grove::detail::bench {
 
 struct ChildLimits {
-  double seconds = 0;               // then it is killed
-  std::function<bool()> cancelled;  // asked several times a second; then it is killed
+  double seconds = 0;                    // then it is killed, and what it has started with it
+  std::function<bool()> cancelled;       // asked several times a second; then likewise
+  std::optional<double> memory_gb = {};  // of data; it gets no more
 };
 
 struct ChildEnd {
@@ -24,14 +26,17 @@ struct ChildEnd {
   };
   Kind kind = Kind::kExited;
   int code = 0;
-  double wall_s = 0;  // from its start to its end
+  double wall_s = 0;          // from its start to its end
+  double peak_memory_mb = 0;  // resident
 };
+
+inline constexpr int kCannotBeStarted = 127;
 
 // Runs `command`, a program and its arguments, and waits for it; nothing is on its standard input,
 // and what it says goes to the file `said`. It dies with this process, however that ends, and is in
-// a process group of its own: a Ctrl-C is for the caller alone. A program that cannot be started
-// exits with 127. Of any thread, which must live as long. Throws std::system_error when there are
-// no more processes or files.
+// a process group of its own: a Ctrl-C is for the caller alone, and what it leaves running in that
+// group dies with it. A program that cannot be started exits with kCannotBeStarted. Of any thread,
+// which must live as long. Throws std::system_error when there are no more processes or files.
 ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& said,
                    const ChildLimits& limits);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "grove/detail/io/expressible.h"
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/io/libmrp_file.h"
 #include "grove/detail/io/map_file.h"
@@ -26,12 +28,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFirstOfShells = 126;  // and above, by convention of shells
+constexpr std::array<std::string_view, 3> kTimeLimits{"time_limit", "time_limit_ms",
+                                                      "time_limit_whole"};
 
 // Of a file that may not be there.
 std::string text_of(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error) ? read_text(path) : std::string();
+}
+
+std::string_view beginning(std::string_view line) {
+  return line.substr(0, kLongestLine);
 }
 
 std::optional<double> number_in(const std::string& text) {
@@ -71,20 +78,49 @@ std::optional<batch::TracePoint> point_in(const TracePattern& pattern, const std
   return point.seconds >= 0 ? std::optional(point) : std::nullopt;
 }
 
-std::string why_without_plan(const ChildEnd& end, double time_limit_s, const fs::path& said) {
-  switch (end.kind) {
-    case ChildEnd::Kind::kExited:
-      if (end.code != 0)
-        return fmt::format("ended with exit code {}{}", end.code, last_words(said));
-      return end.wall_s >= time_limit_s ? "time limit" : "ended without a plan" + last_words(said);
-    case ChildEnd::Kind::kSignalled:
-      return fmt::format("ended by signal {} ({})", end.code, ::strsignal(end.code));
-    case ChildEnd::Kind::kTooLong:
-      return "time limit";
-    case ChildEnd::Kind::kCancelled:
-      return "interrupt";
-  }
+// By time, costs falling: what is no better is no news.
+std::vector<batch::TracePoint> better_and_better(std::vector<batch::TracePoint> trace) {
+  std::ranges::stable_sort(trace, {}, &batch::TracePoint::seconds);
+  std::vector<batch::TracePoint> better;
+  for (const batch::TracePoint& point : trace)
+    if (better.empty() || point.cost < better.back().cost) better.push_back(point);
+  thin_out(better, kMostTracePoints);
+  return better;
+}
+
+// Without the names that its format has no place for, or that it may forget.
+Instance as_told(const Instance& instance, SolverInput input) {
+  if (input == SolverInput::kGrove) return instance;
+  Instance told = with_default_agent_ids(instance);
+  return input == SolverInput::kMgcbs ? with_default_task_ids(told) : told;
+}
+
+// A valid plan of the same agents, whose tasks may have other names and numbers here.
+Solution in_terms_of(const Instance& instance, Solution solution) {
+  std::vector<Path> paths;
+  for (AgentPlan& agent : solution.plan->agents) paths.push_back(std::move(agent.path));
+  solution.plan = plan_of_paths(instance, std::move(paths));
+  return solution;
+}
+
+// Empty: as it should, and in time.
+std::string what_went_wrong(const ChildEnd& end, double time_limit_s, const fs::path& said) {
+  if (end.wall_s > time_limit_s) return kTimeLimit;
+  if (end.kind == ChildEnd::Kind::kSignalled)
+    return fmt::format("ended by signal {} ({})", end.code, ::strsignal(end.code));
+  if (end.code != 0) return fmt::format("ended with exit code {}{}", end.code, last_words(said));
   return "";
+}
+
+// What is said of plans on the way, as far as the plan that was re-checked bears it out: what an
+// anytime solver finds last is its best, so that none before can have cost less (some count another
+// cost), and with that one the trace ends.
+std::vector<batch::TracePoint> borne_out(std::vector<batch::TracePoint> trace, Cost cost,
+                                         double wall_s) {
+  std::erase_if(trace, [&](const batch::TracePoint& point) { return point.seconds > wall_s; });
+  for (batch::TracePoint& point : trace) point.cost = std::max(point.cost, cost);
+  trace.push_back({.seconds = wall_s, .cost = cost});
+  return better_and_better(std::move(trace));
 }
 
 }  // namespace
@@ -92,39 +128,41 @@ std::string why_without_plan(const ChildEnd& end, double time_limit_s, const fs:
 ForeignRun::ForeignRun(const ForeignSolver& solver, const batch::Entry& entry,
                        const LoadedInstance& loaded, const batch::Settings& settings,
                        fs::path folder)
-    : solver_(solver), loaded_(loaded), settings_(settings), folder_(std::move(folder)) {
+    : solver_(solver),
+      loaded_(loaded),
+      told_(as_told(loaded.instance, solver.adapter.input)),
+      settings_(settings),
+      folder_(fs::absolute(folder)) {
   fs::remove_all(folder_);
   fs::create_directories(folder_);
   write_input(entry);
 }
 
 void ForeignRun::write_input(const batch::Entry& entry) {
-  const Instance& instance = loaded_.instance;
   instance_ = entry.path;
   switch (solver_.adapter.input) {
     case SolverInput::kMovingAi:
-      if (entry.agents == 0) return write_moving_ai();
-      map_ = entry.map;
-      scenario_ = entry.path;
-      return;
+      return write_moving_ai();
     case SolverInput::kGrove:
       if (entry.agents == 0) return;
       instance_ = folder_ / "instance.cts.json";
-      return write_instance(instance_, instance, fs::absolute(entry.map).string());
+      return write_instance(instance_, told_, fs::absolute(entry.map).string());
     case SolverInput::kLibmrp:
-      return write_libmrp_instance(instance_ = folder_ / "instance.yaml", instance);
+      return write_libmrp_instance(instance_ = folder_ / "instance.yaml", told_);
     case SolverInput::kPotentialGoals:
-      return write_potential_goals(instance_ = folder_ / "instance.yaml", instance);
+      return write_potential_goals(instance_ = folder_ / "instance.yaml", told_);
     case SolverInput::kMgcbs:
-      return write_mgcbs_instance(instance_ = folder_ / "instance.yaml", instance);
+      return write_mgcbs_instance(instance_ = folder_ / "instance.yaml", told_);
   }
 }
 
+// Not the files as they are: programs differ in which letters of a map they hold for free, and in
+// what they do with further rows.
 void ForeignRun::write_moving_ai() {
   map_ = folder_ / "map.map";
   scenario_ = folder_ / "map.scen";
-  write_scenario_instance(scenario_, loaded_.instance, "map.map");
-  write_map(map_, loaded_.instance.grid());
+  write_scenario_instance(scenario_, told_, "map.map");
+  write_map(map_, told_.grid());
 }
 
 std::string ForeignRun::value_of(std::string_view placeholder) const {
@@ -132,7 +170,7 @@ std::string ForeignRun::value_of(std::string_view placeholder) const {
   if (placeholder == "program") return solver_.program;
   if (placeholder == "map") return map_.string();
   if (placeholder == "scenario") return scenario_.string();
-  if (placeholder == "agents") return std::to_string(loaded_.instance.agent_count());
+  if (placeholder == "agents") return std::to_string(told_.agent_count());
   if (placeholder == "instance") return instance_.string();
   if (placeholder == "time_limit") return fmt::format("{}", limit);
   if (placeholder == "time_limit_ms") return fmt::format("{:.0f}", limit * 1e3);
@@ -147,10 +185,15 @@ std::string ForeignRun::told(const std::string& text) const {
 }
 
 std::vector<std::string> ForeignRun::command() const {
-  std::vector<std::string> words = *command_words(solver_.adapter.command);
-  words.insert(words.end(), solver_.more.begin(), solver_.more.end());
+  std::vector<std::string> words = solver_.adapter.command;
   for (std::string& word : words) word = told(word);
   return words;
+}
+
+bool ForeignRun::knows_the_limit() const {
+  return std::ranges::any_of(kTimeLimits, [this](std::string_view place) {
+    return names(solver_.adapter.command, place);
+  });
 }
 
 fs::path ForeignRun::plan() const {
@@ -161,12 +204,12 @@ fs::path ForeignRun::plan() const {
 std::optional<std::string> ForeignRun::last_match(const LinePattern& pattern,
                                                   const fs::path& said) const {
   const std::regex regex(pattern.regex);
-  const std::string text =
-      text_of(pattern.file.empty() ? said : fs::path(told(pattern.file)));
+  const std::string text = text_of(pattern.file.empty() ? said : fs::path(told(pattern.file)));
   std::optional<std::string> found;
   for (const std::string_view line : split_lines(text)) {
+    const std::string_view looked_at = beginning(line);
     std::cmatch match;
-    if (std::regex_search(line.data(), line.data() + line.size(), match, regex))
+    if (std::regex_search(looked_at.begin(), looked_at.end(), match, regex))
       found = match.size() > 1 ? match[1].str() : match[0].str();
   }
   return found;
@@ -188,76 +231,96 @@ void ForeignRun::read_claims(batch::Outcome& outcome, const fs::path& said) cons
   outcome.first_plan_s = number_of(adapter.first_plan, said);
 }
 
-// Costs fall: what is no better is no news.
 void ForeignRun::read_trace(batch::Outcome& outcome, const fs::path& said) const {
   for (const TracePattern& pattern : solver_.adapter.trace) {
     const std::regex regex(pattern.line.regex);
     const std::string text =
         text_of(pattern.line.file.empty() ? said : fs::path(told(pattern.line.file)));
     for (const std::string_view line : split_lines(text)) {
-      const std::string words(line);
+      const std::string words(beginning(line));
       std::smatch match;
       if (!std::regex_search(words, match, regex)) continue;
       if (const auto point = point_in(pattern, match, settings_.time_limit_s))
         outcome.trace.push_back(*point);
     }
   }
-  std::ranges::stable_sort(outcome.trace, {}, &batch::TracePoint::seconds);
-  std::vector<batch::TracePoint> better;
-  for (const batch::TracePoint& point : outcome.trace)
-    if (better.empty() || point.cost < better.back().cost) better.push_back(point);
-  thin_out(better, kMostTracePoints);
-  outcome.trace = std::move(better);
+  outcome.trace = better_and_better(std::move(outcome.trace));
 }
 
-void ForeignRun::read_plan(batch::Outcome& outcome) const {
+void ForeignRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
   const fs::path file = plan();
   std::error_code error;
   if (file.empty() || !fs::is_regular_file(file, error)) return;
   try {
-    const RecountedPlan told = read_and_recount(file, loaded_.instance);
+    const RecountedPlan told = read_and_recount(file, told_);
     if (!outcome.claimed_cost) outcome.claimed_cost = told.claimed_cost;
     if (!outcome.claimed_lower_bound) outcome.claimed_lower_bound = told.claimed_lower_bound;
     if (!told.solution.plan) return;
-    const auto wrong = check(loaded_.instance, told.solution, 1);
-    if (!wrong.empty()) throw InputError("", wrong.front().place, wrong.front().message);
+    const auto wrong = check(told_, told.solution, 1);
+    if (!wrong.empty()) throw InputError(file.string(), wrong.front().place, wrong.front().message);
     outcome.cost = told.solution.plan->cost;
-    outcome.status = to_string(told.solution.status);
+    outcome.status = to_string(Status::kFeasible);
+    const bool same = solver_.adapter.input == SolverInput::kGrove;
+    shown_ = same ? told.solution : in_terms_of(loaded_.instance, told.solution);
   } catch (const InputError& broken) {
+    if (end.kind != ChildEnd::Kind::kExited || end.code != 0) return;  // while it wrote, perhaps
     outcome.status = batch::kWrongPlan;
-    outcome.error = fmt::format("the plan is wrong: {}", broken.what());
+    std::string text = broken.what();
+    if (text.starts_with(folder_.string())) text.erase(0, folder_.string().size() + 1);
+    outcome.error = fmt::format("the plan is wrong: {}", text);
   }
 }
 
-batch::Outcome ForeignRun::judged(const ChildEnd& end, const fs::path& said) const {
+// What is still solved although a limit struck: whatever goes on until it does, if it had a plan in
+// time.
+void ForeignRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
+                                  const fs::path& said) const {
+  const double limit = settings_.time_limit_s;
+  if (!outcome.first_plan_s)
+    outcome.first_plan_s = outcome.trace.empty() ? end.wall_s : outcome.trace.front().seconds;
+  outcome.trace = borne_out(std::move(outcome.trace), *outcome.cost, end.wall_s);
+  outcome.error = what_went_wrong(end, limit, said);
+  if (outcome.anytime && outcome.error == kTimeLimit && *outcome.first_plan_s <= limit)
+    outcome.error.clear();
+  outcome.solved = outcome.error.empty();
+}
+
+void ForeignRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& end,
+                                     const fs::path& said) const {
+  outcome.trace.clear();
+  outcome.first_plan_s.reset();
+  outcome.error = what_went_wrong(end, settings_.time_limit_s, said);
+  if (outcome.claimed_cost ||
+      (solver_.adapter.solved && last_match(*solver_.adapter.solved, said))) {
+    outcome.status = batch::kClaimed;
+    outcome.error =
+        "claims a plan and shows none" + (outcome.error.empty() ? "" : "; " + outcome.error);
+  } else if (outcome.error.empty()) {
+    outcome.error = "ended without a plan" + last_words(said);
+  } else if (outcome.error != kTimeLimit) {
+    outcome.status = batch::kError;
+  }
+}
+
+batch::Outcome ForeignRun::judged(const ChildEnd& end, const fs::path& said) {
   batch::Outcome outcome;
+  outcome.peak_memory_mb = end.peak_memory_mb;
   outcome.anytime = solver_.adapter.anytime;
-  if (end.kind == ChildEnd::Kind::kExited && end.code >= kFirstOfShells) {
-    outcome.error = fmt::format("cannot be started: exit code {}{}", end.code, last_words(said));
+  if (end.kind == ChildEnd::Kind::kExited && end.code == kCannotBeStarted) {
+    outcome.error = fmt::format("cannot be started{}", last_words(said));
     return outcome;
   }
   outcome.status = to_string(Status::kUnknown);
   read_claims(outcome, said);
   read_trace(outcome, said);
-  read_plan(outcome);
-  if (!outcome.first_plan_s && !outcome.trace.empty())
-    outcome.first_plan_s = outcome.trace.front().seconds;
-  if (outcome.status == batch::kWrongPlan) return outcome;
-  const double limit = settings_.time_limit_s;
-  if (outcome.cost) {
-    const bool ended = end.kind == ChildEnd::Kind::kExited && end.code == 0;
-    outcome.solved = outcome.anytime ? outcome.first_plan_s.value_or(0) <= limit
-                                     : ended && end.wall_s <= limit;
-    if (!outcome.solved) outcome.error = why_without_plan(end, 0, said);
-    return outcome;
-  }
-  const bool claims_plan = outcome.claimed_cost ||
-                           (solver_.adapter.solved && last_match(*solver_.adapter.solved, said));
-  if (claims_plan) {
-    outcome.status = batch::kClaimed;
-    outcome.error = "claims a plan, and shows none";
+  read_plan(outcome, end);
+  if (outcome.status == batch::kWrongPlan) {
+    outcome.trace.clear();
+    outcome.first_plan_s.reset();
+  } else if (outcome.cost) {
+    finish_with_plan(outcome, end, said);
   } else {
-    outcome.error = why_without_plan(end, limit, said);
+    finish_without_plan(outcome, end, said);
   }
   return outcome;
 }

@@ -19,8 +19,7 @@ namespace grove::detail::bench {
 
 struct ForeignSolver {
   SolverAdapter adapter;
-  std::string program = {};             // {program}
-  std::vector<std::string> more = {};   // words after the adapter's
+  std::string program;  // {program}
 };
 
 // One run of it.
@@ -33,9 +32,13 @@ class ForeignRun {
              const batch::Settings& settings, std::filesystem::path folder);
 
   std::vector<std::string> command() const;
+  // Whether it is told of the time limit, and so may end by itself when that strikes.
+  bool knows_the_limit() const;
   // The outcome of a run that has ended and was not cancelled; it said what is in the file `said`.
-  batch::Outcome judged(const ChildEnd& end, const std::filesystem::path& said) const;
-  // The plan that it wrote, perhaps.
+  batch::Outcome judged(const ChildEnd& end, const std::filesystem::path& said);
+  // The plan that it wrote and that was found to be one.
+  const std::optional<Solution>& shown() const { return shown_; }
+  // The file in which it wrote one, perhaps.
   std::filesystem::path plan() const;
 
  private:
@@ -45,7 +48,11 @@ class ForeignRun {
   void write_moving_ai();
   void read_claims(batch::Outcome& outcome, const std::filesystem::path& said) const;
   void read_trace(batch::Outcome& outcome, const std::filesystem::path& said) const;
-  void read_plan(batch::Outcome& outcome) const;
+  void read_plan(batch::Outcome& outcome, const ChildEnd& end);
+  void finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
+                        const std::filesystem::path& said) const;
+  void finish_without_plan(batch::Outcome& outcome, const ChildEnd& end,
+                           const std::filesystem::path& said) const;
   std::optional<std::string> last_match(const LinePattern& pattern,
                                         const std::filesystem::path& said) const;
   std::optional<double> number_of(const std::optional<LinePattern>& pattern,
@@ -53,25 +60,30 @@ class ForeignRun {
 
   const ForeignSolver& solver_;
   const LoadedInstance& loaded_;
+  const Instance told_;
   const batch::Settings& settings_;
   const std::filesystem::path folder_;
   std::filesystem::path map_;
   std::filesystem::path scenario_;
   std::filesystem::path instance_;
+  std::optional<Solution> shown_;
 };
 
-// Reads "NAME=COMMAND" of the command line, `claims` being "NAME=REGEX" of others:
-//   eecbs=/opt/eecbs --suboptimality 1.1       the adapter of that name, its program, more words
-//   fast=eecbs:/opt/eecbs --suboptimality 2    an adapter under another name
-//   mine=my.json:/opt/mine                     one of one's own
-//   mine=/opt/mine {instance} {output}         a command with places for what it is given
-// Throws CLI::ValidationError.
 struct NamedSolver {
   std::string name;
   std::string options;  // for the table: without where programs lie
   ForeignSolver solver;
 };
-NamedSolver read_solver_argument(const std::string& text, const std::vector<std::string>& claims);
+
+// Reads "NAME=COMMAND" of the command line:
+//   eecbs=/opt/eecbs --suboptimality 1.1       the adapter of that name, its program, more words
+//   fast=eecbs:/opt/eecbs --suboptimality 2    an adapter under another name
+//   mine=my.json:/opt/mine                     one of one's own
+//   mine=/opt/mine {instance} {output}         a command with places for what it is given
+// `claims` are "NAME=REGEX": where such a solver prints its cost. Throws CLI::ValidationError, and
+// InputError where an adapter's file is wrong.
+std::vector<NamedSolver> read_solver_arguments(const std::vector<std::string>& solvers,
+                                               const std::vector<std::string>& claims);
 
 // The names of the adapters that Grove brings.
 std::vector<std::string> known_adapters();

@@ -16,7 +16,6 @@
 namespace grove::detail::bench {
 namespace {
 
-constexpr const char* kTimeLimit = "time limit";
 constexpr std::string_view kErrorMark = "grove: error: ";
 
 std::string why_failed(const ChildEnd& end, const std::filesystem::path& said) {

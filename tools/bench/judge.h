@@ -21,11 +21,13 @@ namespace grove::detail::bench {
 batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
                       const std::filesystem::path& plan_file, const std::filesystem::path& said);
 
+inline constexpr const char* kTimeLimit = "time limit";  // as an error
+
 // So many are kept.
 inline constexpr std::size_t kMostTracePoints = 200;
 
-// The plans that a run had on the way, from its log for programs (--log-format jsonl). A log that is
-// not there, or cut off, tells what it tells.
+// The plans that a run had on the way, from its log for programs (--log-format jsonl). A log that
+// is not there, or cut off, tells what it tells.
 std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log);
 
 // The last line that grove said, after a colon and a blank; empty if it said nothing.

@@ -17,6 +17,30 @@ std::string median_text(std::vector<double> values) {
   return fmt::format("{:.2f}", median);
 }
 
+// The first column to the left, the others to the right.
+std::string table_text(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  std::string text;
+  for (const auto& row : rows) {
+    text += fmt::format("{:<{}}", row[0], widths[0]);
+    for (std::size_t k = 1; k < row.size(); ++k) text += fmt::format("  {:>{}}", row[k], widths[k]);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string refuted_text(const std::vector<batch::FalseClaim>& claims) {
+  constexpr std::size_t kShown = 10;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(kShown, claims.size()); ++k)
+    text +=
+        fmt::format("refuted: {} on {} {}\n", claims[k].method, claims[k].instance, claims[k].what);
+  if (claims.size() > kShown) text += fmt::format("refuted: and {} more\n", claims.size() - kShown);
+  return text;
+}
+
 }  // namespace
 
 void MethodCount::count(const batch::Row& row) {
@@ -58,39 +82,36 @@ batch::ProgressText progress_text(const BenchState& state) {
 }
 
 std::string summary_table(const BenchState& state) {
-  std::size_t width = std::string("method").size();
-  int wrong = 0, claimed = 0, unsuitable = 0;
-  for (const std::string& name : state.methods) {
-    width = std::max(width, name.size());
-    const MethodCount& count = state.counts.at(name);
-    wrong += count.wrong;
-    claimed += count.claimed;
-    unsuitable += count.unsuitable;
-  }
-  std::string text = fmt::format("{:<{}}  {:>11}  {:>8}  {:>6}", "method", width, "solved/run",
-                                 "median s", "errors");
-  const auto add = [&](int all, const std::string& value) {
-    if (all > 0) text += fmt::format("  {:>10}", value);
-  };
-  const auto add_others = [&](const auto& of_wrong, const auto& of_claimed, const auto& of_others) {
-    add(wrong, fmt::format("{}", of_wrong));
-    add(claimed, fmt::format("{}", of_claimed));
-    add(unsuitable, fmt::format("{}", of_others));
-    text += "\n";
-  };
-  add_others("wrong", "claimed", "unsuitable");
+  std::vector<std::string> header{"method", "solved/run", "median s", "errors"};
+  std::map<std::string, std::vector<std::string>> lines;
   for (const std::string& name : state.methods) {
     const MethodCount& count = state.counts.at(name);
-    text += fmt::format("{:<{}}  {:>11}  {:>8}  {:>6}", name, width,
-                        fmt::format("{}/{}", count.solved, count.runs),
-                        median_text(count.runtimes_s), count.errors);
-    add_others(count.wrong, count.claimed, count.unsuitable);
+    lines[name] = {name, fmt::format("{}/{}", count.solved, count.runs),
+                   median_text(count.runtimes_s), std::to_string(count.errors)};
   }
-  text += "median s: of all runs; one that is not solved counts as its time limit\n";
-  if (wrong > 0) text += "wrong: a plan that is none; which and why is in the table, column error\n";
-  if (claimed > 0) text += "claimed: the solver says that it has a plan, and shows none\n";
-  if (unsuitable > 0) text += "unsuitable: instances that the method is not for, left out\n";
-  return text;
+  std::string legend = "median s: of all runs; one that is not solved counts as its time limit\n";
+  // Only where there is something to tell.
+  const auto add = [&](const char* title, const char* meaning, const auto& value) {
+    const auto has_some = [&](const std::string& name) { return value(name) > 0; };
+    if (std::ranges::none_of(state.methods, has_some)) return;
+    header.emplace_back(title);
+    for (const std::string& name : state.methods)
+      lines[name].push_back(std::to_string(value(name)));
+    legend += fmt::format("{}: {}\n", title, meaning);
+  };
+  add("wrong", "a plan that is none; the table tells why, in its column error",
+      [&](const std::string& name) { return state.counts.at(name).wrong; });
+  add("claimed", "the solver says that it has a plan, and shows none",
+      [&](const std::string& name) { return state.counts.at(name).claimed; });
+  add("refuted", "a cost or a bound that cannot be; they are listed below",
+      [&](const std::string& name) {
+        return std::ranges::count(state.false_claims, name, &batch::FalseClaim::method);
+      });
+  add("unsuitable", "instances that the method is not for, left out",
+      [&](const std::string& name) { return state.counts.at(name).unsuitable; });
+  std::vector<std::vector<std::string>> rows{header};
+  for (const std::string& name : state.methods) rows.push_back(lines[name]);
+  return table_text(rows) + legend + refuted_text(state.false_claims);
 }
 
 }  // namespace grove::detail::bench

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // --solver NAME=COMMAND: which adapter and which program it means.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include "grove/detail/io/input_error.h"
 #include "tools/bench/foreign_solver.h"
@@ -35,7 +39,8 @@ NamedText split(const std::string& argument, const std::string& option) {
   const std::size_t equals = argument.find('=');
   const std::string name = argument.substr(0, equals);
   const auto is_plain = [](unsigned char c) {
-    return std::isalnum(c) != 0 || std::string_view("-_.+").find(static_cast<char>(c)) != std::string_view::npos;
+    return std::isalnum(c) != 0 ||
+           std::string_view("-_.+").find(static_cast<char>(c)) != std::string_view::npos;
   };
   if (equals == std::string::npos || name.empty() || !std::ranges::all_of(name, is_plain) ||
       std::isalnum(static_cast<unsigned char>(name[0])) == 0)
@@ -45,50 +50,105 @@ NamedText split(const std::string& argument, const std::string& option) {
 }
 
 SolverAdapter adapter_called(const std::string& name, const std::string& text) {
-  const fs::path file = name.ends_with(".json") ? fs::path(name) : adapter_folder() / (name + ".json");
+  const fs::path file =
+      name.ends_with(".json") ? fs::path(name) : adapter_folder() / (name + ".json");
   if (!name.ends_with(".json") && !fs::exists(file))
-    refuse(text, fmt::format("no adapter is called '{}'; expected one of {}, a file FILE.json, or a "
-                             "command with places such as {{instance}} and {{output}}",
-                             one_line(name), fmt::join(known_adapters(), ", ")));
+    refuse(text,
+           fmt::format("no adapter is called '{}'; expected one of {}, a file FILE.json, or a "
+                       "command with places such as {{instance}} and {{output}}",
+                       one_line(name), fmt::join(known_adapters(), ", ")));
   return read_solver(file);
 }
 
-// "eecbs:/opt/eecbs": an adapter before the first colon, if it looks like one.
-std::pair<std::string, std::string> adapter_and_program(const std::string& word,
-                                                        const std::string& name) {
-  const std::size_t colon = word.find(':');
-  if (colon == std::string::npos) return {name, word};
-  return {word.substr(0, colon), word.substr(colon + 1)};
-}
-
 // Found as a shell would.
-std::string existing_program(const std::string& program, const std::string& text) {
-  if (program.find('/') != std::string::npos) {
-    std::error_code error;
-    if (fs::is_regular_file(program, error)) return fs::absolute(program).string();
-    refuse(text, fmt::format("there is no program {}", one_line(program)));
-  }
+std::string path_of_program(const std::string& program, const std::string& text) {
+  std::error_code error;
+  const bool is_path = program.find('/') != std::string::npos;
   const char* folders = std::getenv("PATH");
-  for (const std::string& folder : CLI::detail::split(folders != nullptr ? folders : "", ':'))
-    if (fs::exists(fs::path(folder) / program)) return program;
-  refuse(text, fmt::format("there is no program '{}' where the shell looks for programs", one_line(program)));
+  for (const std::string& folder :
+       CLI::detail::split(is_path || folders == nullptr ? "" : folders, ':'))
+    if (const fs::path path = fs::path(folder) / program; fs::is_regular_file(path, error)) {
+      if (::access(path.c_str(), X_OK) == 0) return fs::absolute(path).string();
+      refuse(text, fmt::format("{} may not be run; expected a program", one_line(path.string())));
+    }
+  refuse(text, fmt::format("there is no program {}{}", one_line(program),
+                           is_path ? "" : " in the folders of PATH"));
 }
 
-bool is_used(const SolverAdapter& adapter, std::string_view place) {
-  const auto names = placeholders(adapter.command);
-  return std::ranges::find(names, place) != names.end();
+bool is_whole_command(const std::vector<std::string>& words) {
+  return names(words, "instance") || names(words, "map") || names(words, "scenario");
 }
 
-SolverAdapter adapter_of_command(const NamedText& given, const std::string& text) {
-  if (const std::string mistake = template_mistake(given.text); !mistake.empty()) refuse(text, mistake);
-  SolverAdapter adapter;
-  adapter.name = given.name;
-  adapter.command = given.text;
-  adapter.input = is_used(adapter, "instance") ? SolverInput::kGrove : SolverInput::kMovingAi;
-  if (is_used(adapter, "instance") && (is_used(adapter, "map") || is_used(adapter, "scenario")))
-    refuse(text, "expected {instance}, or {map} and {scenario}, and not both");
-  if (!is_used(adapter, "output") && !is_used(adapter, "folder")) adapter.plan.clear();
-  return adapter;
+ForeignSolver solver_of_command(const std::string& name, std::vector<std::string> words,
+                                const std::string& text) {
+  ForeignSolver solver{.adapter = {.name = name}, .program = path_of_program(words[0], text)};
+  words[0] = "{program}";
+  SolverAdapter& adapter = solver.adapter;
+  adapter.input = names(words, "instance") ? SolverInput::kGrove : SolverInput::kMovingAi;
+  if (!names(words, "output")) adapter.plan.clear();
+  adapter.command = std::move(words);
+  if (const std::string mistake = input_mistake(adapter.input, adapter.command); !mistake.empty())
+    refuse(text, mistake);
+  return solver;
+}
+
+// What is given replaces what the adapter says: many programs refuse an option given twice.
+void drop_option(std::vector<std::string>& command, const std::string& option) {
+  if (!option.starts_with('-')) return;
+  const auto it = std::ranges::find(command, option);
+  if (it == command.end()) return;
+  const bool has_value = it + 1 != command.end() && !(it + 1)->starts_with('-');
+  command.erase(it, it + (has_value ? 2 : 1));
+}
+
+// "eecbs=/opt/eecbs", or another adapter before the first colon.
+ForeignSolver solver_of_adapter(const std::string& name, const std::vector<std::string>& words,
+                                const std::string& text) {
+  const std::size_t colon = words[0].find(':');
+  const bool is_named = colon != std::string::npos;
+  ForeignSolver solver{
+      .adapter = adapter_called(is_named ? words[0].substr(0, colon) : name, text),
+      .program = path_of_program(is_named ? words[0].substr(colon + 1) : words[0], text)};
+  for (std::size_t i = 1; i < words.size(); ++i) drop_option(solver.adapter.command, words[i]);
+  solver.adapter.command.insert(solver.adapter.command.end(), words.begin() + 1, words.end());
+  return solver;
+}
+
+NamedSolver read_solver_argument(const std::string& text) {
+  const NamedText given = split(text, "--solver");
+  if (const std::string mistake = template_mistake(given.text); !mistake.empty())
+    refuse(text, mistake);
+  const auto words = command_words(given.text);
+  if (!words) refuse(text, "a quote is not closed");
+  if (words->empty()) refuse(text, "expected a command after the name");
+  NamedSolver made{.name = given.name, .options = {}, .solver = {}};
+  const bool is_whole = is_whole_command(*words);
+  made.solver = is_whole ? solver_of_command(given.name, *words, text)
+                         : solver_of_adapter(given.name, *words, text);
+  made.options =
+      is_whole ? fs::path(made.solver.program).filename().string() : made.solver.adapter.name;
+  for (std::size_t i = 1; i < words->size(); ++i) made.options += " " + (*words)[i];
+  return made;
+}
+
+void add_claim(std::vector<NamedSolver>& solvers, const std::string& claim) {
+  const NamedText given = split(claim, "--claimed-cost");
+  const auto place = fmt::format("--claimed-cost '{}'", one_line(claim));
+  const auto it = std::ranges::find(solvers, given.name, &NamedSolver::name);
+  if (it == solvers.end())
+    throw CLI::ValidationError(place, "expected the name of a --solver before the =");
+  if (const std::string mistake = regex_mistake(given.text, 1); !mistake.empty())
+    throw CLI::ValidationError(place, mistake);
+  it->solver.adapter.cost = LinePattern{.file = "", .regex = given.text};
+}
+
+void require_something_to_read(const NamedSolver& solver) {
+  const SolverAdapter& adapter = solver.solver.adapter;
+  if (adapter.plan.empty() && !adapter.cost && !adapter.solved)
+    refuse(solver.name,
+           fmt::format("writes no plan to {{output}}, and nothing says what to read instead; "
+                       "expected {{output}}, or --claimed-cost '{}=REGEX'",
+                       solver.name));
 }
 
 }  // namespace
@@ -102,34 +162,12 @@ std::vector<std::string> known_adapters() {
   return names;
 }
 
-NamedSolver read_solver_argument(const std::string& text, const std::vector<std::string>& claims) {
-  const NamedText given = split(text, "--solver");
-  auto words = command_words(given.text);
-  if (!words) refuse(text, "a quote is not closed");
-  if (words->empty()) refuse(text, "expected a command after the name");
-  NamedSolver made{.name = given.name, .options = {}, .solver = {}};
-  ForeignSolver& solver = made.solver;
-  if (given.text.find('{') != std::string::npos && words->front().find(':') == std::string::npos) {
-    solver.adapter = adapter_of_command(given, text);
-    existing_program(words->front(), text);
-    made.options = fs::path(words->front()).filename().string();
-  } else {
-    const auto [adapter, program] = adapter_and_program(words->front(), given.name);
-    solver.adapter = adapter_called(adapter, text);
-    solver.program = existing_program(program, text);
-    solver.more.assign(words->begin() + 1, words->end());
-    made.options = solver.adapter.name;
-    for (const std::string& word : solver.more)
-      if (const std::string mistake = template_mistake(word); !mistake.empty()) refuse(text, mistake);
-  }
-  for (std::size_t i = 1; i < words->size(); ++i) made.options += " " + (*words)[i];
-  for (const std::string& claim : claims) {
-    const NamedText regex = split(claim, "--claimed-cost");
-    if (regex.name == given.name) solver.adapter.cost = LinePattern{.file = "", .regex = regex.text};
-  }
-  if (solver.adapter.plan.empty() && !solver.adapter.cost && !solver.adapter.solved)
-    refuse(text, fmt::format("writes no plan to {{output}}, and nothing says what to read instead; expected "
-                             "{{output}}, or --claimed-cost '{}=REGEX'", given.name));
+std::vector<NamedSolver> read_solver_arguments(const std::vector<std::string>& solvers,
+                                               const std::vector<std::string>& claims) {
+  std::vector<NamedSolver> made;
+  for (const std::string& text : solvers) made.push_back(read_solver_argument(text));
+  for (const std::string& claim : claims) add_claim(made, claim);
+  std::ranges::for_each(made, require_something_to_read);
   return made;
 }
 

@@ -29,8 +29,8 @@ CLI::Option* add_integers(CLI::App& app, const std::string& name, std::vector<st
 CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
                         IntegerRange range, const std::string& shown,
                         const std::string& description);
-// "10:100:10,150": a rising list of positive integers, in which 10:100:10 is from 10 to 100 in steps
-// of 10.
+// "10:100:10,150": a rising list of positive integers, in which 10:100:10 is from 10 to 100 in
+// steps of 10.
 CLI::Option* add_counts(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
                         const std::string& description);
 // The shortest text that add_ranges() reads as `values`: "1-15,20".

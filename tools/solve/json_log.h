@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The log of a run for programs that follow it: one JSON object a line, with its kind as "event".
-// The README lists events and keys.
+// docs/command-line.md lists events and keys.
 #pragma once
 
 #include "tools/solve/log_format.h"

@@ -34,7 +34,7 @@ struct LogRow {
   double seconds = 0;                               // since the program began
   std::size_t memory_bytes = 0;                     // held now
   std::map<std::string_view, Cost> raised_by = {};  // the bound, since the row before: by what, and
-                                                    // how far; see the README
+                                                    // how far; docs/command-line.md
 };
 
 struct LogEnd {

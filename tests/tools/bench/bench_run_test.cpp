@@ -108,10 +108,11 @@ TEST_F(Benches, RunAllMethodsOnOneInstanceAfterTheOther) {
   const std::string text = file_content(directory_ / "log");
   const auto lines = split_lines(text);
   ASSERT_EQ(lines.size(), 4U);
-  const std::string plan = directory_ / "out/.running/0.plan.json";
+  const std::string files = directory_ / "out/.running/0";
   const auto expected = [&](int i, int k) {
     return "solve " + (directory_ / ("i" + std::to_string(i) + ".cts.json")) + " --k " +
-           std::to_string(k) + " --time-limit 60 --output " + plan + " --quiet";
+           std::to_string(k) + " --time-limit 60 --output " + files + ".plan.json --quiet --log " +
+           files + ".jsonl --log-format jsonl";
   };
   EXPECT_EQ(lines[0], expected(0, 0));
   EXPECT_EQ(lines[1], expected(0, 1));
@@ -216,8 +217,12 @@ TEST_F(Benches, AreRehearsedOnEveryProblem) {
   }
   solver("case $(tail -n 1 \"$log\") in *i2.cts.json*--k\\ 1*) echo 'grove: error: " +
          instances_[2].entry.path + ": not for me'; exit 2;; esac");
-  EXPECT_EQ(refusal([&] { rehearse(instances_, methods_, options_); }),
-            "i2.cts.json: is not for the run 'm1': not for me");
+  rehearse(instances_, methods_, options_);
+  EXPECT_TRUE(methods_[0].unsuitable.empty());
+  EXPECT_EQ(methods_[1].unsuitable, (std::map<std::string, std::string>{{"mg", "not for me"}}));
+  solver("echo 'grove: error: not for me'; exit 2");
+  EXPECT_EQ(refusal([&] { rehearse(instances_, methods_, options_); }).substr(2),
+            ".cts.json: is not for the run 'm0': not for me");
   EXPECT_FALSE(fs::exists(options_.folder));
 }
 

@@ -38,14 +38,34 @@ TEST(BenchProgress, SaysHowFarAndHowGood) {
 TEST(BenchSummary, CountsWhatIsNotSolvedAsTheLimit) {
   BenchState state = counted();
   EXPECT_EQ(summary_table(state),
-            "method   solved/run  median s  errors\n"
-            "auto            3/3      3.00       0\n"
-            "paper           0/1     60.00       1\n"
+            "method  solved/run  median s  errors\n"
+            "auto           3/3      3.00       0\n"
+            "paper          0/1     60.00       1\n"
             "median s: of all runs; one that is not solved counts as its time limit\n");
   Row row = solved_row("i", "auto");
   row.wall_s = 5;
   state.count(row);
   EXPECT_NE(summary_table(state).find("4/4      3.50"), std::string::npos) << summary_table(state);
+}
+
+TEST(BenchSummary, TellsWhatElseThereIs) {
+  BenchState state = counted();
+  for (const char* status :
+       {batch::kWrongPlan, batch::kClaimed, batch::kClaimed, batch::kUnsuitable}) {
+    Row row = failed_row("i", "paper");
+    row.outcome.status = status;
+    state.count(row);
+  }
+  state.false_claims.assign(12, {"paper", "i", "claims a cost of 60, but its own paths cost 64"});
+  const std::string said = summary_table(state);
+  EXPECT_TRUE(said.starts_with(
+      "method  solved/run  median s  errors  wrong  claimed  refuted  unsuitable\n"
+      "auto           3/3      3.00       0      0        0        0           0\n"
+      "paper          0/4     60.00       1      1        2       12           1\n"))
+      << said;
+  EXPECT_NE(said.find("\nrefuted: paper on i claims a cost of 60, but its own paths cost 64\n"),
+            std::string::npos);
+  EXPECT_TRUE(said.ends_with("\nrefuted: and 2 more\n"));
 }
 
 }  // namespace progress_text_test

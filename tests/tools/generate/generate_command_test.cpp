@@ -38,7 +38,7 @@ ProcessResult generate(const TemporaryDirectory& directory, const std::string& a
 TEST(ShippedData, IsWhatTheCommandsInItsReadmeMake) {
   const TemporaryDirectory directory;
   const fs::path data = GROVE_DATA;
-  const std::string command_start = "    grove generate ";
+  const std::string command_start = "grove generate ";
   for (const std::string& line : lines_of(file_content(data / "README.md"))) {
     if (!line.starts_with(command_start)) continue;
     const ProcessResult result = generate(directory, line.substr(command_start.size()));

@@ -68,6 +68,15 @@ class Browser(unittest.TestCase):
         found += [row | {"method": "x", "status": "optimal", "cost": 1} for row in found]
         self.assertGreater(red(self.visit(self.report(found)).picture), 0.05)
 
+    def test_a_false_claim_is_seen_at_once_and_figures_fit_a_phone(self):
+        found = list(synthetic.solver_rows(1, agents=(20, 60)))
+        found[3] |= {"status": "wrong", "solved": False, "cost": None, "error": "the plan is wrong: agents 3 and 7 collide"}
+        page = self.report(found)
+        seen = self.browser.visit(page, size=(400, 2400))
+        self.assertEqual((seen.console, seen.requests), ([], []))
+        self.assertGreater(shares(seen.picture).get((0xC0, 0, 0), 0), 0.05)
+        self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 400)
+
     def test_this_test_hears_the_console(self):
         for script in ("console.error('boo')", "noSuchFunction()"):
             self.assertEqual(len(self.visit(self.page(f"<p>x</p><script>{script}</script>")).console), 1)

@@ -12,7 +12,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[3] / "tools/report"),
                 str(Path(__file__).resolve().parent)]
 
 import synthetic  # noqa: E402
-from grove_report import metrics, proofs, rows, scales, speedup, style  # noqa: E402
+from grove_report import anytime, logs, metrics, plans, proofs, rows, scales, speedup, style, tracker  # noqa: E402
 from grove_report.lines import Line, Lines, families  # noqa: E402
 from grove_report.metrics import Cell  # noqa: E402
 from grove_report.rows import BadInput, read_results  # noqa: E402
@@ -176,7 +176,10 @@ class Refusals(Folder):
                 ("counts", "bypasses", "numbers as name=7, with blanks between"),
                 ("counts", {"bypasses": 7}, "numbers as name=7, with blanks between"),
                 ("counts", "bypasses=-1 a=2", "numbers as name=7, with blanks between"),
-                ("status", "timeout", "one of optimal, bounded, feasible, infeasible, unknown, error")):
+                ("status", "timeout", "one of optimal, bounded, feasible, infeasible, unknown, error, wrong, "
+                 "claimed, unsuitable"),
+                ("trace", "0.1:5", "plans as seconds:cost:bound, with blanks between"),
+                ("trace", "0.1:x:-", "plans as seconds:cost:bound, with blanks between")):
             for name, place in (("a.csv", "row 2 (line 3)"), ("a.jsonl", "row 2")):
                 if name == "a.csv" and not isinstance(wrong, str):
                     continue
@@ -199,14 +202,31 @@ class Refusals(Folder):
 
 class Measures(unittest.TestCase):
     def test_of_some_rows(self):
-        found = measures([row(runtime_s=1.0, sqr=0.9, roots=4, rtsp_calls=10),
-                          row(runtime_s=3.0, sqr=0.8, roots=2), failed(roots=30), failed()])
-        self.assertEqual((found.runs, found.solved, found.success), (4, 2, 0.5))
+        found = measures([row(runtime_s=1.0, sqr=0.9, roots=4, rtsp_calls=10), row(instance="j", runtime_s=3.0, sqr=0.8, roots=2),
+                          failed(instance="k", roots=30), failed(instance="l")])
+        self.assertEqual((found.instances, found.runs, found.solved, found.success), (4, 4, 2, 0.5))
         self.assertEqual(found.mean_runtime_s, (1 + 3 + 100 + 100) / 4)
         self.assertEqual(found.median_runtime_s, (3 + 100) / 2)
         self.assertEqual(found.par2_s, (1 + 3 + 200 + 200) / 4)
         self.assertAlmostEqual(found.mean_sqr, 0.85)
         self.assertEqual((found.mean_roots, found.mean_rtsp_calls), (12, 10))
+
+    def test_seeds_are_repetitions(self):
+        """An instance with many seeds weighs as much as one with a single one."""
+        found = measures([*(row(seed=seed, runtime_s=2.0, sqr=0.5, cost=20) for seed in (1, 2, 3)), failed(seed=4),
+                          row(instance="j", seed=1, runtime_s=10.0, sqr=1.0, cost=30), failed(instance="k", seed=1)])
+        self.assertEqual((found.instances, found.seeds, found.runs, found.solved), (3, 4, 6, 4))
+        self.assertAlmostEqual(found.success, (3 / 4 + 1 + 0) / 3)
+        self.assertAlmostEqual(found.mean_runtime_s, ((2 + 2 + 2 + 100) / 4 + 10 + 100) / 3)
+        self.assertAlmostEqual(found.median_runtime_s, 26.5)
+        self.assertAlmostEqual(found.par2_s, ((2 + 2 + 2 + 200) / 4 + 10 + 200) / 3)
+        self.assertEqual((found.mean_sqr, found.mean_cost_ratio), (0.75, 1))
+
+    def test_claims_are_counted_and_solve_nothing(self):
+        found = measures([row(), failed(instance="j", status="claimed", claimed_cost=5),
+                          failed(instance="k", status="wrong", cost=3), failed(instance="l")])
+        self.assertEqual((found.claimed, found.wrong, found.success), (1, 1, 0.25))
+        self.assertEqual(metrics.best_costs([failed(status="claimed", cost=5), failed(status="wrong", cost=3)]), {})
 
     def test_none_solved(self):
         found = measures([failed(omega="0")])
@@ -377,10 +397,274 @@ class Proofs(unittest.TestCase):
         self.assertEqual(self.said(row(), failed(method="b", status="infeasible")),
                          ["a plan costs 10 (a); but: infeasible (b)"])
 
+    def test_bounds_of_plans_that_keep_apart_bound_no_others(self):
+        self.assertEqual(self.said(row(cost=10), row(method="b", status="optimal", cost=12, lower_bound=12,
+                                                     options="--omega 0 --no-following")), [])
+        self.assertEqual(len(self.said(row(method="b", cost=10, options="--no-following"), failed(lower_bound=11))), 1)
+
     def test_problems_are_kept_apart_and_errors_left_out(self):
         self.assertEqual(self.said(row(status="optimal", cost=10),
                                    row(problem="cts", status="optimal", cost=11),
                                    failed(method="b", status="error", cost=3, lower_bound=99)), [])
+
+
+class FalseClaims(unittest.TestCase):
+    def said(self, *found, **known):
+        return [(each.method, each.kind, each.claimed, each.checked) for each in proofs.false_claims(found, **known)]
+
+    def test_what_is_true_is_none(self):
+        self.assertEqual(self.said(row(lower_bound=9), row(method="x", cost=11, claimed_cost=11, claimed_lower_bound=10),
+                                   failed(method="y", status="claimed", claimed_cost=9),
+                                   row(method="z", cost=11, claimed_cost=12,
+                                       trace=(rows.Point(1, 12, 8), rows.Point(2, 11, 10)), solver="z")), [])
+
+    def test_a_wrong_plan(self):
+        found = proofs.false_claims([failed(method="x", status="wrong", error="agents 3 and 7 collide", seed=4)])
+        self.assertEqual([(each.method, each.seed, each.kind, each.what) for each in found],
+                         [("x", 4, "plan", "agents 3 and 7 collide")])
+
+    def test_a_cost_that_is_told_too_low(self):
+        self.assertEqual(self.said(row(method="x", cost=10, claimed_cost=9)), [("x", "cost", 9, 10)])
+        self.assertEqual(self.said(row(method="x", cost=10, solver="x", trace=(rows.Point(1, 9, None),))),
+                         [("x", "cost", 9, 10)])
+        # Of a plan that nobody saw: only below what is proven.
+        claimed = failed(method="x", status="claimed", claimed_cost=9)
+        self.assertEqual(self.said(failed(lower_bound=10), claimed), [("x", "cost", 9, 10)])
+        self.assertEqual(self.said(failed(lower_bound=10, options="--no-following"), claimed), [])
+
+    def test_a_bound_above_a_plan(self):
+        bound = failed(method="x", claimed_lower_bound=11)
+        self.assertEqual(self.said(row(), bound), [("x", "lower bound", 11, 10)])
+        self.assertEqual(self.said(row(method="x", claimed_lower_bound=11)), [("x", "lower bound", 11, 10)])
+        self.assertEqual(self.said(bound, known_costs={("mg", "i"): 10}), [("x", "lower bound", 11, 10)])
+        # Plans that are none refute nothing.
+        self.assertEqual(self.said(failed(method="y", status="wrong", cost=10), bound), [("y", "plan", None, None)])
+
+
+class OverTime(unittest.TestCase):
+    """Quality over time."""
+
+    def points(self, *found):
+        return tuple(rows.Point(*each) for each in found)
+
+    def test_plans_of_a_run(self):
+        def plans(**values):
+            return anytime.plans_over_time(row(wall_s=9.0, **values))
+        self.assertEqual(plans(), [(9, 10)])  # it tells nothing: when it ends
+        self.assertEqual(plans(trace=self.points((1, 14, None), (2, 10, None))), [(1, 14), (2, 10)])
+        # What is shown in the end was not told of; what was told is cheaper than what is shown.
+        self.assertEqual(plans(trace=self.points((1, 14, None))), [(1, 14), (9, 10)])
+        self.assertEqual(plans(trace=self.points((1, 14, None), (2, 8, None))), [(1, 14), (9, 10)])
+        self.assertEqual(anytime.plans_over_time(failed(status="wrong", cost=3)), [])
+
+    def test_bounds_of_a_run(self):
+        told = row(wall_s=9.0, trace=self.points((1, 14, 7), (2, 12, 7), (3, 10, 8)), lower_bound=9)
+        self.assertEqual(anytime.bounds_over_time(told), [(1, 7), (3, 8), (9, 9)])
+
+    def panel(self, found, known=()):
+        best = metrics.best_costs(found, known)
+        panel, = anytime.panels(found, best, metrics.best_bounds(found))
+        return panel
+
+    def test_the_mean_is_over_common_instances_and_says_how_many_have_a_plan(self):
+        def run(method, instance, *trace):
+            return row(method=method, instance=instance, cost=trace[-1][1], wall_s=50.0, anytime=True,
+                       trace=self.points(*trace))
+        panel = self.panel([
+            run("a", "i", (1, 20, 8), (3, 10, 9)), run("a", "j", (2, 30, 8), (5, 20, 10)), run("a", "k", (4, 99, 9)),
+            run("b", "i", (2, 12, None)), run("b", "j", (2, 25, None)), failed(method="b", instance="k", anytime=True)])
+        self.assertEqual((panel.instances, panel.common), (3, 2))
+        curve = panel.curves[Line("a", "", 100)]
+        told = [(step.seconds, round(3 * step.with_plan), step.common_with_plan, step.cost_ratio) for step in curve.steps]
+        self.assertEqual(told, [(1, 1, 0.5, 2), (2, 2, 1, 1.75), (3, 2, 1, 1.25), (4, 3, 1, 1.25), (5, 3, 1, 1)])
+        # 8/10 and 8/20; 9/10 and 10/20
+        self.assertAlmostEqual(curve.at(2).bound_ratio, 0.6)
+        self.assertAlmostEqual(curve.at(99).bound_ratio, 0.7)
+        self.assertIsNone(curve.at(1).bound_ratio)
+        self.assertIsNone(curve.at(0.5))
+        other = panel.curves[Line("b", "", 100)]
+        self.assertAlmostEqual(other.at(9).cost_ratio, (1.2 + 1.25) / 2)
+        self.assertAlmostEqual(other.at(9).with_plan, 2 / 3)
+
+    def test_seeds_share_the_weight_of_their_instance(self):
+        found = [row(seed=1, cost=10, trace=self.points((1, 20, None), (2, 10, None))),
+                 row(seed=2, cost=12, trace=self.points((1, 12, None))),
+                 row(seed=1, instance="j", cost=30, trace=self.points((1, 60, None), (2, 30, None)))]
+        curve = self.panel(found).curves[Line("a", "", 100)]
+        self.assertAlmostEqual(curve.at(1).cost_ratio, ((2 + 1.2) / 2 + 2) / 2)
+        self.assertAlmostEqual(curve.at(2).cost_ratio, ((1 + 1.2) / 2 + 1) / 2)
+
+    def test_a_plan_of_unknown_cost_is_a_plan(self):
+        curve = self.panel([row(anytime=True, first_plan_s=0.5, wall_s=100.0)]).curves[Line("a", "", 100)]
+        self.assertEqual([(step.seconds, step.with_plan, step.cost_ratio) for step in curve.steps],
+                         [(0.5, 1, None), (100, 1, 1)])
+
+    def test_methods_that_do_not_improve_are_left_out(self):
+        self.assertEqual(anytime.panels([row()], {("mg", "i"): 10}, {}), [])
+
+    def test_what_is_known_elsewhere_counts(self):
+        curve = self.panel([row(anytime=True)], {("mg", "i"): 8}).curves[Line("a", "", 100)]
+        self.assertEqual(curve.steps[-1].cost_ratio, 1.25)
+
+    def test_times_of_the_table(self):
+        self.assertEqual(anytime.table_times(1.0), [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0])
+
+
+class Logs(Folder):
+    HEADER = {"event": "header", "instance": "maps/i.cts.json", "agents": 5, "options": "--omega 0"}
+
+    def log(self, name, *events, end="\n"):
+        return self.text(name, "\n".join(json.dumps(event) for event in (self.HEADER, *events)) + end)
+
+    def test_a_run(self):
+        path = self.log("a.jsonl", {"event": "bound", "time_s": 0.1, "lower_bound": 8, "incumbent": None},
+                        {"event": "counts", "time_s": 0.1, "counts": {}},
+                        {"event": "progress", "time_s": 0.2, "lower_bound": 8, "incumbent": None},
+                        {"event": "incumbent", "time_s": 0.5, "lower_bound": 8, "incumbent": 12},
+                        {"event": "summary", "status": "bounded", "cost": 12, "lower_bound": 9, "stats": {"wall_s": 2.5}})
+        run = logs.read_log(path)
+        self.assertEqual((run.name, run.instance, run.agents, run.status, run.end_s),
+                         ("a", "maps/i.cts.json", 5, "bounded", 2.5))
+        self.assertEqual([tuple(moment) for moment in run.moments], [(0.1, None, 8), (0.5, 12, 8), (2.5, 12, 9)])
+
+    def test_a_log_that_is_cut_off(self):
+        run = logs.read_log(self.log("a.jsonl", {"event": "bound", "time_s": 1, "lower_bound": 8}, end='\n{"event": "b'))
+        self.assertEqual((run.status, len(run.moments)), ("", 1))
+
+    def test_the_first_line_tells_logs_from_results(self):
+        log, other = self.log("a.jsonl"), self.text("c.jsonl", '{"no": "event"}\n')
+        self.assertEqual(logs.parted([self.folder]), ([], [log]))
+        table = self.file("results.jsonl", NEEDED)
+        self.assertEqual(logs.parted([self.folder]), ([self.folder], [log]))
+        self.assertEqual(logs.parted([table, log, other]), ([table, other], [log]))
+
+    def test_wrong_events(self):
+        for event, said in (({"event": "bound", "time_s": "x", "lower_bound": 8}, "time_s: found '\"x\"'; expected a number"),
+                            ({"event": "bound", "time_s": 1, "lower_bound": 1.5}, "lower_bound: found '1.5'; expected an integer")):
+            with self.assertRaises(BadInput) as caught:
+                logs.read_log(self.log("a.jsonl", event))
+            self.assertIn(f"a.jsonl: line 2, {said}", str(caught.exception))
+
+
+class Tracker(Folder):
+    """Its rows out, its best known in."""
+
+    NAME = "random-32-32-20-random-3-2"
+
+    def row(self, **values):
+        return row(**({"instance": self.NAME, "map": "random-32-32-20", "agents": 2, "tasks": 0, "problem": "mapf",
+                       "cost": 5} | values))
+
+    def plan(self, name, text):
+        return str(self.text(name, text))
+
+    def grove_plan(self, *paths):
+        return json.dumps({"agents": [{"path": path} for path in paths]})
+
+    def test_which_scenario(self):
+        def place(**values):
+            found = tracker.place_of(self.row(**values))
+            return found and tuple(found)
+        self.assertEqual(place(), ("random-32-32-20", "random", 3, 2))
+        self.assertEqual(place(instance="movingai/" + self.NAME), ("random-32-32-20", "random", 3, 2))
+        self.assertEqual(place(instance="random-32-32-20-even-25-2"), ("random-32-32-20", "even", 25, 2))
+        for values in ({"problem": "cts"}, {"agents": 3}, {"map": "empty-8-8"}, {"instance": "random-32-32-20-odd-3-2"},
+                       {"instance": "mine-random-3-2", "map": "mine"}):
+            self.assertIsNone(place(**values), values)
+
+    def test_a_submission(self):
+        # Two agents; one waits for the other at the end of its way.
+        path = [[0, 2], [1, 2], [1, 2], [1, 1], [1, 1], [1, 1]]
+        cheap = self.plan("a.plan.json", self.grove_plan(path, [[5, 5], [5, 6], [5, 7]]))
+        found = [self.row(plan_file=cheap, lower_bound=4), self.row(seed=1, cost=7, plan_file="dear"),
+                 self.row(instance="random-32-32-20-random-4-2", cost=None, status="unknown", solved=False),
+                 self.row(instance="mine-random-3-2", map="mine"),
+                 self.row(instance="random-32-32-20-random-5-2", plan_file=self.plan("b", self.grove_plan(path, [[1, 2]]))),
+                 self.row(instance="random-32-32-20-random-6-2")]
+        done = tracker.submission(found, metrics.best_costs(found))
+        self.assertEqual(done.text, "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
+                                    'random-32-32-20,random,3,2,4,5,FALSE,"rwu\n2d"\n')
+        self.assertEqual(sum(done.left_out.values()), 5)
+        self.assertEqual(sorted(why.replace(f"{self.folder}/", "") for why in done.left_out), [
+            "b: two agents are on one cell at time 1", "beside a cheaper plan of the same instance",
+            "of no scenario of the Moving AI benchmark, by map and name (MAP-even-N-AGENTS, MAP-random-N-AGENTS)",
+            "without a checked plan (status unknown)", "without a plan file (grove bench --keep-plans)"])
+
+    def test_bounds_that_are_refuted_are_not_submitted(self):
+        plan = self.plan("a", self.grove_plan([[0, 0], [1, 0], [2, 0]], [[0, 5], [1, 5], [2, 5], [3, 5]]))
+        for values, bound in (({"lower_bound": 4}, "4"), ({"claimed_lower_bound": 5}, "5"), ({}, ""),
+                              ({"claimed_lower_bound": 6}, ""), ({"lower_bound": 5, "options": "--no-following"}, "")):
+            found = [self.row(plan_file=plan, **values)]
+            line = tracker.submission(found, metrics.best_costs(found)).text.split("\n")[1]
+            self.assertTrue(line.startswith(f"random-32-32-20,random,3,2,{bound},5,"), (values, line))
+
+    def test_plans_that_are_none(self):
+        def said(text, agents=2):
+            with self.assertRaises(plans.BadPlan) as caught:
+                plans.recounted(plans.read_plan(Path(self.plan("p", text)), agents))
+            return str(caught.exception)
+        self.assertEqual(said(self.grove_plan([[0, 0], [2, 0]], [[5, 5]])), "agent 0 jumps at time 1")
+        self.assertEqual(said(self.grove_plan([[0, 0], [1, 0]], [[1, 0], [0, 0]])), "agents 0 and 1 swap places at time 1")
+        self.assertEqual(said(self.grove_plan([[0, 0], [1, 0]], [[2, 0], [2, 1], [2, 0], [1, 0]])),
+                         "two agents are on one cell at time 3")
+        self.assertEqual(said(self.grove_plan([[0, 0]])), "paths of 1 agents; expected 2")
+        self.assertEqual(said("nothing"), "no plan is in it; expected a plan file of Grove")
+        self.assertEqual(said(self.grove_plan([["a"], ["b"]], [[5, 5]])), "agent 0 jumps at time 1")
+        self.assertEqual(said(self.grove_plan(7, [[5, 5]])), "no plan is in it; expected a plan file of Grove")
+        # A rotation is none.
+        ring = [[0, 0], [1, 0], [1, 1], [0, 1]]
+        turned = self.grove_plan(*([ring[at], ring[(at + 1) % 4]] for at in range(4)))
+        self.assertEqual(plans.recounted(plans.read_plan(Path(self.plan("p", turned)), 4)), 4)
+
+    def known(self, name, text):
+        return tracker.read_known([self.text(name, text)])
+
+    def test_what_is_known(self):
+        place = tracker.Place("random-32-32-20", "random", 3, 2)
+        head = "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
+        for name, text in (
+                ("a.csv", f'{head}random-32-32-20,random,3,2,4,6,true,"u\n{"d" * 200000}"\n'),
+                ("random-32-32-20.csv", '\ufeff"scen_type","type_id","agents","lower_cost","lower_date","solution_cost"\r\n'
+                                        '"random","3","2","4","2022-11-29","6"\r\n'),
+                ("random-32-32-20-random-3.csv", "agents,lower_cost,solution_cost\n2,4,6\n"),
+                ("b.json", json.dumps([{"map_name": "random-32-32-20", "scen_type": "random", "type_id": 3, "agents": 2,
+                                        "lower_cost": 4, "solution_cost": 6}]))):
+            self.assertEqual(self.known(name, text), {place: tracker.Known(4, 6)}, name)
+        self.assertEqual(self.known("a.csv", head + "m,even,1,2,7,,,\nm,even,1,2,,9,,\nm,even,1,2,null,undefined,,\n"),
+                         {tracker.Place("m", "even", 1, 2): tracker.Known(7, 9)})
+
+    def test_what_is_no_download(self):
+        for name, text, said in (
+                ("a.csv", "x,y\n", "a.csv: line 1: no column agents; expected the columns of a download of MAPF Tracker"),
+                ("a.csv", "agents,lower_cost,solution_cost\n2,4,6\n", "a.csv: line 2: no scen_type; expected"),
+                ("a-even-1.csv", "agents,lower_cost,solution_cost\n2,x,6\n",
+                 "a-even-1.csv: line 2, lower_cost: found 'x'; expected an integer of at least 0"),
+                ("a.json", "[", "a.json: not JSON; expected a list of objects"),
+                ("a.txt", "", "a.txt: expected a .csv or .json of MAPF Tracker")):
+            with self.assertRaises(BadInput) as caught:
+                self.known(name, text)
+            self.assertIn(f"{self.folder}/{said}", str(caught.exception))
+
+    def test_rows_beside_what_is_known(self):
+        known = {tracker.place_of(self.row()): tracker.Known(4, 6)}
+
+        def flags(*found):
+            return [(each.cost, each.bound, each.better_plan, each.higher_bound, each.closes)
+                    for each in tracker.comparisons(found, known)]
+        self.assertEqual(flags(self.row(cost=6, lower_bound=4)), [(6, 4, False, False, False)])
+        self.assertEqual(flags(self.row(cost=5, lower_bound=5)), [(5, 5, True, True, True)])
+        self.assertEqual(flags(failed(**self.row(cost=None)._asdict() | {"lower_bound": 6, "status": "unknown"})),
+                         [(None, 6, False, True, True)])
+        self.assertEqual(flags(self.row(cost=7), self.row(seed=1, cost=5)), [(5, None, True, False, False)])
+        self.assertEqual(flags(self.row(problem="cts")), [])
+
+    def test_contradictions(self):
+        def said(known, *found):
+            return [each.what for each in proofs.contradictions(found, {("mapf", self.NAME): tracker.Known(*known)})]
+        self.assertEqual(said((4, 6), self.row(cost=4, lower_bound=4), failed(**self.row()._asdict() | {"cost": None})), [])
+        self.assertEqual(said((6, 6), self.row(cost=5)), ["MAPF Tracker has a lower bound of 6; a plan costs 5 (a)"])
+        self.assertEqual(said((4, 5), self.row(cost=7, lower_bound=6)),
+                         ["MAPF Tracker has a plan of cost 5, below a proven lower bound: 6 (a)"])
 
 
 class CommonInstances(unittest.TestCase):
@@ -404,10 +688,14 @@ class CommonInstances(unittest.TestCase):
         alone = self.measured([row(method="a", sqr=1.0), failed(method="b")])["a"]
         self.assertEqual((alone.common, alone.common_sqr), (0, None))
 
-    def test_with_seeds_all_solved_runs_count(self):
-        found = [row(method="a", seed=1, sqr=0.8), row(method="a", seed=2, sqr=0.6), failed(method="a", seed=3),
-                 row(method="b", seed=1, sqr=1.0)]
-        self.assertAlmostEqual(self.measured(found)["a"].common_sqr, 0.7)
+    def test_are_solved_with_every_seed(self):
+        found = [row(method="a", seed=1, sqr=0.8, cost=12, runtime_s=2), row(method="a", seed=2, sqr=0.6, cost=14, runtime_s=4),
+                 row(method="b", seed=1, sqr=1.0, cost=10)]
+        a = self.measured(found)["a"]
+        self.assertEqual((a.common, a.common_mean_cost, a.common_median_cost, a.common_mean_s), (1, 13, 13, 3))
+        self.assertAlmostEqual(a.common_sqr, 0.7)
+        a = self.measured([*found, failed(method="a", seed=3)])["a"]
+        self.assertEqual((a.common, a.common_mean_cost), (0, None))
 
 
 class TheLines(unittest.TestCase):
@@ -422,7 +710,7 @@ class TheLines(unittest.TestCase):
                  row(method="c"), row(method="c", time_limit_s=7.5)]
         lines = Lines(found, ["b"])
         self.assertEqual([lines.label(line) for line in lines.all],
-                         ["a, ω = 0", "a, ω = ∞", "c, no ω, limit 7.5 s", "c, no ω, limit 100 s", "b, ω = 0.01"])
+                         ["a, ω = 0", "a, ω = ∞", "c, limit 7.5 s", "c, limit 100 s", "b, ω = 0.01"])
         self.assertEqual([lines.name(line) for line in lines.all],
                          ["a", "a", "c, limit 7.5 s", "c, limit 100 s", "b"])
 

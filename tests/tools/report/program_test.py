@@ -8,6 +8,7 @@ import base64
 import contextlib
 import csv
 import io
+import json
 import os
 import random
 import re
@@ -27,8 +28,8 @@ import synthetic  # noqa: E402
 
 GROVE = Path("build/release/bin/grove")
 FIGURES = ["cactus_cts", "cactus_mg", "comparison_cts", "comparison_mg", "omega_study", "splits_cts", "splits_mg"]
-TABLES = ["comparison_cts", "comparison_mg", "contradictions", "omega_study", "only_solver_cts", "only_solver_mg",
-          "search_cts", "search_mg", "speedup_cts", "speedup_mg", "summary_cts", "summary_mg"]
+TABLES = ["common_cts", "common_mg", "comparison_cts", "comparison_mg", "contradictions", "false_claims", "omega_study",
+          "only_solver_cts", "only_solver_mg", "search_cts", "search_mg", "speedup_cts", "speedup_mg", "summary_cts", "summary_mg"]
 MOST_SECONDS = 30  # 5 where nothing else runs; the processor time of a busy machine is twice that and more
 
 
@@ -104,7 +105,7 @@ class Folder(unittest.TestCase):
             self.assertEqual(base64.b64decode(data), (self.folder / "out" / name).read_bytes())
             page = page.replace(f">{name}</a>", "")
         shown = re.sub(r'="[^"]*"', "", page)
-        self.assertEqual(set(re.findall(r"[\w-]+\.(?:csv|png|svg)", shown)) - {"results.csv"}, set())
+        self.assertEqual(set(re.findall(r"[\w-]+\.(?:csv|png|svg)", shown)) - {"results.csv", "empty-32-32.csv"}, set())
 
     def table(self, name):
         with (self.folder / f"out/{name}.csv").open(encoding="utf-8") as file:
@@ -130,7 +131,7 @@ class Reports(Folder):
             self.assertEqual((self.folder / f"out/{name}.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
         elements = Elements(page)
         self.assertTrue(elements.balanced)
-        self.assertEqual(sorted(elements.downloads), sorted(f"{name}.csv" for name in TABLES if name != "contradictions"))
+        self.assertEqual(sorted(elements.downloads), sorted(f"{name}.csv" for name in TABLES if name not in ("contradictions", "false_claims")))
         self.assertEqual(sum(each.startswith("data:image/svg") for each in elements.references), len(FIGURES))
         for reference in elements.references:
             self.assertTrue(reference.startswith(("data:", "#")), reference[:80])
@@ -239,7 +240,7 @@ class Reports(Folder):
         found = list(few(1, study=False, tasks=(10,)))
         page, _ = self.report(self.results(found))
         self.assertNotIn("CONTRADICT", page)
-        self.assertIn("No claims contradict each other", page)
+        self.assertIn("No proofs contradict each other", page)
         first = next(row for row in found if row["method"] == "hcbs" and row["solved"])
         found.append(first | {"method": "other", "cost": first["cost"] + 1, "lower_bound": first["cost"] + 1})
         page, stderr = self.report(self.results(found))
@@ -298,6 +299,132 @@ class Reports(Folder):
         self.assertEqual({row["baseline"] for row in self.table("speedup_mg")},
                          {"best baseline", "cts-cbs-a", "hcbs"})
 
+    def test_other_solvers(self):
+        """Success and quality over time, seeds as repetitions, what all solve."""
+        found = list(synthetic.solver_rows(3, agents=(20, 60, 100)))
+        found.append(found[0] | {"method": "turns", "solver": "mine", "status": "unsuitable", "solved": False, "cost": None,
+                                 "trace": None, "error": "robots that turn"})
+        page, stderr = self.report(self.results(found))
+        self.assertEqual(stderr, "")
+        for told in ('alt="Success rate over the number of agents"', 'alt="Quality over time"', "<h3>Instances that all solve",
+                     "What other solvers guarantee is not checked here (eecbs, lacam, lns)", "several seeds (1, 2)",
+                     "turns is not for 1 of the instances, which are left out for it: robots that turn."):
+            self.assertIn(told, page)
+        for name in ("success_mapf", "anytime_mapf"):
+            self.assertTrue((self.folder / f"out/{name}.svg").exists())
+        entry, = [row for row in self.table("success_mapf") if (row["map"], row["agents"], row["method"])
+                  == ("random-32-32-20", "100", "eecbs")]
+        cell = [row for row in found if (row["map"], row["agents"], row["method"]) == ("random-32-32-20", 100, "eecbs")]
+        self.assertEqual((entry["instances"], entry["seeds"], entry["runs"]), ("3", "2", "6"))
+        self.assertEqual(entry["success_rate"], f"{sum(row['solved'] for row in cell) / 6:.6g}")
+        # Of methods that do not improve their plans there is no curve.
+        curves = self.table("anytime_mapf")
+        self.assertEqual({row["method"] for row in curves}, {"auto", "lacam", "lns"})
+        last = [row for row in curves if (row["panel"], row["method"], row["time_s"]) == ("empty-32-32", "lns", "30")]
+        costs = [row for row in found if row["map"] == "empty-32-32" and row["cost"]]
+        best = {name: min(row["cost"] for row in costs if row["instance"] == name) for name in {row["instance"] for row in costs}}
+        ratios = [row["cost"] / best[row["instance"]] for row in costs if row["method"] == "lns"]
+        self.assertEqual((last[0]["common"], last[0]["mean_cost_ratio"]), ("9", f"{sum(ratios) / 18:.6g}"))
+        common = self.table("common_mapf")
+        self.assertEqual({row["method"] for row in common if row["agents"] == "20"}, {"auto", "eecbs", "lacam", "lns"})
+        # Without the weakest method more is common.
+        self.report(self.results(found), "--method", "Grove,lacam,lns")
+        self.assertEqual({row["method"] for row in self.table("summary_mapf")}, {"auto", "lacam", "lns"})
+        self.assertGreater(sum(int(row["common"]) for row in self.table("common_mapf")) / 3,
+                           sum(int(row["common"]) for row in common) / 4)
+
+    def test_false_claims_are_loud(self):
+        found = list(synthetic.solver_rows(1, maps=("empty-32-32",), agents=(20, 40)))
+        page, _ = self.report(self.results(found))
+        self.assertNotIn("FALSE CLAIMS", page)
+        first, second, third, fourth = [row for row in found if row["method"] == "eecbs"]
+        first.update(status="wrong", solved=False, cost=None, error="the plan is wrong: agents 3 and 7 collide at time 12")
+        second["claimed_cost"] -= 1
+        third["claimed_lower_bound"] = 10**6
+        fourth.update(status="claimed", solved=False, cost=None, error="claims a plan, and shows none")
+        page, stderr = self.report(self.results(found))
+        self.assertEqual(stderr, "grove: warning: solvers make false claims (3 times); see "
+                                 f"{self.folder}/out/false_claims.csv\n")
+        self.assertIn("FALSE CLAIMS: 3<", page)
+        for told in (f"eecbs seed 1: mapf: {first['instance']}: the plan is wrong: agents 3 and 7 collide at time 12",
+                     f"says that its plan costs {second['claimed_cost']}; recounted: {second['cost']}",
+                     "says that no plan costs less than 1000000; a checked plan costs "):
+            self.assertIn(told, page)
+        self.assertEqual([(row["method"], row["kind"]) for row in self.table("false_claims")],
+                         [("eecbs", "plan"), ("eecbs", "cost"), ("eecbs", "lower bound")])
+        entry, = [row for row in self.table("summary_mapf") if row["method"] == "eecbs"]
+        self.assertEqual((entry["wrong"], entry["claimed"], entry["solved"]), ("1", "1", "2"))
+        self.assertIn(">only claimed</th>", page)
+
+    def test_logs_of_runs(self):
+        """Of the program itself; alone, and in a folder with results."""
+        instance = Path(__file__).resolve().parents[3] / "benchmarks/data/rooms-32x32_n5_m10.cts.json"
+        for seed in (1, 2):
+            subprocess.run([str(GROVE), "solve", str(instance), "--omega", "0", "--seed", str(seed), "--threads", "1", "--quiet",
+                            "--log", f"seed-{seed}.jsonl", "--log-format", "jsonl", "--output", f"{seed}.plan.json"],
+                           cwd=self.folder, check=True)
+        done = run_here(self.folder, "-o", self.folder / "out")
+        self.assertEqual((done.returncode, done.stdout), (0, f"wrote {self.folder}/out/report.html: 2 logs\n"), done.stderr)
+        rows = self.table("runs")
+        self.assertEqual({row["log"] for row in rows}, {"seed-1", "seed-2"})
+        for name in ("seed-1", "seed-2"):
+            last = [row for row in rows if row["log"] == name][-1]
+            self.assertEqual((last["status"], last["cost"]), ("optimal", last["lower_bound"]))
+        page = (self.folder / "out/report.html").read_text(encoding="utf-8")
+        self.assert_files_are_there(page)
+        self.assertTrue(Elements(page).balanced)
+        self.assertIn('alt="Bound and plan of single runs"', page)
+        self.assertNotIn("Where the rows come from", page)
+        self.results(few(1, study=False, tasks=(10,)))
+        done = run_here(self.folder, "-o", self.folder / "out")
+        self.assertRegex(done.stdout, ": [0-9]+ rows, 2 logs\n$")
+
+    def test_mapf_tracker(self):
+        """What bench keeps, as rows to submit, as grove convert writes them; beside what is known."""
+        shutil.copy(Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.map", self.folder / "empty-32-32.map")
+        scenario = (Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.scen").read_text(encoding="utf-8")
+        (self.folder / "empty-32-32-even-3.scen").write_text(scenario.replace("empty-32x32", "empty-32-32"), encoding="utf-8")
+        subprocess.run([str(GROVE), "bench", str(self.folder / "empty-32-32-even-3.scen"), "--agents", "3,8", "--run",
+                        "first: --omega 0", "--run", "second: --omega inf", "--keep-plans", "--output-dir", "table",
+                        "--time-limit", "10", "--quiet"], cwd=self.folder, check=True, capture_output=True)
+        table, out = self.folder / "table", self.folder / "rows.csv"
+        self.assertEqual(self.complaint(table, "--tracker", out), "--tracker: a submission is of one method; expected "
+                         "--tracker-method first or second")
+        done = run_here(table, "--tracker", out, "--tracker-method", "first")
+        self.assertEqual((done.returncode, done.stdout), (0, f"wrote {out}: 2 rows of first for MAPF Tracker\n"), done.stderr)
+        with out.open(encoding="utf-8", newline="") as file:
+            submitted = list(csv.DictReader(file))
+        for row, agents in zip(submitted, (3, 8)):
+            subprocess.run([str(GROVE), "convert", "--plan", f"table/plans/first/empty-32-32-even-3-{agents}.plan.json",
+                            "empty-32-32-even-3.scen", "one.csv", "--map", "empty-32-32.map", "--agents", str(agents), "--to",
+                            "tracker-csv"], cwd=self.folder, check=True, capture_output=True)
+            with (self.folder / "one.csv").open(encoding="utf-8", newline="") as file:
+                self.assertEqual(list(csv.DictReader(file)), [row])
+        cost = int(submitted[1]["solution_cost"])
+        known = self.folder / "empty-32-32.csv"
+        known.write_text(f"scen_type,type_id,agents,lower_cost,solution_cost\neven,3,8,{cost - 1},{cost + 1}\n", encoding="utf-8")
+        page, stderr = self.report(table, "--best-known", known)
+        self.assertEqual(stderr, "")
+        first, second = self.table("best_known")
+        self.assertEqual((first["method"], first["better_plan"], first["higher_bound"], first["closes"]),
+                         ("first", "true", "true", "true"))
+        self.assertEqual((second["method"], second["cost_ratio"] != ""), ("second", True))
+        self.assertIn("<h3>Better than what is known</h3>", page)
+        known.write_text(f"scen_type,type_id,agents,lower_cost,solution_cost\neven,3,8,{cost + 1},{cost - 1}\n", encoding="utf-8")
+        page, stderr = self.report(table, "--best-known", known)
+        self.assertIn("grove: warning: proofs contradict each other", stderr)
+        self.assertIn(f"MAPF Tracker has a lower bound of {cost + 1}; a plan costs {cost}", page)
+        self.assertIn(f"MAPF Tracker has a plan of cost {cost - 1}, below a proven lower bound: {cost} (first", page)
+        # A plan that was changed since is not submitted, and a file that is there stays as it is.
+        before = out.read_bytes()
+        for name in (3, 8):
+            plan = table / f"plans/first/empty-32-32-even-3-{name}.plan.json"
+            found = json.loads(plan.read_text(encoding="utf-8"))
+            found["agents"][0]["path"].insert(1, [31, 31])
+            plan.write_text(json.dumps(found), encoding="utf-8")
+        self.assertIn("/plans/first/empty-32-32-even-3-3.plan.json: agent 0 jumps at time 1", self.complaint(table, "--tracker", out, "--tracker-method", "first"))
+        self.assertEqual(out.read_bytes(), before)
+
     def test_20000_rows_take_seconds_and_their_figures_can_be_read_on_500_pixels(self):
         path = self.results(synthetic.rows(53), "results.csv")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -330,8 +457,11 @@ class Usage(Folder):
         path = self.results(few(1))
         hint = " (see 'grove report --help')"
         out = ("-o", self.folder / "out")
-        self.assertEqual(self.complaint(), "the following arguments are required: -o/--output" + hint)
         self.assertEqual(self.complaint(*out), "the following arguments are required: RESULTS" + hint)
+        self.assertEqual(self.complaint(path), "the following arguments are required: -o/--output" + hint)
+        self.assertEqual(self.complaint(path, *out, "--tracker-method", "auto"), "--tracker-method: goes with --tracker" + hint)
+        self.assertIn("--method: nothing in the results is called 'frob'; expected one of Grove, auto, ",
+                      self.complaint(path, *out, "--method", "frob"))
         self.assertEqual(self.complaint(path, *out, "--bogus"), "unrecognized arguments: --bogus" + hint)
         self.assertEqual(self.complaint(path, *out, "--baseline", "a,,b"),
                          "--baseline: found 'a,,b'; expected names with commas between" + hint)
@@ -339,7 +469,7 @@ class Usage(Folder):
                          "--study-agents: found 'x'; expected an integer of at least 0" + hint)
         self.assertEqual(self.complaint(path, *out, "--problem=mapf"),
                          "--problem: nothing in the results is called 'mapf'; expected one of cts, mg")
-        self.assertIn("--baseline: nothing in the results is called 'frob'; expected one of auto, ",
+        self.assertIn("--baseline: nothing in the results is called 'frob'; expected one of Grove, auto, ",
                       self.complaint(path, *out, "--baseline", "frob"))
         for study in (("--study", "auto"), ("--study-agents", "20")):
             self.assertIn("--study, --study-map, --study-agents: no rows with several omegas are left",

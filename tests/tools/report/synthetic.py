@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Made-up results that look like those of `grove bench`: for tests of the report, and to look at one.
 
-    synthetic.py FILE.jsonl|FILE.csv [--scenarios 15]
+    synthetic.py FILE.jsonl|FILE.csv [--scenarios 15] [--solvers]
 """
 import argparse
 import csv
@@ -15,7 +15,8 @@ COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks"
            "seed", "time_limit_s", "solved", "status", "cost", "lower_bound", "gap", "root_cost", "sqr",
            "runtime_s", "wall_s", "first_plan_s", "roots", "rtsp_calls", "nodes", "low_level_calls", "peak_memory_mb",
            "version", "machine", "ended_at", "error",
-           "ranks", "threads", "memory_limit_gb", "plan_file", "instance_digest", "counts"]
+           "ranks", "threads", "memory_limit_gb", "plan_file", "instance_digest", "counts",
+           "solver", "claimed_cost", "claimed_lower_bound", "claimed_s", "anytime", "trace"]
 MAPS = {"empty-32-32": 0.5, "random-32-32-20": 1.5, "room-32-32-4": 2.6}  # how hard
 AGENTS = (5, 10, 20)
 TASKS = (10, 20, 30, 40, 50)
@@ -98,6 +99,55 @@ def rows(scenarios=15, maps=tuple(MAPS), agents=AGENTS, tasks=TASKS, seed=1, stu
                                        f"--method cts-cbs --omega {omega}", omega, shape)
 
 
+def _trace(dice, first_s, end_s, first_cost, cost, bound):
+    """Plans that come at growing intervals, from the first to the best; as the table has them."""
+    points, seconds, at = [], first_s, first_cost
+    while seconds < end_s and at > cost:
+        points.append(f"{seconds:.3f}:{at}:{'-' if bound is None else bound}")
+        seconds, at = seconds * (1.3 + dice.random()), cost + int((at - cost) * 0.7 * dice.random())
+    return " ".join([*points, f"{min(seconds, end_s):.3f}:{cost}:{'-' if bound is None else bound}"])
+
+
+def _solver_row(dice, place, method, seed, shape):
+    """Of classical MAPF. `shape`: (ln of seconds of the first plan, growth, cost of the first plan and of the last over
+    the optimum, adapter, whether it is anytime, whether it tells a bound)"""
+    name, hardness, scenario, agents = place
+    start, growth, first, last, adapter, anytime, tells = shape
+    limit, bound = 30.0, 22 * agents + scenario
+    optimum = bound + agents * agents // 60
+    seconds = math.exp(start + growth * hardness * agents / 40 + dice.gauss(0, 0.6))
+    solved = seconds < limit
+    cost = optimum + round(optimum * last * (0.5 + dice.random())) if solved else None
+    ended = limit if anytime or not solved else min(seconds * 1.2, limit)
+    row = {
+        "instance": f"{name}-random-{scenario}-{agents}", "method": method, "options": "", "map": name,
+        "scenario": scenario, "agents": agents, "tasks": 0, "problem": "mapf", "omega": "" if adapter else "0.01",
+        "seed": seed, "time_limit_s": limit, "solved": solved, "status": "feasible" if solved else "unknown", "cost": cost,
+        "lower_bound": None if adapter else bound, "root_cost": bound, "runtime_s": round(seconds if solved else limit, 4),
+        "wall_s": round(ended, 4), "first_plan_s": round(seconds, 4) if solved else None, "version": "grove 0.1.0",
+        "machine": "Example processor, 2 cores", "ended_at": "2026-01-02T03:04:05Z", "ranks": 1, "threads": 1,
+        "instance_digest": f"{name}{scenario}", "solver": adapter or None, "anytime": anytime,
+        "claimed_cost": cost if adapter else None, "claimed_lower_bound": bound if adapter and tells else None}
+    if solved and (anytime or not adapter):
+        row["trace"] = _trace(dice, seconds, ended, max(cost, round(optimum * (1 + first))), cost, bound if tells else None)
+    return row
+
+
+SOLVERS = {"auto": (-3.5, 1.9, 0.10, 0.006, "", False, True), "lns": (-4.0, 1.2, 0.30, 0.02, "mapf-lns2", True, False),
+           "lacam": (-5.0, 0.5, 0.60, 0.05, "lacam3", True, False), "eecbs": (-3.0, 2.3, 0, 0.012, "eecbs", False, True)}
+
+
+def solver_rows(scenarios=5, maps=("empty-32-32", "random-32-32-20"), agents=(20, 40, 60, 80, 100), seeds=(1, 2), seed=1):
+    """Classical MAPF rows of Grove and of three solvers of others."""
+    dice = random.Random(seed)
+    for name in maps:
+        for number in agents:
+            for scenario in range(1, scenarios + 1):
+                for method, shape in SOLVERS.items():
+                    for each in seeds:
+                        yield _solver_row(dice, (name, MAPS[name], scenario, number), method, each, shape)
+
+
 def write_jsonl(path, found):
     with open(path, "w", encoding="utf-8") as file:
         file.writelines(json.dumps(row) + "\n" for row in found)
@@ -116,8 +166,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file", type=Path)
     parser.add_argument("--scenarios", type=int, default=15)
+    parser.add_argument("--solvers", action="store_true", help="classical MAPF, with solvers of others")
     a = parser.parse_args()
-    (write_csv if a.file.suffix == ".csv" else write_jsonl)(a.file, rows(a.scenarios))
+    found = solver_rows(a.scenarios) if a.solvers else rows(a.scenarios)
+    (write_csv if a.file.suffix == ".csv" else write_jsonl)(a.file, found)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,11 @@ import os
 import sys
 from pathlib import Path
 
-from .rows import PROBLEMS, BadInput, printable, read_results
+from .lines import method_name
+from .logs import parted, read_log
+from .metrics import best_costs, has_plan
+from .rows import NO_RESULTS, PROBLEMS, BadInput, printable, read_results
+from .tracker import read_known, submission
 
 DEFAULT_BASELINES = "optimal-cbs,hcbs,mgcbs,s-cbs"
 BAD_INPUT = 2
@@ -16,16 +20,26 @@ PAGE = "report.html"
 
 DESCRIPTION = """\
 Turns results of 'grove bench' into a report: tables and figures of success rate, runtime and
-solution quality by map, agents and tasks; instances solved over time; speed-ups over the
+solution quality by map, agents and tasks; success over the number of agents; quality over time;
+costs and times on the instances that all solve; instances solved over time; speed-ups over the
 baselines; the influence of omega. One page to read, DIR/report.html, needs nothing but a browser;
-beside it every figure as SVG and PNG and every table as CSV."""
+beside it every figure as SVG and PNG and every table as CSV. Logs of single runs (grove solve
+--log-format jsonl) become one figure of bound and plan over time; a folder may hold them, too."""
 
 EPILOG = """\
-A line of a figure is a method with one omega and one time limit. Rows of one run that is there
-twice count once, the later. The same rows give the same files, byte for byte.
+A line of a figure is a method with one omega and one time limit. Rows that differ in the seed alone
+are repetitions: first the mean over these, then over instances. Rows of one run that is there twice
+count once, the later. The same rows give the same files, byte for byte.
 
 If claims contradict each other - two optimal costs, a plan below a proven bound - the page begins
-with a red box, and stderr says so too.
+with a red box, and stderr says so too. So it does of false claims of other solvers: a plan that is
+none, a cost below the recounted one, a lower bound above the cost of a checked plan.
+
+--tracker writes a file to submit to MAPF Tracker (tracker.pathfinding.ai): of one method the
+cheapest plan for each instance of classical MAPF on a scenario of the Moving AI benchmark, from the
+plan files that 'grove bench --keep-plans' kept. --best-known reads what MAPF Tracker offers for
+download: a CSV or JSON with columns map_name, scen_type, type_id, agents, lower_cost and
+solution_cost, of which the first three may be the file's name.
 
 Exit codes:
   0  the report was written
@@ -35,6 +49,9 @@ Exit codes:
 Examples:
   grove report results -o report
   grove report ours.csv theirs.csv --baseline cbs,hcbs -o report
+  grove report first.jsonl second.jsonl -o runs
+  grove report results --tracker submission.csv --tracker-method Grove
+  grove report results --best-known random-32-32-20.csv -o report
   grove report results --study-map empty-32-32 --study-agents 10 -o report"""
 
 
@@ -66,10 +83,13 @@ def _parse(arguments):
                      allow_abbrev=False, formatter_class=_Help)
     add = parser.add_argument
     add("results", nargs="+", metavar="RESULTS",
-        help="results.csv, results.jsonl, or a folder with one of them")
-    add("-o", "--output", required=True, metavar="DIR", help="folder to write into; made if need be")
-    add("--baseline", type=_names, metavar="NAMES",
-        help=f"methods that the others are measured by (default: {DEFAULT_BASELINES})")
+        help="results.csv, results.jsonl, a folder with one of them, or a run's log (*.jsonl)")
+    add("-o", "--output", metavar="DIR", help="folder to write into; made if need be. Needed, unless --tracker is "
+        "there")
+    add("--method", type=_names, default=(), metavar="NAMES", help="only rows of these methods (default: all); "
+        "which instances are common depends on it")
+    add("--baseline", type=_names, metavar="NAMES", help="methods that the others are measured by (default: "
+        f"{DEFAULT_BASELINES}, and all solvers of others that are not anytime)")
     add("--problem", type=_names, default=(), metavar="NAMES",
         help=f"only these of {', '.join(PROBLEMS)} (default: all there are)")
     add("--study", type=_names, metavar="NAMES",
@@ -77,7 +97,16 @@ def _parse(arguments):
     add("--study-map", metavar="MAP", help="its figure's map (default: a room map, else the first)")
     add("--study-agents", type=_agents, metavar="N", help="its figure's agents (default: 5, else the "
         "fewest)")
-    return parser.parse_intermixed_args(arguments)
+    add("--best-known", action="append", default=[], metavar="FILE",
+        help="a download of MAPF Tracker, or a folder of such, to compare with; may be repeated")
+    add("--tracker", metavar="FILE", help="write rows to submit to MAPF Tracker")
+    add("--tracker-method", metavar="NAME", help="of which method (default: the only one that has any)")
+    a = parser.parse_intermixed_args(arguments)
+    if not a.output and not a.tracker:
+        parser.error("the following arguments are required: -o/--output")
+    if a.tracker_method and not a.tracker:
+        parser.error("argument --tracker-method: goes with --tracker")
+    return a
 
 
 def _known(option, names, found):
@@ -87,15 +116,29 @@ def _known(option, names, found):
                            f"expected one of {', '.join(sorted(found))}")
 
 
+def _names_of(rows):
+    """{as it is called in figures or in rows: method}"""
+    return {method_name(row.method): row.method for row in rows} | {row.method: row.method for row in rows}
+
+
 def _check_names(a, rows):
-    methods = {row.method for row in rows}
+    methods = _names_of(rows)
+    _known("--method", a.method, methods)
     _known("--baseline", a.baseline or (), methods)
     _known("--study", a.study or (), methods)
     _known("--problem", a.problem, {row.problem for row in rows})
     _known("--study-map", [a.study_map] if a.study_map else (), {row.map for row in rows})
 
 
-def _write_report(a, results):
+def _chosen(a, results):
+    """The rows of --method alone."""
+    if not a.method:
+        return results
+    wanted = {_names_of(results.rows)[name] for name in a.method}
+    return results._replace(rows=[row for row in results.rows if row.method in wanted])
+
+
+def _write_report(a, results, logs, known):
     try:
         from .report import Options, make_report  # here, so that --help needs no matplotlib
     except ModuleNotFoundError as error:
@@ -104,16 +147,51 @@ def _write_report(a, results):
         raise BadInput(f"{sys.executable} has no {error.name}, which draws the figures; "
                        "expected the Debian package python3-matplotlib") from None
     from .page import page
-    baselines = a.baseline or tuple(DEFAULT_BASELINES.split(","))
+    baselines = a.baseline or {*DEFAULT_BASELINES.split(","), *(row.method for row in results.rows if row.solver and not row.anytime)}
     folder = Path(a.output)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        report = make_report(results, Options(baselines, a.problem, a.study, a.study_map,
-                                              a.study_agents), folder)
+        report = make_report(results, logs, Options(baselines, a.problem, a.study, a.study_map, a.study_agents,
+                                                    tuple(a.best_known), known), folder)
         (folder / PAGE).write_text(page(report), encoding="utf-8")
     except OSError as error:
         raise BadInput(f"{error.filename or folder}: cannot be written: {error.strerror}") from None
     return report
+
+
+def _submitting_method(a, rows):
+    with_plans = sorted({row.method for row in rows if row.plan_file and has_plan(row)})
+    if a.tracker_method:
+        _known("--tracker-method", [a.tracker_method], _names_of(rows))
+        return _names_of(rows)[a.tracker_method]
+    if len(with_plans) > 1:
+        raise BadInput("--tracker: a submission is of one method; expected --tracker-method "
+                       + " or ".join(map(method_name, with_plans)))
+    return with_plans[0] if with_plans else ""
+
+
+def _write_whole(path, text):
+    """Or not at all."""
+    part = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        part.write_text(text, encoding="utf-8", newline="")
+        os.replace(part, path)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise BadInput(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def _write_submission(a, results):
+    method = _submitting_method(a, results.rows)
+    found = submission([row for row in results.rows if not method or row.method == method],
+                       best_costs(results.rows))
+    if not found.rows:
+        reasons = "; ".join(f"{number} {why}" for why, number in found.left_out.items())
+        raise BadInput(f"--tracker: no row to submit: {reasons or 'no rows'}")
+    _write_whole(Path(a.tracker), found.text)
+    print(printable(f"wrote {a.tracker}: {found.rows} rows of {method_name(method)} for MAPF Tracker"))
+    for why, number in found.left_out.items():
+        print(printable(f"left out: {number} {why}"))
 
 
 def _print(text):
@@ -131,15 +209,28 @@ def _complain(message):
     print("grove: error: " + message.replace("\n", "\\n"), file=sys.stderr)
 
 
+def _warn(number, what, file, a):
+    if number:
+        print(f"grove: warning: {what} ({number} times); see {Path(a.output) / file}", file=sys.stderr)
+
+
 def _run(arguments):
     a = _parse(arguments)
-    results = read_results(a.results)
+    files, logs = parted(a.results)
+    results = read_results(files) if files or not logs else NO_RESULTS
     _check_names(a, results.rows)
-    report = _write_report(a, results)
-    if report.contradictions:
-        print(f"grove: warning: proofs contradict each other ({len(report.contradictions)} times); "
-              f"see {Path(a.output) / 'contradictions.csv'}", file=sys.stderr)
-    print(printable(f"wrote {Path(a.output) / PAGE}: {len(report.results.rows)} rows"))
+    results = _chosen(a, results)
+    logs = [read_log(path) for path in logs]
+    known = read_known(a.best_known)
+    if a.output:
+        report = _write_report(a, results, logs, known)
+        _warn(len(report.contradictions), "proofs contradict each other", "contradictions.csv", a)
+        _warn(len(report.false_claims), "solvers make false claims", "false_claims.csv", a)
+        told = [f"{len(report.results.rows)} rows"] if files else []
+        told += [f"{len(logs)} log{'s' * (len(logs) > 1)}"] if logs else []
+        print(printable(f"wrote {Path(a.output) / PAGE}: {', '.join(told)}"))
+    if a.tracker:
+        _write_submission(a, results)
 
 
 def main(arguments):

@@ -34,7 +34,8 @@ SETTINGS = {
     "ytick.major.width": 0.6, "savefig.facecolor": "white", "axes.unicode_minus": False,
     "axes.titley": 1.0, "text.parse_math": False, "text.color": "#222222", "axes.labelcolor": "#222222", "xtick.color": "#222222",
     "ytick.color": "#222222", "axes.edgecolor": "#555555"}
-WIDTH = 5.2  # of every figure, in inches
+WIDTH = 5.2  # of a figure, in inches
+COLUMN = 3.4  # of those that are printed as they are: a column of a paper
 SMALLEST = 7.5  # points: 500 / WIDTH * 7.5 / 72 = 10 pixels
 PNG_DPI = 160
 PNG_COMPRESSION = 3  # of 9: twice as fast as 6, and two per cent larger
@@ -77,8 +78,8 @@ def drawn(figure):
     return svg.getvalue(), png.getvalue()
 
 
-def _new_figure(height):
-    return Figure(figsize=(WIDTH, height), facecolor="white")
+def new_figure(height, width=WIDTH):
+    return Figure(figsize=(width, height), facecolor="white")
 
 
 def _longest_tick(ax):
@@ -88,18 +89,18 @@ def _longest_tick(ax):
     return max((len(name(tick)) for tick in ax.get_yticks() if low <= tick <= high), default=0)
 
 
-def _pin_labels(axes, left):
+def pin_labels(axes, left):
     """Names of axes to where they are, in inches: left of the panel, by more where its numbers are long,
     and below. To look for room for each, as matplotlib does, takes as long as all the rest. `axes`: all
     panels of a figure, of one size."""
     figure, box = axes[0][0].figure, axes[0][0].get_position()
     left = max(left, 0.16 + 0.062 * max(_longest_tick(row[0]) for row in axes))
     for ax in axes.flat:
-        ax.yaxis.set_label_coords(-left / box.width / WIDTH, 0.5)
+        ax.yaxis.set_label_coords(-left / box.width / figure.get_figwidth(), 0.5)
         ax.xaxis.set_label_coords(0.5, -0.23 / box.height / figure.get_figheight())
 
 
-def _number(value, _=None):
+def number(value, _=None):
     return f"{value:g}"
 
 
@@ -139,7 +140,7 @@ def _set_axis(ax, metric, values, limits):
         else:
             ax.set_ylim(-0.05 * max(highest, 1), 1.1 * max(highest, 1))
     ax.yaxis.set_minor_locator(NullLocator())
-    ax.yaxis.set_major_formatter(FuncFormatter(_number))
+    ax.yaxis.set_major_formatter(FuncFormatter(number))
 
 
 def _show_limits(ax, limits, named):
@@ -160,14 +161,14 @@ def _x_ticks(x_values):
 
 def _set_x(ax, x_values, name):
     ax.xaxis.set_major_locator(FixedLocator(_x_ticks(x_values)))
-    ax.xaxis.set_major_formatter(FuncFormatter(_number))
+    ax.xaxis.set_major_formatter(FuncFormatter(number))
     gap = min((b - a for a, b in zip(x_values, x_values[1:])), default=max(x_values[0], 2) / 2)
     ax.set_xlim(x_values[0] - 0.5 * gap, x_values[-1] + 0.5 * gap)
     if name:
         ax.set_xlabel(name)
 
 
-def _plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
+def plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
     """`cells`: {cell: {line: Measures}} of one panel. A cell without the line is a gap."""
     drawn = False
     for rank, line in enumerate(lines):
@@ -181,10 +182,10 @@ def _plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
                 va="center", color=FAINT)
 
 
-def _legend_columns(labels):
+def _legend_columns(labels, width=WIDTH):
     """How many entries fit side by side."""
-    entry = 0.62 + 0.068 * max(map(len, labels))
-    fitting = max(1, int((WIDTH - 0.4) / entry))
+    entry = 0.62 + 0.068 * max(map(len, labels)) if width == WIDTH else 0.4 + 0.062 * max(map(len, labels))
+    fitting = max(1, int((width - 0.1) / entry))
     lines = math.ceil(len(labels) / fitting)
     return math.ceil(len(labels) / lines)  # equally long lines
 
@@ -197,17 +198,18 @@ def _handles(lines, labels, looks, nested):
             for line, label, below in zip(lines, labels, depths)]
 
 
-def _legend_height(lines, looks):
+def legend_height(lines, looks, width=WIDTH):
     labels = [looks.label(line) for line in lines]
-    return 0.17 * math.ceil(len(labels) / _legend_columns(labels)) + 0.05
+    return 0.17 * math.ceil(len(labels) / _legend_columns(labels, width)) + 0.05
 
 
-def _add_legend(figure, lines, looks, nested):
+def add_legend(figure, lines, looks, nested):
     """On top, as wide as the figure."""
     labels = [looks.label(line) for line in lines]
+    is_wide = figure.get_figwidth() == WIDTH
     figure.legend(handles=_handles(lines, labels, looks, nested), loc="upper center", frameon=False,
-                  ncol=_legend_columns(labels), handlelength=2.6,
-                  columnspacing=1.6, borderaxespad=0.2)
+                  ncol=_legend_columns(labels, figure.get_figwidth()), handlelength=2.6 if is_wide else 2.2,
+                  columnspacing=1.6 if is_wide else 0.9, handletextpad=0.8 if is_wide else 0.5, borderaxespad=0.2)
 
 
 def _values(cells, lines, metric):
@@ -234,7 +236,7 @@ def columns_of(cells):
                        "M (tasks)", lambda key: f"N = {key[1]}")
     keys = sorted({(cell.map, cell.tasks) for cell in cells})
     return Columns(keys, lambda cell: (cell.map, cell.tasks), lambda cell: cell.agents,
-                   "N (agents)", lambda key: f"M = {key[1]}")
+                   "N (agents)", lambda key: f"M = {key[1]}" if key[1] else "")
 
 
 def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COMMON_SQR, COST_RATIO)):
@@ -246,12 +248,12 @@ def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, C
         metrics = [metric for metric in metrics if _values(all_cells, lines, metric)]
         notes = [text for metric, text in ((SQR, SQR_CAPTION), (COST_RATIO, RATIO_CAPTION))
                  if metric in metrics]
-        caption = _wrapped(notes)
+        caption = wrapped(notes)
         left, right, bottom = 0.76, 0.08, 0.5 + 0.13 * len(caption)
-        legend = _legend_height(lines, looks)
+        legend = legend_height(lines, looks)
         top = legend + 0.5
         height = top + bottom + 1.35 * len(metrics)
-        figure = _new_figure(height)
+        figure = new_figure(height)
         axes = figure.subplots(len(metrics), len(keys), sharey="row", sharex="col", squeeze=False,
                                gridspec_kw={"left": left / WIDTH, "right": 1 - right / WIDTH,
                                             "bottom": bottom / height, "top": 1 - top / height,
@@ -263,7 +265,7 @@ def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, C
             offsets = dodged(x_values, lines)
             for row, metric in enumerate(metrics):
                 ax = axes[row][column]
-                _plot_metric(ax, here, columns.x_of, lines, metric, looks, offsets)
+                plot_metric(ax, here, columns.x_of, lines, metric, looks, offsets)
                 if metric.axis == "seconds":
                     _show_limits(ax, limits, named=column == 0)
                 if column == 0:
@@ -273,21 +275,21 @@ def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, C
                     ax.tick_params(axis="y", length=0)
             _set_x(axes[-1][column], x_values, columns.x_name)
             axes[0][column].set_title(columns.title_of(key), pad=4)
-        _pin_labels(axes, 0.36)
+        pin_labels(axes, 0.36)
         _name_maps(figure, keys, axes, (height - legend - 0.17) / height)
-        _add_legend(figure, lines, looks, nested=True)
-        _add_caption(figure, caption)
+        add_legend(figure, lines, looks, nested=True)
+        add_caption(figure, caption)
         return figure
 
 
-def _wrapped(texts):
+def wrapped(texts, width=WIDTH):
     """Lines of a caption as wide as a figure."""
-    return textwrap.wrap(" ".join(texts), int(WIDTH / 0.062))
+    return textwrap.wrap(" ".join(texts), int(width / 0.062))
 
 
-def _add_caption(figure, lines):
+def add_caption(figure, lines):
     """At the bottom left; 0.13 inches a line."""
-    figure.text(0.1 / WIDTH, 0.06 / figure.get_figheight(), "\n".join(lines), va="bottom",
+    figure.text(0.1 / figure.get_figwidth(), 0.06 / figure.get_figheight(), "\n".join(lines), va="bottom",
                 fontsize=SMALLEST, linespacing=1.2, color="#555555")
 
 
@@ -333,9 +335,9 @@ def cactus(groups, lines, looks, per_row=2):
                             for row in rows])
         across = min(len(groups), per_row)
         down = math.ceil(len(groups) / across)
-        legend = _legend_height(lines, looks)
+        legend = legend_height(lines, looks)
         height = legend + 0.27 + 2.3 * down
-        figure = _new_figure(height)
+        figure = new_figure(height)
         axes = figure.subplots(down, across, squeeze=False, gridspec_kw={
             "left": 0.55 / WIDTH, "right": 1 - 0.12 / WIDTH, "bottom": 0.45 / height,
             "top": 1 - (legend + 0.27) / height, "wspace": 0.22, "hspace": 0.35})
@@ -355,15 +357,15 @@ def cactus(groups, lines, looks, per_row=2):
             ax.yaxis.set_major_locator(MaxNLocator(6, integer=True))
             ax.xaxis.set_major_locator(LogLocator(numticks=9))
             ax.xaxis.set_minor_locator(NullLocator())
-            ax.xaxis.set_major_formatter(FuncFormatter(_number))
+            ax.xaxis.set_major_formatter(FuncFormatter(number))
             ax.set_title(title, pad=5, fontweight="bold")
             ax.set_xlabel("time (s)")
         for ax in list(axes.flat)[len(groups):]:
             ax.set_axis_off()
         for row in axes:
             row[0].set_ylabel("instances solved")
-        _pin_labels(axes, 0.34)
-        _add_legend(figure, lines, looks, nested=False)
+        pin_labels(axes, 0.34)
+        add_legend(figure, lines, looks, nested=False)
         return figure
 
 
@@ -382,12 +384,12 @@ def omega_study(cells, family, lines, looks, setting):
     """Laid out like the paper's Fig. 6, (a) being the legend and the setting: lines of text, and (g) SQR on
     common instances. `cells`: those of one map and N; `lines`: those of the family and others after them."""
     with matplotlib.rc_context(SETTINGS):
-        caption = _wrapped([SQR_CAPTION])
+        caption = wrapped([SQR_CAPTION])
         labels = _omega_labels(family, lines, looks)
         settings = [text for line in setting for text in textwrap.wrap(line, 42)]
         head, bottom = 0.3 + 0.16 * max(len(settings), len(labels)), 0.5 + 0.13 * len(caption)
         height = head + bottom + 0.35 + 3 * 1.75
-        figure = _new_figure(height)
+        figure = new_figure(height)
         axes = figure.subplots(3, 2, gridspec_kw={"left": 0.6 / WIDTH, "right": 1 - 0.08 / WIDTH,
                                                   "bottom": bottom / height, "top": 1 - (head + 0.35) / height,
                                                   "wspace": 0.24, "hspace": 0.5})
@@ -400,14 +402,14 @@ def omega_study(cells, family, lines, looks, setting):
         offsets = dodged(x_values, lines)
         panels = zip("bcdefg", axes.flat, (SUCCESS, RUNTIME, SQR, COMMON_SQR, ROOTS, RTSP_CALLS))
         for letter, ax, metric in panels:
-            _plot_metric(ax, cells, lambda cell: cell.tasks, lines, metric, looks, offsets)
+            plot_metric(ax, cells, lambda cell: cell.tasks, lines, metric, looks, offsets)
             if metric.axis == "seconds":
                 _show_limits(ax, limits, named=True)
             _set_axis(ax, metric, _values(cells, lines, metric), limits)
             _set_x(ax, x_values, "M (tasks)")
             ax.set_title(f"({letter}) {metric.label}".replace("\n", " "), loc="left", fontweight="bold")
-        _pin_labels(axes, 0.4)
-        _add_caption(figure, caption)
+        pin_labels(axes, 0.4)
+        add_caption(figure, caption)
         return figure
 
 
@@ -434,7 +436,7 @@ def splits(counters, lines, looks):
         columns = _legend_columns(labels)
         bars = 0.42 * len(lines)
         height = 0.17 * math.ceil(len(labels) / columns) + 0.55 + bars
-        figure = _new_figure(height)
+        figure = new_figure(height)
         ax = figure.add_axes([0.15 / WIDTH, 0.42 / height, 1 - 0.35 / WIDTH, bars / height])
         for place, line in enumerate(lines):
             found = counters[line].splits()

@@ -74,7 +74,7 @@ class Lines:
     def _called(self, line, with_omega):
         name = method_name(line.method)
         parts = [line.method if name in self._methods else name]
-        if with_omega:
+        if with_omega and line.omega:  # other solvers have none
             parts.append(omega_text(line.omega))
         if len(self._limits[line.method, line.omega]) > 1:
             parts.append(f"limit {seconds_text(line.time_limit_s)}")

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: MIT
-"""The figures of a set of rows of one line: success, runtime, SQR, PAR-2, ..."""
+"""The figures of a set of rows of one line: success, runtime, SQR, PAR-2, ...
+
+Rows that differ in the seed alone are repetitions of an instance: first the mean over these, then over instances.
+"""
 import functools
 import statistics
-from collections import defaultdict
+from collections import Counter, defaultdict
 from fractions import Fraction
 from typing import NamedTuple, Optional
 
 from .groups import grouped
 from .lines import line_of
+from .rows import CLAIMED, WRONG
 
 
 NO_PROMISE = ("", "inf")  # omegas
@@ -31,14 +35,28 @@ def within_omega(row):
     return row.cost <= _factor(row.omega) * row.lower_bound
 
 
-def best_costs(rows):
+def has_plan(row):
+    """One that was re-checked; also of a run that a limit ended."""
+    return row.cost is not None and row.status not in ("error", WRONG, CLAIMED)
+
+
+def best_costs(rows, known=()):
     """{(problem, instance): the least cost of any plan}; also of plans of runs that a limit ended, but
-    not of runs with an error: their plans may be wrong."""
-    best = {}
+    not of runs with an error: their plans may be wrong. `known`: {(problem, instance): cost} from elsewhere."""
+    best = dict(known)
+    for row in filter(has_plan, rows):
+        key = row.problem, row.instance
+        best[key] = min(best.get(key, row.cost), row.cost)
+    return best
+
+
+def best_bounds(rows, known=()):
+    """{(problem, instance): the highest proven lower bound}; what other solvers only claim is none."""
+    best = dict(known)
     for row in rows:
-        if row.cost is not None and row.status != "error":
+        if row.lower_bound is not None and row.status not in ("error", "infeasible") and row.bounds_every_plan:
             key = row.problem, row.instance
-            best[key] = min(best.get(key, row.cost), row.cost)
+            best[key] = max(best.get(key, 0), row.lower_bound)
     return best
 
 
@@ -52,31 +70,58 @@ def cost_ratio(row, best):
 
 class Measures(NamedTuple):
     """None: no row to tell."""
+    instances: int
+    seeds: int                     # the most runs of an instance
     runs: int
     solved: int
+    wrong: int                     # runs with a plan that is none
+    claimed: int                   # runs with a cost, but no plan
     within_omega: Optional[int]    # of the solved; None: omega promises nothing
-    success: float                 # solved / runs
+    success: float                 # share of an instance's runs that are solved, mean over instances
     mean_runtime_s: float          # a failure counts as the time limit
     median_runtime_s: float        # likewise
     par2_s: float                  # a failure counts as twice the time limit
     mean_sqr: Optional[float]      # over solved rows
     mean_cost_ratio: Optional[float]  # likewise; cost / best known cost
     common: int                    # instances that all lines solve which solve any, if these are several
-    common_sqr: Optional[float]    # mean SQR over the solved rows of these
+    common_sqr: Optional[float]    # mean SQR over these
     common_cost_ratio: Optional[float]  # likewise
+    common_mean_cost: Optional[float]
+    common_median_cost: Optional[float]
+    common_mean_s: Optional[float]
+    common_median_s: Optional[float]
     mean_roots: Optional[float]    # over all rows that tell
     mean_rtsp_calls: Optional[float]
 
 
+def over_seeds(rows, value):
+    """The mean of value(row) over the rows of each instance; an instance without any is not there."""
+    values = defaultdict(list)
+    for row in rows:
+        found = value(row)
+        if found is not None:
+            values[row.instance].append(found)
+    # Not fmean, which takes ten times as long for the single value that most instances have.
+    return [found[0] if len(found) == 1 else statistics.fmean(found) for found in values.values()]
+
+
 def _mean(values):
-    values = [value for value in values if value is not None]
     return statistics.fmean(values) if values else None
 
 
+def _median(values):
+    return statistics.median(values) if values else None
+
+
+def always_solved(rows):
+    """The instances of which every run is solved."""
+    return {row.instance for row in rows} - {row.instance for row in rows if not row.solved}
+
+
 def common_instances(groups):
-    """The instances that all lines solve which solve any; none unless several lines do. `groups`: {line: rows}."""
-    solved = [{row.instance for row in rows if row.solved} for rows in groups.values()]
-    solved = [instances for instances in solved if instances]
+    """The instances that all lines solve, with every seed, which solve any; none unless several lines do.
+    `groups`: {line: rows}."""
+    solved = [always_solved(rows) for rows in groups.values() if any(row.solved for row in rows)]
     return set.intersection(*solved) if len(solved) > 1 else set()
 
 
@@ -85,20 +130,25 @@ def measures(rows, best, common=frozenset()):
     common_instances() of the rows of all lines."""
     solved = [row for row in rows if row.solved]
     shared = [row for row in solved if row.instance in common]
+    runs = Counter(row.instance for row in rows)
+    runtimes = over_seeds(rows, lambda row: row.runtime_s)
+    common_costs = over_seeds(shared, lambda row: row.cost)
+    common_s = over_seeds(shared, lambda row: row.runtime_s)
     return Measures(
-        runs=len(rows), solved=len(solved),
+        instances=len(runs), seeds=max(runs.values()), runs=len(rows), solved=len(solved),
+        wrong=sum(row.status == WRONG for row in rows), claimed=sum(row.status == CLAIMED for row in rows),
         within_omega=None if rows[0].omega in NO_PROMISE else sum(map(within_omega, solved)),
-        success=len(solved) / len(rows),
-        mean_runtime_s=statistics.fmean(row.runtime_s for row in rows),
-        median_runtime_s=statistics.median(row.runtime_s for row in rows),
-        par2_s=statistics.fmean(row.runtime_s if row.solved else 2 * row.time_limit_s
-                                for row in rows),
-        mean_sqr=_mean(row.sqr for row in solved),
-        mean_cost_ratio=_mean(cost_ratio(row, best) for row in solved),
-        common=len(common), common_sqr=_mean(row.sqr for row in shared),
-        common_cost_ratio=_mean(cost_ratio(row, best) for row in shared),
-        mean_roots=_mean(row.roots for row in rows),
-        mean_rtsp_calls=_mean(row.rtsp_calls for row in rows))
+        success=statistics.fmean(over_seeds(rows, lambda row: row.solved)),
+        mean_runtime_s=statistics.fmean(runtimes), median_runtime_s=statistics.median(runtimes),
+        par2_s=statistics.fmean(over_seeds(rows, lambda row: row.runtime_s if row.solved else 2 * row.time_limit_s)),
+        mean_sqr=_mean(over_seeds(solved, lambda row: row.sqr)),
+        mean_cost_ratio=_mean(over_seeds(solved, lambda row: cost_ratio(row, best))),
+        common=len(common), common_sqr=_mean(over_seeds(shared, lambda row: row.sqr)),
+        common_cost_ratio=_mean(over_seeds(shared, lambda row: cost_ratio(row, best))),
+        common_mean_cost=_mean(common_costs), common_median_cost=_median(common_costs),
+        common_mean_s=_mean(common_s), common_median_s=_median(common_s),
+        mean_roots=_mean(over_seeds(rows, lambda row: row.roots)),
+        mean_rtsp_calls=_mean(over_seeds(rows, lambda row: row.rtsp_calls)))
 
 
 class Cell(NamedTuple):

@@ -5,8 +5,10 @@ import html
 from collections import Counter
 from pathlib import Path
 
+from .anytime import table_times
 from .counters import label, other_names, remembered_things
-from .lines import omega_text, seconds_text
+from .groups import grouped
+from .lines import method_name, omega_text, seconds_text
 from .metrics import by_line
 from .report import PROBLEM_NAMES
 from .rows import STATUSES_WITH_PLAN
@@ -35,15 +37,23 @@ GLOSSARY = [
     ("Success rate", "Solved runs / all runs. Higher is better."),
     ("Runtime", "Wall time of a run in seconds; a failure counts as the time limit. So the mean of a "
      "method with many failures says little but that. Lower is better."),
+    ("Seeds", "Runs that differ in the seed alone are repetitions of one instance: first the mean over these, then "
+     "over instances. Success rate of an instance: the share of its runs that are solved."),
+    ("Claimed, wrong", "Of other solvers: a run that told a cost and showed no plan; one whose plan is none, as it "
+     "collides, jumps or does not arrive. Neither counts as solved, nor as a cost that is known."),
+    ("Anytime", "A method that goes on improving its plan until its time limit, which is no failure: it counts as solved, "
+     "and its runtime is the time to its first plan."),
     ("SQR, solution quality ratio", "Root cost / cost of the plan, of solved runs. The root cost is what the "
      "agents' best sequences cost together when nobody minds the others: a lower bound on the optimum. 1 "
      "is thus the best there can be, and the optimum may lie below 1. Each method is averaged over the runs "
      "that it solved: one that solves only the easy instances looks better than one that solves the hard "
      "ones too, whose SQR is lower for everybody."),
-    ("Common instances", "Those that every method solves which solves any of the cell (map, N, M) or table: on these "
-     "the mean SQR of methods compares. The weakest method decides which they are, and they are the easy ones."),
+    ("Common instances", "Those that every method solves, with every seed, which solves any of the cell (map, N, M) or "
+     "table: on these costs, times and the mean SQR of methods compare. The weakest method decides which they are, and "
+     "they are the easy ones; --method leaves methods out. Of quality over time: those for which all have a plan in the "
+     "end."),
     ("Cost ratio", "Cost of the plan / best known cost, of solved runs. The best known cost is the least that "
-     "any row here has for the instance, runs that a limit ended included. 1 is the best, 1.05 is 5 % dearer. "
+     "any row here has for the instance, runs that a limit ended included, and what MAPF Tracker has where it was read. 1 is the best, 1.05 is 5 % dearer. "
      "Unlike SQR it does not fall because an instance is hard, so that methods compare even where one "
      "solves more. Where no other method has a plan, it is 1 whatever the plan: nothing better is known."),
     ("PAR-2", "Mean runtime where a failure counts as twice the time limit. Lower is better."),
@@ -71,8 +81,9 @@ def _file(report, before, name):
     return f'<p>{_text(before)}: <a download="{name}" href="{_data("text/csv", report.files[name])}">{name}</a>.</p>'
 
 
-def _figure(figure, caption=""):
-    return (f'<figure><img alt="{_text(figure.title)}" src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
+def _figure(figure, caption="", kind=""):
+    """`kind`: "column": as wide as a column of a paper"""
+    return (f'<figure class="{kind}"><img alt="{_text(figure.title)}" src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
             f"<figcaption><b>{_text(figure.title)}.</b> {_text(caption)}</figcaption></figure>")
 
 
@@ -88,7 +99,7 @@ def _alarm(report):
     found = report.contradictions
     if not found:
         return _box("good", [_paragraph(
-            "No claims contradict each other: costs called optimal agree wherever several methods found "
+            "No proofs contradict each other: costs called optimal agree wherever several methods found "
             f"one ({report.agreements} instances), and no plan is cheaper than a proven lower bound.")])
     instances = len({(each.problem, each.instance) for each in found})
     shown = [f"{each.problem}: {each.instance}: {each.what}" for each in found[:MOST_LISTED]]
@@ -99,6 +110,28 @@ def _alarm(report):
         _paragraph("Not all of these claims can be true. Some solver is wrong, or rows of different "
                    "instances have one name. No figure below is to be trusted before this is explained."),
         _file(report, "All of them", "contradictions.csv"), _list(shown)])
+
+
+def _who(report, claim):
+    name = method_name(claim.method)
+    return name + (f" {omega_text(claim.omega)}" if claim.omega else "") + (
+        f" seed {claim.seed}" if len({row.seed for row in report.results.rows}) > 1 and claim.seed is not None else "")
+
+
+def _false_claims(report):
+    found = report.false_claims
+    if not found:
+        return ""
+    shown = [f"{_who(report, each)}: {each.problem}: {each.instance}: {each.what}" for each in found[:MOST_LISTED]]
+    if len(found) > MOST_LISTED:
+        shown.append(f"and {len(found) - MOST_LISTED} more")
+    kinds = Counter((method_name(each.method), each.kind) for each in found)
+    told = ", ".join(f"{name}: {number} of a {kind}" for (name, kind), number in sorted(kinds.items()))
+    return _box("alarm", [
+        f"<h2>FALSE CLAIMS: {len(found)}</h2>",
+        _paragraph(f"What solvers say, against what was checked here ({told}). A wrong plan counts as a failure, costs are "
+                   "as recounted, and nothing else is built on what they say."),
+        _file(report, "All of them", "false_claims.csv"), _list(shown)])
 
 
 def _errors(report):
@@ -180,7 +213,10 @@ def _summary(problem, lines):
     best_solved = max(found.solved for found in measured) if comparable else None
     best_par2 = min(found.par2_s for found in measured) if comparable else None
     has_baselines = any(lines.is_baseline(line) for line in problem.lines)
-    header = ["method", "runs", "solved", WITHIN, "success rate", PAR2, MEDIAN, MEAN, SQR, COMMON_SQR, COST_RATIO,
+    told = [(name, value) for name, value in (("wrong plans", lambda found: found.wrong),
+                                              ("only claimed", lambda found: found.claimed))
+            if any(map(value, measured))]
+    header = ["method", "runs", "solved", *(name for name, _ in told), WITHIN, "success rate", PAR2, MEDIAN, MEAN, SQR, COMMON_SQR, COST_RATIO,
               "solved by it alone",
               *(["solved by no baseline"] if has_baselines else [])]
     rows = []
@@ -188,8 +224,8 @@ def _summary(problem, lines):
         found = problem.by_line[line]
         rows.append([
             word(lines.label(line)), Entry(str(found.runs)),
-            Entry(str(found.solved), strong=found.solved == best_solved), _within(line, found),
-            Entry(percent(found.success)),
+            Entry(str(found.solved), strong=found.solved == best_solved),
+            *(Entry(str(value(found))) for _, value in told), _within(line, found), Entry(percent(found.success)),
             Entry(seconds(found.par2_s), strong=found.par2_s == best_par2),
             Entry(seconds(found.median_runtime_s)), Entry(seconds(found.mean_runtime_s)),
             Entry(ratio(found.mean_sqr)), _common(found), Entry(ratio(found.mean_cost_ratio)),
@@ -228,6 +264,77 @@ def _cells(problem, lines):
             for cell, found in problem.cells.items() for line in problem.lines if line in found]
     return html_table(["map", "N", "M", "method", "runs", "solved", WITHIN, "success rate", MEDIAN, SQR,
                        COMMON_SQR, COST_RATIO], rows)
+
+
+def _common_table(problem, lines):
+    """A row for each cell and line that has a part in it, and one for each line over all cells."""
+    places = [(("all", "", ""), problem.by_line)] if len(problem.cells) > 1 else []
+    places += [(cell, found) for cell, found in problem.cells.items()]
+    rows = [[word(place[0]), Entry(str(place[1])), Entry(str(place[2])), Entry(str(found[line].common)),
+             word(lines.label(line)), Entry(cost_text(found[line].common_mean_cost)),
+             Entry(cost_text(found[line].common_median_cost)), Entry(ratio(found[line].common_cost_ratio)),
+             Entry(seconds(found[line].common_mean_s)), Entry(seconds(found[line].common_median_s))]
+            for place, found in places for line in problem.lines
+            if line in found and found[line].common_mean_cost is not None]
+    return html_table(["map", "N", "M", "instances", "method", "mean cost", "median cost", "mean cost ratio", "mean s",
+                       "median s"], rows) if rows else _paragraph("There are none.")
+
+
+def cost_text(value):
+    return f"{value:.0f}" if value == int(value) else f"{value:.1f}"
+
+
+def _anytime_table(problem, lines):
+    """At fixed times: how many have a plan, and what it costs."""
+    limit = max(line.time_limit_s for line in problem.lines)
+    times = [time for time in table_times(limit) if f"{time:g}"[0] == "1" or time == limit]
+    rows = []
+    for panel in problem.panels:
+        for line, curve in panel.curves.items():
+            steps = [curve.at(time) if time <= line.time_limit_s else None for time in times]
+            rows.append([word(panel.title), word(lines.label(line)), Entry(str(panel.common)),
+                         *(_anytime_entry(step) for step in steps)])
+    return html_table(["map", "method", Entry("common"), *(Entry(seconds_text(time)) for time in times)], rows)
+
+
+def _anytime_entry(step):
+    if step is None:
+        return Entry("–", "no plan yet")
+    some = "" if step.common_with_plan >= 1 - 1e-9 else f" ({100 * step.common_with_plan:.0f} %)"
+    return Entry(ratio(step.cost_ratio) + (some if step.cost_ratio is not None else ""),
+                 f"{100 * step.with_plan:.0f} % of all instances have a plan")
+
+
+def _over_time(report, problem):
+    if not problem.anytime:
+        return []
+    return ["<h3>Quality over time</h3>",
+            _figure(problem.anytime, "Of methods that improve their plans while they run, as their runs tell on the way; the "
+                    "last plan was re-checked. Below: the share of all instances with a plan. A lower bound that another "
+                    "solver only claims is drawn as it claims it.", "column"),
+            "<details><summary>Table: mean cost ratio by time</summary>",
+            _paragraph("Mean over the common instances; with a share behind it, over as many of them as have a plan by then. "
+                       "Hold the pointer over a number for the share of all instances with a plan."),
+            _anytime_table(problem, report.lines), "</details>",
+            _file(report, "All of it, with cost / best lower bound, as a file", f"anytime_{problem.name}.csv")]
+
+
+def _success(report, problem):
+    if not problem.success:
+        return []
+    pooled = len({cell.tasks for cell in problem.cells}) > 1
+    return [_figure(problem.success, "Share of the runs that are solved"
+                    + (", whatever the number of tasks." if pooled else ".")
+                    + " Under the name of a map: what is behind each point of a line.", "column"),
+            _file(report, "As a file", f"success_{problem.name}.csv")]
+
+
+def _common_section(report, problem):
+    return ["<h3>Instances that all solve</h3>",
+            _paragraph("Costs and times of the instances that every method solves, with every seed, which solves any: of all, "
+                       "and of each map, number of agents and number of tasks. Only here means of costs and of times "
+                       "compare; the weakest method decides which instances these are (--method leaves it out)."),
+            _common_table(problem, report.lines), _file(report, "As a file", f"common_{problem.name}.csv")]
 
 
 def _speedup_entry(found):
@@ -324,7 +431,7 @@ def _problem(report, problem):
                         f"instances is over the {compared} that all methods solve which solve any, so it compares. "
                         "Solved by it alone: instances that no other method solves. Solved by no baseline: that it "
                         "solves and no baseline that tried does."),
-             _file(report, "As a file", f"summary_{name}.csv"),
+             _file(report, "As a file", f"summary_{name}.csv"), *_success(report, problem),
              _paragraph("The figures have a column for each map and number of agents N (where the number of tasks "
                         "M does not vary: for each map, with N along the axis), a row for each metric. "
                         "Runtime is on a log axis; a failure counts as the time limit (dotted). SQR: higher is "
@@ -347,6 +454,7 @@ def _problem(report, problem):
               _figure(problem.cactus, "How many instances each method has solved when a given time per "
                       "instance has passed (cactus plot). Further up and further left is better; dotted: "
                       "all there are."),
+              *_over_time(report, problem), *_common_section(report, problem),
               *_search(report, problem),
               "<h3>Speed-up over the baselines</h3>",
               *_speedups(problem, lines), _file(report, "As a file", f"speedup_{name}.csv"),
@@ -387,9 +495,73 @@ def _studies(report):
     return "\n".join(parts)
 
 
+def _flag(value):
+    return word("yes" if value else "")
+
+
+def _best_known(report):
+    """What the rows are worth beside MAPF Tracker."""
+    told = report.best_known
+    if told is None:
+        return []
+    head = ['<h2 id="tracker">Beside MAPF Tracker</h2>',
+            _paragraph(f"{told.entries} entries were read from {', '.join(told.files)}; "
+                       f"{len({each.place for each in told.found})} of them are instances here. Costs are of checked plans, "
+                       "bounds are Grove's own. Closed: the bound meets the best cost, and did not yet in the archive.")]
+    if not told.found:
+        return head
+    by = grouped(told.found, lambda each: each.line)
+    rows = []
+    for line in report.lines.all:
+        group = by.get(line, [])
+        ratios = [each.cost_ratio for each in group if each.cost_ratio is not None]
+        if group:
+            rows.append([word(report.lines.label(line)), Entry(str(len(group))), Entry(str(len(ratios))),
+                         Entry(ratio(sum(ratios) / len(ratios) if ratios else None)),
+                         Entry(str(sum(value == 1 for value in ratios))),
+                         *(Entry(str(sum(getattr(each, name) for each in group)))
+                           for name in ("better_plan", "higher_bound", "closes"))])
+    news = [each for each in told.found if each.better_plan or each.higher_bound or each.closes]
+    parts = [*head, html_table(["method", "instances", "with a plan", "mean cost / best known", "as good", "better plans",
+                                "higher bounds", "closed"], rows),
+             _file(report, "Every instance as a file", "best_known.csv")]
+    if news:
+        parts += ["<h3>Better than what is known</h3>", html_table(
+            ["instance", "method", Entry("best known bound"), Entry("best known cost"), Entry("cost"),
+             Entry("lower bound"), "better plan", "higher bound", "closes"],
+            [[word(each.instance), word(report.lines.label(each.line)),
+              *(Entry("–" if value is None else str(value)) for value in (*each.known, each.cost, each.bound)),
+              _flag(each.better_plan), _flag(each.higher_bound), _flag(each.closes)] for each in news[:MOST_LISTED]])]
+        if len(news) > MOST_LISTED:
+            parts.append(_paragraph(f"And {len(news) - MOST_LISTED} more in the file."))
+    return parts
+
+
+def _runs(report):
+    """Single runs, of their logs."""
+    if not report.runs:
+        return []
+    rows = [[word(run.name), word(run.instance), Entry("–" if run.agents is None else str(run.agents)),
+             word(run.status or "the log ends before the run"),
+             *(Entry("–" if value is None else str(value)) for value in run.moments[-1][1:] or (None, None)),
+             Entry(seconds(run.end_s)), word(run.options)] for run in report.logs if run.moments]
+    return ['<h2 id="runs">Single runs</h2>',
+            _figure(report.runs, "Bound and best plan over time of the runs whose logs were read. grove view --run shows one "
+                    "of them as a page.", "column"),
+            html_table(["log", "instance", Entry("N"), "status", Entry("cost"), Entry("lower bound"), Entry("s"),
+                        "options"], rows),
+            _file(report, "As a file", "runs.csv")]
+
+
 def _glossary():
     return ("<h2 id=\"words\">What the words mean</h2><dl>" + "".join(
         f"<dt>{_text(name)}</dt><dd>{_text(text)}</dd>" for name, text in GLOSSARY) + "</dl>")
+
+
+def _origin(report):
+    if not report.results.rows:
+        return []
+    return ['<h2 id="origin">Where the rows come from</h2>', _provenance(report), "<h3>Methods</h3>", _methods(report)]
 
 
 def page(report):
@@ -399,7 +571,12 @@ def page(report):
              for problem in report.problems]
     if report.studies:
         links.append(("omega", "The influence of ω"))
-    links += [("words", "What the words mean"), ("origin", "Where the rows come from")]
+    if report.best_known:
+        links.append(("tracker", "Beside MAPF Tracker"))
+    if report.runs:
+        links.append(("runs", "Single runs"))
+    links += [("words", "What the words mean"),
+              *([("origin", "Where the rows come from")] if report.results.rows else [])]
     parts = [
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
@@ -409,13 +586,12 @@ def page(report):
         _paragraph("Methods for multi-agent path finding with tasks, compared on the same instances: how "
                    "many they solve, how fast, and how good the plans are."),
         "<nav>" + "".join(f'<a href="#{name}">{_text(text)}</a>' for name, text in links) + "</nav>",
-        _alarm(report)]
+        *([_false_claims(report), _alarm(report)] if report.results.rows else [])]
     if report.notes:
         parts.append(_box("note", ["<b>Before you compare</b>", _list(report.notes)]))
     parts.append(_errors(report))
     parts += [_problem(report, problem) for problem in report.problems]
     if report.studies:
         parts.append(_studies(report))
-    parts += [_glossary(), '<h2 id="origin">Where the rows come from</h2>', _provenance(report),
-              "<h3>Methods</h3>", _methods(report), "</body></html>\n"]
+    parts += [*_best_known(report), *_runs(report), _glossary(), *_origin(report), "</body></html>\n"]
     return "\n".join(part for part in parts if part)

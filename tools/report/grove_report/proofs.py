@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Claims that cannot all be true: each is a bug in some solver, or rows of different instances under
-one name."""
-from typing import NamedTuple
+one name. And claims of other solvers that are false by what was checked here."""
+import itertools
+from typing import NamedTuple, Optional
 
 from .groups import grouped, values_by
 from .lines import method_name
+from .metrics import best_bounds, best_costs, has_plan
+from .rows import CLAIMED, WRONG
 
 
 class Contradiction(NamedTuple):
@@ -19,11 +22,12 @@ def _said(rows, value):
     return ", ".join(f"{found} ({', '.join(sorted(who))})" for found, who in sorted(groups.items()))
 
 
-def _of_instance(rows):
+def _of_instance(everything):
+    rows = [row for row in everything if row.bounds_every_plan]
     optimal = [row for row in rows if row.status == "optimal" and row.cost is not None]
     if len({row.cost for row in optimal}) > 1:
         yield "optimal costs differ: " + _said(optimal, lambda row: row.cost)
-    plans = [row for row in rows if row.cost is not None]
+    plans = [row for row in everything if has_plan(row)]
     if not plans:
         return
     least = min(row.cost for row in plans)
@@ -46,11 +50,84 @@ def _of_instance(rows):
         yield f"a plan costs {cheapest}; but: " + _said(infeasible, lambda row: row.status)
 
 
-def contradictions(rows):
-    """Of all rows but those with status error: what these say is known to be worth nothing."""
+class FalseClaim(NamedTuple):
+    problem: str
+    instance: str
+    method: str
+    omega: str
+    seed: Optional[int]
+    kind: str             # "plan", "cost", "lower bound"
+    claimed: Optional[int]
+    checked: Optional[int]  # what refutes it
+    what: str
+
+
+class _Checked(NamedTuple):
+    """Of an instance. None: there is none."""
+    plan: Optional[int]   # the cost of the cheapest
+    bound: Optional[int]  # the highest that is proven
+    planner: str          # who has them
+    prover: str
+
+
+def _checked(rows, plan, bound):
+    def who(found):
+        return ", ".join(sorted({method_name(row.method) for row in found})) or "MAPF Tracker"
+    return _Checked(plan, bound, who(row for row in rows if has_plan(row) and row.cost == plan),
+                    who(row for row in rows if row.lower_bound == bound and row.bounds_every_plan))
+
+
+def _lies(row, checked):
+    """(kind, claimed, checked, what) of what a row says against what was checked of its instance."""
+    plan, bound = checked.plan, checked.bound
+    if row.status == WRONG:
+        yield "plan", row.claimed_cost, None, row.error or "the plan is wrong"
+    if row.claimed_cost is not None and has_plan(row) and row.claimed_cost < row.cost:
+        yield ("cost", row.claimed_cost, row.cost,
+               f"says that its plan costs {row.claimed_cost}; recounted: {row.cost}")
+    if row.status == CLAIMED and None not in (row.claimed_cost, bound) and row.claimed_cost < bound:
+        yield ("cost", row.claimed_cost, bound,
+               f"says that it has a plan of cost {row.claimed_cost}, and shows none; "
+               f"proven lower bound: {bound} ({checked.prover})")
+    cheaper = [point for point in row.trace if row.solver and has_plan(row) and point.cost < row.cost]
+    if cheaper:
+        yield ("cost", cheaper[0].cost, row.cost, f"says that after {cheaper[0].seconds:g} s it had a plan of cost "
+               f"{cheaper[0].cost}; the plan it shows in the end costs {row.cost}")
+    if None not in (row.claimed_lower_bound, plan) and row.claimed_lower_bound > plan:
+        yield ("lower bound", row.claimed_lower_bound, plan,
+               f"says that no plan costs less than {row.claimed_lower_bound}; a checked plan costs {plan} "
+               f"({checked.planner})")
+
+
+def false_claims(rows, known_costs=()):
+    """`known_costs`: as in best_costs(); of plans from elsewhere."""
+    rows = [row for row in rows if row.status != "error"]
+    plans, bounds = best_costs(rows, known_costs), best_bounds(rows)
+    return [FalseClaim(*key, row.method, row.omega, row.seed, *lie)
+            for key, group in grouped(rows, lambda row: (row.problem, row.instance)).items()
+            for checked in [_checked(group, plans.get(key), bounds.get(key))]
+            for row in group for lie in _lies(row, checked)]
+
+
+def _against(rows, known):
+    """Of an instance, with what MAPF Tracker knows of it."""
+    plans = [row for row in rows if has_plan(row)]
+    if plans and known.bound is not None and min(row.cost for row in plans) < known.bound:
+        cheaper = [row for row in plans if row.cost < known.bound]
+        yield f"MAPF Tracker has a lower bound of {known.bound}; a plan costs " + _said(cheaper, lambda row: row.cost)
+    above = [row for row in rows if row.lower_bound is not None and known.cost is not None
+             and row.lower_bound > known.cost and row.status != "infeasible" and row.bounds_every_plan]
+    if above:
+        yield (f"MAPF Tracker has a plan of cost {known.cost}, below a proven lower bound: "
+               + _said(above, lambda row: row.lower_bound))
+
+
+def contradictions(rows, known=None):
+    """Of all rows but those with status error: what these say is known to be worth nothing. Bounds of plans in which
+    nobody follows another closely are compared with nothing. `known`: {(problem, instance): tracker.Known}"""
     groups = grouped((row for row in rows if row.status != "error"), lambda row: (row.problem, row.instance))
     return [Contradiction(*key, what) for key, group in sorted(groups.items())
-            for what in _of_instance(group)]
+            for what in itertools.chain(_of_instance(group), _against(group, known[key]) if key in (known or {}) else ())]
 
 
 def optimal_agreements(rows):

@@ -6,11 +6,11 @@ from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
-from . import figures, metrics, proofs
+from . import anytime, curves, figures, metrics, proofs, tracker
 from .counters import counters_by_line
 from .groups import grouped, values_by
 from .lines import GROVE, Lines, families, line_of, method_name, omega_text, omega_value, seconds_text
-from .rows import PROBLEMS, BadInput
+from .rows import PROBLEMS, UNSUITABLE, BadInput
 from .speedup import ALL_MAPS, hard_instances, speedups
 from .style import style_of
 from .tables import csv_text
@@ -22,8 +22,9 @@ PROBLEM_NAMES = {"mg": "MG-MAPF (agents without destinations)",
 # So many columns of a comparison can be read side by side on a narrow page.
 WIDEST = 3
 # What a report is made of: old ones are removed from its folder.
-OWN_FILE = re.compile(rf"((summary|comparison|cactus|splits|search|speedup|only_solver)_({'|'.join(PROBLEMS)})|omega_study)"
-                      r"(_[0-9]+)?\.(svg|png|csv)|contradictions\.csv")
+OWN_FILE = re.compile(rf"((summary|comparison|success|anytime|common|cactus|splits|search|speedup|only_solver)_"
+                      rf"({'|'.join(PROBLEMS)})|omega_study|runs)(_[0-9]+)?\.(svg|png|csv)"
+                      r"|(contradictions|false_claims|best_known)\.csv")
 
 
 class Figure(NamedTuple):
@@ -46,6 +47,9 @@ class Problem(NamedTuple):
     hard: int           # instances that the best baseline solves, in more than a second
     comparison: list    # Figures
     cactus: Figure
+    success: object     # Figure; None: no map has several numbers of agents
+    anytime: object     # Figure; None: no line is anytime
+    panels: list        # of it
     counters: dict      # {line: Counters}
     splits: object      # Figure; None: no run tells of any
 
@@ -61,12 +65,23 @@ class Study(NamedTuple):
     figure: Figure
 
 
+class BestKnown(NamedTuple):
+    """What rows are worth beside the archive."""
+    files: tuple
+    entries: int        # of the archive
+    found: list         # tracker.Comparison
+
+
 class Report(NamedTuple):
     results: object
     lines: Lines
     problems: list
     studies: list
     contradictions: list
+    false_claims: list
+    best_known: object  # None: not asked for
+    runs: object        # Figure of logs; None: there are none
+    logs: list
     agreements: int     # instances with an optimal cost from several methods
     errors: list        # (line, number, a message)
     notes: list         # texts
@@ -153,23 +168,61 @@ def _splits_figure(output, problem, counters, lines, looks):
     return output.figure(f"splits_{problem}", "What nodes were split on", figures.splits(counters, told, looks))
 
 
+def _success_figure(output, problem, rows, best, lines, looks):
+    """The rows of a map and number of agents together, whatever their tasks."""
+    groups = {name: {agents: metrics.measures_by_line(found, best) for agents, found in sorted(
+                     grouped(group, lambda row: row.agents).items())}
+              for name, group in sorted(grouped(rows, lambda row: row.map).items())}
+    if all(len(by_agents) == 1 for by_agents in groups.values()):
+        return None
+    figure = output.figure(f"success_{problem}", "Success rate over the number of agents",
+                           curves.success(groups, lines, looks))
+    output.table(f"success_{problem}", ["map", "agents", *LINE_COLUMNS, "instances", "seeds", "runs", "solved",
+                                        "success_rate"],
+                 [[name, agents, *line, each.instances, each.seeds, each.runs, each.solved, each.success]
+                  for name, by_agents in groups.items() for agents, found in by_agents.items()
+                  for line, each in found.items()])
+    return figure
+
+
+def _anytime_figure(output, problem, panels, lines, looks):
+    if not panels:
+        return None
+    shown = [line for line in lines if any(line in panel.curves for panel in panels)]
+    figure = output.figure(f"anytime_{problem}", "Quality over time", curves.anytime(panels, shown, looks))
+    rows = []
+    for panel in panels:
+        for line in shown:
+            if line in panel.curves:
+                moments = [(time, panel.curves[line].at(time)) for time in anytime.table_times(line.time_limit_s)]
+                rows += [[panel.title, *line, time, panel.instances, panel.common, *step[1:]]
+                         for time, step in moments if step]
+    output.table(f"anytime_{problem}", ["panel", *LINE_COLUMNS, "time_s", "instances", "common", *ANYTIME_COLUMNS], rows)
+    return figure
+
+
+ANYTIME_COLUMNS = ["with_plan", "common_with_plan", "mean_cost_ratio", "mean_cost_over_bound", "mean_bound_ratio"]
+COMMON_COLUMNS = ["common", "common_mean_cost", "common_median_cost", "common_cost_ratio", "common_mean_s",
+                  "common_median_s", "common_sqr"]
 LINE_COLUMNS = ["method", "omega", "time_limit_s"]
-MEASURE_COLUMNS = ["runs", "solved", "within_omega", "success_rate", "mean_runtime_s", "median_runtime_s", "par2_s",
-                   "mean_sqr", "mean_cost_ratio", "common", "common_sqr", "common_cost_ratio", "mean_roots", "mean_rtsp_calls"]
+MEASURE_COLUMNS = ["success_rate" if name == "success" else name for name in metrics.Measures._fields]
 
 
-def _problem(output, name, rows, best, lines, looks):
+def _problem(output, name, rows, best, bounds, lines, looks):
     here = metrics.by_line(rows)
     ordered = [line for line in lines.all if line in here]
     cells = metrics.by_cell(rows, best)
     runs = metrics.median_runs(rows)
     counters = counters_by_line(rows)
+    panels = anytime.panels(rows, best, bounds)
     problem = Problem(
         name, ordered, rows, metrics.measures_by_line(rows, best), cells,
         len(runs), metrics.only_solver(runs), metrics.beyond_baselines(runs, lines.is_baseline),
         speedups(runs, lines.is_baseline), len(hard_instances(runs, lines.is_baseline)),
         list(_comparison_figures(output, name, cells, ordered, looks)),
         _cactus_figure(output, name, runs, ordered, looks),
+        _success_figure(output, name, rows, best, ordered, looks),
+        _anytime_figure(output, name, panels, ordered, looks), panels,
         counters, _splits_figure(output, name, counters, ordered, looks))
     _write_tables(output, problem, lines)
     return problem
@@ -187,6 +240,10 @@ def _write_tables(output, problem, lines):
                  ["map", "agents", "tasks", *LINE_COLUMNS, *MEASURE_COLUMNS],
                  [[*cell, *line, *found[line]] for cell, found in problem.cells.items()
                   for line in ordered if line in found])
+    output.table(f"common_{name}", ["map", "agents", "tasks", *LINE_COLUMNS, *COMMON_COLUMNS],
+                 [[*cell, *line, *(getattr(found[line], column) for column in COMMON_COLUMNS)]
+                  for cell, found in problem.cells.items() for line in ordered
+                  if line in found and found[line].common_mean_cost is not None])
     output.table(f"speedup_{name}",
                  ["map", "baseline", "baseline_omega", "method", "omega", "time_limit_s",
                   "instances", "median_ratio", "ratio_is", "baseline_median_s", "method_median_s",
@@ -223,8 +280,9 @@ def _setting(problem, family, map_name, agents, rows):
 
 
 def _studies(output, rows_of, best, looks, options):
-    """Of the first problem, CTS-MAPF first as in the paper, where lines differ in omega alone."""
-    for name in ("cts", *PROBLEMS):
+    """Of the first problem, CTS-MAPF first as in the paper, where lines differ in omega alone. By tasks, which
+    classical MAPF has none."""
+    for name in ("cts", "mg", "mixed"):
         rows = rows_of.get(name, [])
         found = families(rows, options.study_methods)
         stems = [f"omega_study_{number}" if len(found) > 1 else "omega_study"
@@ -288,7 +346,7 @@ def _omegas(problem, lines):
 def _guarantee(line, solved, lines):
     """What the `solved` rows of a line do not prove though they count as solved."""
     outside = [row for row in solved if metrics.within_omega(row) is False]
-    unproven = [row for row in solved if line.omega in metrics.NO_PROMISE and row.status != "optimal"]
+    unproven = [row for row in solved if not row.solver and line.omega in metrics.NO_PROMISE and row.status != "optimal"]
     statuses = "status " + ", ".join(sorted({row.status for row in outside or unproven}))
     if outside:
         yield (f"{lines.label(line)}: {len(outside)} of {len(solved)} solved runs are outside ω "
@@ -308,6 +366,10 @@ def _notes(results, rows, lines, problems):
     solved = metrics.by_line([row for row in rows if row.solved])
     for line in lines.all:
         yield from _guarantee(line, solved.get(line, []), lines)
+    others = sorted({lines.label(line_of(row)) for row in rows if row.solver})
+    if others:
+        yield (f"What other solvers guarantee is not checked here ({_listed(others, 12)}): only that their plans are plans, "
+               "and what these cost.")
     limits = sorted({row.time_limit_s for row in rows})
     if len(limits) > 1:
         yield (f"The rows have several time limits ({_listed(map(seconds_text, limits))}). No figure "
@@ -315,9 +377,9 @@ def _notes(results, rows, lines, problems):
                "runtimes and PAR-2 do not compare.")
     seeds = sorted({row.seed for row in rows if row.seed is not None})
     if len(seeds) > 1:
-        yield (f"The rows have several seeds ({_listed(map(str, seeds))}). Rates and means are over "
-               "all their runs; where instances are counted or compared one by one, the median run "
-               "stands for its instance.")
+        yield (f"The rows have several seeds ({_listed(map(str, seeds))}). Runs that differ in the "
+               "seed alone are repetitions: rates and means are first over these, then over instances; where "
+               "instances are counted or compared one by one, the median run stands for its instance.")
     for what, values in (("versions", {row.version for row in rows} - {""}),
                          ("machines", {row.machine for row in rows} - {""}),
                          ("numbers of ranks", {str(row.ranks) for row in rows if row.ranks is not None}),
@@ -356,27 +418,72 @@ def _notes(results, rows, lines, problems):
                    "gaps; totals compare only between methods with as many runs.")
 
 
+def _unsuitable(rows):
+    """Notes on runs that were none: the method is not for the instance."""
+    for method, group in sorted(grouped([row for row in rows if row.status == UNSUITABLE], lambda row: row.method).items()):
+        why = Counter(row.error for row in group).most_common(1)[0][0]
+        yield f"{method_name(method)} is not for {len(group)} of the instances, which are left out for it: {why}."
+
+
+def _runs_figure(output, logs):
+    if not logs:
+        return None
+    named = {run.instance for run in logs}
+    short = {name: Path(name).name for name in named} if len({Path(name).name for name in named}) == len(named) \
+        else {name: name for name in named}
+    # Of a scenario the first rows, so many as there are agents.
+    groups = grouped(logs, lambda run: short[run.instance]
+                     + (f", N = {run.agents}" if run.instance.endswith(".scen") else ""))
+    output.table("runs", ["log", "instance", "agents", "options", "status", "time_s", "cost", "lower_bound"],
+                 [[run.name, run.instance, run.agents, run.options, run.status, *moment]
+                  for run in logs for moment in run.moments])
+    return output.figure("runs", "Bound and plan of single runs", curves.runs(groups))
+
+
+BEST_KNOWN_COLUMNS = ["map_name", "scen_type", "type_id", "agents", *LINE_COLUMNS, "best_known_bound", "best_known_cost",
+                      "cost", "lower_bound", "cost_ratio", "better_plan", "higher_bound", "closes"]
+
+
+def _best_known(output, rows, options):
+    if not options.known_files:
+        return None
+    found = tracker.comparisons(rows, options.known)
+    output.table("best_known", BEST_KNOWN_COLUMNS, [
+        [*each.place, *each.line, *each.known, each.cost, each.bound, each.cost_ratio,
+         *(str(flag).lower() for flag in (each.better_plan, each.higher_bound, each.closes))] for each in found])
+    return BestKnown(options.known_files, len(options.known), found)
+
+
 class Options(NamedTuple):
     baselines: tuple
     problems: tuple           # to be told of; empty: those there are
     study_methods: object     # None: found by their options
     study_map: object         # None: a room map
     study_agents: object      # None: 5
+    known_files: tuple = ()   # of MAPF Tracker
+    known: object = None      # {Place: Known}, of these
 
 
-def make_report(results, options, folder):
+def make_report(results, logs, options, folder):
     """Writes all figures and tables into `folder`; those of an earlier report go."""
-    rows = [row for row in results.rows if not options.problems or row.problem in options.problems]
+    everything = [row for row in results.rows if not options.problems or row.problem in options.problems]
+    rows = [row for row in everything if row.status != UNSUITABLE]
     lines = Lines(rows, options.baselines)
     looks, output = Looks(lines), Output(folder)
     rows_of = grouped(rows, lambda row: row.problem)
-    best = metrics.best_costs(rows)
+    known = tracker.known_of(rows, options.known or {})
+    known_costs = {key: each.cost for key, each in known.items() if each.cost is not None}
+    known_bounds = {key: each.bound for key, each in known.items() if each.bound is not None}
+    best, bounds = metrics.best_costs(rows, known_costs), metrics.best_bounds(rows, known_bounds)
     studies = _studies(output, rows_of, best, looks, options)  # first: it refuses options that fit no rows
-    problems = [_problem(output, name, rows_of[name], best, lines, looks)
+    problems = [_problem(output, name, rows_of[name], best, bounds, lines, looks)
                 for name in PROBLEMS if name in rows_of]
-    contradictions = proofs.contradictions(rows)
+    contradictions = proofs.contradictions(rows, known)
     output.table("contradictions", proofs.Contradiction._fields, contradictions)
+    false_claims = proofs.false_claims(rows, known_costs)
+    output.table("false_claims", proofs.FalseClaim._fields, false_claims)
+    best_known, runs = _best_known(output, rows, options), _runs_figure(output, logs)
     output.remove_others()
-    return Report(results._replace(rows=rows), lines, problems, studies, contradictions,
-                  proofs.optimal_agreements(rows), _errors(rows, lines),
-                  list(_notes(results, rows, lines, problems)), output.files)
+    notes = [*_notes(results, rows, lines, problems), *_unsuitable(everything)]
+    return Report(results._replace(rows=rows), lines, problems, studies, contradictions, false_claims, best_known,
+                  runs, logs, proofs.optimal_agreements(rows), _errors(rows, lines), notes, output.files)

@@ -8,12 +8,20 @@ from pathlib import Path
 from typing import NamedTuple, Optional
 
 PROBLEMS = ("mg", "cts", "mixed", "mapf")
-STATUSES = ("optimal", "bounded", "feasible", "infeasible", "unknown", "error")
+WRONG, CLAIMED, UNSUITABLE = "wrong", "claimed", "unsuitable"  # of other solvers: the plan is none; a cost, no plan
+STATUSES = ("optimal", "bounded", "feasible", "infeasible", "unknown", "error", WRONG, CLAIMED, UNSUITABLE)
 STATUSES_WITH_PLAN = ("optimal", "bounded", "feasible")
 
 
 class BadInput(Exception):
     """What is wrong with the input: file, place, what was expected. One line."""
+
+
+class Point(NamedTuple):
+    """A plan on the way, as the run says."""
+    seconds: float
+    cost: int
+    lower_bound: Optional[int]
 
 
 class Row(NamedTuple):
@@ -51,6 +59,23 @@ class Row(NamedTuple):
     threads: Optional[int]
     instance_digest: str  # of the files of the instance: the same id may mean two
     counts: dict  # {name: number}: what else the search counted; empty: it does not tell
+    first_plan_s: Optional[float]
+    plan_file: str  # as one opens it from here; "": none was kept
+    solver: str     # the adapter of another solver; "": Grove itself
+    claimed_cost: Optional[int]  # what another solver says, believed in nothing
+    claimed_lower_bound: Optional[int]
+    claimed_s: Optional[float]
+    anytime: bool   # it goes on until its limit
+    trace: tuple    # Points; empty: it does not tell
+
+    @property
+    def ended_s(self):
+        return self.runtime_s if self.wall_s is None else self.wall_s
+
+    @property
+    def bounds_every_plan(self):
+        """What it proves is of all plans, not only of those in which nobody follows another closely."""
+        return "--no-following" not in self.options
 
 
 def printable(text):
@@ -135,6 +160,16 @@ def _counts(value):
         raise ValueError("numbers as name=7, with blanks between") from None
 
 
+def _trace(value):
+    """Of "0.25:120:100 1.5:118:-": seconds, cost, lower bound."""
+    try:
+        words = [word.split(":") for word in value.split()]
+        return tuple(Point(_number(seconds), _integer(cost), None if bound == "-" else _integer(bound))
+                     for seconds, cost, bound in words)
+    except (AttributeError, ValueError):
+        raise ValueError("plans as seconds:cost:bound, with blanks between") from None
+
+
 # Column: how it is read, and what it is when absent; the columns without the latter are needed.
 NEEDED = object()
 COLUMNS = {
@@ -149,6 +184,9 @@ COLUMNS = {
     "low_level_calls": (_integer, None), "peak_memory_mb": (_number, None), "version": (_text, ""),
     "machine": (_text, ""), "ended_at": (_text, ""), "error": (_text, ""), "ranks": (_integer, None),
     "threads": (_integer, None), "instance_digest": (_text, ""), "counts": (_counts, {}),
+    "first_plan_s": (_number, None), "plan_file": (_text, ""), "solver": (_text, ""),
+    "claimed_cost": (_integer, None), "claimed_lower_bound": (_integer, None), "claimed_s": (_number, None),
+    "anytime": (_boolean, False), "trace": (_trace, ()),
 }
 assert tuple(COLUMNS) == Row._fields
 _NAMES = tuple(COLUMNS)
@@ -259,6 +297,14 @@ def _read_json_lines(path, file):
 READERS = {".csv": _read_csv, ".jsonl": _read_json_lines}
 
 
+def results_in(folder):
+    """None: there are none."""
+    for name in ("results.jsonl", "results.csv"):  # they hold the same; the first is never behind
+        if (folder / name).exists():
+            return folder / name
+    return None
+
+
 def _files(argument):
     path = Path(argument)
     if not path.exists():
@@ -267,9 +313,9 @@ def _files(argument):
         if path.suffix not in READERS:
             raise BadInput(f"{path}: unknown kind of file; expected .csv, .jsonl or a folder")
         return path
-    for name in ("results.jsonl", "results.csv"):  # they hold the same; the first is never behind
-        if (path / name).exists():
-            return path / name
+    found = results_in(path)
+    if found:
+        return found
     raise BadInput(f"{path}: no results.jsonl and no results.csv in this folder; "
                    "expected what grove bench or grove-mpi batch writes")
 
@@ -303,12 +349,16 @@ class Results(NamedTuple):
     unreadable: list  # instances of the rows left out because these could not be read
 
 
+NO_RESULTS = Results([], [], [], 0, [])
+
+
 def read_results(arguments):
     files = list(dict.fromkeys(_files(argument) for argument in arguments))
     rows, counts, cut_off, unreadable = [], [], [], []
     for path in files:
         read = _read_file(path)
-        found = [row for row in read if isinstance(row, Row)]
+        found = [row._replace(plan_file=str(path.parent / row.plan_file)) if row.plan_file else row
+                 for row in read if isinstance(row, Row)]
         counts.append((printable(str(path)), len(found)))
         cut_off += [counts[-1][0] for row in read if isinstance(row, CutOff)]
         unreadable += [row.instance for row in read if isinstance(row, Unreadable)]

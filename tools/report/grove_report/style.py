@@ -16,15 +16,20 @@ KIND_COLOURS = ("#9ECAE1", "#FDD0A2", "#74C476", "#DADAEB", "#E7969C", "#D9D9D9"
 EVEN = {"s": 0.86, "D": 0.74, "*": 1.3}
 
 
+# Of baselines: to be told apart where markers are few and colours are not printed.
+DASHES = ((4, 1.6), (1.3, 1.3), (6, 1.3, 1.3, 1.3), (2.4, 1), (6, 1.3, 1.3, 1.3, 1.3, 1.3))
+
+
 class Style(NamedTuple):
     colour: str
     marker: str
-    dashed: bool  # baselines
+    dashes: object  # of baselines; None: a whole line
 
 
 def style_of(index, is_baseline):
     """Of the line with this place among all lines."""
-    return Style(COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)], is_baseline)
+    return Style(COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)],
+                 DASHES[index % len(DASHES)] if is_baseline else None)
 
 
 def depth(rank, count):
@@ -40,7 +45,7 @@ def plot_arguments(style, below):
     broader is the line and the larger are its markers: so all are seen."""
     size = EVEN.get(style.marker, 1) * (3.4 + 5.4 * below)
     return {"color": style.colour, "marker": style.marker, "linewidth": 0.9 + 1.4 * below,
-            "linestyle": (0, (4, 1.6)) if style.dashed else "-", "markersize": size,
-            "markerfacecolor": "white" if style.dashed else style.colour,
-            "markeredgecolor": style.colour if style.dashed else "white",
-            "markeredgewidth": 0.9 if style.dashed else 0.5}
+            "linestyle": (0, style.dashes) if style.dashes else "-", "markersize": size,
+            "markerfacecolor": "white" if style.dashes else style.colour,
+            "markeredgecolor": style.colour if style.dashes else "white",
+            "markeredgewidth": 0.9 if style.dashes else 0.5}

@@ -21,9 +21,8 @@ struct InstanceFacts {
 };
 
 // The scenario is the number in an id such as room_s3_n5_m20_mg or den312d-random-3-50, none in
-// others. The tasks are that
-// name's M where it has one: an MG-MAPF instance of the paper has M tasks and one more where a
-// destination was. Else all tasks are counted.
+// others. The tasks are that name's M where it has one: an MG-MAPF instance of the paper has M tasks
+// and one more where a destination was. Else all tasks are counted.
 InstanceFacts facts_of(const Entry& entry, const LoadedInstance& loaded);
 
 }  // namespace grove::detail::batch

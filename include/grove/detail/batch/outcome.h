@@ -28,7 +28,7 @@ inline constexpr const char* kUnsuitable = "unsuitable";  // the method is not f
 
 struct Outcome {
   std::string status = kError;  // or a plan file's, or one of those above
-  bool solved = false;           // ended by itself with a plan that was re-checked
+  bool solved = false;          // ended by itself with a plan that was re-checked
   std::optional<Cost> cost = {};
   std::optional<Cost> lower_bound = {};
   std::optional<double> first_plan_s = {};  // files keep microseconds
@@ -43,8 +43,8 @@ struct Outcome {
   // What another solver says of its plan, believed in nothing.
   std::optional<Cost> claimed_cost = {};
   std::optional<Cost> claimed_lower_bound = {};
-  std::optional<double> claimed_s = {};   // files keep microseconds
-  std::vector<TracePoint> trace = {};     // by time; costs fall
+  std::optional<double> claimed_s = {};  // files keep microseconds
+  std::vector<TracePoint> trace = {};    // by time; costs fall
   bool anytime = false;  // it goes on until its time limit: solved as soon as it has a plan
 
   bool failed() const { return status == kError; }

@@ -5,9 +5,9 @@
 //     DIR/results.csv     the same for spreadsheets, made from it
 //
 // Every pair of an instance and a method has at most one row, in a comparison of methods one for
-// each seed. Whatever kills the program leaves
-// whole rows and at most one torn line at the end, which the next run drops. The same command again
-// goes on where it stopped: a pair is run again only when
+// each seed. Whatever kills the program leaves whole rows and at most one torn line at the end,
+// which the next run drops. The same command again goes on where it stopped: a pair is run again
+// only when
 //   - it has no row,
 //   - its row is an error: whoever repeats the command has mended the cause, as a rule, and if not,
 //     the error comes again,
@@ -80,8 +80,7 @@ class ResultTable {
   using Pair = std::tuple<std::string, std::string, std::int64_t>;  // instance, method, seed
 
   Pair pair_of(const Run& run) const {
-    return {run.instance, run.settings.method,
-            what_ == TableOf::kMethods ? run.settings.seed : 0};
+    return {run.instance, run.settings.method, what_ == TableOf::kMethods ? run.settings.seed : 0};
   }
   void read();
   void require_same(const Row& row, const Run& run) const;

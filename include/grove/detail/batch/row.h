@@ -7,19 +7,22 @@
 //     instance, method, options      Entry::id; the method's name; its options, as one types them
 //     map, scenario, agents, tasks, problem     InstanceFacts; absent: the instance cannot be read
 //     omega, seed, time_limit_s      of the run
-//     solved                         it ended by itself with a plan that was re-checked: no limit
-//                                    struck
-//     status                         as in the plan file; or "error": it crashed, or Grove's plan is
-//                                    wrong; "unsuitable": the method is not for the instance; of
-//                                    other solvers "wrong": the plan is, "claimed": a cost without
-//                                    a plan
-//     cost, lower_bound, gap         of the plan that was re-checked; what Grove has proven; gap = (cost - lower bound) / lower bound
+//     solved                         it ended by itself, before any limit, with a plan that was
+//                                    re-checked; of what is anytime: it had one in time
+//     status                         as in the plan file; or "error": it crashed, or Grove's plan
+//                                    is wrong; "unsuitable": the method is not for the instance;
+//                                    of other solvers "feasible", or "wrong": the plan is none, or
+//                                    "claimed": a plan that is not shown
+//     cost                           of the plan that was re-checked
+//     lower_bound, gap               what Grove has proven; (cost - lower bound) / lower bound
 //     root_cost, sqr                 the sum of the agents' best sequences, conflicts ignored; its
 //                                    ratio to the cost, of what is solved
-//     runtime_s, wall_s              wall time, or the time limit when not solved, or when the first
-//                                    plan was found by what is anytime; wall time
+//     runtime_s                      the wall time; the time limit when not solved; of what is
+//                                    anytime when it found its first plan
+//     wall_s                         from the start of the process to its end
 //     first_plan_s                   when the first plan was found, as the run says
-//     roots, rtsp_calls, nodes, low_level_calls, peak_memory_mb     as the plan file has them
+//     roots, rtsp_calls, nodes, low_level_calls     as the plan file has them
+//     peak_memory_mb                 likewise; of other solvers as the system counted it
 //     version, machine, ended_at     of grove; processor and cores; UTC
 //     error                          why the status is error, or the limit that struck
 //     ranks, threads                 that worked together; threads of each
@@ -31,8 +34,8 @@
 //     solver                         what other solver it is: its adapter; absent: Grove itself
 //     claimed_cost, claimed_lower_bound, claimed_s     what that says of its plan, and of its time
 //     anytime                        it goes on until its time limit, which is no failure
-//     trace                          the plans on the way, as the run says: "0.25:120:100 1.5:118:-",
-//                                    seconds, cost, lower bound
+//     trace                          the plans on the way, as the run says, up to the one that was
+//                                    re-checked: "0.25:120:100 1.5:118:-", seconds, cost, bound
 // From counts on they are absent in older tables.
 #pragma once
 

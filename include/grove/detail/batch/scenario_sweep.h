@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grove/detail/batch/entry.h"
@@ -11,8 +12,8 @@
 namespace grove::detail::batch {
 
 struct ScenarioSweep {
-  std::vector<int> agents;        // rising
-  std::string scenarios = "*";    // which: a name without .scen, with * for anything
+  std::vector<int> agents;      // rising
+  std::string scenarios = "*";  // which: a name without .scen, with * for anything
 };
 
 struct SweptScenarios {
@@ -21,8 +22,8 @@ struct SweptScenarios {
 };
 
 // `place`: FILE.scen, or a folder with such files in it or below, as Moving AI's archives unpack.
-// The map that a scenario names is the file of that name in the folder or below it, or beside the
-// file. Throws InputError.
+// The map that a scenario names is the file of that name beside it, else the only one of that name
+// in the folder or below. Throws InputError.
 SweptScenarios read_scenarios(const std::filesystem::path& place, const ScenarioSweep& sweep);
 
 // Whether there are scenarios there, and no *.cts.json.

@@ -48,8 +48,8 @@ struct RecountedPlan {
   std::optional<Cost> claimed_lower_bound = {};
 };
 
-// read_plan_of_any_tool(), recounted. Where robots turn or tasks take time the claims stay, for
-// check() to refute. Throws as that does.
+// read_plan_of_any_tool(), recounted. Where robots turn or tasks take time the costs stay as they
+// are claimed, for check() to refute. Throws as that does.
 RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

@@ -21,7 +21,9 @@ enum class SolverInput : std::uint8_t {
   kMgcbs,           // {instance}, YAML with lists of goals: MG-MAPF
 };
 
-// A line of text that tells something: the last one in which the expression is found.
+// A line of text that tells something: the last one in which the expression is found. (Of lines
+// longer than kLongestLine their beginning: a path is no claim, and libstdc++ recurses.)
+inline constexpr std::size_t kLongestLine = 4096;
 struct LinePattern {
   std::string file;   // a template; empty: what the program printed
   std::string regex;  // ECMAScript
@@ -44,9 +46,9 @@ struct TracePattern {
 };
 
 struct SolverAdapter {
-  std::string name;     // letters, digits and -_.+=
-  std::string about;    // for people
-  std::string command;  // a template; {program} is the program
+  std::string name;                       // letters, digits and -_.+=
+  std::string about = {};                 // for people
+  std::vector<std::string> command = {};  // templates; {program} is the program
   SolverInput input = SolverInput::kMovingAi;
   std::string plan = "{output}";  // a template: the file with its paths; empty: it writes none
   bool anytime = false;           // it goes on until its time limit: that is no failure
@@ -65,13 +67,19 @@ struct SolverAdapter {
 SolverAdapter read_solver(const std::filesystem::path& path);
 SolverAdapter parse_solver(std::string_view text, const std::string& name);
 
+// What such a command must name to be told the instance. A complaint; empty: it does.
+std::string input_mistake(SolverInput input, const std::vector<std::string>& command);
+// Whether a template of `command` holds {name}.
+bool names(const std::vector<std::string>& command, std::string_view name);
+
 // A command line as words: blanks part them but within '...' or "...". None: a quote is not closed.
 std::optional<std::vector<std::string>> command_words(std::string_view text);
 
-// The names in braces of a template, and the template with these replaced. `value` is asked for
-// each. What is wrong with `text`, an unknown name say, as a complaint; empty: nothing.
-std::vector<std::string> placeholders(std::string_view text);
+// What is wrong with a template, an unknown name in braces say, as a complaint; empty: nothing.
 std::string template_mistake(std::string_view text);
+// What is wrong with a regular expression, or that it has fewer groups than that; likewise.
+std::string regex_mistake(const std::string& text, std::size_t groups);
+// A template without mistakes, its names in braces replaced by what `value` says of each.
 template <typename Value>
 std::string filled(std::string_view text, const Value& value) {
   std::string result;

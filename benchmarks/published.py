@@ -1,0 +1,252 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What the paper publishes beside what came out here, as Markdown.
+
+    published.py           prints its statements and what our runs say of each, its study of omega (both are in
+                           docs/researchers.md), and every cell of its comparison (results/paper/cells.md)
+    published.py --write   puts the tables into these pages
+
+Our runs are results/paper/results.csv, what it says is results/paper/published.csv. Nothing is typed in here.
+"""
+import argparse
+import csv
+import functools
+import re
+import statistics
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+PAPER = HERE / "results/paper"
+GUIDE = HERE.parent / "docs/researchers.md"
+sys.path[:0] = [str(HERE), str(HERE.parent / "tools/report")]
+
+from grove_report.metrics import best_costs, by_cell, measures_by_line  # noqa: E402
+from grove_report.rows import read_results  # noqa: E402
+from harness import tables  # noqa: E402
+
+EXACT = ("optimal-cbs", "hcbs", "mgcbs")
+BASELINES = (*EXACT, "s-cbs")
+A, B, C = ADAPTATIONS = ("cts-cbs-a", "cts-cbs-b", "cts-cbs-c")
+NAMES = {"auto": "Grove", A: "A", B: "B", C: "C", "optimal-cbs": "Optimal-CBS", "hcbs": "HCBS", "mgcbs": "MGCBS",
+         "s-cbs": "S-CBS"}
+SIMILAR = 0.1  # of success rates
+OMEGAS = ("0", "0.01", "0.1", "inf")
+
+
+def published():
+    with (PAPER / "published.csv").open(encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def our_rows():
+    return read_results([str(PAPER / "results.csv")]).rows
+
+
+def comparison(rows):
+    """{cell: {method: Measures}} of MG-MAPF."""
+    rows = [row for row in rows if row.problem == "mg"]
+    return {cell: {line.method: measures for line, measures in lines.items()}
+            for cell, lines in by_cell(rows, best_costs(rows)).items()}
+
+
+def study(rows):
+    """{(method, omega): Measures}: CTS-MAPF on rooms with 5 agents."""
+    rows = [row for row in rows if row.problem == "cts"]
+    return {(line.method, line.omega): measures for line, measures in measures_by_line(rows, best_costs(rows)).items()}
+
+
+def said(cell):
+    return f"{cell.map.split('-')[0]}, N = {cell.agents}, M = {cell.tasks}"
+
+
+def percent(share):
+    return f"{100 * share:.0f} %"
+
+
+def seconds(value):
+    return f"{value:.3f}" if value < 1 else f"{value:.2f}"
+
+
+def pairs(cells, firsts, others):
+    """(cell, method, its measures, other method, its measures) of all cells."""
+    return [(cell, first, lines[first], second, lines[second]) for cell, lines in cells.items()
+            for first in firsts for second in others]
+
+
+def largest(cells, ratio):
+    """The largest ratio of an adaptation to a baseline, and where; the first of several."""
+    found = [(ratio(one, other), cell, name, second)
+             for cell, name, one, second, other in pairs(cells, ADAPTATIONS, BASELINES) if one.solved and other.solved]
+    value, cell, name, second = max(found, key=lambda each: each[0])
+    return f"{value:.0f} times at most ({said(cell)}: {NAMES[name]} against {NAMES[second]})"
+
+
+def success_ratio(cells):
+    return largest(cells, lambda a, b: a.success / b.success)
+
+
+def speed_up(cells):
+    return largest(cells, lambda a, b: b.mean_runtime_s / a.mean_runtime_s)
+
+
+def losses(cells, methods, baselines):
+    """How much of a baseline's mean SQR is lost, where both solve something."""
+    return [(1 - one.mean_sqr / other.mean_sqr, cell, method)
+            for cell, method, one, _, other in pairs(cells, methods, baselines) if one.solved and other.solved]
+
+
+def quality_loss(cells):
+    loss, cell, method = max(losses(cells, ADAPTATIONS, BASELINES))
+    return f"{100 * loss:.1f} % at most ({said(cell)}: {NAMES[method]})"
+
+
+def quality_a(cells):
+    found = [loss for loss, _, _ in losses(cells, [A], EXACT)]
+    return f"{100 * min(found):.1f} to {100 * max(found):.1f} % less, in the median {100 * statistics.median(found):.1f} %"
+
+
+def of(cells, is_true):
+    return f"{sum(map(is_true, cells.values()))} of {len(cells)} cells"
+
+
+def rooms(cells):
+    return {cell: lines for cell, lines in cells.items() if cell.map.startswith("room")}
+
+
+def best_success(lines):
+    return max(lines[method].success for method in BASELINES)
+
+
+def room_success_a(cells):
+    some = {cell: lines for cell, lines in rooms(cells).items() if max(best_success(lines), lines[A].success) > 0}
+    higher, lower = (sum(sign * (lines[A].success - best_success(lines)) > 0 for lines in some.values()) for sign in (1, -1))
+    return f"than all: {higher} of the {len(some)} cells in which A or a baseline solves any; lower than the best: {lower}"
+
+
+def fastest(lines):
+    return min(lines[method].mean_runtime_s for method in BASELINES)
+
+
+def room_runtime_a(cells):
+    ratios = [fastest(lines) / lines[A].mean_runtime_s for lines in rooms(cells).values()]
+    return f"than the fastest: {of(rooms(cells), lambda lines: lines[A].mean_runtime_s < fastest(lines))}, " \
+        f"{max(ratios):.1f} times at most"
+
+
+def success_b(cells):
+    ratios = [lines[B].success / best_success(lines) for lines in cells.values() if best_success(lines)]
+    none = sum(not best_success(lines) and lines[B].success > 0 for lines in cells.values())
+    return f"of the best baseline's: {min(ratios):.1f} to {max(ratios):.1f} times, in the median {statistics.median(ratios):.1f} " \
+        f"times; in {none} cells B alone solves any"
+
+
+def runtime_b(cells):
+    ratios = [fastest(lines) / lines[B].mean_runtime_s for lines in cells.values()]
+    return f"than the fastest baseline's: ten times and more in {sum(ratio >= 10 for ratio in ratios)} of {len(ratios)} cells, " \
+        f"{max(ratios):.0f} times at most"
+
+
+def quality_b(cells):
+    least, cell = min((lines[B].mean_sqr, cell) for cell, lines in cells.items() if lines[B].solved)
+    return f"at least {least:.2f} ({said(cell)})"
+
+
+def success_c(cells):
+    return f"within 10 points: {of(cells, lambda lines: abs(lines[C].success - lines[B].success) <= SIMILAR)}"
+
+
+def runtime_c(cells):
+    def is_between(lines):
+        low, middle, high = (lines[method].mean_runtime_s for method in (B, C, A))
+        return low <= middle <= high
+    return of(cells, is_between)
+
+
+def quality_c(cells):
+    """Of the easiest and the hardest third of the cells, by A's success: mean distance of C's SQR to A's and to B's."""
+    both = sorted(((lines[A].success, lines) for lines in cells.values() if lines[A].solved and lines[B].solved and lines[C].solved),
+                  key=lambda entry: -entry[0])
+    third = max(1, len(both) // 3)
+    parts = []
+    for name, part in (("easiest", both[:third]), ("hardest", both[-third:])):
+        means = [statistics.fmean(lines[method].mean_sqr for _, lines in part) for method in (A, C, B)]
+        parts.append(f"{name} third A {means[0]:.3f}, C {means[1]:.3f}, B {means[2]:.3f}")
+    return "; ".join(parts)
+
+
+def conditions(rows):
+    limits, machines = ({getattr(row, name) for row in rows} for name in ("time_limit_s", "machine"))
+    return {"time-limit": " and ".join(f"{limit:g} s" for limit in sorted(limits)),
+            "scenarios": f"{len({row.scenario for row in rows})} of each map",
+            "machine": "; ".join(sorted(machines)) + ", one for a run", "rtsp": "dynamic programming"}
+
+
+CLAIMS = {"success-ratio": success_ratio, "speed-up": speed_up, "quality-loss": quality_loss, "quality-a": quality_a,
+          "room-success-a": room_success_a, "room-runtime-a": room_runtime_a, "success-b": success_b,
+          "runtime-b": runtime_b, "quality-b": quality_b, "success-c": success_c, "runtime-c": runtime_c,
+          "quality-c": quality_c}
+
+
+def claims_table(rows):
+    cells = comparison(rows)
+    ours = conditions(rows) | {name: claim(cells) for name, claim in CLAIMS.items()}
+    return tables.table(["where", "published", "here"],
+                        [[each["where"], each["published"], ours[each["claim"]]] for each in published()
+                         if each["claim"] in ours])
+
+
+def omega_table(rows):
+    measured = study(rows)
+    found = [measured[f"cts-cbs_{omega}", omega] for omega in OMEGAS] + [measured["auto", "0"]]
+    shown = {"omega-success": ("success rate", lambda one: percent(one.success)),
+             "omega-runtime": ("mean runtime, s", lambda one: seconds(one.mean_runtime_s)),
+             "omega-quality": ("mean SQR, of all solved", lambda one: f"{one.mean_sqr:.4f}"),
+             "omega-roots": ("roots, mean", lambda one: f"{one.mean_roots:,.0f}"),
+             "omega-rtsp-calls": ("rTSP calls, mean", lambda one: f"{one.mean_rtsp_calls:,.0f}")}
+    return tables.table(["", "published", *[f"omega {omega}" for omega in OMEGAS], "Grove, omega 0"],
+                        [[shown[each["claim"]][0], each["published"], *map(shown[each["claim"]][1], found)]
+                         for each in published() if each["claim"] in shown])
+
+
+MEASURES = {"cells, success": lambda one: f"{100 * one.success:.0f}",
+            "cells, runtime": lambda one: seconds(one.mean_runtime_s),
+            "cells, quality": lambda one: f"{one.mean_sqr:.3f}" if one.solved else "-"}
+
+
+def cells_table(rows, shown):
+    return tables.table(["map", "N", "M", *NAMES.values()],
+                        [[cell.map, cell.agents, cell.tasks, *[shown(lines[method]) for method in NAMES]]
+                         for cell, lines in comparison(rows).items()])
+
+
+PARTS = {"claims": (claims_table, GUIDE), "omega": (omega_table, GUIDE)} | {
+    name: (functools.partial(cells_table, shown=shown), PAPER / "cells.md") for name, shown in MEASURES.items()}
+
+
+def marked(name):
+    """The place of a table in a page."""
+    return re.compile(rf"(<!-- published\.py {name} -->\n).*?(?=\n<!-- end -->)", re.S)
+
+
+def write(rows):
+    for name, (table, page) in PARTS.items():
+        text = page.read_text(encoding="utf-8")
+        new, times = marked(name).subn(lambda found: found.group(1) + table(rows), text)
+        if times != 1:
+            sys.exit(f"published.py: error: {page}: {times} places for the table '{name}'; expected one")
+        page.write_text(new, encoding="utf-8")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true")
+    if parser.parse_args().write:
+        write(our_rows())
+    else:
+        rows = our_rows()
+        print("\n\n".join(f"{name}:\n\n{table(rows)}" for name, (table, _) in PARTS.items()))
+
+
+if __name__ == "__main__":
+    main()

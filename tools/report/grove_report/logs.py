@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT
+"""Logs of single runs, as `grove solve --log-format jsonl` writes them: bound and best plan over time.
+
+The first line tells a log from results, so that a folder may hold both.
+"""
+import json
+from pathlib import Path
+from typing import NamedTuple, Optional
+
+from .rows import BadInput, printable, results_in
+
+
+class Moment(NamedTuple):
+    """Where a run stands from this time on."""
+    seconds: float
+    cost: Optional[int]  # of its best plan
+    bound: Optional[int]
+
+
+class Run(NamedTuple):
+    name: str        # of the file, without its end
+    instance: str    # as the log names it
+    agents: Optional[int]
+    options: str
+    status: str      # "": the log ends before the run
+    end_s: float
+    moments: list    # by time; each tells something new
+
+
+def _first_line(path):
+    try:
+        with path.open("rb") as file:
+            return json.loads(file.readline(1 << 20))
+    except (OSError, ValueError, RecursionError):
+        return None
+
+
+def is_log(path):
+    found = _first_line(path) if path.suffix == ".jsonl" and path.is_file() else None
+    return isinstance(found, dict) and "event" in found
+
+
+def parted(arguments):
+    """(those that are or hold results, paths of logs). A folder is its results and the logs in it."""
+    results, logs = [], []
+    for argument in arguments:
+        path = Path(argument)
+        if is_log(path):
+            logs.append(path)
+            continue
+        inside = sorted(filter(is_log, path.iterdir())) if path.is_dir() else []
+        logs += inside
+        if not inside or results_in(path):
+            results.append(argument)
+    return results, list(dict.fromkeys(logs))
+
+
+def _value(event, key, kinds, expected, place):
+    value = event.get(key)
+    if value is None or (isinstance(value, kinds) and not isinstance(value, bool) and value >= 0):
+        return value
+    raise BadInput(f"{place}, {key}: found '{json.dumps(value)[:60]}'; expected {expected}")
+
+
+def _moment(event, place):
+    """None: the event says nothing of the kind."""
+    seconds = _value(event, "time_s", (int, float), "a number of at least 0", place)
+    if seconds is None or not {"incumbent", "lower_bound"} & event.keys():
+        return None
+    return Moment(float(seconds), *(_value(event, key, int, "an integer of at least 0", place)
+                                    for key in ("incumbent", "lower_bound")))
+
+
+def _last(event, place):
+    """(the moment of a summary, its status)"""
+    stats = event.get("stats") if isinstance(event.get("stats"), dict) else {}
+    found = {"time_s": stats.get("wall_s"), "incumbent": event.get("cost"), "lower_bound": event.get("lower_bound")}
+    status = event.get("status")
+    return _moment(found, place), status if isinstance(status, str) else ""
+
+
+def _without_repeats(moments):
+    kept = []
+    for moment in sorted(moments, key=lambda moment: moment.seconds):
+        if not kept or moment[1:] != kept[-1][1:]:
+            kept.append(moment)
+    return kept
+
+
+def _events(path):
+    """(place, event) of each line but one that is cut off at the end."""
+    try:
+        lines = path.read_text(encoding="utf-8").split("\n")
+    except UnicodeDecodeError as error:
+        raise BadInput(f"{path}: byte {error.start}: not UTF-8 text") from None
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
+    for number, line in enumerate(lines, 1):
+        if not line.strip():
+            continue
+        place = f"{path}: line {number}"
+        try:
+            event = json.loads(line)
+        except (ValueError, RecursionError):
+            if number == len(lines):
+                return
+            raise BadInput(f"{place}: not JSON; expected one object a line") from None
+        if not isinstance(event, dict):
+            raise BadInput(f"{place}: expected a JSON object")
+        yield place, event
+
+
+def _told(header, key):
+    value = header.get(key)
+    return printable(value) if isinstance(value, str) else ""
+
+
+def read_log(path):
+    header, moments, status, end = {}, [], "", 0.0
+    for place, event in _events(path):
+        if event.get("event") == "header":
+            header = event
+            continue
+        if event.get("event") == "summary":
+            moment, status = _last(event, place)
+        else:
+            moment = _moment(event, place)
+        if moment:
+            moments.append(moment)
+            end = max(end, moment.seconds)
+    agents = header.get("agents")
+    return Run(printable(path.stem), _told(header, "instance"), agents if isinstance(agents, int) else None,
+               _told(header, "options"), status, end, _without_repeats(moments))

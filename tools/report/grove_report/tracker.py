@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: MIT
+"""MAPF Tracker (tracker.pathfinding.ai), an archive of the best plans and bounds for the Moving AI scenarios: its
+rows out, and its best known costs and bounds in."""
+import csv
+import io
+import json
+import re
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import NamedTuple, Optional
+
+from .groups import grouped
+from .lines import line_of
+from .metrics import best_bounds, has_plan
+from .plans import BadPlan, motion_string, read_plan, recounted
+from .rows import BadInput
+
+MAPS = frozenset("""\
+Berlin_1_256 Boston_0_256 Paris_1_256 brc202d den312d den520d empty-16-16 empty-32-32 empty-48-48 empty-8-8 ht_chantry
+ht_mansion_n lak303d lt_gallowstemplar_n maze-128-128-1 maze-128-128-10 maze-128-128-2 maze-32-32-2 maze-32-32-4
+orz900d ost003d random-32-32-10 random-32-32-20 random-64-64-10 random-64-64-20 room-32-32-4 room-64-64-16
+room-64-64-8 w_woundedcoast warehouse-10-20-10-2-1 warehouse-10-20-10-2-2 warehouse-20-40-10-2-1
+warehouse-20-40-10-2-2""".split())
+SCENARIO = re.compile(r"(.+)-(even|random)-([0-9]{1,6})")
+COLUMNS = ["map_name", "scen_type", "type_id", "agents", "lower_cost", "solution_cost", "flip_up_down", "solution_plan"]
+ABSENT = ("", "null", "undefined", None)  # as its downloads have it
+
+
+class Place(NamedTuple):
+    """Which instance: so many rows of a scenario."""
+    map: str
+    type: str
+    number: int
+    agents: int
+
+
+def place_of(row):
+    """None: by its name it is the beginning of no Moving AI scenario."""
+    name = row.instance.rsplit("/", 1)[-1]
+    found = SCENARIO.fullmatch(name.removesuffix(f"-{row.agents}"))
+    if row.problem != "mapf" or not name.endswith(f"-{row.agents}") or not found or found[1] != row.map:
+        return None
+    return Place(row.map, found[2], int(found[3]), row.agents) if row.map in MAPS else None
+
+
+# --- out ---
+
+class Submission(NamedTuple):
+    text: str
+    rows: int
+    left_out: Counter  # {why: number of runs}
+
+
+def _lower_bound(rows, cost):
+    """The highest that is not refuted; proven here, or else as the solver says. None: none."""
+    bounds = [bound for row in rows if row.bounds_every_plan for bound in (row.lower_bound, row.claimed_lower_bound)
+              if bound is not None and bound <= cost]
+    return max(bounds, default=None)
+
+
+def _best_plan(rows, left_out):
+    """(cost, motion strings) of the cheapest plan that still is what the row says; None: there is none."""
+    for row in sorted(rows, key=lambda row: (row.cost, row.seed or 0)):
+        try:
+            paths = read_plan(Path(row.plan_file), row.agents)
+            cost = recounted(paths)
+            if cost != row.cost:
+                raise BadPlan(f"costs {cost}; expected {row.cost}, as the row says")
+            return row.cost, [motion_string(path) for path in paths]
+        except BadPlan as error:
+            left_out[f"{row.plan_file}: {error}"] += 1
+    return None
+
+
+def _why_not(row):
+    if row.problem != "mapf":
+        return "not classical MAPF"
+    if place_of(row) is None:
+        return "of no scenario of the Moving AI benchmark, by map and name (MAP-even-N-AGENTS, MAP-random-N-AGENTS)"
+    if not has_plan(row):
+        return f"without a checked plan (status {row.status})"
+    return "" if row.plan_file else "without a plan file (grove bench --keep-plans)"
+
+
+def submission(rows, best):
+    """The CSV of one method's rows, the cheapest plan of each instance. `best`: best_costs() of all rows there are, to
+    leave out bounds above them."""
+    left_out = Counter()
+    fit = []
+    for row in rows:
+        why = _why_not(row)
+        left_out[why] += bool(why)
+        fit += [] if why else [row]
+    file = io.StringIO(newline="")
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    count = 0
+    for place, group in sorted(grouped(fit, place_of).items()):
+        found = _best_plan(group, left_out)
+        if not found:
+            continue
+        cost, motions = found
+        bound = _lower_bound(group, min(best[row.problem, row.instance] for row in group))
+        writer.writerow([*place, "" if bound is None else bound, cost, "FALSE", "\n".join(motions)])
+        left_out["beside a cheaper plan of the same instance"] += len(group) - 1
+        count += 1
+    return Submission(file.getvalue(), count, +left_out)
+
+
+# --- in ---
+
+class Known(NamedTuple):
+    bound: Optional[int]
+    cost: Optional[int]
+
+
+def _named(path):
+    """What the name of a file says of its rows: MAP.csv, MAP-even-3.csv."""
+    found = SCENARIO.fullmatch(path.stem)
+    return {"map_name": found[1], "scen_type": found[2], "type_id": found[3]} if found else {"map_name": path.stem}
+
+
+def _whole(value, place, column):
+    if value in ABSENT:
+        return None
+    if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
+        return value
+    if isinstance(value, str) and value.isascii() and value.isdigit() and len(value) <= 15:
+        return int(value)
+    raise BadInput(f"{place}, {column}: found '{str(value)[:40]}'; expected an integer of at least 0")
+
+
+def _known_row(found, place):
+    """(Place, Known)"""
+    for column in ("map_name", "scen_type", "type_id", "agents"):
+        if found.get(column) in ABSENT:
+            raise BadInput(f"{place}: no {column}; expected the columns of a download of MAPF Tracker, "
+                           "or a file named MAP.csv or MAP-TYPE-NUMBER.csv")
+    numbers = {column: _whole(found.get(column), place, column)
+               for column in ("type_id", "agents", "lower_cost", "solution_cost")}
+    return (Place(str(found["map_name"]), str(found["scen_type"]), numbers["type_id"], numbers["agents"]),
+            Known(numbers["lower_cost"], numbers["solution_cost"]))
+
+
+def _csv_rows(path, text):
+    csv.field_size_limit(min(sys.maxsize, 2**31 - 1))  # plans of a thousand agents are long
+    reader = csv.DictReader(io.StringIO(text, newline=""), strict=True)
+    try:
+        header = reader.fieldnames or []
+        for column in ("agents", "lower_cost", "solution_cost"):
+            if column not in header:
+                raise BadInput(f"{path}: line 1: no column {column}; expected the columns of a download of MAPF Tracker")
+        for row in reader:
+            yield f"{path}: line {reader.line_num}", row
+    except csv.Error as error:
+        raise BadInput(f"{path}: line {reader.line_num}: not CSV: {error}") from None
+
+
+def _json_rows(path, text):
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError):
+        raise BadInput(f"{path}: not JSON; expected a list of objects") from None
+    for number, row in enumerate(found if isinstance(found, list) else [found], 1):
+        if not isinstance(row, dict):
+            raise BadInput(f"{path}: entry {number}: expected an object")
+        yield f"{path}: entry {number}", row
+
+
+def _files(argument):
+    path = Path(argument)
+    if not path.exists():
+        raise BadInput(f"{path}: there is no such file or folder")
+    files = sorted(each for each in path.iterdir() if each.suffix in (".csv", ".json")) if path.is_dir() else [path]
+    if not files or files[0].suffix not in (".csv", ".json"):
+        raise BadInput(f"{path}: expected a .csv or .json of MAPF Tracker, or a folder with some")
+    return files
+
+
+def _better(one, other):
+    return Known(max((bound for bound in (one.bound, other.bound) if bound is not None), default=None),
+                 min((cost for cost in (one.cost, other.cost) if cost is not None), default=None))
+
+
+def read_known(arguments):
+    """{Place: Known} of all files."""
+    known = {}
+    for path in (path for argument in arguments for path in _files(argument)):
+        try:
+            text = path.read_text(encoding="utf-8-sig")
+        except UnicodeDecodeError as error:
+            raise BadInput(f"{path}: byte {error.start}: not UTF-8 text") from None
+        except OSError as error:
+            raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
+        for place, row in (_json_rows if path.suffix == ".json" else _csv_rows)(path, text):
+            key, found = _known_row(_named(path) | {name: value for name, value in row.items() if value not in ABSENT},
+                                    place)
+            known[key] = _better(found, known.get(key, Known(None, None)))
+    return known
+
+
+class Comparison(NamedTuple):
+    """A line's best of an instance against what is known."""
+    instance: str
+    place: Place
+    known: Known
+    line: object
+    cost: Optional[int]   # of the cheapest checked plan
+    bound: Optional[int]  # the highest proven
+
+    @property
+    def cost_ratio(self):
+        return self.cost / self.known.cost if self.cost is not None and self.known.cost else None
+
+    @property
+    def better_plan(self):
+        return None not in (self.cost, self.known.cost) and self.cost < self.known.cost
+
+    @property
+    def higher_bound(self):
+        return None not in (self.bound, self.known.bound) and self.bound > self.known.bound
+
+    @property
+    def closes(self):
+        """Proves the optimum, where the archive does not know it."""
+        is_open = self.known.cost is None or self.known.bound is None or self.known.bound < self.known.cost
+        best = min(cost for cost in (self.cost, self.known.cost) if cost is not None) \
+            if (self.cost, self.known.cost) != (None, None) else None
+        return is_open and None not in (best, self.bound) and self.bound == best
+
+
+def known_of(rows, known):
+    """{(problem, instance): Known} of the instances that the archive knows."""
+    places = {(row.problem, row.instance): place_of(row) for row in rows}
+    return {key: known[place] for key, place in places.items() if place in known}
+
+
+def comparisons(rows, known):
+    """Of all rows whose instance is known; `known`: read_known()."""
+    found = []
+    groups = grouped(rows, lambda row: (row.problem, row.instance, line_of(row)))
+    for (_, instance, line), group in groups.items():
+        place = place_of(group[0])
+        if place not in known:
+            continue
+        found.append(Comparison(instance, place, known[place], line,
+                                min((row.cost for row in group if has_plan(row)), default=None),
+                                next(iter(best_bounds(group).values()), None)))
+    return sorted(found, key=lambda each: (each.place, each.line))
