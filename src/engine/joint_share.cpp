@@ -12,7 +12,6 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kStatesAtOnce = 16;
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 
 std::size_t most_bytes(const Limits& limits) {
@@ -40,7 +39,7 @@ Cost JointShare::step(Cost cutoff, const Limits& limits) {
   auto outcome = JointSearch::Outcome::kWorking;
   for (const std::int64_t end = search_->work() + tuning_.joint_step_work;
        search_->work() < end && outcome == JointSearch::Outcome::kWorking;)
-    outcome = search_->run(kStatesAtOnce, cutoff, limits);
+    outcome = search_->run(1, cutoff, limits);
   over_ = outcome != JointSearch::Outcome::kWorking;
   return search_->lower_bound();
 }
