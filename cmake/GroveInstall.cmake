@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
-# What `cmake --install` installs. Components: libraries, development, programs.
+# What `cmake --install` installs. Components: libraries, mpi_libraries, development, python, programs;
+# each is a package (GrovePackage.cmake).
 include(CMakePackageConfigHelpers)
 
 install(TARGETS grove_library EXPORT groveTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT development)
 if(GROVE_WITH_MPI)
   install(TARGETS grove_mpi_library EXPORT groveMpiTargets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT development)
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT mpi_libraries NAMELINK_COMPONENT development)
 else()
   set(grove_no_mpi PATTERN mpi.hpp EXCLUDE)
 endif()
@@ -79,6 +80,11 @@ if(GROVE_WITH_MPI)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bench/solvers
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/smoke-test
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/benchmarks/data/
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT programs
+  FILES_MATCHING PATTERN "*.map" PATTERN "*.scen" PATTERN "*.json")
 # What `grove report` and others become lies apart: nobody calls it by itself. There is a grove beside
 # it for what calls that.
 set(grove_companions ${CMAKE_INSTALL_LIBEXECDIR}/grove)

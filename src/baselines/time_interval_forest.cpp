@@ -91,13 +91,14 @@ void TimeIntervalForest::reach_by_move(Tree& tree, Cell from, std::int32_t next)
   const Time end = before(piece.end);
   Time begin = std::max(0, piece.begin - 1);
   const auto move = [](const BarredMove& m) { return std::pair(m.to, m.from); };
-  for (const BarredMove& m :
-       std::ranges::equal_range(barred_moves_, std::pair(piece.cell, from), {}, move)) {
-    if (m.end - 1 < begin) continue;
-    if (m.begin - 1 > end) break;
-    cover(tree, from, begin, m.begin - 2, next);
-    if (m.end >= kNever) return;
-    begin = m.end;
+  const std::pair wanted(piece.cell, from);
+  for (auto m = std::ranges::lower_bound(barred_moves_, wanted, {}, move);
+       m != barred_moves_.end() && move(*m) == wanted; ++m) {
+    if (m->end - 1 < begin) continue;
+    if (m->begin - 1 > end) break;
+    cover(tree, from, begin, m->begin - 2, next);
+    if (m->end >= kNever) return;
+    begin = m->end;
   }
   cover(tree, from, begin, end, next);
 }

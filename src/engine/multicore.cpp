@@ -110,7 +110,7 @@ std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers)
       if (turn) units.push_back({workers[w].get(), std::move(*turn)});
     }
   // They take longest. Who performs them is one and the same for all that matters.
-  std::ranges::stable_partition(units, &Unit::is_primal);
+  std::stable_partition(units.begin(), units.end(), [](const Unit& u) { return u.is_primal(); });
   return units;
 }
 

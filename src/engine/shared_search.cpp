@@ -96,7 +96,7 @@ void SharedSearch::finish(const NodePtr& node, Expansion expansion, int worker) 
 void SharedSearch::keep_within_memory() {
   const std::unique_lock lock(keeping_, std::try_to_lock);
   if (!lock) return;
-  const std::size_t known = known_.load()->bytes();
+  const std::size_t known = memory()->bytes();
   if (shares_->is_short()) {
     shares_->cut(pool_.bytes(), known);
     evict_to(shares_->for_nodes());
@@ -105,8 +105,15 @@ void SharedSearch::keep_within_memory() {
   } else if (pool_.bytes() > shares_->for_nodes()) {
     evict_to(shares_->for_nodes() / 8 * 7);
   }
-  if (known > std::min(kMostKnown, shares_->for_expanders()))
-    known_.store(std::make_shared<CommonMemory>(CommonMemory::Successor{}));
+  if (known <= std::min(kMostKnown, shares_->for_expanders())) return;
+  auto next = std::make_shared<CommonMemory>(CommonMemory::Successor{});
+  const std::lock_guard lock_known(knowing_);  // the old memory is freed after it
+  known_.swap(next);
+}
+
+std::shared_ptr<CommonMemory> SharedSearch::memory() const {
+  const std::lock_guard lock(knowing_);
+  return known_;
 }
 
 // The best open node stays. Evicting a leaf frees those ancestors that no other node shares.
@@ -125,7 +132,7 @@ void SharedSearch::add_counts(Stats& stats) const {
 }
 
 MemoryUse SharedSearch::memory_use() const {
-  const auto known = known_.load();
+  const auto known = memory();
   return {.process = static_cast<std::int64_t>(resident_bytes()),
           .nodes = static_cast<std::int64_t>(pool_.bytes()),
           .prices = static_cast<std::int64_t>(known->situations.bytes()),

@@ -181,7 +181,7 @@ AgentPlan joined(const Instance& instance, AgentIndex agent, AgentPlan first, Ti
   first.cost = rest.cost > 0 ? time + rest.cost : finish(first);
   first.path.resize(static_cast<std::size_t>(first.cost) + 1, first.path.back());
   if (instance.rests_on_last_stop(agent))  // which may have been visited before
-    std::ranges::stable_partition(first.sequence, [&](TaskIndex task) {
+    std::stable_partition(first.sequence.begin(), first.sequence.end(), [&](TaskIndex task) {
       return instance.task(task).cell != instance.world().place(first.path.back());
     });
   return first;

@@ -63,7 +63,7 @@ std::vector<State> Instance::states_to_rest(AgentIndex agent) const {
   for (const TaskIndex task : a.tasks)
     if (!a.goal) places.push_back(tasks_[task].cell);
   std::ranges::sort(places);
-  places.erase(std::ranges::unique(places).begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   std::vector<State> states;
   for (const Place place : places)
     world_->for_each_state(place, [&](State state) {

@@ -139,7 +139,7 @@ void SafeIntervals::keep_traversal(const Constraint& c) {
 
 SafeIntervals::ChainUsed& SafeIntervals::chain_used(int chain) {
   const auto known = std::ranges::find(chains_used_, chain, &ChainUsed::chain);
-  return known != chains_used_.end() ? *known : chains_used_.emplace_back(chain);
+  return known != chains_used_.end() ? *known : chains_used_.emplace_back(ChainUsed{chain});
 }
 
 SafeIntervals::Group& SafeIntervals::group(Place place) {

@@ -127,7 +127,7 @@ bool Brancher::improve_by_sequences(Choice& choice, const Task& task) {
   for (const Conflict& c : view.conflicts())
     in_conflict_.insert(in_conflict_.end(), {c.first, c.second});
   std::ranges::sort(in_conflict_);
-  in_conflict_.erase(std::ranges::unique(in_conflict_).begin(), in_conflict_.end());
+  in_conflict_.erase(std::unique(in_conflict_.begin(), in_conflict_.end()), in_conflict_.end());
   for (AgentIndex agent : in_conflict_) {
     const auto split = planner_.sequence_split(agent, view.order(agent), view.constraints(agent),
                                                view.path(agent));

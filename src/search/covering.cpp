@@ -122,7 +122,7 @@ Cost solve_component(std::span<const GroupExcess* const> statements, std::int64_
   for (const GroupExcess* s : statements)
     agents.insert(agents.end(), s->agents.begin(), s->agents.end());
   std::ranges::sort(agents);
-  agents.erase(std::ranges::unique(agents).begin(), agents.end());
+  agents.erase(std::unique(agents.begin(), agents.end()), agents.end());
   std::vector<Statement> local;
   for (const GroupExcess* s : statements) {
     Statement& statement = local.emplace_back();

@@ -105,9 +105,9 @@ Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, NodeV
   std::vector<std::pair<AgentIndex, AgentIndex>> pairs;
   for (const Conflict& c : view.conflicts()) pairs.emplace_back(c.first, c.second);
   std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   const auto first = static_cast<std::ptrdiff_t>(share * static_cast<double>(pairs.size()));
-  std::ranges::rotate(pairs, pairs.begin() + first);
+  std::rotate(pairs.begin(), pairs.begin() + first, pairs.end());
   for (const auto& [a, b] : pairs) {
     Known known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
@@ -240,8 +240,10 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) {
   std::ranges::sort(statements, [](const GroupExcess& s, const GroupExcess& t) {
     return s.agents != t.agents ? s.agents < t.agents : s.excess > t.excess;
   });
-  const auto repeated = std::ranges::unique(statements, {}, &GroupExcess::agents);
-  statements.erase(repeated.begin(), repeated.end());
+  const auto repeats = [](const GroupExcess& s, const GroupExcess& t) {
+    return s.agents == t.agents;
+  };
+  statements.erase(std::unique(statements.begin(), statements.end(), repeats), statements.end());
 }
 
 void Dependencies::splits(NodeView& view, std::vector<Split>& splits) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <ranges>
 #include <utility>
 
 namespace grove::detail {
@@ -99,7 +98,8 @@ void Node::constraints(AgentIndex agent, std::vector<Constraint>& constraints) c
 void Node::constraints(std::vector<std::vector<Constraint>>& constraints) const {
   constraints.resize(tree_->orders.size());
   for (auto& list : constraints) list.clear();
-  const auto agents = std::views::iota(AgentIndex{0}, static_cast<AgentIndex>(constraints.size()));
+  std::vector<AgentIndex> agents(constraints.size());
+  std::iota(agents.begin(), agents.end(), AgentIndex{0});
   for (const Node* node = this; !node->is_root(); node = node->parent_.get())
     for_each_demand(node->added_, agents, [&](AgentIndex agent, const Constraint& demand) {
       constraints[agent].push_back(demand);

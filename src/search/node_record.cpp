@@ -2,7 +2,6 @@
 #include "grove/detail/search/node_record.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "require.h"
 

@@ -44,7 +44,7 @@ auto key_of(const Constraint& c) {
 
 void canonical(std::vector<Constraint>& constraints) {
   std::ranges::sort(constraints, {}, key_of);
-  constraints.erase(std::ranges::unique(constraints).begin(), constraints.end());
+  constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
 }
 
 Situations::Id Situations::id(AgentIndex agent, const AgentOrder& order,

@@ -197,6 +197,18 @@ class Installed(unittest.TestCase):
         for command in ("report", "toio", "vda5050"):  # programs of their own, which lie apart
             self.assertIn(f"grove {command}", run(program, command, "--help"))
 
+    def test_smoke(self):
+        said = run(self.prefix / "share/grove/smoke-test")
+        self.assertRegex(said, "(?m)^ok +solve$")
+        self.assertRegex(said, "(?m)^ok +library by CMake$")
+        broken = self.folder / "broken"  # whose grove says yes to everything
+        for name in ("bin", "share/grove"):
+            (broken / name).mkdir(parents=True)
+        shutil.copy(self.prefix / "share/grove/smoke-test", broken / "share/grove")
+        (broken / "bin/grove").symlink_to("/bin/true")
+        with self.assertRaisesRegex(AssertionError, "(?s)exit 1.*FAILED   check refuses a wrong plan"):
+            run(broken / "share/grove/smoke-test")
+
     def test_add_subdirectory(self):
         if not IS_LONG:
             self.skipTest("takes some minutes: --long")

@@ -18,6 +18,8 @@ struct Entry {
   std::string_view name;  // of --from and --to, or a suffix
   Format format;
 };
+template <typename Format>
+Entry(const char*, Format) -> Entry<Format>;  // clang 14 does not find it out
 
 constexpr std::array kInstanceNames = {
     Entry{"grove", InstanceFormat::kGrove}, Entry{"libmrp", InstanceFormat::kLibmrp},

@@ -48,7 +48,7 @@ class SharedSearch {
   // Gives up nodes, and what was found out, as memory demands.
   void keep_within_memory();
   // What was found out, for expanders to go on with.
-  std::shared_ptr<CommonMemory> memory() const { return known_.load(); }
+  std::shared_ptr<CommonMemory> memory() const;
 
   // Adds what was counted here to the answer's statistics.
   void add_counts(Stats& stats) const;
@@ -76,7 +76,9 @@ class SharedSearch {
 
   std::mutex keeping_;  // guards the shares
   const std::unique_ptr<MemoryShares> shares_;
-  std::atomic<std::shared_ptr<CommonMemory>> known_;
+
+  mutable std::mutex knowing_;
+  std::shared_ptr<CommonMemory> known_;  // under knowing_: GCC 11 has no std::atomic of these
 
   mutable std::mutex helping_;
   NodePtr unfinished_;  // under helping_
