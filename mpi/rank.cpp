@@ -203,8 +203,9 @@ void Rank::speak(double now) {
   if (ended_) return;
   message::Status status = this->status();
   send_found();
-  const bool at_once = urgent_ || status.bound != said_.bound || status.proven != said_.proven || status.stopped != said_.stopped ||
-                       status.idle != said_.idle || (status.live == 0) != (said_.live == 0);
+  const bool at_once = urgent_ || status.bound != said_.bound || status.proven != said_.proven ||
+                       status.stopped != said_.stopped || status.idle != said_.idle ||
+                       (status.live == 0) != (said_.live == 0);
   const bool has_more = !status.levels.empty() && spare(status) > 2 * spare(said_);
   const bool changed = status.expanded != said_.expanded || status.open != said_.open;
   if (!at_once && !has_more && !(changed && now >= said_at_ + pause(transport_.ranks()))) return;

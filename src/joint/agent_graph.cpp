@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Touching counts: whoever is on a stop with work done, or that takes no time, has it behind itself,
-// for with less left to do an agent can do all that it could with more. An agent without a
+// Touching counts: whoever is on a stop with work done, or that takes no time, has it behind
+// itself, for with less left to do an agent can do all that it could with more. An agent without a
 // destination rests on one of its own places with nothing left, whatever it visited last: moved to
 // the end of the order, that place is visited once more. Begun work that serves none of the stops
 // left is a wait, and that there is already.
@@ -53,7 +53,8 @@ class AgentGraphMaker {
   StopSet without_visited(State state, StopSet left) const {
     for (StopSet stops = left; stops != 0; stops &= stops - 1) {
       const int stop = std::countr_zero(stops);
-      if (instance_.is_visited(instance_.agent(agent_).stops[static_cast<std::size_t>(stop)], state))
+      if (instance_.is_visited(instance_.agent(agent_).stops[static_cast<std::size_t>(stop)],
+                               state))
         left &= ~(StopSet{1} << stop);
     }
     return left;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Backwards from all states in which everybody is at rest or may be, by Dijkstra's algorithm: a step
-// costs as many as are not at rest. What these agents cost at least is what any plan of more agents
-// pays for them.
+// Backwards from all states in which everybody is at rest or may be, by Dijkstra's algorithm: a
+// step costs as many as are not at rest. What these agents cost at least is what any plan of more
+// agents pays for them.
 #include "grove/detail/joint/group_table.h"
 
 #include <algorithm>
@@ -132,7 +132,8 @@ Value product(std::span<const std::size_t> members, Value (*of)(const AgentGraph
 
 std::size_t GroupTable::entries(std::span<const AgentGraph> agents,
                                 std::span<const std::size_t> members) {
-  return product<std::size_t>(members, [](const AgentGraph& a) { return a.count(); }, agents);
+  return product<std::size_t>(
+      members, [](const AgentGraph& a) { return a.count(); }, agents);
 }
 
 std::int64_t GroupTable::work(std::span<const AgentGraph> agents,

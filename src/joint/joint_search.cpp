@@ -3,23 +3,23 @@
 // costs as many as are not at rest. So a way costs the sum of the finish times. To rest for ever is
 // a decision: who could may as well go on, and pays for it.
 //
-// The estimate is the sum of what the agents cost alone, and of what groups of two or three cost more
-// together (group_table.h), groups that share no agent: of all ways to group agents the best. In any
-// plan each group pays at least that, so none is cheaper. States stand in the queue by cost and
-// estimate, their *layer*; the layers are emptied from the least on. On the way to any plan there is
-// always a state in the queue whose layer is no more than the plan's cost; so the layer that is being
-// emptied bounds all plans, and the first state taken with nothing left to pay for ends an optimal
-// one. (A state that is reached at less cost goes into the queue again, whatever became of it
-// before.) States whose layer reaches the cutoff are dropped, for plans through them cost as much; an
-// empty queue proves that no plan costs less than the cutoff - without one, none.
+// The estimate is the sum of what the agents cost alone, and of what groups of two or three cost
+// more together (group_table.h), groups that share no agent: of all ways to group agents the best.
+// In any plan each group pays at least that, so none is cheaper. States stand in the queue by cost
+// and estimate, their *layer*; the layers are emptied from the least on. On the way to any plan
+// there is always a state in the queue whose layer is no more than the plan's cost; so the layer
+// that is being emptied bounds all plans, and the first state taken with nothing left to pay for
+// ends an optimal one. (A state that is reached at less cost goes into the queue again, whatever
+// became of it before.) States whose layer reaches the cutoff are dropped, for plans through them
+// cost as much; an empty queue proves that no plan costs less than the cutoff - without one, none.
 //
-// Enhanced partial expansion (Goldenberg et al., JAIR 2014). A move's detour is what it adds to what
-// its agent costs alone, never less than 0. A state brings forth those next ones whose detours are
-// within the budget that its layer leaves, and goes back into the queue with the next budget that
-// there is: what costs more than the optimum even by the sum over agents is never made. Choosing
-// moves agent by agent, the next budget is the least sum above the budget of a beginning without
-// collisions: each can be gone on with without a detour, or else collides and comes again, for
-// nothing, with a greater one.
+// Enhanced partial expansion (Goldenberg et al., JAIR 2014). A move's detour is what it adds to
+// what its agent costs alone, never less than 0. A state brings forth those next ones whose detours
+// are within the budget that its layer leaves, and goes back into the queue with the next budget
+// that there is: what costs more than the optimum even by the sum over agents is never made.
+// Choosing moves agent by agent, the next budget is the least sum above the budget of a beginning
+// without collisions: each can be gone on with without a detour, or else collides and comes again,
+// for nothing, with a greater one.
 #include "grove/detail/joint/joint_search.h"
 
 #include <algorithm>
@@ -40,9 +40,9 @@ using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
 constexpr std::size_t kMostGrouped = 8;  // beyond, the best grouping takes too long to find
 constexpr std::size_t kMostEntries = std::size_t{1} << 18;  // of a table
-constexpr std::int64_t kMostTableWork = 4'000'000;         // of all; see search/work.h
+constexpr std::int64_t kMostTableWork = 4'000'000;          // of all; see search/work.h
 constexpr std::int64_t kStatesPerPoll = 256;
-constexpr std::int64_t kMadePerWork = 2;    // joint states; see search/work.h
+constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
 
 }  // namespace
 
@@ -190,7 +190,8 @@ class JointSearch::Search {
   }
   void grow() {
     slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), kNone);
-    for (Index state = 0; state < records_.size(); ++state) slots_[slot_of(nodes_of(state))] = state;
+    for (Index state = 0; state < records_.size(); ++state)
+      slots_[slot_of(nodes_of(state))] = state;
   }
   // Is it of use to reach a state at this cost? What is known already needs no estimate.
   void reach(const std::vector<Node>& nodes, Index parent, std::int32_t cost, std::int32_t alone) {
@@ -288,7 +289,8 @@ class JointSearch::Search {
     const std::int8_t who = from_on_[there];
     if (who == kNobody) return false;
     if (!instance_.may_follow()) return true;
-    return who < static_cast<std::int8_t>(agent) && place(static_cast<std::size_t>(who), to_) == here;
+    return who < static_cast<std::int8_t>(agent) &&
+           place(static_cast<std::size_t>(who), to_) == here;
   }
 
   // --- the plan ---
@@ -331,8 +333,8 @@ class JointSearch::Search {
   std::int64_t planned_work_ = 0;
   std::vector<GroupTable> tables_;
   std::vector<Grouping> groupings_;  // all that no group could be added to
-  std::vector<int> excess_;  // of the state being made, by table; one more, of none: 0
-  std::vector<Node> nodes_;  // by state, then agent
+  std::vector<int> excess_;          // of the state being made, by table; one more, of none: 0
+  std::vector<Node> nodes_;          // by state, then agent
   std::vector<Record> records_;
   std::vector<Index> slots_;  // a power of two
   std::vector<std::vector<Index>> layers_;
@@ -353,7 +355,7 @@ class JointSearch::Search {
   Time next_budget_ = kNever;
   std::vector<Node> from_;
   std::vector<Node> to_;
-  std::vector<Time> most_;  // detours of an agent and all after it
+  std::vector<Time> most_;            // detours of an agent and all after it
   std::vector<std::int8_t> from_on_;  // by place: the agent that is there
   std::vector<std::int8_t> to_on_;    // and that has chosen to be
 };
@@ -361,7 +363,7 @@ class JointSearch::Search {
 namespace {
 
 std::size_t most_nodes_within(double bits) {
-  return static_cast<std::size_t>(std::exp2(std::clamp(bits, 0.0, 16.0)));
+  return static_cast<std::size_t>(std::exp2(std::clamp(bits, 0.0, 12.0)));
 }
 
 }  // namespace
@@ -371,7 +373,9 @@ JointSearch::~JointSearch() = default;
 
 std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double most_bits,
                                                std::size_t most_bytes) {
-  if (instance.agent_count() > kMostAgents) return nullptr;
+  const double states_bits = std::log2(instance.world().state_count());
+  if (instance.agent_count() > kMostAgents || instance.agent_count() * states_bits > most_bits)
+    return nullptr;
   std::vector<AgentGraph> agents;
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     auto graph = AgentGraph::make(instance, agent, most_nodes_within(most_bits));

@@ -59,12 +59,13 @@ void solve_one(std::uint64_t seed, const Arguments& a, Tally& tally) {
   options.threads = a.threads;
   const auto began = Clock::now();
   Limits limits;
-  limits.set_deadline(began + std::chrono::microseconds(static_cast<std::int64_t>(a.seconds * 1e6)));
+  limits.set_deadline(began +
+                      std::chrono::microseconds(static_cast<std::int64_t>(a.seconds * 1e6)));
   const Solution solution = solve(instance, options, limits, nullptr);
   tally.seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
   const bool is_open =
       solution.status != Status::kOptimal && solution.status != Status::kInfeasible;
-  ++(is_open                                      ? tally.open
+  ++(is_open                                  ? tally.open
      : solution.status == Status::kInfeasible ? tally.infeasible
                                               : tally.solved);
   if (is_open)
@@ -85,10 +86,11 @@ int run(const Arguments& a) {
   const auto at = [&](double part) {
     return tally.seconds[static_cast<std::size_t>(part * static_cast<double>(a.count - 1))];
   };
-  fmt::print("{} puzzles: {} solved, {} infeasible, {} open; {} compared with the oracle, {} wrong\n"
-             "seconds: median {:.3f}, 95 % {:.3f}, worst {:.3f}\n",
-             a.count, tally.solved, tally.infeasible, tally.open, tally.compared, tally.wrong,
-             at(0.5), at(0.95), at(1));
+  fmt::print(
+      "{} puzzles: {} solved, {} infeasible, {} open; {} compared with the oracle, {} wrong\n"
+      "seconds: median {:.3f}, 95 % {:.3f}, worst {:.3f}\n",
+      a.count, tally.solved, tally.infeasible, tally.open, tally.compared, tally.wrong, at(0.5),
+      at(0.95), at(1));
   return tally.wrong > 0 || tally.open > a.most_open ? 1 : 0;
 }
 
@@ -99,10 +101,14 @@ int main(int argc, char** argv) {
   grove::detail::fuzz::Arguments a;
   CLI::App app("Small puzzles, decided in time and as the oracle has it?", "grove-puzzles");
   app.add_option("--count", a.count)->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--seed", a.seed, "of the first; each other one's is one more")->capture_default_str();
-  app.add_option("--seconds", a.seconds, "for each")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--seed", a.seed, "of the first; each other one's is one more")
+      ->capture_default_str();
+  app.add_option("--seconds", a.seconds, "for each")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--threads", a.threads)->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--oracle-states", a.oracle_states, "that the oracle may make")->capture_default_str();
+  app.add_option("--oracle-states", a.oracle_states, "that the oracle may make")
+      ->capture_default_str();
   app.add_option("--most-open", a.most_open, "so many may be left open")->capture_default_str();
   try {
     app.parse(argc, argv);

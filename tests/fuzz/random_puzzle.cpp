@@ -30,7 +30,8 @@ std::vector<std::string> corridors(int cells, Random& random) {
 }
 
 void shuffle(std::vector<Position>& cells, Random& random) {
-  for (std::size_t i = cells.size(); i > 1; --i) std::swap(cells[i - 1], cells[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  for (std::size_t i = cells.size(); i > 1; --i)
+    std::swap(cells[i - 1], cells[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
 // beyond.
 TEST(JointSearch, AgreesWithTheOracle) {
   int solved = 0, infeasible = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300)); ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
+       ++seed) {
     SCOPED_TRACE(seed);
     Instance instance = tiny_instance(seed).build();
     if (seed % 5 == 0) instance = instance.without_following();

@@ -54,7 +54,7 @@ class RunLog : public RunObserver {
   bool has_rows_ = false;
   bool survey_is_due_ = false;
   bool hears_expansions_ = false;
-  bool joint_raises_ = false;  // the bound, if it rises now
+  bool joint_raises_ = false;             // the bound, if it rises now
   RunEvent event_ = RunEvent::kProgress;  // the most telling one since the last row
   PlanSource source_ = PlanSource::kTree;
   std::string_view last_work_ = "sequences";    // what a bound that rises now rises by

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One agent alone in a small world: all that it can come to, numbered, and what it costs from there.
+// One agent alone in a small world: all that it can come to, numbered, and what it costs from
+// there.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@ namespace grove::detail {
 class AgentGraph {
  public:
   using Node = std::uint16_t;
-  static constexpr std::size_t kMostNodes = 1 << 16;
+  static constexpr std::size_t kMostNodes = 1 << 12;  // a larger world is no small one
 
   struct Move {
     Node to;

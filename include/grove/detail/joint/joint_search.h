@@ -20,7 +20,8 @@ class JointSearch {
  public:
   static constexpr int kMostAgents = 16;
 
-  // None: not for this method, since there are more agents or more than 2^`most_bits` joint states.
+  // None: not for this method, since there are more agents or more than 2^`most_bits` joint states,
+  // blocked cells counted.
   // `instance` must outlive it. `most_bytes`: that it may hold.
   static std::unique_ptr<JointSearch> make(const Instance& instance, double most_bits,
                                            std::size_t most_bytes);
@@ -31,7 +32,8 @@ class JointSearch {
     kEnded,     // there is no plan below the cutoff but plan(), if that is there
     kTooLarge,  // out of memory or stopped: nothing more will come
   };
-  // Looks at so many joint states, or makes a table that guides it. Plans that cost `cutoff` or more are of no interest.
+  // Looks at so many joint states, or makes a table that guides it. Plans that cost `cutoff` or
+  // more are of no interest.
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits);
 
   // Proven: no plan costs less, but those that cost the cutoff or more. kInfiniteCost: there is
