@@ -34,8 +34,9 @@ void Announcements::joint_bound(Cost lower_bound) {
   bound_locked(lower_bound);
 }
 
+// That there is no plan at all is told at the end.
 void Announcements::bound_locked(Cost lower_bound) {
-  if (lower_bound <= announced_bound_) return;
+  if (lower_bound <= announced_bound_ || lower_bound >= kInfiniteCost) return;
   const Progress progress = progress_();
   announced_bound_ = progress.lower_bound;
   tell(RunEvent::kBound, progress);

@@ -43,7 +43,9 @@ void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
   source_ = source;
 }
 
-void RunLog::on_event(RunEvent event, const Progress& progress) {
+void RunLog::on_event(RunEvent event, const Progress& told) {
+  Progress progress = told;
+  if (progress.lower_bound >= kInfiniteCost) progress.lower_bound = bound_;  // there is no plan
   if (telling(event) > telling(event_)) event_ = event;
   note_bound(progress);
   const bool news = event_ != RunEvent::kProgress || progress.nodes_expanded != last_row_nodes_;
