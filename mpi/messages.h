@@ -27,6 +27,8 @@ namespace grove::detail::message {
 struct Status {
   Cost bound = kInfiniteCost;
   Cost evicted_bound = kInfiniteCost;
+  Cost proven =
+      0;  // beside the nodes: no plan costs less, nor than the incumbent; see Ledger::prove
   std::int64_t live = 0;
   bool idle = true;  // no node that the end waits for: the incumbent is within w of those it has
   std::int64_t open = 0;

@@ -168,6 +168,7 @@ message::Status Rank::status() const {
   message::Status status;
   status.live = static_cast<std::int64_t>(nodes_.frontier.live());
   status.evicted_bound = nodes_.evicted_bound();
+  status.proven = ledger_.proven();
   status.bound = nodes_.bound();
   status.levels = nodes_.frontier.levels(kLevels);
   const bool has_open = !status.levels.empty();
@@ -202,8 +203,9 @@ void Rank::speak(double now) {
   if (ended_) return;
   message::Status status = this->status();
   send_found();
-  const bool at_once = urgent_ || status.bound != said_.bound || status.stopped != said_.stopped ||
-                       status.idle != said_.idle || (status.live == 0) != (said_.live == 0);
+  const bool at_once = urgent_ || status.bound != said_.bound || status.proven != said_.proven ||
+                       status.stopped != said_.stopped || status.idle != said_.idle ||
+                       (status.live == 0) != (said_.live == 0);
   const bool has_more = !status.levels.empty() && spare(status) > 2 * spare(said_);
   const bool changed = status.expanded != said_.expanded || status.open != said_.open;
   if (!at_once && !has_more && !(changed && now >= said_at_ + pause(transport_.ranks()))) return;

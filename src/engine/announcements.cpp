@@ -25,7 +25,18 @@ void Announcements::tell(RunEvent event, const Progress& progress) {
 
 void Announcements::bound(Cost lower_bound) {
   const std::lock_guard lock(mutex_);
-  if (lower_bound <= announced_bound_) return;
+  bound_locked(lower_bound);
+}
+
+void Announcements::joint_bound(Cost lower_bound) {
+  const std::lock_guard lock(mutex_);
+  if (lower_bound > announced_bound_) observer_.on_joint_bound();
+  bound_locked(lower_bound);
+}
+
+// That there is no plan at all is told at the end.
+void Announcements::bound_locked(Cost lower_bound) {
+  if (lower_bound <= announced_bound_ || lower_bound >= kInfiniteCost) return;
   const Progress progress = progress_();
   announced_bound_ = progress.lower_bound;
   tell(RunEvent::kBound, progress);

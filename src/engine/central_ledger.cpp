@@ -50,6 +50,11 @@ void CentralLedger::nodes_changed() {
   announcements_.bound(gate_.lower_bound());
 }
 
+void CentralLedger::prove(Cost bound) {
+  gate_.update(bound, bound);
+  announcements_.joint_bound(gate_.lower_bound());
+}
+
 void CentralLedger::add_counts(Stats& stats) const {
   const std::lock_guard lock(counting_);
   for (std::size_t source = 0; source < found_.size(); ++source) {

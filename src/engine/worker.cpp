@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grove/detail/engine/techniques_of.h"
+#include "joint_share.h"
 #include "primal_share.h"
 
 namespace grove::detail {
@@ -45,7 +46,10 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
       number_(number),
       expander_stops_(stops),
       primal_stops_(stops),
-      share_(std::make_unique<PrimalShare>(problem.instance.agent_count(), options.tuning)) {
+      share_(std::make_unique<PrimalShare>(problem.instance.agent_count(), options.tuning)),
+      joint_(std::make_unique<JointShare>(
+          problem.instance, options.tuning,
+          number == 0 && techniques_of(options).has(Technique::kJointSearch))) {
   // To expand the root can take long where there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
   share_->tree_worked(options.tuning.root_work_per_pair * agents * agents);
@@ -61,6 +65,7 @@ std::optional<Worker::Turn> Worker::choose() {
     return turn;
   };
   shared_.keep_within_memory();
+  if (joint_->due() && !shared_.over()) return one(Job::kJoint);
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
   if (has_primal && share_->may_begin() && share_->due(primal())) return one(Job::kPrimal);
   if (NodePtr node = shared_.take()) return one(Job::kExpand, std::move(node));
@@ -100,6 +105,8 @@ void Worker::perform(Turn& turn, Expander& by) {
       return step_primal(turn);
     case Turn::Job::kPrepare:
       return shared_.trees().prepare_tree();
+    case Turn::Job::kJoint:
+      return step_joint(turn);
   }
 }
 
@@ -121,6 +128,11 @@ void Worker::step_primal(Turn& turn) {
   turn.work = primal_->work() - before;
 }
 
+void Worker::step_joint(Turn& turn) {
+  turn.proven = joint_->step(shared_.ledger().cutoff(), limits_);
+  turn.plan = joint_->plan();
+}
+
 void Worker::publish(Turn& turn) {
   turn.memory->learn(std::exchange(turn.found, {}));
 }
@@ -130,11 +142,16 @@ void Worker::commit(Turn& turn) {
   if (turn.job == Turn::Job::kPrimal) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
     share_->primal_worked(*primal_, turn.work);
+    joint_->others_worked(turn.work);
+  } else if (turn.job == Turn::Job::kJoint) {
+    if (turn.plan) shared_.ledger().post(std::move(*turn.plan), PlanSource::kJointSearch);
+    shared_.ledger().prove(turn.proven);
   } else if (turn.job != Turn::Job::kPrepare) {
     turn.memory->trim();
     if (turn.job == Turn::Job::kExpand)
       shared_.finish(turn.node, std::move(turn.expansion), number_);
     share_->tree_worked(turn.work);
+    joint_->others_worked(turn.work);
   }
   shared_.observer().worked();
 }
@@ -144,6 +161,7 @@ void Worker::count(const Turn& turn) {
   of_tree_ += turn.counts;
   if (turn.job == Turn::Job::kPrimal) of_primal_ = primal_->counts();
   if (turn.job == Turn::Job::kHelp) ++helps_;
+  joint_states_ = joint_->states();
 }
 
 void Worker::add_counts(Stats& stats) const {
@@ -163,6 +181,7 @@ void Worker::add_counts(Stats& stats) const {
   counts["path_sets_asked"] += tree.sets_asked;
   counts["path_sets_known"] += tree.sets_known;
   counts["helps"] += helps_;
+  if (joint_states_ > 0) counts["joint_states"] += joint_states_;
   counts["primal_steps"] += primal.steps;
   counts["primal_attempts"] += primal.attempts;
   counts["primal_joint_steps"] += primal.joint_steps;

@@ -3,6 +3,7 @@
 // parties that do what the test says.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -56,6 +57,7 @@ struct ToldLedger : Ledger {
     live_when_posted = nodes ? nodes->frontier.live() : 0;
     posted.emplace_back(std::move(plan), source);
   }
+  void prove(Cost proven) override { bound = std::max(bound, proven); }
   void nodes_changed() override { live_when_changed = nodes ? nodes->frontier.live() : 0; }
 
   bool is_over = false;

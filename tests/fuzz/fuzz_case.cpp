@@ -132,6 +132,11 @@ std::size_t random_node_memory(Random& random) {
 // but not so far that a run takes longer than the fuzzer waits.
 Tuning random_tuning(Random& random) {
   Tuning tuning;
+  // Else tiny instances are solved before the joint search is due.
+  if (random.percent(20)) {
+    tuning.joint_begins_work = 0;
+    tuning.joint_step_work = random.pick<std::int64_t>({1, 20, 4000});
+  }
   if (random.below(4) > 0) return tuning;
   const auto all = tunables();
   for (int left = random.between(1, 8); left > 0; --left) {

@@ -4,6 +4,15 @@
 #include <algorithm>
 
 namespace grove::detail::fuzz {
+
+int passable_around(const std::vector<std::string>& rows, int x, int y) {
+  const auto open = [&](int cx, int cy) {
+    return cy >= 0 && cy < static_cast<int>(rows.size()) && cx >= 0 &&
+           cx < static_cast<int>(rows[cy].size()) && rows[cy][cx] == '.';
+  };
+  return open(x + 1, y) + open(x - 1, y) + open(x, y + 1) + open(x, y - 1);
+}
+
 namespace {
 
 using Rows = std::vector<std::string>;
@@ -47,14 +56,6 @@ Rows rooms(Random& random) {
   for (auto& row : rows) row[left] = '@';
   rows[random.below(height)][left] = '.';
   return rows;
-}
-
-int passable_around(const Rows& rows, int x, int y) {
-  const auto open = [&](int cx, int cy) {
-    return cy >= 0 && cy < static_cast<int>(rows.size()) && cx >= 0 &&
-           cx < static_cast<int>(rows[cy].size()) && rows[cy][cx] == '.';
-  };
-  return open(x + 1, y) + open(x - 1, y) + open(x, y + 1) + open(x, y - 1);
 }
 
 // Grows by cells that touch exactly one cell of the tree.

@@ -25,4 +25,7 @@ inline constexpr int kShapeCount = 9;
 // Rows of '.' and '@'; 4 to 14 passable cells.
 std::vector<std::string> random_map(Shape shape, Random& random);
 
+// How many of the four neighbours of a cell are passable.
+int passable_around(const std::vector<std::string>& rows, int x, int y);
+
 }  // namespace grove::detail::fuzz

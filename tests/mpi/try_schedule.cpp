@@ -156,6 +156,11 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   options.deterministic = false;
   make_search_poor(options.techniques, dice);
   if (dice.percent(60)) options.omega = Omega();
+  if (dice.percent(40)) {
+    options.techniques = options.techniques.with(Technique::kJointSearch);
+    options.tuning.joint_begins_work = 0;
+    options.tuning.joint_step_work = 1;
+  }
   if (dice.percent(20)) options.policy = Policy::kFixed;
   if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);

@@ -2,6 +2,7 @@
 #include "tools/solve/run_log.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "grove/detail/model/limits.h"
 
@@ -42,7 +43,9 @@ void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
   source_ = source;
 }
 
-void RunLog::on_event(RunEvent event, const Progress& progress) {
+void RunLog::on_event(RunEvent event, const Progress& told) {
+  Progress progress = told;
+  if (progress.lower_bound >= kInfiniteCost) progress.lower_bound = bound_;  // there is no plan
   if (telling(event) > telling(event_)) event_ = event;
   note_bound(progress);
   const bool news = event_ != RunEvent::kProgress || progress.nodes_expanded != last_row_nodes_;
@@ -53,11 +56,16 @@ void RunLog::on_event(RunEvent event, const Progress& progress) {
   if (event == RunEvent::kProgress) show_progress(progress);
 }
 
+void RunLog::on_joint_bound() {
+  joint_raises_ = true;
+}
+
 // Of ranks one hears how many nodes they expanded, not what came of them.
 void RunLog::note_bound(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
   const bool is_known = hears_expansions_ || progress.nodes_expanded == 0;
-  raised_by_[is_known ? last_work_ : "tree"] += progress.lower_bound - bound_;
+  const bool by_joint = std::exchange(joint_raises_, false);
+  raised_by_[by_joint ? "joint" : is_known ? last_work_ : "tree"] += progress.lower_bound - bound_;
   bound_ = progress.lower_bound;
 }
 

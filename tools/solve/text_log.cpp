@@ -66,6 +66,8 @@ char letter_of(PlanSource source) {
       return 'C';
     case PlanSource::kNeighborhood:
       return 'L';
+    case PlanSource::kJointSearch:
+      return 'J';
     case PlanSource::kTree:
       break;
   }
@@ -123,7 +125,8 @@ void TextLog::head(const LogHead& h) {
   sink_.line(
       "First column: a better plan (* from the tree, H by priorities, C by configuration search,");
   sink_.line(
-      "L by large neighbourhood search, S given), else a higher bound (B), else a new tree (T).");
+      "L by large neighbourhood search, J by joint search, S given), else a higher bound (B),");
+  sink_.line("else a new tree (T).");
   sink_.line(
       "expanded, open: nodes of the search tree done and waiting. No plan costs less than the "
       "lower");

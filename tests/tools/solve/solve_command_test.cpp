@@ -184,7 +184,8 @@ TEST_F(SolveCommand, EveryPolicyFindsTheSameOptimum) {
 }
 
 TEST_F(SolveCommand, EndsAtTheTimeLimitWithABound) {
-  const ProcessResult solved = solve({"puzzle.json", "--time-limit", "0.3", "--output", "p.json"});
+  const ProcessResult solved = solve({"puzzle.json", "--without", "joint-search", "--time-limit",
+                                      "0.3", "--output", "p.json"});
   EXPECT_EQ(solved.exit_code, 0);
   EXPECT_THAT(solved.out, HasSubstr("unknown (stopped by: time limit)"));
   const json result = plan("p.json");
@@ -193,6 +194,14 @@ TEST_F(SolveCommand, EndsAtTheTimeLimitWithABound) {
   EXPECT_FALSE(result.contains("agents"));
   EXPECT_GT(result["lower_bound"], 0);
   EXPECT_EQ(result["stats"]["stopped_by"], "time limit");
+}
+
+TEST_F(SolveCommand, SeesThatAPuzzleHasNoPlan) {
+  const ProcessResult solved = solve({"puzzle.json", "--output", "p.json"});
+  EXPECT_THAT(solved.out, HasSubstr("Status        infeasible"));
+  EXPECT_THAT(solved.out, Not(HasSubstr("1152921504606846976")));
+  EXPECT_EQ(plan("p.json")["status"], "infeasible");
+  EXPECT_EQ(plan("p.json")["lower_bound"], 0);
 }
 
 // The puzzle's tree would outgrow this in a second.
@@ -219,7 +228,8 @@ TEST_F(SolveCommand, SignalsEndARunCleanly) {
   for (const int signal : {SIGINT, SIGTERM}) {
     options_.signal = signal;
     options_.signal_after = std::chrono::milliseconds(500);
-    const ProcessResult solved = solve({"puzzle.json", "--time-limit", "30", "--output", "p.json"});
+    const ProcessResult solved = solve({"puzzle.json", "--without", "joint-search", "--time-limit",
+                                        "30", "--output", "p.json"});
     EXPECT_EQ(solved.exit_code, 0) << solved.err;
     EXPECT_FALSE(solved.timed_out);
     EXPECT_EQ(plan("p.json")["stats"]["stopped_by"], "interrupt");

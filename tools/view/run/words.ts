@@ -19,12 +19,14 @@ export const kPlanSources: Record<string, string> = {
   priorities: "robots planned one after the other",
   configurations: "all robots moved together (LaCAM)",
   neighborhood: "parts of a plan planned anew",
+  joint: "all robots searched together (A*)",
 };
 
 export const kBoundSources: Record<string, string> = {
   sequences: "what each robot costs alone",
   groups: "what groups of robots cost together",
   splits: "conflicts that were split",
+  joint: "all robots searched together",
   tree: "the search of the ranks",
 };
 

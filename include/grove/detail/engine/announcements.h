@@ -28,6 +28,8 @@ class Announcements : public TurnObserver {
   void event(RunEvent event);
   // The lower bound is so high now; perhaps it was before, too.
   void bound(Cost lower_bound);
+  // The same, by the search over joint states.
+  void joint_bound(Cost lower_bound);
   // The observer knows that it is so high.
   void bound_is_known(Cost lower_bound) { announced_bound_ = lower_bound; }
   // Dearer nodes are about to be dropped.
@@ -36,6 +38,7 @@ class Announcements : public TurnObserver {
   void checkpoint(const CheckpointReport& report);
 
  private:
+  void bound_locked(Cost lower_bound);
   void tell(RunEvent event, const Progress& progress);
 
   RunObserver& observer_;

@@ -30,6 +30,9 @@ class Ledger {
 
   // A plan was found.
   virtual void post(Plan plan, PlanSource source) = 0;
+  // Proven beside the tree: no plan costs less, but those that cost cutoff() or more, whatever that
+  // was. kInfiniteCost: there is no other.
+  virtual void prove(Cost bound) = 0;
   // Nodes were replaced by what they led to.
   virtual void nodes_changed() = 0;
 };

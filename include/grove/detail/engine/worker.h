@@ -14,9 +14,11 @@
 
 namespace grove::detail {
 
+class JointShare;
 class PrimalShare;
 
-// An expander and a primal search, which take turns. For one thread at a time, but for what says
+// An expander and a primal search, which take turns; and on the first worker of a run a search over
+// joint states, where there are few. For one thread at a time, but for what says
 // otherwise.
 class Worker {
  public:
@@ -28,7 +30,7 @@ class Worker {
 
   // What is done at one go, and what became of it.
   struct Turn {
-    enum class Job : std::uint8_t { kExpand, kHelp, kPrimal, kPrepare };
+    enum class Job : std::uint8_t { kExpand, kHelp, kPrimal, kPrepare, kJoint };
     explicit Turn(Job the_job, NodePtr the_node = nullptr)
         : job(the_job), node(std::move(the_node)) {}
 
@@ -38,13 +40,14 @@ class Worker {
     FoundOut found;
     Expansion expansion;
     std::optional<Plan> plan;
+    Cost proven = 0;         // by the search over joint states; see Ledger::prove
     std::int64_t work = 0;   // see search/work.h
     ExpansionCounts counts;  // what this turn added
   };
 
   // Does the best there is to do: expands a node, helps another worker with one, goes on with the
-  // primal search for about a millisecond, or prepares the next tree. False: nothing can be done
-  // just now.
+  // primal search or that over joint states for about a millisecond, or prepares the next tree.
+  // False: nothing can be done just now.
   bool turn() {
     std::optional<Turn> turn = choose();
     if (!turn) return false;
@@ -74,6 +77,7 @@ class Worker {
   void expand(Turn& turn, Expander& by) const;
   void help(Turn& turn, Expander& by);
   void step_primal(Turn& turn);
+  void step_joint(Turn& turn);
 
   const Problem& problem_;
   const SolveOptions& options_;
@@ -87,12 +91,14 @@ class Worker {
   AgentStopsStore primal_stops_;
   std::unique_ptr<PrimalSearch> primal_;
   const std::unique_ptr<PrimalShare> share_;
+  const std::unique_ptr<JointShare> joint_;
   NodePtr helped_;  // the last node that there was nothing left to help with
 
   mutable std::mutex counting_;  // guards what was counted:
   ExpansionCounts of_tree_;
   PrimalSearch::Counts of_primal_;
   std::int64_t helps_ = 0;
+  std::int64_t joint_states_ = 0;
 };
 
 }  // namespace grove::detail

@@ -15,10 +15,11 @@ enum class PlanSource : std::uint8_t {
   kPriorities,      // prioritised planning
   kConfigurations,  // configuration search
   kNeighborhood,    // large neighbourhood search
+  kJointSearch,     // A* over joint states
 };
-inline constexpr PlanSource kLastPlanSource = PlanSource::kNeighborhood;
-inline constexpr std::array<std::string_view, 5> kPlanSources{"tree", "start", "priorities",
-                                                              "configurations", "neighborhood"};
+inline constexpr PlanSource kLastPlanSource = PlanSource::kJointSearch;
+inline constexpr std::array<std::string_view, 6> kPlanSources{
+    "tree", "start", "priorities", "configurations", "neighborhood", "joint"};
 static_assert(kPlanSources.size() == static_cast<std::size_t>(kLastPlanSource) + 1);
 
 // As files and logs call it.

@@ -27,6 +27,7 @@ enum class Technique : std::uint8_t {
   kCostSplits,      // split on which of two such agents costs more
   kClusters,        // the same for groups that conflict though no pair of them must cost more
   kEstimates,       // with w > 0, while there is no plan: every other node by what it promises
+  kJointSearch,     // beside the tree A* over joint states, where there are few agents and places
 };
 
 struct NamedTechnique {
@@ -49,6 +50,7 @@ inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kCostSplits, "cost-splits"},
     NamedTechnique{Technique::kClusters, "clusters"},
     NamedTechnique{Technique::kEstimates, "estimates"},
+    NamedTechnique{Technique::kJointSearch, "joint-search"},
 };
 
 // A set of techniques; a value.

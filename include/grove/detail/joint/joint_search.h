@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Few agents in a small world, where everybody is in everybody's way: A* over joint states.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "grove/detail/joint/agent_graph.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/model/plan.h"
+
+namespace grove::detail {
+
+// The whole instance at once. Exact: it ends with an optimal plan, or the proof that there is none;
+// and at every moment it knows a lower bound on all plans. For one thread at a time.
+class JointSearch {
+ public:
+  static constexpr int kMostAgents = 16;
+
+  // None: not for this method, since there are more agents or more than 2^`most_bits` joint states,
+  // blocked cells counted.
+  // `instance` must outlive it. `most_bytes`: that it may hold.
+  static std::unique_ptr<JointSearch> make(const Instance& instance, double most_bits,
+                                           std::size_t most_bytes);
+  ~JointSearch();
+
+  enum class Outcome : std::uint8_t {
+    kWorking,   // there is more to do
+    kEnded,     // there is no plan below the cutoff but plan(), if that is there
+    kTooLarge,  // out of memory or stopped: nothing more will come
+  };
+  // Looks at so many joint states, or makes a table that guides it. Plans that cost `cutoff` or
+  // more are of no interest.
+  Outcome run(std::int64_t states, Cost cutoff, const Limits& limits);
+
+  // Proven: no plan costs less, but those that cost the cutoff or more. kInfiniteCost: there is
+  // none.
+  Cost lower_bound() const;
+  // An optimal one, if it has been found.
+  const std::optional<Plan>& plan() const;
+  // Joint states looked at; and what all has cost, in the unit of search/work.h.
+  std::int64_t states() const;
+  std::int64_t work() const;
+
+ private:
+  class Search;
+  explicit JointSearch(std::unique_ptr<Search> search);
+  std::unique_ptr<Search> search_;
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Most small instances are closed by the first nodes of the tree, so the tree begins. What is still
+// open then and has few joint states is often one where everybody is in everybody's way: there the
+// search over joint states ends soon, and the tree perhaps never. Which of the two nobody knows, so
+// they share the work; when one of them holds more memory than it may, or has ended, the other has
+// it all.
+#include "joint_share.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace grove::detail {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+
+std::size_t most_bytes(const Limits& limits) {
+  const auto limit = limits.memory_limit();
+  return limit ? std::min(kMostBytes, *limit / 4) : kMostBytes;
+}
+
+}  // namespace
+
+JointShare::JointShare(const Instance& instance, const Tuning& tuning, bool wanted)
+    : instance_(instance),
+      tuning_(tuning),
+      over_(!wanted || instance.agent_count() > JointSearch::kMostAgents) {}
+
+bool JointShare::due() const {
+  if (over_ || others_ < tuning_.joint_begins_work) return false;
+  const auto allowed = tuning_.most_joint * static_cast<double>(others_);
+  return !search_ || static_cast<double>(search_->work()) <= allowed;
+}
+
+Cost JointShare::step(Cost cutoff, const Limits& limits) {
+  if (!search_) search_ = JointSearch::make(instance_, tuning_.joint_bits, most_bytes(limits));
+  over_ = search_ == nullptr;
+  if (over_) return 0;
+  auto outcome = JointSearch::Outcome::kWorking;
+  for (const std::int64_t end = search_->work() + tuning_.joint_step_work;
+       search_->work() < end && outcome == JointSearch::Outcome::kWorking;)
+    outcome = search_->run(1, cutoff, limits);
+  over_ = outcome != JointSearch::Outcome::kWorking;
+  return search_->lower_bound();
+}
+
+std::optional<Plan> JointShare::plan() const {
+  return search_ ? search_->plan() : std::nullopt;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The search over joint states, and when it is its turn.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "grove/detail/joint/joint_search.h"
+#include "grove/detail/model/tuning.h"
+
+namespace grove::detail {
+
+// The rule is at the head of the .cpp. For one thread at a time.
+class JointShare {
+ public:
+  // `instance` must outlive this. `wanted`: else it is never due.
+  JointShare(const Instance& instance, const Tuning& tuning, bool wanted);
+
+  // So much was done beside it.
+  void others_worked(std::int64_t work) { others_ += work; }
+  bool due() const;
+  // About a millisecond of it. Proven, as Ledger::prove has it.
+  Cost step(Cost cutoff, const Limits& limits);
+  // An optimal plan, as soon as there is one.
+  std::optional<Plan> plan() const;
+  std::int64_t states() const { return search_ ? search_->states() : 0; }
+
+ private:
+  const Instance& instance_;
+  const Tuning& tuning_;
+  bool over_;
+  std::int64_t others_ = 0;
+  std::unique_ptr<JointSearch> search_;  // made when it is first due
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Backwards from all states in which everybody is at rest or may be, by Dijkstra's algorithm: a
+// step costs as many as are not at rest. What these agents cost at least is what any plan of more
+// agents pays for them.
+#include "grove/detail/joint/group_table.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace grove::detail {
+namespace {
+
+using Node = AgentGraph::Node;
+constexpr std::int64_t kMovesPerWork = 20;  // see search/work.h
+
+// The moves of an agent backwards.
+class Backwards {
+ public:
+  explicit Backwards(const AgentGraph& graph) : first_(graph.count() + 1, 0) {
+    for_each_move(graph, [&](Node, Node to) { ++first_[to + std::size_t{1}]; });
+    for (std::size_t node = 0; node < graph.count(); ++node) first_[node + 1] += first_[node];
+    from_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for_each_move(graph, [&](Node from, Node to) { from_[next[to]++] = from; });
+  }
+  std::span<const Node> to(Node node) const {
+    return {from_.data() + first_[node], from_.data() + first_[node + std::size_t{1}]};
+  }
+
+ private:
+  template <class Visit>
+  static void for_each_move(const AgentGraph& graph, Visit visit) {
+    for (std::size_t node = 0; node < graph.count(); ++node)
+      for (const auto& move : graph.moves(static_cast<Node>(node)))
+        visit(static_cast<Node>(node), move.to);
+  }
+
+  std::vector<std::uint32_t> first_;  // by node; one more at the end
+  std::vector<Node> from_;
+};
+
+// What the members cost together, by entry.
+class Costs {
+ public:
+  Costs(const Instance& instance, std::vector<const AgentGraph*> members,
+        std::vector<std::size_t> strides, std::size_t entries)
+      : may_follow_(instance.may_follow()),
+        members_(std::move(members)),
+        strides_(std::move(strides)),
+        costs_(entries, kNever),
+        to_(members_.size()),
+        from_(members_.size()) {
+    for (const AgentGraph* member : members_) backwards_.emplace_back(*member);
+    begin(0, 0);
+    for (std::size_t cost = 0; cost < layers_.size(); ++cost)
+      for (std::size_t next = 0; next < layers_[cost].size(); ++next)
+        settle(layers_[cost][next], static_cast<Time>(cost));
+  }
+
+  Time operator[](std::size_t entry) const { return costs_[entry]; }
+
+ private:
+  // Everybody where it may rest, on places of their own.
+  void begin(std::size_t member, std::size_t entry) {
+    if (member == members_.size()) return reach(entry, 0);
+    const AgentGraph& graph = *members_[member];
+    for (std::size_t node = 0; node < graph.count(); ++node) {
+      to_[member] = static_cast<Node>(node);
+      if (graph.to_go(to_[member]) > 0) continue;
+      bool is_free = true;
+      for (std::size_t other = 0; other < member; ++other)
+        is_free = is_free && members_[other]->place(to_[other]) != graph.place(to_[member]);
+      if (is_free) begin(member + 1, entry + node * strides_[member]);
+    }
+  }
+  void reach(std::size_t entry, Time cost) {
+    if (costs_[entry] <= cost) return;
+    costs_[entry] = cost;
+    if (static_cast<std::size_t>(cost) >= layers_.size())
+      layers_.resize(static_cast<std::size_t>(cost) + 1);
+    layers_[static_cast<std::size_t>(cost)].push_back(static_cast<std::uint32_t>(entry));
+  }
+  void settle(std::size_t entry, Time cost) {
+    if (costs_[entry] != cost) return;
+    for (std::size_t member = 0; member < members_.size(); ++member) {
+      to_[member] = static_cast<Node>(entry / strides_[member]);
+      entry %= strides_[member];
+      if (!members_[member]->rests(to_[member])) ++cost;
+    }
+    step_back(0, 0, cost);
+  }
+  void step_back(std::size_t member, std::size_t entry, Time cost) {
+    if (member == members_.size()) return reach(entry, cost);
+    for (const Node from : backwards_[member].to(to_[member])) {
+      from_[member] = from;
+      if (!collides(member)) step_back(member + 1, entry + from * strides_[member], cost);
+    }
+  }
+  // With one of those before.
+  bool collides(std::size_t member) const {
+    const Place from = members_[member]->place(from_[member]);
+    const Place to = members_[member]->place(to_[member]);
+    for (std::size_t other = 0; other < member; ++other) {
+      const Place other_from = members_[other]->place(from_[other]);
+      const Place other_to = members_[other]->place(to_[other]);
+      if (from == other_from || to == other_to) return true;
+      if (may_follow_ ? from == other_to && to == other_from : from == other_to || to == other_from)
+        return true;
+    }
+    return false;
+  }
+
+  const bool may_follow_;
+  const std::vector<const AgentGraph*> members_;
+  const std::vector<std::size_t> strides_;  // falling
+  std::vector<Backwards> backwards_;
+  std::vector<Time> costs_;
+  std::vector<std::vector<std::uint32_t>> layers_;  // entries by cost
+  std::vector<Node> to_;
+  std::vector<Node> from_;
+};
+
+template <class Value>
+Value product(std::span<const std::size_t> members, Value (*of)(const AgentGraph&),
+              std::span<const AgentGraph> agents) {
+  Value all = 1;
+  for (const std::size_t member : members) all *= of(agents[member]);
+  return all;
+}
+
+}  // namespace
+
+std::size_t GroupTable::entries(std::span<const AgentGraph> agents,
+                                std::span<const std::size_t> members) {
+  return product<std::size_t>(
+      members, [](const AgentGraph& a) { return a.count(); }, agents);
+}
+
+std::int64_t GroupTable::work(std::span<const AgentGraph> agents,
+                              std::span<const std::size_t> members) {
+  const auto moves = [](const AgentGraph& a) { return static_cast<std::int64_t>(a.move_count()); };
+  return product<std::int64_t>(members, moves, agents) / kMovesPerWork;
+}
+
+GroupTable::GroupTable(const Instance& instance, std::span<const AgentGraph> agents,
+                       std::vector<std::size_t> members)
+    : members_(std::move(members)), strides_(members_.size(), 1) {
+  std::vector<const AgentGraph*> graphs;
+  for (const std::size_t member : members_) graphs.push_back(&agents[member]);
+  for (std::size_t i = members_.size(); i-- > 1;)
+    strides_[i - 1] = strides_[i] * graphs[i]->count();
+  excess_.resize(entries(agents, members_));
+  const Costs costs(instance, graphs, strides_, excess_.size());
+  for (std::size_t entry = 0; entry < excess_.size(); ++entry) {
+    Time alone = 0;
+    for (std::size_t i = 0, rest = entry; i < members_.size(); rest %= strides_[i++])
+      alone += graphs[i]->to_go(static_cast<Node>(rest / strides_[i]));
+    excess_[entry] = costs[entry] == kNever
+                         ? kNoWay
+                         : static_cast<std::uint8_t>(std::min(costs[entry] - alone, 254));
+  }
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+// A joint state says of every agent what it is in (agent_graph.h); a step moves all at once and
+// costs as many as are not at rest. So a way costs the sum of the finish times. To rest for ever is
+// a decision: who could may as well go on, and pays for it.
+//
+// The estimate is the sum of what the agents cost alone, and of what groups of two or three cost
+// more together (group_table.h), groups that share no agent: of all ways to group agents the best.
+// In any plan each group pays at least that, so none is cheaper. States stand in the queue by cost
+// and estimate, their *layer*; the layers are emptied from the least on. On the way to any plan
+// there is always a state in the queue whose layer is no more than the plan's cost; so the layer
+// that is being emptied bounds all plans, and the first state taken with nothing left to pay for
+// ends an optimal one. (A state that is reached at less cost goes into the queue again, whatever
+// became of it before.) States whose layer reaches the cutoff are dropped, for plans through them
+// cost as much; an empty queue proves that no plan costs less than the cutoff - without one, none.
+//
+// Enhanced partial expansion (Goldenberg et al., JAIR 2014). A move's detour is what it adds to
+// what its agent costs alone, never less than 0. A state brings forth those next ones whose detours
+// are within the budget that its layer leaves, and goes back into the queue with the next budget
+// that there is: what costs more than the optimum even by the sum over agents is never made.
+// Choosing moves agent by agent, the next budget is the least sum above the budget of a beginning
+// without collisions: each can be gone on with without a detour, or else collides and comes again,
+// for nothing, with a greater one.
+#include "grove/detail/joint/joint_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "grove/detail/joint/group_table.h"
+
+namespace grove::detail {
+namespace {
+
+using Node = AgentGraph::Node;
+using Index = std::uint32_t;
+constexpr Index kNone = std::numeric_limits<Index>::max();
+constexpr std::size_t kMostGrouped = 8;  // beyond, the best grouping takes too long to find
+constexpr std::size_t kMostEntries = std::size_t{1} << 18;  // of a table
+constexpr std::int64_t kMostTableWork = 4'000'000;          // of all; see search/work.h
+constexpr std::int64_t kStatesPerPoll = 256;
+constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
+
+}  // namespace
+
+class JointSearch::Search {
+ public:
+  Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes)
+      : instance_(instance),
+        agents_(std::move(agents)),
+        most_bytes_(most_bytes),
+        from_on_(static_cast<std::size_t>(instance.world().place_count()), kNobody),
+        to_on_(from_on_) {
+    if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
+    std::int32_t alone = 0;
+    for (const AgentGraph& agent : agents_) alone += agent.to_go(AgentGraph::start());
+    plan_tables();
+    first_layer_ = lower_bound_ = alone;
+    if (tables_to_come_.empty()) begin();
+  }
+
+  Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
+    if (!tables_to_come_.empty()) {
+      make_table();
+      return Outcome::kWorking;
+    }
+    for (; states > 0 && !plan_; --states) {
+      const Index state = pop();
+      if (state == kNone) {
+        lower_bound_ = kInfiniteCost;
+        return Outcome::kEnded;
+      }
+      if (lower_bound_ >= cutoff) return Outcome::kEnded;
+      if (++states_ % kStatesPerPoll == 0 && (limits.stop_requested() || bytes() > most_bytes_))
+        return Outcome::kTooLarge;
+      if (is_final(state))
+        plan_ = plan_to(state);
+      else
+        expand(state, cutoff);
+    }
+    return plan_ ? Outcome::kEnded : Outcome::kWorking;
+  }
+
+  Cost lower_bound() const { return lower_bound_; }
+  const std::optional<Plan>& plan() const { return plan_; }
+  std::int64_t states() const { return states_; }
+  std::int64_t work() const { return table_work_ + made_ / kMadePerWork; }
+
+ private:
+  static constexpr std::int8_t kNobody = -1;
+
+  struct Record {
+    Index parent = kNone;
+    std::int32_t cost = 0;        // from the start
+    std::int32_t layer = 0;       // no plan by a way not yet looked at costs less
+    std::int32_t alone = 0;       // the sum of what its agents cost alone from there
+    std::int32_t looked_at = -1;  // detours up to this; -1: none
+  };
+
+  // Groups that share no agent, by number; the rest is none.
+  using Grouping = std::array<std::uint8_t, kMostGrouped / 2>;
+
+  // All pairs, then threes, those that are small enough. (Of two agents the search is the table.)
+  void plan_tables() {
+    if (size() < 3 || size() > kMostGrouped) return;
+    for (std::size_t a = 0; a < size(); ++a)
+      for (std::size_t b = a + 1; b < size(); ++b) plan_table({a, b});
+    for (std::size_t a = 0; a < size() && size() > 3; ++a)
+      for (std::size_t b = a + 1; b < size(); ++b)
+        for (std::size_t c = b + 1; c < size(); ++c) plan_table({a, b, c});
+  }
+  void plan_table(std::vector<std::size_t> members) {
+    const std::int64_t work = GroupTable::work(agents_, members);
+    if (GroupTable::entries(agents_, members) > kMostEntries) return;
+    if (planned_work_ + work > kMostTableWork) return;
+    planned_work_ += work;
+    tables_to_come_.push_back(std::move(members));
+  }
+  void make_table() {
+    tables_.emplace_back(instance_, agents_, std::move(tables_to_come_.front()));
+    tables_to_come_.pop_front();
+    table_work_ += GroupTable::work(agents_, tables_.back().members());
+    table_bytes_ += GroupTable::entries(agents_, tables_.back().members());
+    if (tables_to_come_.empty()) begin();
+  }
+  void begin() {
+    excess_.assign(tables_.size() + 1, 0);
+    Grouping none;
+    none.fill(static_cast<std::uint8_t>(tables_.size()));
+    add_groupings(0, 0, none, 0);
+    reach(std::vector<Node>(size(), AgentGraph::start()), kNone, 0,
+          static_cast<std::int32_t>(first_layer_));
+  }
+  // All ways to go on with groups from `first` on, of agents that are free, until there is none.
+  void add_groupings(std::size_t first, unsigned taken, Grouping so_far, std::size_t count) {
+    bool ends = true;
+    for (std::size_t i = 0; i < tables_.size() && count < so_far.size(); ++i) {
+      unsigned members = 0;
+      for (const std::size_t member : tables_[i].members()) members |= 1u << member;
+      if ((taken & members) != 0) continue;
+      ends = false;
+      if (i < first) continue;
+      so_far[count] = static_cast<std::uint8_t>(i);
+      add_groupings(i + 1, taken | members, so_far, count + 1);
+    }
+    if (ends && count > 0) groupings_.push_back(so_far);
+  }
+
+  std::size_t size() const { return agents_.size(); }
+  const Node* nodes_of(Index state) const { return nodes_.data() + state * size(); }
+  std::size_t bytes() const {
+    return nodes_.capacity() * sizeof(Node) + records_.capacity() * sizeof(Record) +
+           slots_.capacity() * sizeof(Index) + queued_ * sizeof(Index) + table_bytes_;
+  }
+
+  // --- the queue: by layer, last in, first out ---
+
+  void push(Index state) {
+    const auto layer = static_cast<std::size_t>(records_[state].layer - first_layer_);
+    if (layer >= layers_.size()) layers_.resize(layer + 1);
+    layers_[layer].push_back(state);
+    ++queued_;
+  }
+  Index pop() {
+    for (; at_ < layers_.size(); ++at_, ++lower_bound_) {
+      std::vector<Index>& layer = layers_[at_];
+      while (!layer.empty()) {
+        const Index state = layer.back();
+        layer.pop_back();
+        --queued_;
+        if (records_[state].layer == lower_bound_) return state;  // else it is queued elsewhere
+      }
+      std::vector<Index>().swap(layer);
+    }
+    return kNone;
+  }
+
+  // --- states ---
+
+  std::size_t slot_of(const Node* nodes) const {
+    std::uint64_t hash = 0;
+    for (std::size_t i = 0; i < size(); ++i) hash = (hash ^ nodes[i]) * 0x9e3779b97f4a7c15;
+    std::size_t slot = (hash ^ hash >> 32) & (slots_.size() - 1);
+    while (slots_[slot] != kNone && !std::equal(nodes, nodes + size(), nodes_of(slots_[slot])))
+      slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
+  }
+  void grow() {
+    slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), kNone);
+    for (Index state = 0; state < records_.size(); ++state)
+      slots_[slot_of(nodes_of(state))] = state;
+  }
+  // Is it of use to reach a state at this cost? What is known already needs no estimate.
+  void reach(const std::vector<Node>& nodes, Index parent, std::int32_t cost, std::int32_t alone) {
+    ++made_;
+    if (2 * (records_.size() + 1) > slots_.size()) grow();
+    Index& slot = slots_[slot_of(nodes.data())];
+    if (slot != kNone && records_[slot].cost <= cost) return;
+    const Cost layer = std::max(lower_bound_, cost + alone + excess_of(nodes));
+    if (layer >= cutoff_) return;
+    if (slot == kNone) {
+      slot = static_cast<Index>(records_.size());
+      records_.emplace_back();
+      nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+    }
+    records_[slot] = {parent, cost, static_cast<std::int32_t>(layer), alone, -1};
+    push(slot);
+  }
+  bool is_final(Index state) const { return records_[state].alone == 0; }
+
+  // What groups cost more together, at least: over all agents, the best way to group them.
+  Cost excess_of(const std::vector<Node>& nodes) {
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+      const std::uint8_t excess = tables_[i].excess(nodes.data());
+      if (excess == GroupTable::kNoWay) return kInfiniteCost;
+      excess_[i] = excess;
+    }
+    int best = 0;
+    for (const Grouping& grouping : groupings_) {
+      int sum = 0;
+      for (const std::uint8_t table : grouping) sum += excess_[table];
+      best = std::max(best, sum);
+    }
+    return best;
+  }
+
+  // --- one step of all ---
+
+  void expand(Index state, Cost cutoff) {
+    parent_ = state;
+    cutoff_ = cutoff;
+    from_.assign(nodes_of(state), nodes_of(state) + size());
+    to_.resize(size());
+    const Record& record_now = records_[state];
+    budget_ = record_now.layer - record_now.cost - record_now.alone;
+    looked_at_ = record_now.looked_at;
+    next_budget_ = kNever;
+    most_.assign(size() + 1, 0);
+    for (std::size_t i = size(); i-- > 0;)
+      most_[i] = most_[i + 1] + agents_[i].moves(from_[i]).back().detour;
+    for (std::size_t i = 0; i < size(); ++i)
+      from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
+    choose(0, 0, 0, 0);
+    for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNobody;
+    if (next_budget_ == kNever) return;
+    Record& record = records_[state];
+    const Cost layer = record.cost + record.alone + next_budget_;
+    if (layer >= cutoff) return;
+    record.looked_at = budget_;
+    record.layer = static_cast<std::int32_t>(layer);
+    push(state);
+  }
+
+  std::size_t place(std::size_t agent, const std::vector<Node>& nodes) const {
+    return static_cast<std::size_t>(agents_[agent].place(nodes[agent]));
+  }
+
+  // The moves of `agent` and all after it; those before have chosen and pay `cost`.
+  void choose(std::size_t agent, Time detour, std::int32_t cost, std::int32_t alone) {
+    if (agent == size()) {
+      reach(to_, parent_, records_[parent_].cost + cost, alone);
+      return;
+    }
+    const AgentGraph& graph = agents_[agent];
+    const std::size_t here = place(agent, from_);
+    for (const AgentGraph::Move& move : graph.moves(from_[agent])) {
+      const Time sum = detour + move.detour;
+      if (sum + most_[agent + 1] <= looked_at_) continue;
+      const auto there = static_cast<std::size_t>(graph.place(move.to));
+      if (collides(agent, here, there)) continue;
+      if (sum > budget_) {
+        next_budget_ = std::min(next_budget_, sum);
+        return;  // the others are no less
+      }
+      to_[agent] = move.to;
+      to_on_[there] = static_cast<std::int8_t>(agent);
+      choose(agent + 1, sum, cost + (graph.rests(move.to) ? 0 : 1), alone + graph.to_go(move.to));
+      to_on_[there] = kNobody;
+    }
+  }
+
+  // With those who have chosen; without following with all.
+  bool collides(std::size_t agent, std::size_t here, std::size_t there) const {
+    if (to_on_[there] != kNobody) return true;
+    if (here == there) return false;
+    const std::int8_t who = from_on_[there];
+    if (who == kNobody) return false;
+    if (!instance_.may_follow()) return true;
+    return who < static_cast<std::int8_t>(agent) &&
+           place(static_cast<std::size_t>(who), to_) == here;
+  }
+
+  // --- the plan ---
+
+  Plan plan_to(Index last) const {
+    std::vector<Index> way;
+    for (Index state = last; state != kNone; state = records_[state].parent) way.push_back(state);
+    std::ranges::reverse(way);
+    Plan plan;
+    for (std::size_t agent = 0; agent < size(); ++agent) {
+      Path path;
+      for (const Index state : way) {
+        const Node node = nodes_of(state)[agent];
+        if (!agents_[agent].rests(node)) path.push_back(agents_[agent].state(node));
+      }
+      plan.agents.push_back(plan_of(agents_[agent].agent(), path));
+      plan.cost += plan.agents.back().cost;
+    }
+    return plan;
+  }
+
+  // Stops in the order of their first visits; where it rests on one of them, that is the last.
+  AgentPlan plan_of(AgentIndex agent, const Path& path) const {
+    const std::vector<TaskIndex>& stops = instance_.agent(agent).stops;
+    std::vector<std::uint8_t> order(stops.size());
+    std::iota(order.begin(), order.end(), std::uint8_t{0});
+    const bool ends_on_a_stop = instance_.rests_on_last_stop(agent);
+    std::ranges::stable_sort(order, {}, [&](std::uint8_t stop) {
+      const auto visits = [&](State state) { return instance_.is_visited(stops[stop], state); };
+      const bool last = ends_on_a_stop && visits(path.back());
+      return (last ? path.end() : std::ranges::find_if(path, visits)) - path.begin();
+    });
+    return agent_plan(instance_, agent, order, path);
+  }
+
+  const Instance& instance_;
+  const std::vector<AgentGraph> agents_;
+  const std::size_t most_bytes_;
+  std::deque<std::vector<std::size_t>> tables_to_come_;  // their members
+  std::int64_t planned_work_ = 0;
+  std::vector<GroupTable> tables_;
+  std::vector<Grouping> groupings_;  // all that no group could be added to
+  std::vector<int> excess_;          // of the state being made, by table; one more, of none: 0
+  std::vector<Node> nodes_;          // by state, then agent
+  std::vector<Record> records_;
+  std::vector<Index> slots_;  // a power of two
+  std::vector<std::vector<Index>> layers_;
+  std::size_t at_ = 0;  // in layers_
+  std::size_t queued_ = 0;
+  Cost first_layer_ = 0;
+  Cost lower_bound_ = 0;  // of the layer at_
+  std::int64_t states_ = 0;
+  std::int64_t made_ = 0;  // joint states, again and again
+  std::int64_t table_work_ = 0;
+  std::size_t table_bytes_ = 0;
+  std::optional<Plan> plan_;
+  // The expansion under way.
+  Index parent_ = kNone;
+  Cost cutoff_ = kInfiniteCost;
+  Time looked_at_ = -1;
+  Time budget_ = 0;
+  Time next_budget_ = kNever;
+  std::vector<Node> from_;
+  std::vector<Node> to_;
+  std::vector<Time> most_;            // detours of an agent and all after it
+  std::vector<std::int8_t> from_on_;  // by place: the agent that is there
+  std::vector<std::int8_t> to_on_;    // and that has chosen to be
+};
+
+namespace {
+
+std::size_t most_nodes_within(double bits) {
+  return static_cast<std::size_t>(std::exp2(std::clamp(bits, 0.0, 12.0)));
+}
+
+}  // namespace
+
+JointSearch::JointSearch(std::unique_ptr<Search> search) : search_(std::move(search)) {}
+JointSearch::~JointSearch() = default;
+
+std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double most_bits,
+                                               std::size_t most_bytes) {
+  const double states_bits = std::log2(instance.world().state_count());
+  if (instance.agent_count() > kMostAgents || instance.agent_count() * states_bits > most_bits)
+    return nullptr;
+  std::vector<AgentGraph> agents;
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+    auto graph = AgentGraph::make(instance, agent, most_nodes_within(most_bits));
+    if (!graph) return nullptr;
+    most_bits -= std::log2(std::max<std::size_t>(graph->count(), 1));
+    agents.push_back(std::move(*graph));
+  }
+  return std::unique_ptr<JointSearch>(
+      new JointSearch(std::make_unique<Search>(instance, std::move(agents), most_bytes)));
+}
+
+JointSearch::Outcome JointSearch::run(std::int64_t states, Cost cutoff, const Limits& limits) {
+  return search_->run(states, cutoff, limits);
+}
+Cost JointSearch::lower_bound() const {
+  return search_->lower_bound();
+}
+const std::optional<Plan>& JointSearch::plan() const {
+  return search_->plan();
+}
+std::int64_t JointSearch::states() const {
+  return search_->states();
+}
+std::int64_t JointSearch::work() const {
+  return search_->work();
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// grove-puzzles: is every small puzzle decided in time, and as the oracle has it? Exit codes: 0 all
+// is well, 1 a wrong answer or more left open than allowed, 2 bad usage.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grove/detail/engine/solve.h"
+#include "grove/detail/model/check.h"
+#include "tests/fuzz/random_puzzle.h"
+#include "tests/oracle/joint_oracle.h"
+
+namespace grove::detail::fuzz {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Arguments {
+  int count = 500;
+  std::uint64_t seed = 1;
+  double seconds = 2;
+  int threads = 1;
+  std::size_t oracle_states = 2'000'000;
+  int most_open = 0;
+};
+
+struct Tally {
+  int solved = 0, infeasible = 0, open = 0, compared = 0, wrong = 0;
+  std::vector<double> seconds = {};
+};
+
+// What is wrong with an answer; empty: nothing. Whether the oracle had an answer too is in `tally`.
+std::string complaint(const Instance& instance, const Solution& solution, std::size_t states,
+                      Tally& tally) {
+  if (solution.plan && !check(instance, solution).empty()) return "its plan is none";
+  const oracle::Answer truth = oracle::solve_jointly(instance, states);
+  if (truth.verdict == oracle::Verdict::kTooLarge) return "";
+  ++tally.compared;
+  const std::optional<Cost> best = truth.plan ? std::optional(truth.plan->cost) : std::nullopt;
+  if (solution.status == Status::kInfeasible && best) return fmt::format("a plan costs {}", *best);
+  if (solution.plan && !best) return "the oracle has no plan";
+  if (best && solution.lower_bound > *best)
+    return fmt::format("bound {}, but a plan costs {}", solution.lower_bound, *best);
+  return "";
+}
+
+void solve_one(std::uint64_t seed, const Arguments& a, Tally& tally) {
+  const TinyInstance puzzle = random_puzzle(seed);
+  const Instance instance = puzzle.build();
+  SolveOptions options;
+  options.omega = Omega::from_double(0);
+  options.threads = a.threads;
+  const auto began = Clock::now();
+  Limits limits;
+  limits.set_deadline(began +
+                      std::chrono::microseconds(static_cast<std::int64_t>(a.seconds * 1e6)));
+  const Solution solution = solve(instance, options, limits, nullptr);
+  tally.seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
+  const bool is_open =
+      solution.status != Status::kOptimal && solution.status != Status::kInfeasible;
+  ++(is_open                                  ? tally.open
+     : solution.status == Status::kInfeasible ? tally.infeasible
+                                              : tally.solved);
+  if (is_open)
+    fmt::print("seed {}: open, bound {}, plan {}\n", seed, solution.lower_bound,
+               solution.plan ? fmt::format("{}", solution.plan->cost) : "-");
+  if (const std::string wrong = complaint(instance, solution, a.oracle_states, tally);
+      !wrong.empty()) {
+    ++tally.wrong;
+    fmt::print("seed {}: WRONG: {}, bound {}: {}\n{}\n", seed, to_string(solution.status),
+               solution.lower_bound, wrong, puzzle.to_text());
+  }
+}
+
+int run(const Arguments& a) {
+  Tally tally;
+  for (int i = 0; i < a.count; ++i) solve_one(a.seed + static_cast<std::uint64_t>(i), a, tally);
+  std::ranges::sort(tally.seconds);
+  const auto at = [&](double part) {
+    return tally.seconds[static_cast<std::size_t>(part * static_cast<double>(a.count - 1))];
+  };
+  fmt::print(
+      "{} puzzles: {} solved, {} infeasible, {} open; {} compared with the oracle, {} wrong\n"
+      "seconds: median {:.3f}, 95 % {:.3f}, worst {:.3f}\n",
+      a.count, tally.solved, tally.infeasible, tally.open, tally.compared, tally.wrong, at(0.5),
+      at(0.95), at(1));
+  return tally.wrong > 0 || tally.open > a.most_open ? 1 : 0;
+}
+
+}  // namespace
+}  // namespace grove::detail::fuzz
+
+int main(int argc, char** argv) {
+  grove::detail::fuzz::Arguments a;
+  CLI::App app("Small puzzles, decided in time and as the oracle has it?", "grove-puzzles");
+  app.add_option("--count", a.count)->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--seed", a.seed, "of the first; each other one's is one more")
+      ->capture_default_str();
+  app.add_option("--seconds", a.seconds, "for each")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--threads", a.threads)->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--oracle-states", a.oracle_states, "that the oracle may make")
+      ->capture_default_str();
+  app.add_option("--most-open", a.most_open, "so many may be left open")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return grove::detail::fuzz::run(a);
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "grove/detail/joint/joint_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "grove/detail/model/check.h"
+#include "grove/detail/model/omega.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/fuzz/random_puzzle.h"
+#include "tests/oracle/joint_oracle.h"
+#include "tests/support/fuzz_factor.h"
+
+namespace grove::detail {
+namespace joint_search_test {
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+
+std::unique_ptr<JointSearch> search_of(const Instance& instance) {
+  return JointSearch::make(instance, 64, kMostBytes);
+}
+
+fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
+  return seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed);
+}
+
+// Of every instance the bound rises to the oracle's optimum, a few states at a time, and never
+// beyond.
+TEST(JointSearch, AgreesWithTheOracle) {
+  int solved = 0, infeasible = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    Instance instance = tiny_instance(seed).build();
+    if (seed % 5 == 0) instance = instance.without_following();
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (truth.verdict == oracle::Verdict::kTooLarge) continue;
+    const auto search = search_of(instance);
+    ASSERT_TRUE(search);
+    const Cost optimum = truth.plan ? truth.plan->cost : kInfiniteCost;
+    JointSearch::Outcome outcome = JointSearch::Outcome::kWorking;
+    while (outcome == JointSearch::Outcome::kWorking) {
+      outcome = search->run(7, kInfiniteCost, {});
+      ASSERT_LE(search->lower_bound(), optimum);
+    }
+    ASSERT_EQ(outcome, JointSearch::Outcome::kEnded);
+    ASSERT_EQ(search->plan().has_value(), truth.plan.has_value());
+    ASSERT_EQ(search->lower_bound(), optimum);
+    ++(truth.plan ? solved : infeasible);
+    if (!truth.plan) continue;
+    Solution solution;
+    solution.status = Status::kOptimal;
+    solution.plan = search->plan();
+    solution.lower_bound = optimum;
+    ASSERT_TRUE(check(instance, solution).empty());
+  }
+  EXPECT_GT(solved, 100);
+  EXPECT_GT(infeasible, 5);
+}
+
+// A cutoff hides what costs as much, and nothing else.
+TEST(JointSearch, ProvesTheCutoff) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = tiny_instance(seed).build();
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (!truth.plan) continue;
+    const auto at = search_of(instance);
+    while (at->run(100, truth.plan->cost, {}) == JointSearch::Outcome::kWorking) {
+    }
+    EXPECT_FALSE(at->plan());
+    EXPECT_GE(at->lower_bound(), truth.plan->cost);
+    const auto above = search_of(instance);
+    while (above->run(100, truth.plan->cost + 1, {}) == JointSearch::Outcome::kWorking) {
+    }
+    ASSERT_TRUE(above->plan());
+    EXPECT_EQ(above->plan()->cost, truth.plan->cost);
+  }
+}
+
+TEST(JointSearch, GivesUpWhereMemoryEnds) {
+  const Instance instance = fuzz::random_puzzle(39).build();
+  const auto search = JointSearch::make(instance, 64, 1);
+  ASSERT_TRUE(search);
+  auto outcome = JointSearch::Outcome::kWorking;
+  while (outcome == JointSearch::Outcome::kWorking) outcome = search->run(1000, kInfiniteCost, {});
+  EXPECT_EQ(outcome, JointSearch::Outcome::kTooLarge);
+  EXPECT_FALSE(search->plan());
+}
+
+TEST(JointSearch, IsForFewJointStates) {
+  const Instance instance = fuzz::random_puzzle(39).build();
+  EXPECT_FALSE(JointSearch::make(instance, 20, kMostBytes));
+  EXPECT_TRUE(JointSearch::make(instance, 40, kMostBytes));
+}
+
+}  // namespace joint_search_test
+}  // namespace grove::detail
