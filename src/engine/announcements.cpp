@@ -28,8 +28,9 @@ void Announcements::bound(Cost lower_bound) {
   bound_locked(lower_bound);
 }
 
-void Announcements::joint_bound(Cost lower_bound) {
+void Announcements::joint_bound(const std::function<Cost()>& prove) {
   const std::lock_guard lock(mutex_);
+  const Cost lower_bound = prove();
   if (lower_bound > announced_bound_) observer_.on_joint_bound();
   bound_locked(lower_bound);
 }

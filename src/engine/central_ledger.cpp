@@ -51,8 +51,10 @@ void CentralLedger::nodes_changed() {
 }
 
 void CentralLedger::prove(Cost bound) {
-  gate_.update(bound, bound);
-  announcements_.joint_bound(gate_.lower_bound());
+  announcements_.joint_bound([&] {
+    gate_.update(bound, bound);
+    return gate_.lower_bound();
+  });
 }
 
 void CentralLedger::add_counts(Stats& stats) const {

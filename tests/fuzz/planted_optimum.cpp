@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tests/support/obeys.h"
 
@@ -137,6 +138,9 @@ void PlantedOptimum::on_evicted(const NodePtr& node) {
 
 void PlantedOptimum::on_event(RunEvent, const Progress& progress) {
   claimed_ = progress.lower_bound;
+  // What is proven beside the trees no node needs to hold.
+  if (std::exchange(joint_raises_, false))
+    evicted_bound_ = std::max(evicted_bound_, progress.lower_bound);
   found_ = progress.incumbent && *progress.incumbent <= optimum_.cost;
   if (found_) holding_.clear();
   if (!found_ && progress.lower_bound > evicted_bound_)
