@@ -74,6 +74,8 @@ struct Solution {
   /// What the search did, by the names of the plan file's `stats`: "nodes_expanded".
   std::map<std::string, std::int64_t> counts = {};
   std::map<std::string, double> measures = {};  ///< Likewise, real numbers: "wall_s".
+  /// Likewise, words: "stopped_by", the limit that struck; "reason", why there is no plan.
+  std::map<std::string, std::string> texts = {};
 
   /// (cost - lower bound) / lower bound: how much dearer than the best the plan is at most. None
   /// without a plan, or with a bound of 0 below a plan that costs something.

@@ -160,14 +160,16 @@ void add_plan(py::module_& module) {
                       "Plan(instance, paths): from anybody's paths, or an array of agents x times "
                       "x 2; costs and the order of tasks are worked out.")
       .def(py::init(&from_paths), py::arg("instance"), py::arg("paths"))
-      .def_property_readonly("instance", [](const OwnPlan& p) { return p.instance; },
-                             "Whose plan it is.")
-      .def_property_readonly("cost", [](const OwnPlan& p) { return p.plan->cost; },
-                             "The sum of the robots'.")
-      .def_property_readonly("makespan", [](const OwnPlan& p) { return p.plan->makespan(); },
-                             "The step from which on everybody rests.")
-      .def_property_readonly("agents", [](const OwnPlan& p) { return p.plan->agents; },
-                             "What each does, in the instance's order.")
+      .def_property_readonly(
+          "instance", [](const OwnPlan& p) { return p.instance; }, "Whose plan it is.")
+      .def_property_readonly(
+          "cost", [](const OwnPlan& p) { return p.plan->cost; }, "The sum of the robots'.")
+      .def_property_readonly(
+          "makespan", [](const OwnPlan& p) { return p.plan->makespan(); },
+          "The step from which on everybody rests.")
+      .def_property_readonly(
+          "agents", [](const OwnPlan& p) { return p.plan->agents; },
+          "What each does, in the instance's order.")
       .def("positions", &positions,
            "Where all are, agents x times x 2: cells (x, y) on a grid, metres on a roadmap.")
       .def("headings", &headings,
@@ -181,29 +183,36 @@ void add_plan(py::module_& module) {
                           "What a solve ends with: a status, perhaps a plan, always a bound.\n\n"
                           "Solution(plan): anybody's plan, of which nothing is claimed.")
       .def(py::init(&unclaimed), py::arg("plan"))
-      .def_property_readonly("instance", [](const OwnSolution& s) { return s.instance; },
-                             "What was solved.")
+      .def_property_readonly(
+          "instance", [](const OwnSolution& s) { return s.instance; }, "What was solved.")
       .def_property_readonly(
           "status", [](const OwnSolution& s) { return std::string(to_string(s.facts.status)); },
           "'optimal', 'bounded' (within omega), 'feasible', 'infeasible' or 'unknown'.")
       .def_readonly("plan", &OwnSolution::plan, "None if there is none.")
-      .def_property_readonly("lower_bound",
-                             [](const OwnSolution& s) { return s.facts.lower_bound; },
-                             "Proven: no plan costs less.")
-      .def_property_readonly("omega", [](const OwnSolution& s) { return s.facts.omega; },
-                             "That was asked for.")
+      .def_property_readonly(
+          "lower_bound", [](const OwnSolution& s) { return s.facts.lower_bound; },
+          "Proven: no plan costs less.")
+      .def_property_readonly(
+          "omega", [](const OwnSolution& s) { return s.facts.omega; }, "That was asked for.")
       .def_property_readonly("gap", &gap_of,
                              "How much dearer than the best the plan is at most: 0.02 is 2 %. None "
                              "without a plan, or with a bound of 0.")
-      .def_property_readonly("counts", [](const OwnSolution& s) { return s.facts.counts; },
-                             "What the search did, by the names of the plan file: nodes_expanded.")
-      .def_property_readonly("measures", [](const OwnSolution& s) { return s.facts.measures; },
-                             "Likewise, real numbers: wall_s.")
-      .def("write",
-           [](const OwnSolution& s, const std::filesystem::path& path) {
-             write_plan(path, s.instance, s.whole());
-           },
-           py::arg("path"), "Writes a plan file.")
+      .def_property_readonly(
+          "counts", [](const OwnSolution& s) { return s.facts.counts; },
+          "What the search did, by the names of the plan file: nodes_expanded.")
+      .def_property_readonly(
+          "measures", [](const OwnSolution& s) { return s.facts.measures; },
+          "Likewise, real numbers: wall_s.")
+      .def_property_readonly(
+          "texts", [](const OwnSolution& s) { return s.facts.texts; },
+          "Likewise, words: stopped_by, the limit that struck; reason, why there "
+          "is no plan.")
+      .def(
+          "write",
+          [](const OwnSolution& s, const std::filesystem::path& path) {
+            write_plan(path, s.instance, s.whole());
+          },
+          py::arg("path"), "Writes a plan file.")
       .def("__repr__", &text_of);
   py::implicitly_convertible<OwnPlan, OwnSolution>();
   module.def("_check_plan", [](const OwnPlan& plan, std::size_t limit) {

@@ -253,6 +253,10 @@ def view(*plans, title="plan", height=600):
     """
     if not 1 <= len(plans) <= 2:
         raise InvalidArgument(f"{len(plans)} plans; expected one or two")
+    wrong = [plan for plan in plans[isinstance(plans[0], Instance):] if not isinstance(plan, (Plan, Solution))]
+    if wrong or (isinstance(plans[0], Instance) and len(plans) > 1):
+        raise InvalidArgument(f"found {', '.join(type(plan).__name__ for plan in plans)}; expected one or two "
+                              "of Plan and Solution, or an Instance alone")
     if isinstance(plans[0], Instance):
         return View(_grove._page(plans[0], title, []), height)
     solutions = [(f"plan {i + 1}" if len(plans) > 1 else title, plan) for i, plan in enumerate(plans)]

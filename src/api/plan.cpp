@@ -122,6 +122,7 @@ detail::Solution solution_of(const detail::Instance& instance, const Solution& s
   made.may_follow = instance.may_follow();
   made.stats.counts = solution.counts;
   made.stats.measures = solution.measures;
+  made.stats.texts = solution.texts;
   return made;
 }
 
@@ -134,6 +135,7 @@ Solution told_solution(const detail::Instance& instance, const detail::Solution&
                                             : solution.omega.value();
   told.counts = solution.stats.counts;
   told.measures = solution.stats.measures;
+  told.texts = solution.stats.texts;
   return told;
 }
 
@@ -164,7 +166,8 @@ Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Pla
       own.push_back(place_of(inner.map(), place,
                              fmt::format("/agents/{}/path/{}", made.size() - 1, own.size())));
   }
-  return translated([&] { return told_plan(inner, detail::plan_of_paths(inner, std::move(made))); });
+  return translated(
+      [&] { return told_plan(inner, detail::plan_of_paths(inner, std::move(made))); });
 }
 
 Solution read_plan(const std::filesystem::path& path, const Instance& instance) {

@@ -63,6 +63,7 @@ class Told {
     next_.on_expanded(node, expansion, worker);
   }
   void note(std::string_view note) { next_.on_note(note); }
+  void joint_bound() { next_.on_joint_bound(); }
   void infeasible(std::string_view reason) { next_.on_infeasible(reason); }
   void end() {
     if (searched_) next_.on_event(RunEvent::kEnd, last_);
@@ -97,6 +98,7 @@ class Stage : public RunObserver {
   void on_event(RunEvent event, const Progress& progress) override {
     told_.event(event, of_whole(progress));
   }
+  void on_joint_bound() override { told_.joint_bound(); }
   void on_infeasible(std::string_view reason) override { told_.infeasible(reason); }
   bool wants_survey() override { return told_.wants_survey(); }
   void on_survey(const Survey& survey) override { told_.survey(survey); }
@@ -125,6 +127,7 @@ class StageOfB : public Stage {
       : Stage(told), instance_(instance), destinations_(destinations) {}
 
   void on_infeasible(std::string_view) override {}  // with these destinations
+  void on_joint_bound() override {}                 // likewise
 
  private:
   Plan of_whole(const Plan& plan) const override {

@@ -35,6 +35,11 @@ void Announcements::joint_bound(const std::function<Cost()>& prove) {
   bound_locked(lower_bound);
 }
 
+void Announcements::infeasible(std::string_view reason) {
+  const std::lock_guard lock(mutex_);
+  observer_.on_infeasible(reason);
+}
+
 // That there is no plan at all is told at the end.
 void Announcements::bound_locked(Cost lower_bound) {
   if (lower_bound <= announced_bound_ || lower_bound >= kInfiniteCost) return;

@@ -55,6 +55,8 @@ void CentralLedger::prove(Cost bound) {
     gate_.update(bound, bound);
     return gate_.lower_bound();
   });
+  if (gate_.proven_infeasible() && !ended_beside_.exchange(true))
+    announcements_.infeasible(kNoJointPlan);
 }
 
 void CentralLedger::add_counts(Stats& stats) const {

@@ -92,6 +92,8 @@ class Scripts(unittest.TestCase):
     def test_what_the_scripts_say_themselves(self):
         self.run_script("array.sbatch", "instances.txt")
         checked_plan(INSTANCE, self.folder / "plans/1-first.plan.json")
+        self.run_script("array.sbatch", "instances.txt", "--checkpoint", "kept/%a")
+        self.assertTrue((self.folder / "kept/1/checkpoint.grove").exists())
         self.run_script("preempt.sbatch", INSTANCE)
         checked_plan(INSTANCE, self.folder / "first.plan.json")
         self.assertTrue((self.folder / "first.checkpoint/checkpoint.grove").exists())

@@ -28,6 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// So much later than its limit an anytime solver may end: in seconds, or as a part of the limit.
+constexpr double kGrace_s = 1;
+constexpr double kGrace = 0.1;
 constexpr std::array<std::string_view, 3> kTimeLimits{"time_limit", "time_limit_ms",
                                                       "time_limit_whole"};
 
@@ -272,7 +275,7 @@ void ForeignRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
 }
 
 // What is still solved although a limit struck: whatever goes on until it does, if it had a plan in
-// time.
+// time. When it had one only it says itself; one that ends much later is not believed.
 void ForeignRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
                                   const fs::path& said) const {
   const double limit = settings_.time_limit_s;
@@ -280,8 +283,14 @@ void ForeignRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
     outcome.first_plan_s = outcome.trace.empty() ? end.wall_s : outcome.trace.front().seconds;
   outcome.trace = borne_out(std::move(outcome.trace), *outcome.cost, end.wall_s);
   outcome.error = what_went_wrong(end, limit, said);
-  if (outcome.anytime && outcome.error == kTimeLimit && *outcome.first_plan_s <= limit)
-    outcome.error.clear();
+  if (outcome.anytime && outcome.error == kTimeLimit && *outcome.first_plan_s <= limit) {
+    const bool in_time = end.wall_s <= limit + std::max(kGrace_s, kGrace * limit);
+    outcome.error = in_time ? ""
+                            : fmt::format(
+                                  "{:.1f} s after the time limit it went on; when it "
+                                  "had a plan only it says",
+                                  end.wall_s - limit);
+  }
   outcome.solved = outcome.error.empty();
 }
 

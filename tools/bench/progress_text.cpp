@@ -37,7 +37,8 @@ std::string refuted_text(const std::vector<batch::FalseClaim>& claims) {
   for (std::size_t k = 0; k < std::min(kShown, claims.size()); ++k)
     text +=
         fmt::format("refuted: {} on {} {}\n", claims[k].method, claims[k].instance, claims[k].what);
-  if (claims.size() > kShown) text += fmt::format("refuted: and {} more\n", claims.size() - kShown);
+  if (claims.size() > kShown)
+    text += fmt::format("refuted: and {} more; grove report lists all\n", claims.size() - kShown);
   return text;
 }
 

@@ -9,13 +9,17 @@
 #include <string>
 
 #include "grove/detail/engine/session.h"
+#include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/input_error.h"
+#include "grove/detail/io/instance_file.h"
 #include "grove/detail/io/map_file.h"
 #include "grove/detail/io/roadmap_file.h"
+#include "grove/detail/io/text_file.h"
 #include "tools/common/commands.h"
 #include "tools/common/file_formats.h"
 #include "tools/common/options.h"
 #include "tools/common/signals.h"
+#include "tools/common/standard_error.h"
 #include "tools/execute/robots.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/replan/change_arguments.h"
@@ -42,7 +46,8 @@ then lets them be (see 'grove execute --help').
 
 --commit K: while the new plan is being found robots go on. All keep to the first K steps of the old
 plan, and the new one begins with them: late or not, who has done some of these can go on with it. If
-robots do more in that time, K is too small.
+robots do more in that time, K is too small. (A plan file that is there is then replaced, by a costlier
+plan too, for it need not begin with these steps.)
 
 NEW TASKS are a task as in an instance, {"id": "t9", "cell": [3, 4], "agents": ["r0"]}, or several,
 {"tasks": [...]}.
@@ -98,6 +103,7 @@ class Replanning {
 
   void name_outputs() {
     SolveArguments& s = a_.solve;
+    s.keeps_cheaper = a_.commit == 0;  // others need not begin with the committed steps
     const std::string stem = fmt::format("{}-at-{}", s.instance.stem(), a_.at);
     if (a_.output_instance.empty()) a_.output_instance = stem + ".cts.json";
     if (s.output.empty()) s.output = stem + ".plan.json";
@@ -123,7 +129,18 @@ class Replanning {
       else
         write_roadmap(map, *now.roadmap());
     }
-    write_instance(a_.output_instance, now, map_as_seen_from(a_.output_instance, map));
+    const std::string text = instance_text(now, map_as_seen_from(a_.output_instance, map));
+    tell_if_another_is_replaced(text);
+    write_file_atomically(a_.output_instance, text);
+  }
+
+  // Plans of that one are then none of this.
+  void tell_if_another_is_replaced(const std::string& text) const {
+    if (!fs::exists(a_.output_instance) || read_text(a_.output_instance) == text) return;
+    say_on_stderr(fmt::format(
+        "grove: {} held another instance, of which plans are none of this one; --output-instance "
+        "names another file",
+        a_.output_instance.string()));
   }
 
   void solve() {

@@ -56,14 +56,16 @@ std::string ending_text(const Solution& solution) {
 }  // namespace
 
 std::optional<Cost> write_plan(const std::filesystem::path& file, const Instance& instance,
-                               const Solution& solution) {
+                               const Solution& solution, bool keeps_cheaper) {
   if (file == kStandardOutput) {
     print(solution_text(instance, solution));
     return std::nullopt;
   }
   const std::optional<Cost> there = valid_cost(file, instance);
   if (there) require_no_contradiction(file, *there, solution);
-  if (there && (!solution.plan || solution.plan->cost > *there)) return there;
+  const bool is_better =
+      solution.plan && (!there || solution.plan->cost <= *there || !keeps_cheaper);
+  if (there && !is_better) return there;
   write_solution(file, instance, solution);
   return std::nullopt;
 }

@@ -37,6 +37,7 @@ struct SolveArguments {
   std::filesystem::path start;
   std::string incumbents;
   std::filesystem::path output;
+  bool keeps_cheaper = true;  // a cheaper valid plan that is in the output file already
   bool require_plan = false;
   std::filesystem::path log;
   std::string log_format = "text";

@@ -183,6 +183,13 @@ class Solvers(Foreign):
         self.assertEqual(row["runtime_s"], row["first_plan_s"])
         self.assertGreater(row["wall_s"], 1)
 
+    def test_an_anytime_one_that_ends_long_after_its_limit(self):
+        adapter = {**ANYTIME, "name": "fake-late", "command": ADAPTER["command"] + " {time_limit}"}
+        (self.folder / "fake-late.json").write_text(json.dumps(adapter))
+        row = self.row_of("late", limit=1, adapter="fake-late.json")
+        self.assertEqual((row["solved"], row["cost"]), (False, 14), row)
+        self.assertRegex(row["error"], r"after the time limit it went on; when it had a plan only it says")
+
     def test_groves_own_trace_ends_with_its_plan(self):
         self.row_of("honest")
         row = self.rows()["open-random-1-2", "grove"]

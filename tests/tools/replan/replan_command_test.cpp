@@ -14,6 +14,7 @@ namespace replan_command_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class ReplanCommand : public ::testing::Test {
  protected:
@@ -93,6 +94,23 @@ TEST_F(ReplanCommand, WhatIsCommittedIsKept) {
   EXPECT_EQ(std::ranges::count(now, ahead), 0);
   // The map on which it is closed lies beside the instance.
   EXPECT_EQ(read("then.cts.json")["map"], "then.map");
+}
+
+// A cheaper plan that is there goes another way.
+TEST_F(ReplanCommand, WhatIsCommittedReplacesACheaperPlan) {
+  const json path = read("p.plan.json")["agents"][3]["path"];
+  expect_valid({"--at", "20", "--late", "a3=6", "--omega", "0"});
+  const int without = read("then.plan.json")["cost"];
+  expect_valid({"--at", "20", "--late", "a3=6", "--commit", "6"});
+  const json now = read("then.plan.json");
+  for (std::size_t t = 0; t <= 6; ++t) EXPECT_EQ(now["agents"][3]["path"][t], path[t + 14]);
+  EXPECT_GE(int(now["cost"]), without);
+}
+
+TEST_F(ReplanCommand, TellsThatAnotherInstanceIsReplaced) {
+  expect_valid({"--at", "20"});
+  EXPECT_THAT(replan({"--at", "20"}).err, Not(HasSubstr("another instance")));
+  EXPECT_THAT(replan({"--at", "21"}).err, HasSubstr("then.cts.json held another instance"));
 }
 
 TEST_F(ReplanCommand, TasksComeAndGo) {

@@ -98,9 +98,10 @@ def _list(texts):
 def _alarm(report):
     found = report.contradictions
     if not found:
+        compared = (f"costs called optimal agree wherever several methods found one ({report.agreements} instances)"
+                    if report.agreements else "on no instance did several methods call a cost optimal")
         return _box("good", [_paragraph(
-            "No proofs contradict each other: costs called optimal agree wherever several methods found "
-            f"one ({report.agreements} instances), and no plan is cheaper than a proven lower bound.")])
+            f"No proofs contradict each other: {compared}, and no plan is cheaper than a proven lower bound.")])
     instances = len({(each.problem, each.instance) for each in found})
     shown = [f"{each.problem}: {each.instance}: {each.what}" for each in found[:MOST_LISTED]]
     if len(found) > MOST_LISTED:

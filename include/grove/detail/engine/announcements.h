@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <mutex>
+#include <string_view>
 #include <utility>
 
 #include "grove/detail/engine/run_observer.h"
@@ -31,6 +32,7 @@ class Announcements : public TurnObserver {
   // What `prove` does makes it as high as it returns, by the search over joint states. Nothing else
   // is told in between.
   void joint_bound(const std::function<Cost()>& prove);
+  void infeasible(std::string_view reason);
   // The observer knows that it is so high.
   void bound_is_known(Cost lower_bound) { announced_bound_ = lower_bound; }
   // Dearer nodes are about to be dropped.

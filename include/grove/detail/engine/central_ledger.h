@@ -6,6 +6,7 @@
 #include <atomic>
 #include <mutex>
 #include <optional>
+#include <string_view>
 
 #include "grove/detail/engine/announcements.h"
 #include "grove/detail/engine/ledger.h"
@@ -42,6 +43,10 @@ class CentralLedger : public Ledger {
 
   // For decisions that are the gate's.
   const Gate& gate() const { return gate_; }
+  // Was it proven beside the trees that there is no plan? And why there is none, then.
+  bool has_no_joint_plan() const { return ended_beside_; }
+  static constexpr std::string_view kNoJointPlan =
+      "everything was searched that the agents can come to together";
   // What an earlier run proved.
   void resume_at(Cost lower_bound);
   // No tree that is still to come costs less; kInfiniteCost: none is to come. To be said after the
@@ -60,6 +65,7 @@ class CentralLedger : public Ledger {
   Gate gate_;
   std::atomic<Cost> trees_from_;
   std::atomic<bool> out_of_nodes_{false};
+  std::atomic<bool> ended_beside_{false};
 
   struct Found {
     std::int64_t plans = 0;

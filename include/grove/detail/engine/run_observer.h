@@ -44,7 +44,8 @@ class RunObserver {
   virtual void on_incumbent(const Plan& /*plan*/, PlanSource /*source*/,
                             const Progress& /*progress*/) {}
   virtual void on_event(RunEvent /*event*/, const Progress& /*progress*/) {}
-  // The instance was seen to have no plan before any search; `reason` is a sentence.
+  // The instance was seen to have no plan, before any search or beside the trees; `reason` is a
+  // sentence.
   virtual void on_infeasible(std::string_view /*reason*/) {}
 
   // What the run goes on with now, a sentence: of methods that search more than once.
