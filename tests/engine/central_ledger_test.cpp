@@ -89,8 +89,37 @@ TEST_F(CentralLedgerTest, TheBoundIsThatOfNodesAndTreesAndNeverFalls) {
   EXPECT_TRUE(ledger_.over());
   EXPECT_EQ(listener_.heard, (std::vector<Heard>{{RunEvent::kBound, 5, std::nullopt},
                                                  {RunEvent::kBound, 8, std::nullopt},
-                                                 {RunEvent::kBound, 9, std::nullopt},
-                                                 {RunEvent::kBound, kInfiniteCost, std::nullopt}}));
+                                                 {RunEvent::kBound, 9, std::nullopt}}));
+}
+
+// It holds of all plans, whatever the nodes say.
+TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesCounts) {
+  ledger_.nodes_changed();
+  ledger_.prove(4);
+  EXPECT_EQ(ledger_.lower_bound(), 5);
+  ledger_.prove(7);
+  EXPECT_EQ(ledger_.lower_bound(), 7);
+  ledger_.nodes_changed();
+  EXPECT_EQ(ledger_.lower_bound(), 7);
+  ledger_.expect_trees_from(9);
+  ledger_.nodes_changed();
+  EXPECT_EQ(ledger_.lower_bound(), 8);
+  EXPECT_FALSE(ledger_.over());
+  EXPECT_FALSE(ledger_.has_no_joint_plan());
+  ledger_.prove(kInfiniteCost);
+  EXPECT_TRUE(ledger_.over());
+  EXPECT_TRUE(ledger_.gate().proven_infeasible());
+  EXPECT_TRUE(ledger_.has_no_joint_plan());
+}
+
+// With a plan, that there is no better one.
+TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesMayCloseAPlan) {
+  ledger_.post(plan(), PlanSource::kStart);
+  ledger_.prove(kInfiniteCost);
+  EXPECT_TRUE(ledger_.over());
+  EXPECT_EQ(ledger_.lower_bound(), plan().cost);
+  EXPECT_FALSE(ledger_.gate().proven_infeasible());
+  EXPECT_FALSE(ledger_.has_no_joint_plan());
 }
 
 // Another worker pushes the last tree's root and says so, just after the nodes were looked at.
