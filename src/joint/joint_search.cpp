@@ -27,10 +27,10 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "grove/detail/joint/group_table.h"
+#include "grove/detail/model/plan_of_path.h"
 
 namespace grove::detail {
 namespace {
@@ -306,24 +306,10 @@ class JointSearch::Search {
         const Node node = nodes_of(state)[agent];
         if (!agents_[agent].rests(node)) path.push_back(agents_[agent].state(node));
       }
-      plan.agents.push_back(plan_of(agents_[agent].agent(), path));
+      plan.agents.push_back(plan_of_path(instance_, agents_[agent].agent(), path));
       plan.cost += plan.agents.back().cost;
     }
     return plan;
-  }
-
-  // Stops in the order of their first visits; where it rests on one of them, that is the last.
-  AgentPlan plan_of(AgentIndex agent, const Path& path) const {
-    const std::vector<TaskIndex>& stops = instance_.agent(agent).stops;
-    std::vector<std::uint8_t> order(stops.size());
-    std::iota(order.begin(), order.end(), std::uint8_t{0});
-    const bool ends_on_a_stop = instance_.rests_on_last_stop(agent);
-    std::ranges::stable_sort(order, {}, [&](std::uint8_t stop) {
-      const auto visits = [&](State state) { return instance_.is_visited(stops[stop], state); };
-      const bool last = ends_on_a_stop && visits(path.back());
-      return (last ? path.end() : std::ranges::find_if(path, visits)) - path.begin();
-    });
-    return agent_plan(instance_, agent, order, path);
   }
 
   const Instance& instance_;

@@ -46,6 +46,8 @@
 #include <utility>
 #include <vector>
 
+#include "grove/detail/model/plan_of_path.h"
+
 namespace grove::detail {
 namespace {
 
@@ -59,20 +61,6 @@ std::vector<VisitStages> visit_stages(const Problem& problem, std::span<const Se
   for (AgentIndex agent = 0; agent < agents; ++agent)
     states.emplace_back(problem, agent, orders[agent]);
   return states;
-}
-
-// Of a path that ends at rest with everything visited. Stops in the order of their first visits.
-AgentPlan plan_of(const Instance& instance, AgentIndex agent, const Path& path) {
-  const std::vector<TaskIndex>& tasks = instance.agent(agent).stops;
-  Sequence order(tasks.size());
-  std::iota(order.begin(), order.end(), Stop{0});
-  const bool ends_on_a_stop = instance.rests_on_last_stop(agent);
-  std::ranges::stable_sort(order, {}, [&](Stop stop) {
-    const auto visits = [&](State state) { return instance.is_visited(tasks[stop], state); };
-    const bool last = ends_on_a_stop && visits(path.back());
-    return (last ? path.end() : std::ranges::find_if(path, visits)) - path.begin();
-  });
-  return agent_plan(instance, agent, order, path);
 }
 
 }  // namespace
@@ -215,7 +203,7 @@ Plan Lacam::make_plan(Id end) {
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
     Path path;
     for (Id id : way) path.push_back(configurations_[id][agent].state);
-    plan.agents.push_back(plan_of(instance_, agent, path));
+    plan.agents.push_back(plan_of_path(instance_, agent, path));
     plan.cost += plan.agents.back().cost;
   }
   return plan;
