@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The library as others see it: all layers below the front door in one file, shared or static.
-set(grove_library_layers model execution io sequencing planning joint conflicts search primal baselines engine api)
+set(grove_library_layers model execution io sequencing planning joint lagrangian conflicts search primal baselines engine api)
 list(TRANSFORM grove_library_layers PREPEND grove_)
 
 # What both have in common. Before 1.0 minor versions may break the interface: they are in the SONAME.

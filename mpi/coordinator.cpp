@@ -128,7 +128,7 @@ void Coordinator::heard(int from, message::Status status) {
     transport_.send(giver, bytes_of(message::Release{from, batches}));
   }
   if (status.stopped != StopReason::kNone) limits_.stop(status.stopped);
-  if (status.proven > 0) run_.ledger().prove(status.proven);
+  if (status.proven > 0) run_.ledger().prove(status.proven, status.proven_by);
   nodes_.update(from, std::move(status));
   run_.ledger().nodes_changed();
   run_.announcements().worked();

@@ -33,4 +33,14 @@ void LedgerCopy::end() {
   limits_.end_work();
 }
 
+void LedgerCopy::prove(Cost bound, ProvenBy by) {
+  const std::lock_guard lock(mutex_);
+  if (bound > proven_.first) proven_ = {bound, by};
+}
+
+std::pair<Cost, ProvenBy> LedgerCopy::proven() const {
+  const std::lock_guard lock(mutex_);
+  return proven_;
+}
+
 }  // namespace grove::detail

@@ -33,13 +33,13 @@ class LedgerCopy : public Ledger {
   Cost lower_bound() const override { return frontier_.bound(); }
   // Nobody prunes by the plan before it has been checked.
   void post(Plan plan, PlanSource source) override;
-  void prove(Cost bound) override { proven_ = bound; }
+  void prove(Cost bound, ProvenBy by) override;
   void nodes_changed() override {}
 
   // The best plan posted since, if it is of use.
   std::optional<Found> take_found();
-  // What was proven beside the nodes.
-  Cost proven() const { return proven_; }
+  // What was proven beside the nodes, and by whom.
+  std::pair<Cost, ProvenBy> proven() const;
   // A plan that has been checked.
   void adopt(Plan plan);
   // The run is over.
@@ -50,10 +50,10 @@ class LedgerCopy : public Ledger {
   const Frontier& frontier_;
   std::atomic<bool> over_{false};
   std::atomic<Cost> cutoff_{kInfiniteCost};
-  std::atomic<Cost> proven_{0};
   mutable std::mutex mutex_;
   std::optional<Plan> incumbent_;  // under mutex_, as is found_
   std::optional<Found> found_;
+  std::pair<Cost, ProvenBy> proven_{0, ProvenBy::kJointSearch};
 };
 
 }  // namespace grove::detail

@@ -40,6 +40,7 @@ template <class Archive>
 void serialize(Archive& archive, Status& s) {
   archive(s.bound, s.evicted_bound, s.proven, s.live, s.idle, s.open, s.expanded, s.era,
           s.entrusted);
+  enumerated(archive, s.proven_by, kLastProvenBy);
   enumerated(archive, s.stopped, StopReason::kInterrupt);
   archive(s.levels, s.batches);
 }

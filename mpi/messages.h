@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "grove/detail/engine/proven_by.h"
 #include "grove/detail/engine/serialise.h"
 #include "grove/detail/engine/survey.h"
 #include "grove/detail/model/limits.h"
@@ -27,8 +28,8 @@ namespace grove::detail::message {
 struct Status {
   Cost bound = kInfiniteCost;
   Cost evicted_bound = kInfiniteCost;
-  Cost proven =
-      0;  // beside the nodes: no plan costs less, nor than the incumbent; see Ledger::prove
+  Cost proven = 0;  // beside the nodes; see Ledger::prove
+  ProvenBy proven_by = ProvenBy::kJointSearch;
   std::int64_t live = 0;
   bool idle = true;  // no node that the end waits for: the incumbent is within w of those it has
   std::int64_t open = 0;

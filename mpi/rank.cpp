@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace grove::detail {
@@ -168,7 +169,7 @@ message::Status Rank::status() const {
   message::Status status;
   status.live = static_cast<std::int64_t>(nodes_.frontier.live());
   status.evicted_bound = nodes_.evicted_bound();
-  status.proven = ledger_.proven();
+  std::tie(status.proven, status.proven_by) = ledger_.proven();
   status.bound = nodes_.bound();
   status.levels = nodes_.frontier.levels(kLevels);
   const bool has_open = !status.levels.empty();

@@ -28,10 +28,10 @@ void Announcements::bound(Cost lower_bound) {
   bound_locked(lower_bound);
 }
 
-void Announcements::joint_bound(const std::function<Cost()>& prove) {
+void Announcements::bound_beside(ProvenBy by, const std::function<Cost()>& prove) {
   const std::lock_guard lock(mutex_);
   const Cost lower_bound = prove();
-  if (lower_bound > announced_bound_) observer_.on_joint_bound();
+  if (lower_bound > announced_bound_) observer_.on_bound_beside(by);
   bound_locked(lower_bound);
 }
 

@@ -50,8 +50,8 @@ void CentralLedger::nodes_changed() {
   announcements_.bound(gate_.lower_bound());
 }
 
-void CentralLedger::prove(Cost bound) {
-  announcements_.joint_bound([&] {
+void CentralLedger::prove(Cost bound, ProvenBy by) {
+  announcements_.bound_beside(by, [&] {
     gate_.update(bound, bound);
     return gate_.lower_bound();
   });

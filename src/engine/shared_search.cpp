@@ -37,6 +37,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
       ledger_(ledger),
       trees_(trees),
       observer_(observer),
+      lagrangian_(options.tuning),
       shares_(std::make_unique<MemoryShares>(limits, options.node_memory)),
       known_(std::make_shared<CommonMemory>()) {}
 
@@ -129,6 +130,7 @@ void SharedSearch::add_counts(Stats& stats) const {
   stats.counts["nodes_expanded"] += nodes_.expanded;
   stats.counts["nodes_generated"] += nodes_generated_;
   stats.counts["nodes_evicted"] += nodes_evicted_;
+  if (lagrangian_.rounds() > 0) stats.counts["lagrangian_rounds"] += lagrangian_.rounds();
 }
 
 MemoryUse SharedSearch::memory_use() const {

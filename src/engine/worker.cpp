@@ -53,6 +53,8 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
   // To expand the root can take long where there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
   share_->tree_worked(options.tuning.root_work_per_pair * agents * agents);
+  if (number == 0 && techniques_of(options).has(Technique::kLagrangian))
+    shared.lagrangian().open(problem.instance, stops);
 }
 
 Worker::~Worker() = default;
@@ -66,6 +68,13 @@ std::optional<Worker::Turn> Worker::choose() {
   };
   shared_.keep_within_memory();
   if (joint_->due() && !shared_.over()) return one(Job::kJoint);
+  if (auto job = shared_.over()
+                     ? std::nullopt
+                     : shared_.lagrangian().next(shared_.ledger().cutoff() < kInfiniteCost)) {
+    auto turn = one(Job::kLagrangian);
+    turn->lagrangian = std::move(*job);
+    return turn;
+  }
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
   if (has_primal && share_->may_begin() && share_->due(primal())) return one(Job::kPrimal);
   if (NodePtr node = shared_.take()) return one(Job::kExpand, std::move(node));
@@ -107,6 +116,8 @@ void Worker::perform(Turn& turn, Expander& by) {
       return shared_.trees().prepare_tree();
     case Turn::Job::kJoint:
       return step_joint(turn);
+    case Turn::Job::kLagrangian:
+      return step_lagrangian(turn);
   }
 }
 
@@ -133,6 +144,13 @@ void Worker::step_joint(Turn& turn) {
   turn.plan = joint_->plan();
 }
 
+void Worker::step_lagrangian(Turn& turn) {
+  if (!pricer_) pricer_.emplace(shared_.lagrangian().pricer(primal_stops_));
+  const Ledger& ledger = shared_.ledger();
+  shared_.lagrangian().perform(turn.lagrangian, *pricer_, ledger.cutoff(), ledger.lower_bound(),
+                               limits_);
+}
+
 void Worker::publish(Turn& turn) {
   turn.memory->learn(std::exchange(turn.found, {}));
 }
@@ -142,18 +160,28 @@ void Worker::commit(Turn& turn) {
   if (turn.job == Turn::Job::kPrimal) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
     share_->primal_worked(*primal_, turn.work);
-    joint_->others_worked(turn.work);
+    others_worked(turn.work);
   } else if (turn.job == Turn::Job::kJoint) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), PlanSource::kJointSearch);
-    shared_.ledger().prove(turn.proven);
+    shared_.ledger().prove(turn.proven, ProvenBy::kJointSearch);
+  } else if (turn.job == Turn::Job::kLagrangian) {
+    const Cost proven = shared_.lagrangian().commit(std::move(turn.lagrangian));
+    if (proven > shared_.ledger().lower_bound())
+      shared_.ledger().prove(proven, ProvenBy::kLagrangian);
   } else if (turn.job != Turn::Job::kPrepare) {
     turn.memory->trim();
     if (turn.job == Turn::Job::kExpand)
       shared_.finish(turn.node, std::move(turn.expansion), number_);
     share_->tree_worked(turn.work);
-    joint_->others_worked(turn.work);
+    others_worked(turn.work);
   }
   shared_.observer().worked();
+}
+
+// Beside what shares the work with them.
+void Worker::others_worked(std::int64_t work) {
+  joint_->others_worked(work);
+  shared_.lagrangian().others_worked(work);
 }
 
 void Worker::count(const Turn& turn) {

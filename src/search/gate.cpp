@@ -10,7 +10,7 @@
 // lower bound on every plan; and as each such minimum was a valid bound when it was computed, so is
 // the largest so far.
 //
-// What is proven without the trees (joint/joint_search.cpp) bounds every plan, or every plan
+// What is proven without the trees (joint, lagrangian) bounds every plan, or every plan
 // cheaper than an incumbent that the gate had checked before: then min(it, incumbent) bounds all,
 // and the largest of all such bounds does.
 //

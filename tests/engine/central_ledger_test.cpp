@@ -95,9 +95,9 @@ TEST_F(CentralLedgerTest, TheBoundIsThatOfNodesAndTreesAndNeverFalls) {
 // It holds of all plans, whatever the nodes say.
 TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesCounts) {
   ledger_.nodes_changed();
-  ledger_.prove(4);
+  ledger_.prove(4, ProvenBy::kJointSearch);
   EXPECT_EQ(ledger_.lower_bound(), 5);
-  ledger_.prove(7);
+  ledger_.prove(7, ProvenBy::kLagrangian);
   EXPECT_EQ(ledger_.lower_bound(), 7);
   ledger_.nodes_changed();
   EXPECT_EQ(ledger_.lower_bound(), 7);
@@ -106,7 +106,7 @@ TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesCounts) {
   EXPECT_EQ(ledger_.lower_bound(), 8);
   EXPECT_FALSE(ledger_.over());
   EXPECT_FALSE(ledger_.has_no_joint_plan());
-  ledger_.prove(kInfiniteCost);
+  ledger_.prove(kInfiniteCost, ProvenBy::kJointSearch);
   EXPECT_TRUE(ledger_.over());
   EXPECT_TRUE(ledger_.gate().proven_infeasible());
   EXPECT_TRUE(ledger_.has_no_joint_plan());
@@ -115,7 +115,7 @@ TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesCounts) {
 // With a plan, that there is no better one.
 TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesMayCloseAPlan) {
   ledger_.post(plan(), PlanSource::kStart);
-  ledger_.prove(kInfiniteCost);
+  ledger_.prove(kInfiniteCost, ProvenBy::kJointSearch);
   EXPECT_TRUE(ledger_.over());
   EXPECT_EQ(ledger_.lower_bound(), plan().cost);
   EXPECT_FALSE(ledger_.gate().proven_infeasible());

@@ -137,6 +137,14 @@ Tuning random_tuning(Random& random) {
     tuning.joint_begins_work = 0;
     tuning.joint_step_work = random.pick<std::int64_t>({1, 20, 4000});
   }
+  // Nor would it be tried with so few agents.
+  if (random.percent(30)) {
+    tuning.lagrangian_agents = 1;
+    tuning.lagrangian_begins_work = 0;
+    tuning.most_lagrangian = random.pick<double>({0.5, 4, 100});
+    tuning.lagrangian_step_work = random.pick<std::int64_t>({1, 100, 4000});
+    tuning.lagrangian_level = random.pick<double>({0.03, 0.3});
+  }
   if (random.below(4) > 0) return tuning;
   const auto all = tunables();
   for (int left = random.between(1, 8); left > 0; --left) {

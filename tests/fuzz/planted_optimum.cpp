@@ -139,7 +139,7 @@ void PlantedOptimum::on_evicted(const NodePtr& node) {
 void PlantedOptimum::on_event(RunEvent, const Progress& progress) {
   claimed_ = progress.lower_bound;
   // What is proven beside the trees no node needs to hold.
-  if (std::exchange(joint_raises_, false))
+  if (std::exchange(raised_beside_, false))
     evicted_bound_ = std::max(evicted_bound_, progress.lower_bound);
   found_ = progress.incumbent && *progress.incumbent <= optimum_.cost;
   if (found_) holding_.clear();

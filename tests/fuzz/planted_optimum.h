@@ -23,7 +23,7 @@ class PlantedOptimum : public RunObserver {
   PlantedOptimum(const Instance& instance, Plan optimum);
 
   void on_event(RunEvent event, const Progress& progress) override;
-  void on_joint_bound() override { joint_raises_ = true; }
+  void on_bound_beside(ProvenBy) override { raised_beside_ = true; }
   void on_infeasible(std::string_view reason) override;
   void on_root(const NodePtr& root) override;
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
@@ -47,7 +47,7 @@ class PlantedOptimum : public RunObserver {
   // followed any more once a plan as cheap is found: from then on the gate may drop them.
   std::unordered_set<const Node*> holding_;
   bool found_ = false;
-  bool joint_raises_ = false;           // the bound, if it rises now
+  bool raised_beside_ = false;          // the bound, if it rises now
   Cost claimed_ = 0;                    // the search's lower bound
   Cost evicted_bound_ = kInfiniteCost;  // of the nodes given up that held the plan
   std::size_t nodes_followed_ = 0;

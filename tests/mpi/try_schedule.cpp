@@ -161,6 +161,13 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     options.tuning.joint_begins_work = 0;
     options.tuning.joint_step_work = 1;
   }
+  if (dice.percent(40)) {
+    options.techniques = options.techniques.with(Technique::kLagrangian);
+    options.tuning.lagrangian_agents = 1;
+    options.tuning.lagrangian_begins_work = 0;
+    options.tuning.lagrangian_step_work = 1;
+    options.tuning.most_lagrangian = 2;
+  }
   if (dice.percent(20)) options.policy = Policy::kFixed;
   if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);

@@ -56,16 +56,18 @@ void RunLog::on_event(RunEvent event, const Progress& told) {
   if (event == RunEvent::kProgress) show_progress(progress);
 }
 
-void RunLog::on_joint_bound() {
-  joint_raises_ = true;
+void RunLog::on_bound_beside(ProvenBy by) {
+  raises_ = by;
 }
 
 // Of ranks one hears how many nodes they expanded, not what came of them.
 void RunLog::note_bound(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
   const bool is_known = hears_expansions_ || progress.nodes_expanded == 0;
-  const bool by_joint = std::exchange(joint_raises_, false);
-  raised_by_[by_joint ? "joint" : is_known ? last_work_ : "tree"] += progress.lower_bound - bound_;
+  const std::optional<ProvenBy> beside = std::exchange(raises_, std::nullopt);
+  raised_by_[beside     ? name_of(*beside)
+             : is_known ? last_work_
+                        : "tree"] += progress.lower_bound - bound_;
   bound_ = progress.lower_bound;
 }
 

@@ -12,6 +12,7 @@ LABELS = {
     "bypasses": "bypasses: another way as short",
     "pair_expansions": "nodes in searches over pairs and groups of agents",
     "joint_states": "states of all agents together",
+    "lagrangian_rounds": "rounds of prices",
     "joint_pairs": "pairs of places in two sets of optimal paths",
     "low_level_expanded": "labels of single-agent searches",
     "prices": "costs under one constraint more",

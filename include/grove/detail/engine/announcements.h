@@ -29,9 +29,9 @@ class Announcements : public TurnObserver {
   void event(RunEvent event);
   // The lower bound is so high now; perhaps it was before, too.
   void bound(Cost lower_bound);
-  // What `prove` does makes it as high as it returns, by the search over joint states. Nothing else
-  // is told in between.
-  void joint_bound(const std::function<Cost()>& prove);
+  // What `prove` does makes it as high as it returns, beside the tree. Nothing else is told in
+  // between.
+  void bound_beside(ProvenBy by, const std::function<Cost()>& prove);
   void infeasible(std::string_view reason);
   // The observer knows that it is so high.
   void bound_is_known(Cost lower_bound) { announced_bound_ = lower_bound; }

@@ -36,7 +36,7 @@ class CentralLedger : public Ledger {
   std::optional<Plan> plan_below(Cost cost) const override;
   Cost lower_bound() const override { return gate_.lower_bound(); }
   void post(Plan plan, PlanSource source) override;
-  void prove(Cost bound) override;
+  void prove(Cost bound, ProvenBy by) override;
   void nodes_changed() override;
   // Where better plans came from, and what each source took off the cost. From any thread.
   void add_counts(Stats& stats) const;

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "grove/detail/engine/proven_by.h"
 #include "grove/detail/model/plan.h"
 #include "grove/detail/primal/plan_source.h"
 
@@ -32,7 +33,7 @@ class Ledger {
   virtual void post(Plan plan, PlanSource source) = 0;
   // Proven beside the tree: no plan costs less, but those that cost cutoff() or more, whatever that
   // was. kInfiniteCost: there is no other.
-  virtual void prove(Cost bound) = 0;
+  virtual void prove(Cost bound, ProvenBy by) = 0;
   // Nodes were replaced by what they led to.
   virtual void nodes_changed() = 0;
 };

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "grove/detail/engine/checkpoints.h"
+#include "grove/detail/engine/proven_by.h"
 #include "grove/detail/engine/survey.h"
 #include "grove/detail/model/plan.h"
 #include "grove/detail/primal/plan_source.h"
@@ -51,8 +52,8 @@ class RunObserver {
   // What the run goes on with now, a sentence: of methods that search more than once.
   virtual void on_note(std::string_view /*note*/) {}
 
-  // The bound, if it rises now, does so by the search over joint states.
-  virtual void on_joint_bound() {}
+  // The bound, if it rises now, does so beside the tree.
+  virtual void on_bound_beside(ProvenBy /*by*/) {}
 
   // A checkpoint was written, or could not be.
   virtual void on_checkpoint(const CheckpointReport& /*report*/) {}
@@ -88,7 +89,7 @@ class ForwardingObserver : public RunObserver {
   }
   void on_infeasible(std::string_view reason) override { next_.on_infeasible(reason); }
   void on_note(std::string_view note) override { next_.on_note(note); }
-  void on_joint_bound() override { next_.on_joint_bound(); }
+  void on_bound_beside(ProvenBy by) override { next_.on_bound_beside(by); }
   void on_checkpoint(const CheckpointReport& report) override { next_.on_checkpoint(report); }
   bool wants_survey() override { return next_.wants_survey(); }
   void on_survey(const Survey& survey) override { next_.on_survey(survey); }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 
+#include "grove/detail/engine/lagrangian_share.h"
 #include "grove/detail/engine/ledger.h"
 #include "grove/detail/engine/local_nodes.h"
 #include "grove/detail/engine/solve.h"
@@ -34,6 +35,7 @@ class SharedSearch {
   Ledger& ledger() { return ledger_; }
   TreeSource& trees() { return trees_; }
   TurnObserver& observer() { return observer_; }
+  LagrangianShare& lagrangian() { return lagrangian_; }
   bool over() const { return ledger_.over(); }
 
   // A node to expand; null if there is none just now. Whoever takes it brings it back by finish().
@@ -69,6 +71,7 @@ class SharedSearch {
   Ledger& ledger_;
   TreeSource& trees_;
   TurnObserver& observer_;
+  LagrangianShare lagrangian_;
 
   std::atomic<std::int64_t> nodes_generated_{0};
   std::atomic<std::int64_t> nodes_evicted_{0};

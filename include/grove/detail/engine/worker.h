@@ -30,7 +30,7 @@ class Worker {
 
   // What is done at one go, and what became of it.
   struct Turn {
-    enum class Job : std::uint8_t { kExpand, kHelp, kPrimal, kPrepare, kJoint };
+    enum class Job : std::uint8_t { kExpand, kHelp, kPrimal, kPrepare, kJoint, kLagrangian };
     explicit Turn(Job the_job, NodePtr the_node = nullptr)
         : job(the_job), node(std::move(the_node)) {}
 
@@ -40,13 +40,15 @@ class Worker {
     FoundOut found;
     Expansion expansion;
     std::optional<Plan> plan;
-    Cost proven = 0;         // by the search over joint states; see Ledger::prove
+    Cost proven = 0;  // by the search over joint states; see Ledger::prove
+    LagrangianBound::Job lagrangian;
     std::int64_t work = 0;   // see search/work.h
     ExpansionCounts counts;  // what this turn added
   };
 
   // Does the best there is to do: expands a node, helps another worker with one, goes on with the
-  // primal search or that over joint states for about a millisecond, or prepares the next tree.
+  // primal search or that over joint states for about a millisecond, finds some prices for the
+  // Lagrangian bound, or prepares the next tree.
   // False: nothing can be done just now.
   bool turn() {
     std::optional<Turn> turn = choose();
@@ -78,6 +80,8 @@ class Worker {
   void help(Turn& turn, Expander& by);
   void step_primal(Turn& turn);
   void step_joint(Turn& turn);
+  void step_lagrangian(Turn& turn);
+  void others_worked(std::int64_t work);
 
   const Problem& problem_;
   const SolveOptions& options_;
@@ -92,7 +96,8 @@ class Worker {
   std::unique_ptr<PrimalSearch> primal_;
   const std::unique_ptr<PrimalShare> share_;
   const std::unique_ptr<JointShare> joint_;
-  NodePtr helped_;  // the last node that there was nothing left to help with
+  std::optional<Pricer> pricer_;  // made when it is first due
+  NodePtr helped_;                // the last node that there was nothing left to help with
 
   mutable std::mutex counting_;  // guards what was counted:
   ExpansionCounts of_tree_;

@@ -28,6 +28,7 @@ enum class Technique : std::uint8_t {
   kClusters,        // the same for groups that conflict though no pair of them must cost more
   kEstimates,       // with w > 0, while there is no plan: every other node by what it promises
   kJointSearch,     // beside the tree A* over joint states, where there are few agents and places
+  kLagrangian,      // beside the tree a bound from prices, where there are many agents
 };
 
 struct NamedTechnique {
@@ -51,6 +52,7 @@ inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kClusters, "clusters"},
     NamedTechnique{Technique::kEstimates, "estimates"},
     NamedTechnique{Technique::kJointSearch, "joint-search"},
+    NamedTechnique{Technique::kLagrangian, "lagrangian"},
 };
 
 // A set of techniques; a value.

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What an agent pays at least, penalties included: its price.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "grove/detail/lagrangian/penalties.h"
+#include "grove/detail/model/limits.h"
+#include "grove/detail/planning/free_goals.h"
+
+namespace grove::detail {
+
+// In Penalties::kUnit.
+using Price = std::int64_t;
+
+// The cheapest path of one agent alone, all orders of its stops considered. Its price is its cost,
+// the penalties of its steps and of its rest for ever, and one on the time at which it finishes.
+// Holds the workspace of one thread: reuse it, do not share it.
+class PenalizedSearch {
+ public:
+  static constexpr Price kMostPrice = Price{1} << 30;
+
+  // `penalties` must outlive this, and may change between searches.
+  explicit PenalizedSearch(const Penalties& penalties);
+
+  // Proven: a path costs at least the price, which is at most `below`. `on_finish`: what finishing
+  // at a time costs, 0 beyond its end. `path`, not null, becomes one of that price if it is less
+  // than `below` and the search was not cut short; else it stays as it is.
+  Price search(FreeGoals& goals, std::span<const Penalties::Amount> on_finish, Price below,
+               std::int64_t most_labels, const Limits& limits, Path* path);
+
+  // Labels met so far.
+  std::int64_t labels() const { return labels_met_; }
+
+ private:
+  using Amount = Penalties::Amount;
+  using StageId = FreeGoals::StageId;
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  struct Label {
+    State state;
+    StageId stage;
+    Amount paid;
+    std::uint32_t parent;
+  };
+  struct Mark {
+    std::uint32_t label;
+    Time time;
+    Time distance;
+    std::uint32_t stamp;
+  };
+
+  void start();
+  void expand(std::uint32_t label);
+  void arrive(std::uint32_t from, State state, StageId stage, Amount paid);
+  Time reach(std::uint32_t from, State state, StageId stage, Amount paid);
+  void come_to_rest(const Label& label);
+  Amount rest_from(Place place, Time time);
+  Path path_to(const Label& label) const;
+
+  const Penalties& penalties_;
+  const World& world_;
+  std::vector<std::vector<Mark>> marks_;  // by stage, then state
+  std::uint32_t stamp_ = 0;
+  std::vector<Label> labels_;                                 // layer by layer
+  std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // what resting from a time on costs
+  std::int64_t labels_met_ = 0;
+
+  // Of the call under way.
+  FreeGoals* goals_ = nullptr;
+  std::span<const Amount> on_finish_;
+  Time time_ = 0;  // of the labels that are being made
+  Price below_ = 0;
+  std::optional<Label> best_;
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Whoever finishes by a time does so exactly at some time up to then. So if the sets of paths that
+// finish exactly at a' and at b' allow no pair without a collision (pair_dependency.h), for every
+// a' <= a and b' <= b, then no two paths of these agents that finish by a and by b go together -
+// and so in no plan at all, whatever the others do. A set that was not made, since it is too large
+// or time ran out, proves nothing.
+#include "grove/detail/lagrangian/finish_pairs.h"
+
+#include "grove/detail/lagrangian/least_cost.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::size_t kBytesOfNode = 24;  // about, with the way to the next
+
+}  // namespace
+
+FinishPairs::FinishPairs(const World& world, AgentStopsStore& stops, Most most)
+    : world_(world), stops_(stops), most_(most), builder_(world), dependency_(world) {}
+FinishPairs::~FinishPairs() = default;
+
+bool FinishPairs::exclude_each_other(const FinishPair& pair, const Limits& limits) {
+  const Time later_a = pair.finish_a - of(pair.a, limits).least;
+  const Time later_b = pair.finish_b - of(pair.b, limits).least;
+  if (later_a >= kGrid || later_b >= kGrid) return false;
+  Grid& grid =
+      known_[static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b)];
+  for (Time a = 0; a <= later_a; ++a)
+    for (Time b = 0; b <= later_b; ++b) {
+      Known& known = grid[static_cast<std::size_t>(a * kGrid + b)];
+      if (known == Known::kNot) known = compared(pair, a, b, limits);
+      if (known == Known::kNotExcluded) return false;
+    }
+  return true;
+}
+
+FinishPair FinishPairs::extended(FinishPair pair, const Limits& limits) {
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (Time FinishPair::*finish : {&FinishPair::finish_a, &FinishPair::finish_b}) {
+      FinishPair later = pair;
+      ++(later.*finish);
+      if (!exclude_each_other(later, limits)) continue;
+      pair = later;
+      grows = true;
+    }
+  }
+  return pair;
+}
+
+// Those that finish exactly so much later than they could alone.
+FinishPairs::Known FinishPairs::compared(const FinishPair& pair, Time later_a, Time later_b,
+                                         const Limits& limits) {
+  const OptimalPaths* const a = set(pair.a, later_a, limits);
+  const OptimalPaths* const b = a ? set(pair.b, later_b, limits) : nullptr;
+  if (b == nullptr) return Known::kNotExcluded;
+  const bool is_excluded =
+      a->empty() || b->empty() ||
+      dependency_.find(*a, *b, most_.compared_pairs, limits) == Dependence::kDependent;
+  return is_excluded ? Known::kExcluded : Known::kNotExcluded;
+}
+
+const OptimalPaths* FinishPairs::set(AgentIndex agent, Time later, const Limits& limits) {
+  OfAgent& of_agent = of(agent, limits);
+  const auto at = static_cast<std::size_t>(later);
+  for (auto& sets = of_agent.sets; sets.size() <= at;) {
+    auto paths = std::make_unique<OptimalPaths>();
+    const Time cost = of_agent.least + static_cast<Time>(sets.size());
+    const auto outcome = bytes_ > most_.bytes ? OptimalPathsBuilder::Outcome::kTooLarge
+                                              : builder_.build(*of_agent.goals, {}, cost,
+                                                               most_.set_nodes, limits, *paths);
+    const bool is_known = outcome == OptimalPathsBuilder::Outcome::kBuilt ||
+                          outcome == OptimalPathsBuilder::Outcome::kNone;
+    bytes_ += static_cast<std::size_t>(paths->node_count()) * kBytesOfNode;
+    sets.push_back(is_known ? std::move(paths) : nullptr);
+  }
+  return of_agent.sets[at].get();
+}
+
+FinishPairs::OfAgent& FinishPairs::of(AgentIndex agent, const Limits& limits) {
+  if (static_cast<std::size_t>(agent) >= agents_.size()) agents_.resize(agent + 1);
+  OfAgent& of_agent = agents_[agent];
+  if (!of_agent.goals) {
+    of_agent.goals = std::make_unique<FreeGoals>(stops_.of(agent), SequenceClass{});
+    of_agent.least = least_cost(*of_agent.goals, limits);
+  }
+  return of_agent;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Layer by layer in time, for a later arrival may be cheaper than an earlier one: to wait costs. A
+// label is a state and a stage (free_goals.h) at a time, and what was paid on the way there; two
+// ways to one label have the same future, so the cheaper one is kept. What has yet to be paid is at
+// least a unit for each step of the distance, for no penalty is negative, and labels from which
+// that reaches the price to be undercut are dropped. Since a layer costs a unit more than the one
+// before, the layers end.
+//
+// A path that leaves what the completions know costs beyond() steps or more; the price is never
+// said to be more than that. Nor, when labels or time run out, more than the least that a label of
+// the last whole layer pays at least: every path not yet seen passes that layer.
+#include "grove/detail/lagrangian/penalized_search.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace grove::detail {
+namespace {
+
+constexpr std::size_t kLayersPerPoll = 16;
+
+}  // namespace
+
+PenalizedSearch::PenalizedSearch(const Penalties& penalties)
+    : penalties_(penalties), world_(penalties.world()) {}
+
+Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finish, Price below,
+                              std::int64_t most_labels, const Limits& limits, Path* path) {
+  goals_ = &goals;
+  on_finish_ = on_finish;
+  below_ = std::min({below, kMostPrice, Price{goals.completions().beyond()} * Penalties::kUnit});
+  best_.reset();
+  labels_.clear();
+  rests_.clear();
+  if (++stamp_ == 0) {
+    marks_.clear();
+    stamp_ = 1;
+  }
+  start();
+  std::size_t layer = 0;
+  std::size_t layers = 0;
+  while (layer < labels_.size()) {
+    const std::size_t end = labels_.size();
+    if (std::ssize(labels_) > most_labels ||
+        (++layers % kLayersPerPoll == 0 && limits.stop_requested())) {
+      Price least = below_;
+      for (; layer < end; ++layer) {
+        const Label& label = labels_[layer];
+        least = std::min(
+            least, label.paid + Price{goals.distance(label.stage, label.state)} * Penalties::kUnit);
+      }
+      labels_met_ += std::ssize(labels_);
+      return least;
+    }
+    ++time_;
+    for (; layer < end; ++layer) expand(static_cast<std::uint32_t>(layer));
+  }
+  labels_met_ += std::ssize(labels_);
+  if (best_ && path != nullptr) *path = path_to(*best_);
+  return below_;
+}
+
+void PenalizedSearch::start() {
+  time_ = 0;
+  const StageId stage = goals_->first_stage();
+  if (stage == FreeGoals::kOutside) return;
+  const State state = goals_->stops().start();
+  goals_->on_arrival(stage, state, [&](StageId then) { arrive(kNone, state, then, 0); });
+}
+
+void PenalizedSearch::expand(std::uint32_t at) {
+  const Label label = labels_[at];  // labels_ will grow
+  // Dropped since, for a cheaper path was found.
+  if (label.paid + Price{goals_->distance(label.stage, label.state)} * Penalties::kUnit >= below_)
+    return;
+  const Place place = world_.place(label.state);
+  const Amount staying = penalties_.of(time_, penalties_.staying(place));
+  reach(at, label.state, label.stage, label.paid + Penalties::kUnit + staying);
+  const std::span<const State> moves = world_.moves(label.state);
+  const std::span<const Penalties::Arc> arcs = penalties_.arcs(label.state);
+  for (std::size_t move = 0; move < moves.size(); ++move) {
+    const Amount paid = label.paid + Penalties::kUnit + penalties_.of(time_, arcs[move]);
+    goals_->on_arrival(label.stage, moves[move],
+                       [&](StageId then) { arrive(at, moves[move], then, paid); });
+  }
+}
+
+// By a move, so perhaps for good.
+void PenalizedSearch::arrive(std::uint32_t from, State state, StageId stage, Amount paid) {
+  if (reach(from, state, stage, paid) == 0) come_to_rest({state, stage, paid, from});
+}
+
+// How far it is from there; kNever: too far.
+Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amount paid) {
+  if (static_cast<std::size_t>(stage) >= marks_.size())
+    marks_.resize(static_cast<std::size_t>(stage) + 1);
+  std::vector<Mark>& plane = marks_[stage];
+  if (plane.empty()) plane.resize(static_cast<std::size_t>(world_.state_count()));
+  Mark& mark = plane[state];
+  if (mark.stamp != stamp_) mark = {kNone, -1, goals_->distance(stage, state), stamp_};
+  if (mark.distance >= kNever || paid + Price{mark.distance} * Penalties::kUnit >= below_)
+    return kNever;
+  if (mark.time != time_) {
+    mark.time = time_;
+    mark.label = static_cast<std::uint32_t>(labels_.size());
+    labels_.push_back({state, stage, paid, from});
+  } else if (paid < labels_[mark.label].paid) {
+    labels_[mark.label].paid = paid;
+    labels_[mark.label].parent = from;
+  }
+  return mark.distance;
+}
+
+// If that is the cheapest so far.
+void PenalizedSearch::come_to_rest(const Label& label) {
+  if (!goals_->is_rest(goals_->stage(label.stage), label.state)) return;
+  Price price = label.paid;
+  if (static_cast<std::size_t>(time_) < on_finish_.size()) price += on_finish_[time_];
+  if (price >= below_) return;
+  price += rest_from(world_.place(label.state), time_);
+  if (price >= below_) return;
+  below_ = price;
+  best_ = label;
+}
+
+PenalizedSearch::Amount PenalizedSearch::rest_from(Place place, Time time) {
+  const auto known =
+      std::ranges::find(rests_, place, &std::pair<Place, std::vector<Amount>>::first);
+  const std::vector<Amount>* rests = known == rests_.end() ? nullptr : &known->second;
+  if (rests == nullptr) {
+    std::vector<Amount> from(static_cast<std::size_t>(std::max(penalties_.end(), 1)));
+    for (Time t = penalties_.end() - 1; t > 0; --t)
+      from[t - 1] = std::min<Amount>(from[t] + penalties_.of(t, penalties_.staying(place)),
+                                     static_cast<Amount>(kMostPrice));
+    rests_.emplace_back(place, std::move(from));
+    rests = &rests_.back().second;
+  }
+  return static_cast<std::size_t>(time) < rests->size() ? (*rests)[time] : 0;
+}
+
+Path PenalizedSearch::path_to(const Label& label) const {
+  Path path{label.state};
+  for (std::uint32_t at = label.parent; at != kNone; at = labels_[at].parent)
+    path.push_back(labels_[at].state);
+  std::ranges::reverse(path);
+  return path;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "grove/detail/lagrangian/finish_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "grove/detail/lagrangian/least_cost.h"
+#include "tests/lagrangian/tiny_agents.h"
+
+namespace grove::detail::lagrangian_test {
+namespace {
+
+using Node = AgentGraph::Node;
+
+// Can both be at rest by these times, without a collision at any time?
+bool can_both(const AgentGraph& a, const AgentGraph& b, Time by_a, Time by_b) {
+  if (a.place(0) == b.place(0)) return false;
+  using Pairs = std::vector<std::pair<Node, Node>>;
+  Pairs now{{AgentGraph::start(), AgentGraph::start()}};
+  std::vector<Time> seen(a.count() * b.count(), -1);
+  // One step more than they have: coming to rest takes none, but is a move.
+  for (Time time = 0; time <= std::max(by_a, by_b) + 1; ++time) {
+    Pairs next;
+    for (const auto& [from_a, from_b] : now)
+      for (const auto& move_a : a.moves(from_a))
+        for (const auto& move_b : b.moves(from_b)) {
+          // Who begins to rest in the step from t to t + 1 has finished at t.
+          if (!a.rests(move_a.to) && time + 1 > by_a) continue;
+          if (!b.rests(move_b.to) && time + 1 > by_b) continue;
+          const Place to_a = a.place(move_a.to);
+          const Place to_b = b.place(move_b.to);
+          if (to_a == to_b) continue;
+          if (to_a == b.place(from_b) && to_b == a.place(from_a)) continue;
+          if (a.rests(move_a.to) && b.rests(move_b.to)) return true;
+          Time& last = seen[move_a.to * b.count() + move_b.to];
+          if (std::exchange(last, time) != time) next.emplace_back(move_a.to, move_b.to);
+        }
+    now = std::move(next);
+  }
+  return false;
+}
+
+// Whoever is said to exclude each other does; and with no end to effort, all are said who do.
+TEST(FinishPairs, AgreeWithAllPairsOfPaths) {
+  int excluded = 0, others = 0;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    SCOPED_TRACE(seed);
+    Known known(tiny_instance(seed));
+    if (known.instance.agent_count() < 2) continue;
+    const auto a = AgentGraph::make(known.instance, 0);
+    const auto b = AgentGraph::make(known.instance, 1);
+    if (!a || !b || a->count() == 0 || b->count() == 0) continue;
+    FinishPairs pairs(known.instance.world(), known.stops,
+                      {.set_nodes = 1 << 20, .compared_pairs = 1 << 20, .bytes = 1 << 28});
+    const Time least_a = a->to_go(AgentGraph::start());
+    const Time least_b = b->to_go(AgentGraph::start());
+    for (Time by_a = least_a; by_a < least_a + 4; ++by_a)
+      for (Time by_b = least_b; by_b < least_b + 4; ++by_b) {
+        const bool said = pairs.exclude_each_other({0, 1, by_a, by_b}, {});
+        ASSERT_EQ(said, !can_both(*a, *b, by_a, by_b)) << by_a << " " << by_b;
+        ++(said ? excluded : others);
+        if (!said) continue;
+        const FinishPair later = pairs.extended({0, 1, by_a, by_b}, {});
+        ASSERT_FALSE(can_both(*a, *b, later.finish_a, later.finish_b));
+      }
+  }
+  EXPECT_GT(excluded, 100);
+  EXPECT_GT(others, 200);
+}
+
+// A set that is too large proves nothing.
+TEST(FinishPairs, SayNothingWithoutEffort) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    Known known(tiny_instance(seed));
+    if (known.instance.agent_count() < 2) continue;
+    FinishPairs pairs(known.instance.world(), known.stops,
+                      {.set_nodes = 0, .compared_pairs = 1, .bytes = 1 << 28});
+    FreeGoals a(known.stops.of(0), SequenceClass{});
+    FreeGoals b(known.stops.of(1), SequenceClass{});
+    const FinishPair pair{0, 1, least_cost(a, {}), least_cost(b, {})};
+    if (pair.finish_a >= kNever || pair.finish_b >= kNever || pair.finish_a == 0 ||
+        pair.finish_b == 0)
+      continue;
+    EXPECT_FALSE(pairs.exclude_each_other(pair, {}));
+  }
+}
+
+}  // namespace
+}  // namespace grove::detail::lagrangian_test

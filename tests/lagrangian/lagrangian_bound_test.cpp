@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "grove/detail/lagrangian/lagrangian_bound.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "tests/fuzz/random.h"
+#include "tests/lagrangian/tiny_agents.h"
+#include "tests/oracle/joint_oracle.h"
+#include "tests/support/fuzz_factor.h"
+
+namespace grove::detail::lagrangian_test {
+namespace {
+
+// Steps of all sizes, as no sensible run would take them.
+Tuning wild_tuning(fuzz::Random& random) {
+  Tuning tuning;
+  tuning.lagrangian_level = random.pick<double>({0.01, 0.1, 1});
+  tuning.lagrangian_patience = random.between(1, 10);
+  tuning.lagrangian_shrink = random.pick<double>({0.5, 0.9, 0.99});
+  tuning.lagrangian_memory = random.pick<double>({0, 0.5, 0.95});
+  tuning.lagrangian_step_work = random.pick<std::int64_t>({1, 50, 4000});
+  return tuning;
+}
+
+class LagrangianBoundTest : public ::testing::Test {
+ protected:
+  // So many rounds; after each no more than `optimum` may be said.
+  static Cost bound_of(Known& known, const Tuning& tuning, int rounds, Cost optimum) {
+    const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
+    if (!bound) return 0;
+    Pricer pricer(bound->penalties(), known.stops);
+    while (!bound->ended() && bound->rounds() < rounds) {
+      auto job = bound->next();
+      if (!job) {
+        ADD_FAILURE() << "nothing to do";
+        break;
+      }
+      bound->perform(*job, pricer, optimum + 5, 0, {});
+      bound->commit(std::move(*job));
+      if (bound->lower_bound() > optimum) {
+        ADD_FAILURE() << bound->lower_bound() << " in round " << bound->rounds()
+                      << ", but there is a plan of " << optimum;
+        break;
+      }
+    }
+    return bound->lower_bound();
+  }
+};
+
+// The planted optimum, through every step of the multipliers.
+TEST_F(LagrangianBoundTest, IsNeverAboveTheOptimum) {
+  int tried = 0, raised = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(400));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    Instance instance = tiny_instance(seed);
+    if (seed % 5 == 0) instance = instance.without_following();
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (!truth.plan) continue;
+    Known known(instance);
+    fuzz::Random random(seed);
+    const Cost first = bound_of(known, Tuning(), 1, truth.plan->cost);
+    const Cost last = bound_of(known, wild_tuning(random), 60, truth.plan->cost);
+    ++tried;
+    raised += last > first;
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(tried, 200);
+  EXPECT_GT(raised, 40);
+}
+
+// Two who must pass each other in a corridor with one bay: prices see it.
+TEST_F(LagrangianBoundTest, SeesWhoCannotBothBeFirst) {
+  // . . . . .
+  // @ @ . @ @
+  std::vector<bool> passable(10, true);
+  for (const int wall : {5, 6, 8, 9}) passable[wall] = false;
+  InstanceBuilder builder{Map(Grid(5, 2, passable))};
+  builder.add_agent("a", Position{0, 0}, Position{4, 0});
+  builder.add_agent("b", Position{4, 0}, Position{0, 0});
+  Known known(std::move(builder).build());
+  const oracle::Answer truth = oracle::solve_jointly(known.instance);
+  ASSERT_TRUE(truth.plan);
+  EXPECT_GE(bound_of(known, Tuning(), 300, truth.plan->cost), 9);
+}
+
+}  // namespace
+}  // namespace grove::detail::lagrangian_test

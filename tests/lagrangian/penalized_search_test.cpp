@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "grove/detail/lagrangian/penalized_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "grove/detail/lagrangian/least_cost.h"
+#include "grove/detail/lagrangian/relaxed_rows.h"
+#include "tests/fuzz/random.h"
+#include "tests/lagrangian/tiny_agents.h"
+
+namespace grove::detail::lagrangian_test {
+namespace {
+
+using Amount = Penalties::Amount;
+constexpr Time kPenalised = 14;  // steps
+constexpr Time kHorizon = 200;   // beyond all that a tiny agent does, waiting the penalties out
+
+// All arcs that states of this world use, at all times that are penalised.
+void penalise(Penalties& penalties, fuzz::Random& random) {
+  const World& world = penalties.world();
+  for (Time time = 1; time < kPenalised; ++time)
+    for (Place place = 0; place < world.place_count(); ++place) {
+      if (random.percent(30))
+        penalties.add(time, penalties.staying(place), random.below(3 * Penalties::kUnit));
+      for (const Place next : world.neighbors(place))
+        if (random.percent(30))
+          penalties.add(time, penalties.arc(place, next), random.below(3 * Penalties::kUnit));
+    }
+}
+
+std::vector<Amount> random_on_finish(fuzz::Random& random) {
+  std::vector<Amount> on_finish(static_cast<std::size_t>(random.between(0, kPenalised)));
+  for (Amount& amount : on_finish) amount = random.below(2 * Penalties::kUnit);
+  return on_finish;
+}
+
+// By the graph of all that the agent can come to, time by time.
+class Reference {
+ public:
+  Reference(const AgentGraph& graph, const Penalties& penalties, const std::vector<Amount>& finish)
+      : graph_(graph), penalties_(penalties), finish_(finish) {}
+
+  Price price() const {
+    constexpr Price kNo = PenalizedSearch::kMostPrice;
+    std::vector<Price> paid(graph_.count(), kNo);
+    std::vector<Price> moved(graph_.count(), kNo);  // of those who arrived by a move
+    if (graph_.count() == 0) return kNo;
+    paid[AgentGraph::start()] = moved[AgentGraph::start()] = 0;
+    Price least = kNo;
+    for (Time time = 0; time < kHorizon; ++time) {
+      std::vector<Price> next(graph_.count(), kNo);
+      std::vector<Price> next_moved(graph_.count(), kNo);
+      for (AgentGraph::Node node = 0; node < graph_.count(); ++node) {
+        if (paid[node] >= kNo) continue;
+        for (const AgentGraph::Move& move : graph_.moves(node)) {
+          if (graph_.rests(move.to)) {
+            if (moved[node] < kNo) least = std::min(least, moved[node] + rest(node, time));
+            continue;
+          }
+          const auto arc = penalties_.arc(graph_.place(node), graph_.place(move.to));
+          const Price price = paid[node] + Penalties::kUnit + penalties_.of(time + 1, arc);
+          next[move.to] = std::min(next[move.to], price);
+          if (graph_.state(move.to) != graph_.state(node))
+            next_moved[move.to] = std::min(next_moved[move.to], price);
+        }
+      }
+      paid = std::move(next);
+      moved = std::move(next_moved);
+    }
+    return least;
+  }
+
+ private:
+  Price rest(AgentGraph::Node node, Time time) const {
+    Price price = static_cast<std::size_t>(time) < finish_.size() ? finish_[time] : 0;
+    for (Time t = time + 1; t < penalties_.end(); ++t)
+      price += penalties_.of(t, penalties_.staying(graph_.place(node)));
+    return price;
+  }
+
+  const AgentGraph& graph_;
+  const Penalties& penalties_;
+  const std::vector<Amount>& finish_;
+};
+
+// What a path pays, read off step by step.
+Price paid_by(const Path& path, const Penalties& penalties, const std::vector<Amount>& on_finish) {
+  const World& world = penalties.world();
+  const auto finish = static_cast<Time>(path.size()) - 1;
+  Price price = Price{finish} * Penalties::kUnit;
+  if (finish < std::ssize(on_finish)) price += on_finish[finish];
+  for (Time time = 1; time < std::max(penalties.end(), finish + 1); ++time)
+    price += penalties.of(
+        time, penalties.arc(place_at(world, path, time - 1), place_at(world, path, time)));
+  return price;
+}
+
+TEST(PenalizedSearch, FindsTheLeastPrice) {
+  int tried = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    SCOPED_TRACE(seed);
+    Known known(tiny_instance(seed));
+    fuzz::Random random(seed);
+    Penalties penalties(known.instance.world());
+    penalise(penalties, random);
+    PenalizedSearch search(penalties);
+    for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
+      const auto graph = AgentGraph::make(known.instance, agent);
+      if (!graph || graph->count() == 0) continue;
+      FreeGoals goals(known.stops.of(agent), SequenceClass{});
+      ASSERT_LE(least_cost(goals, {}), graph->to_go(AgentGraph::start()));
+      goals.completions().widen(kHorizon, {});
+      const std::vector<Amount> on_finish = random_on_finish(random);
+      const Price least = Reference(*graph, penalties, on_finish).price();
+      Path path;
+      ASSERT_EQ(search.search(goals, on_finish, PenalizedSearch::kMostPrice, 1 << 20, {}, &path),
+                least);
+      ASSERT_FALSE(path.empty());
+      ASSERT_EQ(paid_by(path, penalties, on_finish), least);
+      // Nothing is cheaper than itself.
+      Path none;
+      EXPECT_EQ(search.search(goals, on_finish, least, 1 << 20, {}, &none), least);
+      EXPECT_TRUE(none.empty());
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 500);
+}
+
+// Cut short it never says more than the least price.
+TEST(PenalizedSearch, IsNeverAboveWhereItIsCutShort) {
+  int cut = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Known known(tiny_instance(seed));
+    fuzz::Random random(seed);
+    Penalties penalties(known.instance.world());
+    penalise(penalties, random);
+    PenalizedSearch search(penalties);
+    for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
+      FreeGoals goals(known.stops.of(agent), SequenceClass{});
+      if (least_cost(goals, {}) >= kNever) continue;
+      const Price least =
+          search.search(goals, {}, PenalizedSearch::kMostPrice, 1 << 20, {}, nullptr);
+      for (const std::int64_t labels : {1, 5, 20, 100}) {
+        const Price price =
+            search.search(goals, {}, PenalizedSearch::kMostPrice, labels, {}, nullptr);
+        EXPECT_LE(price, least);
+        EXPECT_GE(price, Price{least_cost(goals, {})} * Penalties::kUnit);
+        cut += price < least;
+      }
+    }
+  }
+  EXPECT_GT(cut, 50);
+}
+
+}  // namespace
+}  // namespace grove::detail::lagrangian_test
