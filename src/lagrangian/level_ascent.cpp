@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: MIT
+// Far above what can be reached a level makes steps so long that values fall far below the best;
+// each such value counts for several rounds of waiting. (warehouse-10-20-10-2-1, 300 agents, 12 s,
+// in the median of what was tried: 24,172 instead of 23,971, where all agents alone pay that.)
 #include "grove/detail/lagrangian/level_ascent.h"
 
 #include <algorithm>
 
 namespace grove::detail {
+namespace {
+
+constexpr double kFarBelow = 0.5;  // of the way to the level
+constexpr int kRoundsForFarBelow = 5;
+
+}  // namespace
 
 double LevelAscent::step(double value, double most, double squares) {
   best_ = std::max(best_, value);
+  if (value < best_ - kFarBelow * way_) waited_ += kRoundsForFarBelow;
   choose_level(most);
   return std::max(0.0, best_ + way_ - value) / squares;
 }

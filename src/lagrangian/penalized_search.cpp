@@ -46,13 +46,12 @@ Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finis
       Price least = below_;
       for (; layer < end; ++layer) {
         const Label& label = labels_[layer];
-        least = std::min(
-            least, label.paid + Price{goals.distance(label.stage, label.state)} * Penalties::kUnit);
+        least = std::min(least, label.paid + Price{label.distance} * Penalties::kUnit);
       }
       labels_met_ += std::ssize(labels_);
       return least;
     }
-    ++time_;
+    layer_ = penalties_.at(++time_);
     for (; layer < end; ++layer) expand(static_cast<std::uint32_t>(layer));
   }
   labels_met_ += std::ssize(labels_);
@@ -71,15 +70,13 @@ void PenalizedSearch::start() {
 void PenalizedSearch::expand(std::uint32_t at) {
   const Label label = labels_[at];  // labels_ will grow
   // Dropped since, for a cheaper path was found.
-  if (label.paid + Price{goals_->distance(label.stage, label.state)} * Penalties::kUnit >= below_)
-    return;
-  const Place place = world_.place(label.state);
-  const Amount staying = penalties_.of(time_, penalties_.staying(place));
+  if (label.paid + Price{label.distance} * Penalties::kUnit >= below_) return;
+  const Amount staying = layer_[penalties_.staying(world_.place(label.state))];
   reach(at, label.state, label.stage, label.paid + Penalties::kUnit + staying);
   const std::span<const State> moves = world_.moves(label.state);
   const std::span<const Penalties::Arc> arcs = penalties_.arcs(label.state);
   for (std::size_t move = 0; move < moves.size(); ++move) {
-    const Amount paid = label.paid + Penalties::kUnit + penalties_.of(time_, arcs[move]);
+    const Amount paid = label.paid + Penalties::kUnit + layer_[arcs[move]];
     goals_->on_arrival(label.stage, moves[move],
                        [&](StageId then) { arrive(at, moves[move], then, paid); });
   }
@@ -87,7 +84,7 @@ void PenalizedSearch::expand(std::uint32_t at) {
 
 // By a move, so perhaps for good.
 void PenalizedSearch::arrive(std::uint32_t from, State state, StageId stage, Amount paid) {
-  if (reach(from, state, stage, paid) == 0) come_to_rest({state, stage, paid, from});
+  if (reach(from, state, stage, paid) == 0) come_to_rest({state, stage, paid, 0, from});
 }
 
 // How far it is from there; kNever: too far.
@@ -103,7 +100,7 @@ Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amou
   if (mark.time != time_) {
     mark.time = time_;
     mark.label = static_cast<std::uint32_t>(labels_.size());
-    labels_.push_back({state, stage, paid, from});
+    labels_.push_back({state, stage, paid, mark.distance, from});
   } else if (paid < labels_[mark.label].paid) {
     labels_[mark.label].paid = paid;
     labels_[mark.label].parent = from;

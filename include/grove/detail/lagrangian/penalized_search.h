@@ -45,6 +45,7 @@ class PenalizedSearch {
     State state;
     StageId stage;
     Amount paid;
+    Time distance;  // to where it may rest, alone
     std::uint32_t parent;
   };
   struct Mark {
@@ -73,7 +74,8 @@ class PenalizedSearch {
   // Of the call under way.
   FreeGoals* goals_ = nullptr;
   std::span<const Amount> on_finish_;
-  Time time_ = 0;  // of the labels that are being made
+  Time time_ = 0;           // of the labels that are being made
+  Penalties::Layer layer_;  // then
   Price below_ = 0;
   std::optional<Label> best_;
 };

@@ -35,11 +35,29 @@ class Penalties {
   // All that lead to a place, its staying() among them.
   std::span<const Arc> arcs_to(Place place) const { return arcs_to_[place]; }
 
-  Amount of(Time arrival, Arc arc) const {
-    if (arrival >= end()) return 0;
-    const std::uint32_t page = pages_of_time_[arrival][static_cast<std::size_t>(arc) / kOnPage];
-    return pages_[page * kOnPage + static_cast<std::size_t>(arc) % kOnPage];
+  // Those of one time.
+  class Layer {
+   public:
+    Amount operator[](Arc arc) const {
+      if (pages_of_arcs_ == nullptr) return 0;
+      const std::size_t page = pages_of_arcs_[static_cast<std::size_t>(arc) / kOnPage];
+      return amounts_[page * kOnPage + static_cast<std::size_t>(arc) % kOnPage];
+    }
+
+   private:
+    friend class Penalties;
+    const std::uint32_t* pages_of_arcs_ = nullptr;  // null: nothing is penalised
+    const Amount* amounts_ = nullptr;
+  };
+  // Until the next add().
+  Layer at(Time arrival) const {
+    Layer layer;
+    if (arrival >= end()) return layer;
+    layer.pages_of_arcs_ = pages_of_time_[arrival].data();
+    layer.amounts_ = pages_.data();
+    return layer;
   }
+  Amount of(Time arrival, Arc arc) const { return at(arrival)[arc]; }
   // Throws std::overflow_error when it would become too much to be reckoned with.
   void add(Time arrival, Arc arc, Amount amount);
   // Nothing is penalised then, or later.
