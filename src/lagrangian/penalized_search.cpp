@@ -2,9 +2,9 @@
 // Layer by layer in time, for a later arrival may be cheaper than an earlier one: to wait costs. A
 // label is a state and a stage (free_goals.h) at a time, and what was paid on the way there; two
 // ways to one label have the same future, so the cheaper one is kept. What has yet to be paid is at
-// least a unit for each step of the distance, for no penalty is negative, and labels from which
-// that reaches the price to be undercut are dropped. Since a layer costs a unit more than the one
-// before, the layers end.
+// least a unit for each step of the distance, for no penalty is negative, and what coming to rest
+// costs then, or a unit for each step that it is put off; labels from which that reaches the price
+// to be undercut are dropped. Since a layer costs a unit more than the one before, the layers end.
 //
 // A path that leaves what the completions know costs beyond() steps or more; the price is never
 // said to be more than that. Nor, when labels or time run out, more than the least that a label of
@@ -36,6 +36,7 @@ Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finis
     marks_.clear();
     stamp_ = 1;
   }
+  look_at_ends();
   start();
   std::size_t layer = 0;
   std::size_t layers = 0;
@@ -46,7 +47,7 @@ Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finis
       Price least = below_;
       for (; layer < end; ++layer) {
         const Label& label = labels_[layer];
-        least = std::min(least, label.paid + Price{label.distance} * Penalties::kUnit);
+        least = std::min(least, label.paid + to_pay(label.distance, time_));
       }
       labels_met_ += std::ssize(labels_);
       return least;
@@ -57,6 +58,21 @@ Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finis
   labels_met_ += std::ssize(labels_);
   if (best_ && path != nullptr) *path = path_to(*best_);
   return below_;
+}
+
+// What coming to rest costs beside the steps, at a time or later, each step later being one more.
+// Of who may rest on several places nothing is said of these.
+void PenalizedSearch::look_at_ends() {
+  const AgentStops& stops = goals_->stops();
+  const auto finishes = static_cast<Time>(on_finish_.size());
+  const Time last = std::max(finishes, penalties_.end());
+  const bool has_one_rest = !stops.rests_on_last_stop() && stops.destination();
+  ends_.assign(static_cast<std::size_t>(last) + 1, 0);
+  for (Time time = last - 1; time >= 0; --time) {
+    Amount then = time < finishes ? on_finish_[time] : 0;
+    if (has_one_rest) then += rest_from(*stops.destination(), time);
+    ends_[time] = std::min(then, ends_[time + 1] + Penalties::kUnit);
+  }
 }
 
 void PenalizedSearch::start() {
@@ -70,7 +86,7 @@ void PenalizedSearch::start() {
 void PenalizedSearch::expand(std::uint32_t at) {
   const Label label = labels_[at];  // labels_ will grow
   // Dropped since, for a cheaper path was found.
-  if (label.paid + Price{label.distance} * Penalties::kUnit >= below_) return;
+  if (label.paid + to_pay(label.distance, time_ - 1) >= below_) return;
   const Amount staying = layer_[penalties_.staying(world_.place(label.state))];
   reach(at, label.state, label.stage, label.paid + Penalties::kUnit + staying);
   const std::span<const State> moves = world_.moves(label.state);
@@ -95,8 +111,7 @@ Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amou
   if (plane.empty()) plane.resize(static_cast<std::size_t>(world_.state_count()));
   Mark& mark = plane[state];
   if (mark.stamp != stamp_) mark = {kNone, -1, goals_->distance(stage, state), stamp_};
-  if (mark.distance >= kNever || paid + Price{mark.distance} * Penalties::kUnit >= below_)
-    return kNever;
+  if (mark.distance >= kNever || paid + to_pay(mark.distance, time_) >= below_) return kNever;
   if (mark.time != time_) {
     mark.time = time_;
     mark.label = static_cast<std::uint32_t>(labels_.size());

@@ -2,6 +2,8 @@
 // What an agent pays at least, penalties included: its price.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -55,7 +57,13 @@ class PenalizedSearch {
     std::uint32_t stamp;
   };
 
+  void look_at_ends();
   void start();
+  // From so far away, at a time.
+  Price to_pay(Time distance, Time time) const {
+    const auto end = static_cast<std::size_t>(time) + static_cast<std::size_t>(distance);
+    return Price{distance} * Penalties::kUnit + ends_[std::min(end, ends_.size() - 1)];
+  }
   void expand(std::uint32_t label);
   void arrive(std::uint32_t from, State state, StageId stage, Amount paid);
   Time reach(std::uint32_t from, State state, StageId stage, Amount paid);
@@ -69,6 +77,7 @@ class PenalizedSearch {
   std::uint32_t stamp_ = 0;
   std::vector<Label> labels_;                                 // layer by layer
   std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // what resting from a time on costs
+  std::vector<Amount> ends_;                                  // see look_at_ends()
   std::int64_t labels_met_ = 0;
 
   // Of the call under way.
