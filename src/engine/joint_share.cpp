@@ -41,7 +41,10 @@ Cost JointShare::step(Cost cutoff, const Limits& limits) {
        search_->work() < end && outcome == JointSearch::Outcome::kWorking;)
     outcome = search_->run(1, cutoff, limits);
   over_ = outcome != JointSearch::Outcome::kWorking;
-  return search_->lower_bound();
+  states_ = search_->states();
+  const Cost proven = search_->lower_bound();
+  if (outcome == JointSearch::Outcome::kTooLarge) search_.reset();  // others need its memory
+  return proven;
 }
 
 std::optional<Plan> JointShare::plan() const {

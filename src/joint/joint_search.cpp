@@ -27,6 +27,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "grove/detail/joint/group_table.h"
@@ -63,10 +64,8 @@ class JointSearch::Search {
   }
 
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
-    if (!tables_to_come_.empty()) {
-      make_table();
-      return Outcome::kWorking;
-    }
+    if (!tables_to_come_.empty())
+      return make_table(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     for (; states > 0 && !plan_; --states) {
       const Index state = pop();
       if (state == kNone) {
@@ -119,12 +118,16 @@ class JointSearch::Search {
     planned_work_ += work;
     tables_to_come_.push_back(std::move(members));
   }
-  void make_table() {
-    tables_.emplace_back(instance_, agents_, std::move(tables_to_come_.front()));
+  // False: stopped.
+  bool make_table(const Limits& limits) {
+    auto table = GroupTable::make(instance_, agents_, std::move(tables_to_come_.front()), limits);
+    if (!table) return false;
+    tables_.push_back(std::move(*table));
     tables_to_come_.pop_front();
     table_work_ += GroupTable::work(agents_, tables_.back().members());
     table_bytes_ += GroupTable::entries(agents_, tables_.back().members());
     if (tables_to_come_.empty()) begin();
+    return true;
   }
   void begin() {
     excess_.assign(tables_.size() + 1, 0);
@@ -358,7 +361,7 @@ JointSearch::JointSearch(std::unique_ptr<Search> search) : search_(std::move(sea
 JointSearch::~JointSearch() = default;
 
 std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double most_bits,
-                                               std::size_t most_bytes) {
+                                               std::size_t most_bytes) try {
   const double states_bits = std::log2(instance.world().state_count());
   if (instance.agent_count() > kMostAgents || instance.agent_count() * states_bits > most_bits)
     return nullptr;
@@ -371,10 +374,14 @@ std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double 
   }
   return std::unique_ptr<JointSearch>(
       new JointSearch(std::make_unique<Search>(instance, std::move(agents), most_bytes)));
+} catch (const std::bad_alloc&) {
+  return nullptr;
 }
 
-JointSearch::Outcome JointSearch::run(std::int64_t states, Cost cutoff, const Limits& limits) {
+JointSearch::Outcome JointSearch::run(std::int64_t states, Cost cutoff, const Limits& limits) try {
   return search_->run(states, cutoff, limits);
+} catch (const std::bad_alloc&) {  // its bound is that of the layer being emptied
+  return Outcome::kTooLarge;
 }
 Cost JointSearch::lower_bound() const {
   return search_->lower_bound();

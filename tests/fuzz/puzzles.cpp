@@ -69,8 +69,8 @@ void solve_one(std::uint64_t seed, const Arguments& a, Tally& tally) {
      : solution.status == Status::kInfeasible ? tally.infeasible
                                               : tally.solved);
   if (is_open)
-    fmt::print("seed {}: open, bound {}, plan {}\n", seed, solution.lower_bound,
-               solution.plan ? fmt::format("{}", solution.plan->cost) : "-");
+    fmt::print("seed {}: open, bound {}, plan {}\n{}\n", seed, solution.lower_bound,
+               solution.plan ? fmt::format("{}", solution.plan->cost) : "-", puzzle.to_text());
   if (const std::string wrong = complaint(instance, solution, a.oracle_states, tally);
       !wrong.empty()) {
     ++tally.wrong;
