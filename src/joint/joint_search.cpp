@@ -134,8 +134,8 @@ class JointSearch::Search {
     Grouping none;
     none.fill(static_cast<std::uint8_t>(tables_.size()));
     add_groupings(0, 0, none, 0);
-    reach(std::vector<Node>(size(), AgentGraph::start()), kNone, 0,
-          static_cast<std::int32_t>(first_layer_));
+    const std::vector<Node> start(size(), AgentGraph::start());
+    reach(start.data(), hash_of(start.data()), kNone, 0, static_cast<std::int32_t>(first_layer_));
   }
   // All ways to go on with groups from `first` on, of agents that are free, until there is none.
   void add_groupings(std::size_t first, unsigned taken, Grouping so_far, std::size_t count) {
@@ -183,10 +183,14 @@ class JointSearch::Search {
 
   // --- states ---
 
-  std::size_t slot_of(const Node* nodes) const {
+  std::uint64_t hash_of(const Node* nodes) const {
     std::uint64_t hash = 0;
     for (std::size_t i = 0; i < size(); ++i) hash = (hash ^ nodes[i]) * 0x9e3779b97f4a7c15;
-    std::size_t slot = (hash ^ hash >> 32) & (slots_.size() - 1);
+    return hash ^ hash >> 32;
+  }
+  std::size_t slot_of(const Node* nodes) const { return slot_of(nodes, hash_of(nodes)); }
+  std::size_t slot_of(const Node* nodes, std::uint64_t hash) const {
+    std::size_t slot = hash & (slots_.size() - 1);
     while (slots_[slot] != kNone && !std::equal(nodes, nodes + size(), nodes_of(slots_[slot])))
       slot = (slot + 1) & (slots_.size() - 1);
     return slot;
@@ -197,17 +201,18 @@ class JointSearch::Search {
       slots_[slot_of(nodes_of(state))] = state;
   }
   // Is it of use to reach a state at this cost? What is known already needs no estimate.
-  void reach(const std::vector<Node>& nodes, Index parent, std::int32_t cost, std::int32_t alone) {
+  void reach(const Node* nodes, std::uint64_t hash, Index parent, std::int32_t cost,
+             std::int32_t alone) {
     ++made_;
     if (2 * (records_.size() + 1) > slots_.size()) grow();
-    Index& slot = slots_[slot_of(nodes.data())];
+    Index& slot = slots_[slot_of(nodes, hash)];
     if (slot != kNone && records_[slot].cost <= cost) return;
     const Cost layer = std::max(lower_bound_, cost + alone + excess_of(nodes));
     if (layer >= cutoff_) return;
     if (slot == kNone) {
       slot = static_cast<Index>(records_.size());
       records_.emplace_back();
-      nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+      nodes_.insert(nodes_.end(), nodes, nodes + size());
     }
     records_[slot] = {parent, cost, static_cast<std::int32_t>(layer), alone, -1};
     push(slot);
@@ -215,9 +220,9 @@ class JointSearch::Search {
   bool is_final(Index state) const { return records_[state].alone == 0; }
 
   // What groups cost more together, at least: over all agents, the best way to group them.
-  Cost excess_of(const std::vector<Node>& nodes) {
+  Cost excess_of(const Node* nodes) {
     for (std::size_t i = 0; i < tables_.size(); ++i) {
-      const std::uint8_t excess = tables_[i].excess(nodes.data());
+      const std::uint8_t excess = tables_[i].excess(nodes);
       if (excess == GroupTable::kNoWay) return kInfiniteCost;
       excess_[i] = excess;
     }
@@ -247,6 +252,7 @@ class JointSearch::Search {
     for (std::size_t i = 0; i < size(); ++i)
       from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
     choose(0, 0, 0, 0);
+    reach_next();
     for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNobody;
     if (next_budget_ == kNever) return;
     Record& record = records_[state];
@@ -257,6 +263,21 @@ class JointSearch::Search {
     push(state);
   }
 
+  // What has been chosen. Where they may be known is looked up in memory for all at once.
+  void reach_next() {
+    for (const Next& next : next_) __builtin_prefetch(&slots_[next.hash & (slots_.size() - 1)]);
+    for (const Next& next : next_) {
+      const Index there = slots_[next.hash & (slots_.size() - 1)];
+      if (there == kNone) continue;
+      __builtin_prefetch(&records_[there]);
+      __builtin_prefetch(nodes_of(there));
+    }
+    for (std::size_t i = 0; i < next_.size(); ++i)
+      reach(next_nodes_.data() + i * size(), next_[i].hash, parent_, next_[i].cost, next_[i].alone);
+    next_.clear();
+    next_nodes_.clear();
+  }
+
   std::size_t place(std::size_t agent, const std::vector<Node>& nodes) const {
     return static_cast<std::size_t>(agents_[agent].place(nodes[agent]));
   }
@@ -264,7 +285,8 @@ class JointSearch::Search {
   // The moves of `agent` and all after it; those before have chosen and pay `cost`.
   void choose(std::size_t agent, Time detour, std::int32_t cost, std::int32_t alone) {
     if (agent == size()) {
-      reach(to_, parent_, records_[parent_].cost + cost, alone);
+      next_nodes_.insert(next_nodes_.end(), to_.begin(), to_.end());
+      next_.push_back({hash_of(to_.data()), records_[parent_].cost + cost, alone});
       return;
     }
     const AgentGraph& graph = agents_[agent];
@@ -337,6 +359,13 @@ class JointSearch::Search {
   std::size_t table_bytes_ = 0;
   std::optional<Plan> plan_;
   // The expansion under way.
+  struct Next {
+    std::uint64_t hash;
+    std::int32_t cost;  // from the start
+    std::int32_t alone;
+  };
+  std::vector<Next> next_;
+  std::vector<Node> next_nodes_;  // of each, by agent
   Index parent_ = kNone;
   Cost cutoff_ = kInfiniteCost;
   Time looked_at_ = -1;
