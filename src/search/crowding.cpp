@@ -99,7 +99,7 @@ class Crowd {
     if (all_have_goals() && !reach_->has(goals()))
       return "the agents cannot all get to their goals: to be in this order there they would have "
              "to "
-             "pass each other where there is too little room";
+             "pass each other, and there is too little room";
     return std::nullopt;
   }
 
