@@ -10,6 +10,7 @@
 #include <utility>
 
 namespace grove::detail {
+
 std::vector<Place> places_around(const World& world, Place place) {
   const auto neighbors = world.neighbors(place);
   std::vector<Place> around(neighbors.begin(), neighbors.end());

@@ -58,7 +58,8 @@ class Crossings {
     find_ways();
     for (const Way& way : ways_)
       if (is_between(way) && way.length() <= free_ + 2 - need(way.from) - need(way.nodes.back()))
-        joined_[crowd(way.from)] = crowd(way.nodes.back());
+        joined_[root(way.from)] = root(way.nodes.back());
+    for (BoardNode node = 0; node < board.size(); ++node) joined_[node] = root(node);
     for (const Way& way : ways_) add_nodes_near(way);
     std::ranges::sort(near_);
   }
@@ -71,11 +72,7 @@ class Crossings {
   }
   int need(BoardNode crossing) const { return may_follow_ && board_.is_on_ring(crossing) ? 1 : 2; }
   // The number of all crossings that are joined to this one.
-  BoardNode crowd(BoardNode crossing) const {
-    BoardNode root = board_.region(crossing);
-    while (joined_[root] != root) root = joined_[root];
-    return root;
-  }
+  BoardNode crowd(BoardNode crossing) const { return joined_[crossing]; }
   // How far from it who is not stuck is at most.
   int most_steps(BoardNode crossing) const { return free_ + 1 - need(crossing); }
   bool is_reached(BoardNode crowd_there, BoardNode node) const {
@@ -88,6 +85,11 @@ class Crossings {
  private:
   bool is_between(const Way& way) const {
     return way.from != Board::kNone && is_crossing(way.nodes.back());
+  }
+  BoardNode root(BoardNode node) {
+    BoardNode root = board_.region(node);
+    while (joined_[root] != root) root = joined_[root] = joined_[joined_[root]];
+    return root;
   }
   void find_ways() {
     for (BoardNode node = 0; node < board_.size(); ++node)
@@ -121,9 +123,9 @@ class Crossings {
   const int free_;
   const bool may_follow_;
   std::vector<Way> ways_;
-  std::vector<BoardNode> joined_;  // a forest, of regions
-  std::vector<std::pair<BoardNode, BoardNode>>
-      near_;  // nodes beside a crossing that its crowd reaches
+  std::vector<BoardNode> joined_;  // by node; while ways are looked at, a forest of regions
+  // Nodes beside a crossing, and the crowd that reaches them from there.
+  std::vector<std::pair<BoardNode, BoardNode>> near_;
 };
 
 // Who belongs where in an arrangement.
