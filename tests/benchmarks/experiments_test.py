@@ -5,6 +5,7 @@
     experiments_test.py GROVE    GROVE: the program; without it, what runs it is skipped
 """
 import csv
+import json
 import pathlib
 import shutil
 import subprocess
