@@ -30,7 +30,7 @@ sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "tools/report")]
 from grove_report.proofs import contradictions  # noqa: E402
 from grove_report.rows import row_of  # noqa: E402
 from harness import tables  # noqa: E402
-from harness.instances import Case, Maps  # noqa: E402
+from harness.instances import Case, Maps, cases_in  # noqa: E402
 from harness.runs import Grove, Job, OtherSolver, run_all  # noqa: E402
 
 PAPER_MAPS = ["empty-32-32", "random-32-32-20", "room-32-32-4"]
@@ -99,7 +99,8 @@ def ablation(arguments):
     whole = grove_of(arguments)
     solvers = [whole] + [Grove(whole.program, (*whole.options, "--without", name),
                                f"without {name}") for name in names]
-    jobs = jobs_of(solvers, paper_cases(arguments), arguments)
+    cases = cases_in(arguments.instances) if arguments.instances else paper_cases(arguments)
+    jobs = jobs_of(solvers, cases, arguments)
     return jobs, lambda rows: [tables.ablation(rows, whole.name)]
 
 
@@ -154,6 +155,8 @@ def make_parser():
                   [1, 2, 3])
     add_cells(command)
     command.add_argument("--technique", nargs="+", help="only these; by default all of the program")
+    command.add_argument("--instances", type=pathlib.Path, metavar="FOLDER",
+                         help="the *.cts.json files there instead of the cells")
     return parser
 
 

@@ -2,6 +2,7 @@
 """What is solved: cases of the Moving AI folder and the files that stand for them."""
 
 import dataclasses
+import json
 import pathlib
 
 from harness.programs import run
@@ -39,6 +40,36 @@ class Case:
         return f"{self.map} {size} scenario {self.scenario}"
 
 
+@dataclasses.dataclass(frozen=True)
+class FileCase:
+    """An instance as it stands in its file."""
+
+    file: pathlib.Path
+    agents: int
+    tasks: int
+    problem: str
+    map: str
+    scenario: int | None = None
+
+    @property
+    def id(self):
+        return self.file.name.removesuffix(".cts.json")
+
+    def __str__(self):
+        return str(self.file)
+
+
+def cases_in(folder):
+    """The instances of a folder, by name."""
+    cases = []
+    for file in sorted(pathlib.Path(folder).glob("*.cts.json")):
+        text = json.loads(file.read_text(encoding="utf-8"))
+        problem = "cts" if all("goal" in agent for agent in text["agents"]) else "mg"
+        cases.append(FileCase(file, len(text["agents"]), len(text["tasks"]), problem,
+                              str(text.get("map") or text.get("roadmap"))))
+    return cases
+
+
 class Maps:
     """A folder with <map>.map and <map>-random-<k>.scen files."""
 
@@ -53,6 +84,8 @@ class Maps:
 
     def missing(self, case):
         """The file that the case needs and that is not there; none: it can be run."""
+        if isinstance(case, FileCase):
+            return None
         return next((file for file in (self.map(case), self.scenario(case)) if not file.exists()),
                     None)
 
@@ -75,6 +108,8 @@ def scenario_with_enough_rows(maps, case, folder):
 
 def instance_arguments(grove, maps, case, folder):
     """How `grove solve` is told of the case, whose instance is made in the folder if need be."""
+    if isinstance(case, FileCase):
+        return [case.file]
     if case.tasks is None:
         return [maps.scenario(case), "--map", maps.map(case), "--agents", case.agents]
     instance = pathlib.Path(folder) / "instance.cts.json"

@@ -114,7 +114,7 @@ def ratio(pairs):
 def ablation(rows, reference):
     """Each solver against the one named `reference`; ratios over what both proved."""
     def key(row):
-        return row["map"], row["agents"], row["tasks"], row["scenario"]
+        return row["instance"]
     full = {key(row): row for row in rows if row["method"] == reference}
     lines = []
     for (solver,), group in grouped(rows, "method").items():

@@ -2,7 +2,7 @@
 // Most small instances are closed by the first nodes of the tree, so the tree begins. What is still
 // open then and has few joint states is often one where everybody is in everybody's way: there the
 // search over joint states ends soon, and the tree perhaps never. Which of the two nobody knows, so
-// they share the work; when one of them holds more memory than it may, or has ended, the other has
+// they share the work, of which joint search has the most; when one of them holds more memory than it may, or has ended, the other has
 // it all.
 #include "joint_share.h"
 
@@ -41,7 +41,10 @@ Cost JointShare::step(Cost cutoff, const Limits& limits) {
        search_->work() < end && outcome == JointSearch::Outcome::kWorking;)
     outcome = search_->run(1, cutoff, limits);
   over_ = outcome != JointSearch::Outcome::kWorking;
-  return search_->lower_bound();
+  states_ = search_->states();
+  const Cost proven = search_->lower_bound();
+  if (outcome == JointSearch::Outcome::kTooLarge) search_.reset();  // others need its memory
+  return proven;
 }
 
 std::optional<Plan> JointShare::plan() const {

@@ -24,13 +24,14 @@ class JointShare {
   Cost step(Cost cutoff, const Limits& limits);
   // An optimal plan, as soon as there is one.
   std::optional<Plan> plan() const;
-  std::int64_t states() const { return search_ ? search_->states() : 0; }
+  std::int64_t states() const { return states_; }
 
  private:
   const Instance& instance_;
   const Tuning& tuning_;
   bool over_;
   std::int64_t others_ = 0;
+  std::int64_t states_ = 0;
   std::unique_ptr<JointSearch> search_;  // made when it is first due
 };
 

@@ -12,6 +12,7 @@ namespace {
 
 using Node = AgentGraph::Node;
 constexpr std::int64_t kMovesPerWork = 20;  // see search/work.h
+constexpr std::int64_t kSettledPerPoll = 1024;
 
 // The moves of an agent backwards.
 class Backwards {
@@ -51,10 +52,18 @@ class Costs {
         to_(members_.size()),
         from_(members_.size()) {
     for (const AgentGraph* member : members_) backwards_.emplace_back(*member);
+  }
+
+  // False: stopped.
+  bool find(const Limits& limits) {
     begin(0, 0);
+    std::int64_t settled = 0;
     for (std::size_t cost = 0; cost < layers_.size(); ++cost)
-      for (std::size_t next = 0; next < layers_[cost].size(); ++next)
+      for (std::size_t next = 0; next < layers_[cost].size(); ++next) {
+        if (++settled % kSettledPerPoll == 0 && limits.stop_requested()) return false;
         settle(layers_[cost][next], static_cast<Time>(cost));
+      }
+    return true;
   }
 
   Time operator[](std::size_t entry) const { return costs_[entry]; }
@@ -142,23 +151,26 @@ std::int64_t GroupTable::work(std::span<const AgentGraph> agents,
   return product<std::int64_t>(members, moves, agents) / kMovesPerWork;
 }
 
-GroupTable::GroupTable(const Instance& instance, std::span<const AgentGraph> agents,
-                       std::vector<std::size_t> members)
-    : members_(std::move(members)), strides_(members_.size(), 1) {
+std::optional<GroupTable> GroupTable::make(const Instance& instance,
+                                           std::span<const AgentGraph> agents,
+                                           std::vector<std::size_t> members, const Limits& limits) {
+  GroupTable table(std::move(members));
   std::vector<const AgentGraph*> graphs;
-  for (const std::size_t member : members_) graphs.push_back(&agents[member]);
-  for (std::size_t i = members_.size(); i-- > 1;)
-    strides_[i - 1] = strides_[i] * graphs[i]->count();
-  excess_.resize(entries(agents, members_));
-  const Costs costs(instance, graphs, strides_, excess_.size());
-  for (std::size_t entry = 0; entry < excess_.size(); ++entry) {
+  for (const std::size_t member : table.members_) graphs.push_back(&agents[member]);
+  for (std::size_t i = graphs.size(); i-- > 1;)
+    table.strides_[i - 1] = table.strides_[i] * graphs[i]->count();
+  table.excess_.resize(entries(agents, table.members_));
+  Costs costs(instance, graphs, table.strides_, table.excess_.size());
+  if (!costs.find(limits)) return std::nullopt;
+  for (std::size_t entry = 0; entry < table.excess_.size(); ++entry) {
     Time alone = 0;
-    for (std::size_t i = 0, rest = entry; i < members_.size(); rest %= strides_[i++])
-      alone += graphs[i]->to_go(static_cast<Node>(rest / strides_[i]));
-    excess_[entry] = costs[entry] == kNever
-                         ? kNoWay
-                         : static_cast<std::uint8_t>(std::min(costs[entry] - alone, 254));
+    for (std::size_t i = 0, rest = entry; i < graphs.size(); rest %= table.strides_[i++])
+      alone += graphs[i]->to_go(static_cast<Node>(rest / table.strides_[i]));
+    table.excess_[entry] = costs[entry] == kNever
+                               ? kNoWay
+                               : static_cast<std::uint8_t>(std::min(costs[entry] - alone, 254));
   }
+  return table;
 }
 
 }  // namespace grove::detail

@@ -10,8 +10,10 @@
 // there is always a state in the queue whose layer is no more than the plan's cost; so the layer
 // that is being emptied bounds all plans, and the first state taken with nothing left to pay for
 // ends an optimal one. (A state that is reached at less cost goes into the queue again, whatever
-// became of it before.) States whose layer reaches the cutoff are dropped, for plans through them
-// cost as much; an empty queue proves that no plan costs less than the cutoff - without one, none.
+// became of it before.) Larger tables are made when the search has taken as much work as they do: a
+// state that is taken from the queue with an estimate of before gets a new one. States whose layer
+// reaches the cutoff are dropped, for plans through them cost as much; an empty queue proves that
+// no plan costs less than the cutoff - without one, none.
 //
 // Enhanced partial expansion (Goldenberg et al., JAIR 2014). A move's detour is what it adds to
 // what its agent costs alone, never less than 0. A state brings forth those next ones whose detours
@@ -27,6 +29,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "grove/detail/joint/group_table.h"
@@ -39,8 +42,10 @@ using Node = AgentGraph::Node;
 using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
 constexpr std::size_t kMostGrouped = 8;  // beyond, the best grouping takes too long to find
-constexpr std::size_t kMostEntries = std::size_t{1} << 18;  // of a table
-constexpr std::int64_t kMostTableWork = 4'000'000;          // of all; see search/work.h
+constexpr std::size_t kMostEntries = std::size_t{1} << 18;  // of a table made at first
+constexpr std::int64_t kMostTableWork = 4'000'000;          // of all those; see search/work.h
+constexpr std::size_t kMostLateEntries = std::size_t{1} << 21;
+constexpr std::size_t kMostGroupedLate = 6;
 constexpr std::int64_t kStatesPerPoll = 256;
 constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
 
@@ -63,10 +68,10 @@ class JointSearch::Search {
   }
 
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
-    if (!tables_to_come_.empty()) {
-      make_table();
-      return Outcome::kWorking;
-    }
+    if (!tables_to_come_.empty())
+      return make_table(limits) ? Outcome::kWorking : Outcome::kTooLarge;
+    if (late_table_is_due())
+      return make_late_table(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     for (; states > 0 && !plan_; --states) {
       const Index state = pop();
       if (state == kNone) {
@@ -78,7 +83,7 @@ class JointSearch::Search {
         return Outcome::kTooLarge;
       if (is_final(state))
         plan_ = plan_to(state);
-      else
+      else if (!rises(state, cutoff))
         expand(state, cutoff);
     }
     return plan_ ? Outcome::kEnded : Outcome::kWorking;
@@ -98,6 +103,7 @@ class JointSearch::Search {
     std::int32_t layer = 0;       // no plan by a way not yet looked at costs less
     std::int32_t alone = 0;       // the sum of what its agents cost alone from there
     std::int32_t looked_at = -1;  // detours up to this; -1: none
+    std::uint32_t tables = 0;     // that its layer knows of
   };
 
   // Groups that share no agent, by number; the rest is none.
@@ -111,28 +117,57 @@ class JointSearch::Search {
     for (std::size_t a = 0; a < size() && size() > 3; ++a)
       for (std::size_t b = a + 1; b < size(); ++b)
         for (std::size_t c = b + 1; c < size(); ++c) plan_table({a, b, c});
+    std::ranges::stable_sort(late_tables_, {},
+                             [&](const auto& members) { return work_of(members); });
   }
   void plan_table(std::vector<std::size_t> members) {
-    const std::int64_t work = GroupTable::work(agents_, members);
-    if (GroupTable::entries(agents_, members) > kMostEntries) return;
-    if (planned_work_ + work > kMostTableWork) return;
-    planned_work_ += work;
-    tables_to_come_.push_back(std::move(members));
+    const std::size_t entries = GroupTable::entries(agents_, members);
+    if (entries <= kMostEntries && planned_work_ + work_of(members) <= kMostTableWork) {
+      planned_work_ += work_of(members);
+      tables_to_come_.push_back(std::move(members));
+    } else if (entries <= kMostLateEntries && size() <= kMostGroupedLate) {
+      late_tables_.push_back(std::move(members));
+    }
   }
-  void make_table() {
-    tables_.emplace_back(instance_, agents_, std::move(tables_to_come_.front()));
-    tables_to_come_.pop_front();
-    table_work_ += GroupTable::work(agents_, tables_.back().members());
-    table_bytes_ += GroupTable::entries(agents_, tables_.back().members());
+  std::int64_t work_of(const std::vector<std::size_t>& members) const {
+    return GroupTable::work(agents_, members);
+  }
+  // False: stopped.
+  bool add_table(std::deque<std::vector<std::size_t>>& from, const Limits& limits) {
+    auto table = GroupTable::make(instance_, agents_, from.front(), limits);
+    if (!table) return false;
+    tables_.push_back(std::move(*table));
+    table_work_ += work_of(from.front());
+    table_bytes_ += GroupTable::entries(agents_, from.front());
+    from.pop_front();
+    return true;
+  }
+  bool make_table(const Limits& limits) {
+    if (!add_table(tables_to_come_, limits)) return false;
     if (tables_to_come_.empty()) begin();
+    return true;
+  }
+  // Tables take no more than half of the work.
+  bool late_table_is_due() const {
+    return !late_tables_.empty() &&
+           table_work_ + work_of(late_tables_.front()) <= made_ / kMadePerWork;
+  }
+  bool make_late_table(const Limits& limits) {
+    if (!add_table(late_tables_, limits)) return false;
+    group();
+    return true;
   }
   void begin() {
+    group();
+    const std::vector<Node> start(size(), AgentGraph::start());
+    reach(start.data(), hash_of(start.data()), kNone, 0, static_cast<std::int32_t>(first_layer_));
+  }
+  void group() {
     excess_.assign(tables_.size() + 1, 0);
+    groupings_.clear();
     Grouping none;
     none.fill(static_cast<std::uint8_t>(tables_.size()));
     add_groupings(0, 0, none, 0);
-    reach(std::vector<Node>(size(), AgentGraph::start()), kNone, 0,
-          static_cast<std::int32_t>(first_layer_));
   }
   // All ways to go on with groups from `first` on, of agents that are free, until there is none.
   void add_groupings(std::size_t first, unsigned taken, Grouping so_far, std::size_t count) {
@@ -180,10 +215,14 @@ class JointSearch::Search {
 
   // --- states ---
 
-  std::size_t slot_of(const Node* nodes) const {
+  std::uint64_t hash_of(const Node* nodes) const {
     std::uint64_t hash = 0;
     for (std::size_t i = 0; i < size(); ++i) hash = (hash ^ nodes[i]) * 0x9e3779b97f4a7c15;
-    std::size_t slot = (hash ^ hash >> 32) & (slots_.size() - 1);
+    return hash ^ hash >> 32;
+  }
+  std::size_t slot_of(const Node* nodes) const { return slot_of(nodes, hash_of(nodes)); }
+  std::size_t slot_of(const Node* nodes, std::uint64_t hash) const {
+    std::size_t slot = hash & (slots_.size() - 1);
     while (slots_[slot] != kNone && !std::equal(nodes, nodes + size(), nodes_of(slots_[slot])))
       slot = (slot + 1) & (slots_.size() - 1);
     return slot;
@@ -194,27 +233,41 @@ class JointSearch::Search {
       slots_[slot_of(nodes_of(state))] = state;
   }
   // Is it of use to reach a state at this cost? What is known already needs no estimate.
-  void reach(const std::vector<Node>& nodes, Index parent, std::int32_t cost, std::int32_t alone) {
+  void reach(const Node* nodes, std::uint64_t hash, Index parent, std::int32_t cost,
+             std::int32_t alone) {
     ++made_;
     if (2 * (records_.size() + 1) > slots_.size()) grow();
-    Index& slot = slots_[slot_of(nodes.data())];
+    Index& slot = slots_[slot_of(nodes, hash)];
     if (slot != kNone && records_[slot].cost <= cost) return;
     const Cost layer = std::max(lower_bound_, cost + alone + excess_of(nodes));
     if (layer >= cutoff_) return;
     if (slot == kNone) {
       slot = static_cast<Index>(records_.size());
       records_.emplace_back();
-      nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+      nodes_.insert(nodes_.end(), nodes, nodes + size());
     }
-    records_[slot] = {parent, cost, static_cast<std::int32_t>(layer), alone, -1};
+    records_[slot] = {parent, cost, static_cast<std::int32_t>(layer),
+                      alone,  -1,   static_cast<std::uint32_t>(tables_.size())};
     push(slot);
+  }
+  // Does a table made since put a state into a later layer? It is queued there then.
+  bool rises(Index state, Cost cutoff) {
+    Record& record = records_[state];
+    if (record.tables == tables_.size()) return false;
+    record.tables = static_cast<std::uint32_t>(tables_.size());
+    const Cost layer = record.cost + record.alone + excess_of(nodes_of(state));
+    if (layer <= record.layer) return false;
+    if (layer >= cutoff) return true;
+    record.layer = static_cast<std::int32_t>(layer);
+    push(state);
+    return true;
   }
   bool is_final(Index state) const { return records_[state].alone == 0; }
 
   // What groups cost more together, at least: over all agents, the best way to group them.
-  Cost excess_of(const std::vector<Node>& nodes) {
+  Cost excess_of(const Node* nodes) {
     for (std::size_t i = 0; i < tables_.size(); ++i) {
-      const std::uint8_t excess = tables_[i].excess(nodes.data());
+      const std::uint8_t excess = tables_[i].excess(nodes);
       if (excess == GroupTable::kNoWay) return kInfiniteCost;
       excess_[i] = excess;
     }
@@ -244,6 +297,7 @@ class JointSearch::Search {
     for (std::size_t i = 0; i < size(); ++i)
       from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
     choose(0, 0, 0, 0);
+    reach_next();
     for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNobody;
     if (next_budget_ == kNever) return;
     Record& record = records_[state];
@@ -254,6 +308,21 @@ class JointSearch::Search {
     push(state);
   }
 
+  // What has been chosen. Where they may be known is looked up in memory for all at once.
+  void reach_next() {
+    for (const Next& next : next_) __builtin_prefetch(&slots_[next.hash & (slots_.size() - 1)]);
+    for (const Next& next : next_) {
+      const Index there = slots_[next.hash & (slots_.size() - 1)];
+      if (there == kNone) continue;
+      __builtin_prefetch(&records_[there]);
+      __builtin_prefetch(nodes_of(there));
+    }
+    for (std::size_t i = 0; i < next_.size(); ++i)
+      reach(next_nodes_.data() + i * size(), next_[i].hash, parent_, next_[i].cost, next_[i].alone);
+    next_.clear();
+    next_nodes_.clear();
+  }
+
   std::size_t place(std::size_t agent, const std::vector<Node>& nodes) const {
     return static_cast<std::size_t>(agents_[agent].place(nodes[agent]));
   }
@@ -261,7 +330,8 @@ class JointSearch::Search {
   // The moves of `agent` and all after it; those before have chosen and pay `cost`.
   void choose(std::size_t agent, Time detour, std::int32_t cost, std::int32_t alone) {
     if (agent == size()) {
-      reach(to_, parent_, records_[parent_].cost + cost, alone);
+      next_nodes_.insert(next_nodes_.end(), to_.begin(), to_.end());
+      next_.push_back({hash_of(to_.data()), records_[parent_].cost + cost, alone});
       return;
     }
     const AgentGraph& graph = agents_[agent];
@@ -316,6 +386,7 @@ class JointSearch::Search {
   const std::vector<AgentGraph> agents_;
   const std::size_t most_bytes_;
   std::deque<std::vector<std::size_t>> tables_to_come_;  // their members
+  std::deque<std::vector<std::size_t>> late_tables_;     // the same of larger ones
   std::int64_t planned_work_ = 0;
   std::vector<GroupTable> tables_;
   std::vector<Grouping> groupings_;  // all that no group could be added to
@@ -334,6 +405,13 @@ class JointSearch::Search {
   std::size_t table_bytes_ = 0;
   std::optional<Plan> plan_;
   // The expansion under way.
+  struct Next {
+    std::uint64_t hash;
+    std::int32_t cost;  // from the start
+    std::int32_t alone;
+  };
+  std::vector<Next> next_;
+  std::vector<Node> next_nodes_;  // of each, by agent
   Index parent_ = kNone;
   Cost cutoff_ = kInfiniteCost;
   Time looked_at_ = -1;
@@ -358,7 +436,7 @@ JointSearch::JointSearch(std::unique_ptr<Search> search) : search_(std::move(sea
 JointSearch::~JointSearch() = default;
 
 std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double most_bits,
-                                               std::size_t most_bytes) {
+                                               std::size_t most_bytes) try {
   const double states_bits = std::log2(instance.world().state_count());
   if (instance.agent_count() > kMostAgents || instance.agent_count() * states_bits > most_bits)
     return nullptr;
@@ -371,10 +449,14 @@ std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double 
   }
   return std::unique_ptr<JointSearch>(
       new JointSearch(std::make_unique<Search>(instance, std::move(agents), most_bytes)));
+} catch (const std::bad_alloc&) {
+  return nullptr;
 }
 
-JointSearch::Outcome JointSearch::run(std::int64_t states, Cost cutoff, const Limits& limits) {
+JointSearch::Outcome JointSearch::run(std::int64_t states, Cost cutoff, const Limits& limits) try {
   return search_->run(states, cutoff, limits);
+} catch (const std::bad_alloc&) {  // its bound is that of the layer being emptied
+  return Outcome::kTooLarge;
 }
 Cost JointSearch::lower_bound() const {
   return search_->lower_bound();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Four arguments, each a proof that there is no plan:
+// Five arguments, each a proof that there is no plan:
 //
 // Reach. An agent cannot visit or rest on a place to which there is no way from its start.
 //
@@ -17,6 +17,8 @@
 // other would have to share a cell or swap. So the order along the corridor never changes; an agent
 // with r agents on one side is never nearer than r cells to that end, and destinations lie in the
 // order of the starts.
+//
+// Crowding. See crowding.cpp.
 #include "grove/detail/search/feasibility.h"
 
 #include <fmt/format.h>
@@ -24,6 +26,8 @@
 #include <algorithm>
 #include <map>
 #include <vector>
+
+#include "grove/detail/search/crowding.h"
 
 namespace grove::detail {
 namespace {
@@ -183,7 +187,8 @@ std::optional<std::string> evident_infeasibility(const Problem& problem) {
   if (auto reason = unreachable_cell(problem)) return reason;
   if (auto reason = agent_without_an_order(problem)) return reason;
   if (auto reason = no_room_to_rest(problem)) return reason;
-  return stuck_in_a_corridor(problem);
+  if (auto reason = stuck_in_a_corridor(problem)) return reason;
+  return crowd_infeasibility(problem.instance);
 }
 
 }  // namespace grove::detail

@@ -5,6 +5,7 @@
     experiments_test.py GROVE    GROVE: the program; without it, what runs it is skipped
 """
 import csv
+import json
 import pathlib
 import shutil
 import subprocess
@@ -262,6 +263,14 @@ print("cost", cost)
         self.assertEqual({row["method"] for row in rows},
                          {"Grove", *(f"without {name}" for name in names)})
         self.assertNotIn("error", [row["status"] for row in rows])
+
+    def test_ablation_of_instances_in_a_folder(self):
+        (self.folder / "line.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n")
+        (self.folder / "line.cts.json").write_text(json.dumps(
+            {"map": "line.map", "agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]}], "tasks": []}))
+        done, rows = self.experiment("ablation", "--technique", "primal", "--instances", self.folder)
+        self.assertEqual([(row["instance"], row["method"], row["status"], row["cost"]) for row in rows],
+                         [("line", "Grove", "optimal", "2"), ("line", "without primal", "optimal", "2")])
 
     def test_failures_are_rows_and_an_exit_code(self):
         done, rows = self.experiment("paper", "--agents", "2", "--tasks", "3", "--scenarios", "1",

@@ -8,11 +8,15 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <ctime>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "grove/detail/engine/solve.h"
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/io/map_file.h"
 #include "grove/detail/model/check.h"
 #include "tests/fuzz/random_puzzle.h"
 #include "tests/oracle/joint_oracle.h"
@@ -29,11 +33,13 @@ struct Arguments {
   int threads = 1;
   std::size_t oracle_states = 2'000'000;
   int most_open = 0;
+  std::string folder = {};
 };
 
 struct Tally {
   int solved = 0, infeasible = 0, open = 0, compared = 0, wrong = 0;
   std::vector<double> seconds = {};
+  std::vector<double> cpu_seconds = {};
 };
 
 // What is wrong with an answer; empty: nothing. Whether the oracle had an answer too is in `tally`.
@@ -58,19 +64,21 @@ void solve_one(std::uint64_t seed, const Arguments& a, Tally& tally) {
   options.omega = Omega::from_double(0);
   options.threads = a.threads;
   const auto began = Clock::now();
+  const std::clock_t cpu_began = std::clock();
   Limits limits;
   limits.set_deadline(began +
                       std::chrono::microseconds(static_cast<std::int64_t>(a.seconds * 1e6)));
   const Solution solution = solve(instance, options, limits, nullptr);
   tally.seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
+  tally.cpu_seconds.push_back(static_cast<double>(std::clock() - cpu_began) / CLOCKS_PER_SEC);
   const bool is_open =
       solution.status != Status::kOptimal && solution.status != Status::kInfeasible;
   ++(is_open                                  ? tally.open
      : solution.status == Status::kInfeasible ? tally.infeasible
                                               : tally.solved);
   if (is_open)
-    fmt::print("seed {}: open, bound {}, plan {}\n", seed, solution.lower_bound,
-               solution.plan ? fmt::format("{}", solution.plan->cost) : "-");
+    fmt::print("seed {}: open, bound {}, plan {}\n{}\n", seed, solution.lower_bound,
+               solution.plan ? fmt::format("{}", solution.plan->cost) : "-", puzzle.to_text());
   if (const std::string wrong = complaint(instance, solution, a.oracle_states, tally);
       !wrong.empty()) {
     ++tally.wrong;
@@ -79,18 +87,34 @@ void solve_one(std::uint64_t seed, const Arguments& a, Tally& tally) {
   }
 }
 
+std::string spread(std::vector<double> seconds) {
+  std::ranges::sort(seconds);
+  const auto at = [&](double part) {
+    return seconds[static_cast<std::size_t>(part * static_cast<double>(seconds.size() - 1))];
+  };
+  return fmt::format("median {:.3f}, 95 % {:.3f}, worst {:.3f}", at(0.5), at(0.95), at(1));
+}
+
+int write(const Arguments& a) {
+  for (int i = 0; i < a.count; ++i) {
+    const std::string name = fmt::format("puzzle-{:03}", a.seed + static_cast<std::uint64_t>(i));
+    const std::filesystem::path path = std::filesystem::path(a.folder) / name;
+    const Instance instance = random_puzzle(a.seed + static_cast<std::uint64_t>(i)).build();
+    write_map(path.string() + ".map", instance.grid());
+    write_instance(path.string() + ".cts.json", instance, name + ".map");
+  }
+  fmt::print("wrote {} puzzles to {}\n", a.count, a.folder);
+  return 0;
+}
+
 int run(const Arguments& a) {
+  if (!a.folder.empty()) return write(a);
   Tally tally;
   for (int i = 0; i < a.count; ++i) solve_one(a.seed + static_cast<std::uint64_t>(i), a, tally);
-  std::ranges::sort(tally.seconds);
-  const auto at = [&](double part) {
-    return tally.seconds[static_cast<std::size_t>(part * static_cast<double>(a.count - 1))];
-  };
   fmt::print(
-      "{} puzzles: {} solved, {} infeasible, {} open; {} compared with the oracle, {} wrong\n"
-      "seconds: median {:.3f}, 95 % {:.3f}, worst {:.3f}\n",
-      a.count, tally.solved, tally.infeasible, tally.open, tally.compared, tally.wrong, at(0.5),
-      at(0.95), at(1));
+      "{} puzzles: {} solved, {} infeasible, {} open; {} compared with the oracle, {} wrong\n",
+      a.count, tally.solved, tally.infeasible, tally.open, tally.compared, tally.wrong);
+  fmt::print("seconds: {}\nof processors: {}\n", spread(tally.seconds), spread(tally.cpu_seconds));
   return tally.wrong > 0 || tally.open > a.most_open ? 1 : 0;
 }
 
@@ -110,6 +134,8 @@ int main(int argc, char** argv) {
   app.add_option("--oracle-states", a.oracle_states, "that the oracle may make")
       ->capture_default_str();
   app.add_option("--most-open", a.most_open, "so many may be left open")->capture_default_str();
+  app.add_option("--write", a.folder, "instead of solving them, write them to files in this folder")
+      ->check(CLI::ExistingDirectory);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

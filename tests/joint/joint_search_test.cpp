@@ -97,5 +97,17 @@ TEST(JointSearch, IsForFewJointStates) {
   EXPECT_TRUE(JointSearch::make(instance, 40, kMostBytes));
 }
 
+// Long enough for larger tables to be made on the way. The optimum is that of a search without them.
+TEST(JointSearch, GoesOnWithLargerTables) {
+  constexpr Cost kOptimum = 78;
+  const Instance instance = fuzz::random_puzzle(94).build();
+  const auto search = search_of(instance);
+  while (search->run(1000, kInfiniteCost, {}) == JointSearch::Outcome::kWorking)
+    ASSERT_LE(search->lower_bound(), kOptimum);
+  ASSERT_TRUE(search->plan());
+  EXPECT_EQ(search->plan()->cost, kOptimum);
+  EXPECT_EQ(search->lower_bound(), kOptimum);
+}
+
 }  // namespace joint_search_test
 }  // namespace grove::detail

@@ -8,7 +8,7 @@
 #include <deque>
 #include <new>
 
-#include "failing_new.h"
+#include "tests/support/failing_new.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {

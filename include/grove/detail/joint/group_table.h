@@ -4,10 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "grove/detail/joint/agent_graph.h"
+#include "grove/detail/model/limits.h"
 
 namespace grove::detail {
 
@@ -18,9 +21,10 @@ class GroupTable {
   static constexpr std::uint8_t kNoWay = 255;
 
   // `members`, rising, of `agents`. entries() is what it will hold, in bytes; making it takes
-  // work().
-  GroupTable(const Instance& instance, std::span<const AgentGraph> agents,
-             std::vector<std::size_t> members);
+  // work(). None: stopped.
+  static std::optional<GroupTable> make(const Instance& instance,
+                                        std::span<const AgentGraph> agents,
+                                        std::vector<std::size_t> members, const Limits& limits);
   static std::size_t entries(std::span<const AgentGraph> agents,
                              std::span<const std::size_t> members);
   static std::int64_t work(std::span<const AgentGraph> agents,
@@ -36,6 +40,9 @@ class GroupTable {
   }
 
  private:
+  explicit GroupTable(std::vector<std::size_t> members)
+      : members_(std::move(members)), strides_(members_.size(), 1) {}
+
   std::vector<std::size_t> members_;
   std::vector<std::size_t> strides_;
   std::vector<std::uint8_t> excess_;

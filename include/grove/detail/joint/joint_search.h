@@ -21,7 +21,7 @@ class JointSearch {
   static constexpr int kMostAgents = 16;
 
   // None: not for this method, since there are more agents or more than 2^`most_bits` joint states,
-  // blocked cells counted.
+  // blocked cells counted; or there is no memory to begin with.
   // `instance` must outlive it. `most_bytes`: that it may hold.
   static std::unique_ptr<JointSearch> make(const Instance& instance, double most_bits,
                                            std::size_t most_bytes);
@@ -30,7 +30,7 @@ class JointSearch {
   enum class Outcome : std::uint8_t {
     kWorking,   // there is more to do
     kEnded,     // there is no plan below the cutoff but plan(), if that is there
-    kTooLarge,  // out of memory or stopped: nothing more will come
+    kTooLarge,  // out of memory or stopped: it is not to be run again
   };
   // Looks at so many joint states, or makes a table that guides it. Plans that cost `cutoff` or
   // more are of no interest.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "failing_new.h"
+#include "tests/support/failing_new.h"
 
 #include <cstdlib>
 #include <new>

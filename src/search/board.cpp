@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Blocks by depth-first search (Hopcroft and Tarjan 1973). An edge that is no edge of the tree
+// joins a node with one above it; it lies in the block that leads from the lower one to the root,
+// as does the edge to its parent. So does every edge: each counts for the block of its lower end.
+// The tree's edges of a block join all of it, so it is bipartite if its other edges join nodes of
+// even and odd depth.
+#include "board.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace grove::detail {
+
+std::vector<Place> places_around(const World& world, Place place) {
+  const auto neighbors = world.neighbors(place);
+  std::vector<Place> around(neighbors.begin(), neighbors.end());
+  std::ranges::sort(around);
+  const auto [same, end] = std::ranges::unique(around);
+  around.erase(same, end);
+  std::erase(around, place);
+  return around;
+}
+
+Board::Board(const World& world, std::vector<Place> part, Place root) : part_(std::move(part)) {
+  std::ranges::sort(part_);
+  nodes_.assign(part_.size(), kNone);
+  number(world, root);
+  join(world);
+  find_blocks();
+  count_ways();
+  find_regions();
+}
+
+BoardNode Board::node(Place place) const {
+  const auto found = std::ranges::lower_bound(part_, place);
+  return found == part_.end() || *found != place ? kNone : nodes_[found - part_.begin()];
+}
+
+void Board::join(const World& world) {
+  for (const Place place : places_) {
+    for (const Place other : places_around(world, place)) neighbors_.add(node(other));
+    neighbors_.end_row();
+  }
+}
+
+void Board::number(const World& world, Place root) {
+  struct Level {
+    BoardNode node;
+    std::vector<Place> around;
+  };
+  std::vector<Level> way;
+  const auto visit = [&](Place place, BoardNode parent, int depth) {
+    const BoardNode node = size();
+    nodes_[std::ranges::lower_bound(part_, place) - part_.begin()] = node;
+    places_.push_back(place);
+    parents_.push_back(parent);
+    depths_.push_back(depth);
+    way.push_back({node, places_around(world, place)});
+  };
+  visit(root, kNone, 0);
+  while (!way.empty()) {
+    std::vector<Place>& around = way.back().around;
+    if (around.empty()) {
+      way.pop_back();
+      continue;
+    }
+    const Place next = around.back();
+    around.pop_back();
+    if (node(next) == kNone) visit(next, way.back().node, depths_[way.back().node] + 1);
+  }
+}
+
+// Backwards, so that all below a node comes before it.
+void Board::find_blocks() {
+  std::vector<BoardNode> highest(size());  // that an edge leads to from a node or below it
+  for (BoardNode node = 0; node < size(); ++node) {
+    highest[node] = node;
+    for (const BoardNode other : neighbors(node))
+      if (other != parent(node)) highest[node] = std::min(highest[node], other);
+  }
+  for (BoardNode node = size() - 1; node > 0; --node)
+    highest[parent(node)] = std::min(highest[parent(node)], highest[node]);
+  block_of_.assign(size(), -1);
+  for (BoardNode node = 1; node < size(); ++node) {
+    const bool begins = highest[node] >= parent(node);
+    if (begins) blocks_.push_back({.nodes = {parent(node)}});
+    block_of_[node] =
+        begins ? static_cast<std::int32_t>(blocks_.size()) - 1 : block_of_[parent(node)];
+    blocks_[block_of_[node]].nodes.push_back(node);
+  }
+}
+
+void Board::count_ways() {
+  for (BoardNode node = 1; node < size(); ++node) {
+    Block& block = blocks_[block_of_[node]];
+    for (const BoardNode other : neighbors(node)) {
+      if (other > node) continue;
+      ++block.ways;
+      if ((depths_[node] - depths_[other]) % 2 == 0) block.is_bipartite = false;
+    }
+  }
+}
+
+void Board::find_regions() {
+  regions_.assign(size(), 0);
+  is_on_ring_.assign(size(), 0);
+  for (BoardNode node = 1; node < size(); ++node) {
+    if (hangs(node)) {
+      regions_[node] = node;
+      continue;
+    }
+    regions_[node] = region(parent(node));
+    is_on_ring_[node] = is_on_ring_[parent(node)] = 1;
+  }
+}
+
+std::vector<int> Board::sums(std::vector<int> values) const {
+  for (BoardNode node = size() - 1; node > 0; --node) values[parent(node)] += values[node];
+  return values;
+}
+
+}  // namespace grove::detail

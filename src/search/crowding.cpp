@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// An *arrangement* says who is where. Every step of a plan makes one out of another, by moves that
+// the world allows at least in one direction; here they count as allowed in both. What can come of
+// an arrangement does not depend on headings, work, or what was before. So there is no plan if of
+// the arrangement of the starts (reach.h)
+// - none comes in which an agent is on a place that it must visit, or its goal; or
+// - where all have goals, that of the goals does not come.
+// Where every step can be undone and all have goals, there is one otherwise: arrangements in which
+// the agents are on their tasks can be visited one after the other, and that of the goals at last.
+// Meanwhile whoever has to turn does so, or works, before anybody goes on.
+//
+// That takes a look at all places, and is spared where there is plenty of room: if at least k + 3
+// places of a connected part have three neighbours or more, k being the number of agents. For with
+// m free places there are k + m; ways between crossings on which somebody may be stuck, or that may
+// part crowds (crowd_reach.cpp), have m - 2 places or more with two neighbours, which leaves k + 2
+// others.
+#include "grove/detail/search/crowding.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "board.h"
+#include "reach.h"
+
+namespace grove::detail {
+namespace {
+
+// Connected parts of the world, as far as they must be looked at.
+class Parts {
+ public:
+  explicit Parts(const Instance& instance)
+      : world_(instance.world()),
+        enough_(instance.agent_count() + 3),
+        known_(static_cast<std::size_t>(world_.place_count()), Room::kUnknown) {}
+
+  // Is this the first place of a part without plenty of room? All its places are in `part` then.
+  bool is_tight(Place place, std::vector<Place>& part) {
+    part.clear();
+    if (known(place) != Room::kUnknown) return false;
+    const bool is_roomy = flood(place, part);
+    for (const Place p : part) known(p) = is_roomy ? Room::kPlenty : Room::kTight;
+    return !is_roomy;
+  }
+
+ private:
+  enum class Room : std::uint8_t { kUnknown, kSeen, kPlenty, kTight };
+
+  Room& known(Place place) { return known_[place]; }
+  // True as soon as there is plenty.
+  bool flood(Place from, std::vector<Place>& part) {
+    int crossings = 0;
+    part.push_back(from);
+    known(from) = Room::kSeen;
+    for (std::size_t next = 0; next < part.size(); ++next) {
+      if (has_three_ways(part[next]) && ++crossings >= enough_) return true;
+      for (const Place p : world_.neighbors(part[next])) {
+        if (known(p) == Room::kPlenty) return true;
+        if (known(p) != Room::kUnknown) continue;
+        known(p) = Room::kSeen;
+        part.push_back(p);
+      }
+    }
+    return false;
+  }
+  bool has_three_ways(Place place) const {
+    return world_.neighbors(place).size() > 2 && places_around(world_, place).size() > 2;
+  }
+
+  const World& world_;
+  const int enough_;
+  std::vector<Room> known_;  // by place
+};
+
+// The agents of one part.
+class Crowd {
+ public:
+  Crowd(const Instance& instance, std::vector<AgentIndex> agents, std::vector<Place> part,
+        Place root)
+      : instance_(instance),
+        agents_(std::move(agents)),
+        board_(instance.world(), std::move(part), root),
+        start_(static_cast<std::size_t>(board_.size()), kNobody) {
+    for (const AgentIndex agent : agents_)
+      start_[board_.node(start(instance.agent(agent)))] = agent;
+    reach_ = reach_of(board_, start_, instance.may_follow());
+  }
+
+  std::optional<std::string> infeasibility() const {
+    for (const AgentIndex agent : agents_)
+      if (const auto place = out_of_reach(instance_.agent(agent)))
+        return fmt::format(
+            "agent '{}' cannot get to {}: the agents have too little room to let it pass",
+            instance_.agent(agent).id, instance_.world().name(*place));
+    if (all_have_goals() && !reach_->has(goals()))
+      return "the agents cannot all get to their goals: to be in this order there they would have "
+             "to "
+             "pass each other, and there is too little room";
+    return std::nullopt;
+  }
+
+ private:
+  Place start(const Agent& agent) const { return instance_.world().place(agent.start); }
+
+  std::optional<Place> out_of_reach(const Agent& agent) const {
+    const auto is_reached = [&](Place place) {
+      const BoardNode node = board_.node(place);
+      return node != Board::kNone && reach_->has(board_.node(start(agent)), node);
+    };
+    for (const TaskIndex task : agent.stops)
+      if (!is_reached(instance_.task(task).cell)) return instance_.task(task).cell;
+    if (agent.goal && !is_reached(*agent.goal)) return agent.goal;
+    return std::nullopt;
+  }
+  bool all_have_goals() const {
+    return std::ranges::all_of(
+        agents_, [&](AgentIndex agent) { return instance_.agent(agent).goal.has_value(); });
+  }
+  Arrangement goals() const {
+    Arrangement goals(start_.size(), kNobody);
+    for (const AgentIndex agent : agents_) goals[board_.node(*instance_.agent(agent).goal)] = agent;
+    return goals;
+  }
+
+  const Instance& instance_;
+  const std::vector<AgentIndex> agents_;
+  const Board board_;
+  Arrangement start_;
+  std::unique_ptr<Reach> reach_;
+};
+
+std::vector<AgentIndex> agents_by_place(const Instance& instance) {
+  std::vector<AgentIndex> on(static_cast<std::size_t>(instance.world().place_count()), kNobody);
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
+    on[instance.world().place(instance.agent(agent).start)] = agent;
+  return on;
+}
+
+// `on`: by place.
+Crowd crowd_on(const std::vector<Place>& part, const Instance& instance,
+               const std::vector<AgentIndex>& on) {
+  std::vector<AgentIndex> agents;
+  Place root = part.front();
+  for (const Place place : part)
+    if (const AgentIndex agent = on[place]; agent != kNobody)
+      agents.push_back(agent);
+    else
+      root = place;
+  std::ranges::sort(agents);
+  return {instance, std::move(agents), part, root};
+}
+
+}  // namespace
+
+std::optional<std::string> crowd_infeasibility(const Instance& instance) {
+  Parts parts(instance);
+  std::vector<Place> part;
+  std::vector<AgentIndex> on;  // made when it is needed
+  for (const Agent& agent : instance.agents()) {
+    if (!parts.is_tight(instance.world().place(agent.start), part)) continue;
+    if (on.empty()) on = agents_by_place(instance);
+    if (auto reason = crowd_on(part, instance, on).infeasibility()) return reason;
+  }
+  return std::nullopt;
+}
+
+}  // namespace grove::detail

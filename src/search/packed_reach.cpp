@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// Boards without room: rings; boards on which all nodes are taken, or all but one where agents may
+// not follow each other.
+//
+// On a ring nobody passes anybody. If all nodes are taken, the only steps are those of whole
+// circles, which cross no bridge: the regions between bridges are boards of their own. If one node
+// is free and nobody follows, that node wanders, and what its way round changes lies in single
+// blocks; with the free node at the root, the agents on a block's other nodes than the one nearest
+// to the root stay there.
+//
+// In these parts:
+// - Circles keep the order.
+// - Where every way round is of odd length, or with a free node of even length, each changes
+//   arrangements by an even permutation: half of them are not reached.
+// - Parts of up to seven nodes are searched.
+// - All others: everything that is not excluded so far. (Wilson 1974 for one free node, with no
+//   other exception than one on seven nodes; Yu and Rus 2014, Yang 2011 for circles. No answer of
+//   ours rests on it.)
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "reach.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::size_t kMostSearched = 7;  // nodes: 5,040 arrangements
+
+std::vector<AgentIndex> those_on(const std::vector<BoardNode>& nodes,
+                                 const Arrangement& arrangement) {
+  std::vector<AgentIndex> agents;
+  for (const BoardNode node : nodes) agents.push_back(arrangement[node]);
+  return agents;
+}
+
+bool are_the_same(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
+  std::ranges::sort(a);
+  std::ranges::sort(b);
+  return a == b;
+}
+
+// Round a circle, somewhere begun.
+bool are_in_the_same_order(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
+  std::erase(a, kNobody);
+  std::erase(b, kNobody);
+  if (a.empty()) return b.empty();
+  const auto first = std::ranges::find(b, a.front());
+  if (first == b.end()) return false;
+  std::ranges::rotate(b, first);
+  return a == b;
+}
+
+// Of the same agents.
+bool is_even(const std::vector<AgentIndex>& a, const std::vector<AgentIndex>& b) {
+  std::map<AgentIndex, std::size_t> index;
+  for (std::size_t i = 0; i < b.size(); ++i) index[b[i]] = i;
+  std::vector<bool> seen(a.size());
+  bool even = true;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t next = i; !seen[next]; next = index[a[next]]) {
+      seen[next] = true;
+      if (next != i) even = !even;
+    }
+  return even;
+}
+
+// A few nodes, all of which are taken or all but one: everything that comes of an arrangement.
+class SmallPart {
+ public:
+  SmallPart(const Board& board, std::vector<BoardNode> nodes) : nodes_(std::move(nodes)) {
+    for (const BoardNode node : nodes_) {
+      neighbors_.emplace_back();
+      for (std::size_t i = 0; i < nodes_.size(); ++i)
+        if (std::ranges::count(board.neighbors(node), nodes_[i]) > 0)
+          neighbors_.back().push_back(i);
+    }
+    for (std::size_t first = 0; first < nodes_.size(); ++first) {
+      std::vector<std::size_t> way{first};
+      find_circles(way);
+    }
+  }
+
+  bool leads(const Arrangement& from, const Arrangement& to) const {
+    const std::vector<AgentIndex> end = those_on(nodes_, to);
+    std::set<std::vector<AgentIndex>> seen{those_on(nodes_, from)};
+    std::vector<std::vector<AgentIndex>> open(seen.begin(), seen.end());
+    while (!open.empty() && !seen.contains(end)) {
+      const std::vector<AgentIndex> now = std::move(open.back());
+      open.pop_back();
+      for_each_next(now, [&](std::vector<AgentIndex> next) {
+        if (seen.insert(next).second) open.push_back(std::move(next));
+      });
+    }
+    return seen.contains(end);
+  }
+
+ private:
+  // Those on which no node comes before the first.
+  void find_circles(std::vector<std::size_t>& way) {
+    for (const std::size_t next : neighbors_[way.back()]) {
+      if (next == way.front() && way.size() > 2) circles_.push_back(way);
+      if (next <= way.front() || std::ranges::count(way, next) > 0) continue;
+      way.push_back(next);
+      find_circles(way);
+      way.pop_back();
+    }
+  }
+  template <class Visit>
+  void for_each_next(const std::vector<AgentIndex>& now, Visit visit) const {
+    const auto free = static_cast<std::size_t>(std::ranges::find(now, kNobody) - now.begin());
+    if (free < now.size())
+      for (const std::size_t other : neighbors_[free]) {
+        std::vector<AgentIndex> next = now;
+        std::swap(next[free], next[other]);
+        visit(std::move(next));
+      }
+    else
+      for (const std::vector<std::size_t>& circle : circles_) {
+        std::vector<AgentIndex> next = now;
+        for (std::size_t i = 0; i < circle.size(); ++i)
+          next[circle[i]] = now[circle[(i + 1) % circle.size()]];
+        visit(std::move(next));
+      }
+  }
+
+  const std::vector<BoardNode> nodes_;
+  std::vector<std::vector<std::size_t>> neighbors_;
+  std::vector<std::vector<std::size_t>> circles_;
+};
+
+class RingReach : public Reach {
+ public:
+  RingReach(const Board& board, const Arrangement& start)
+      : nodes_(board.blocks().front().nodes), start_(those_on(nodes_, start)) {}
+  bool has(BoardNode, BoardNode) const override { return true; }
+  bool has(const Arrangement& arrangement) const override {
+    return are_in_the_same_order(start_, those_on(nodes_, arrangement));
+  }
+
+ private:
+  const std::vector<BoardNode> nodes_;
+  const std::vector<AgentIndex> start_;
+};
+
+class FixedReach : public Reach {
+ public:
+  explicit FixedReach(const Arrangement& start) : start_(start) {}
+  bool has(BoardNode from, BoardNode to) const override { return from == to; }
+  bool has(const Arrangement& arrangement) const override { return arrangement == start_; }
+
+ private:
+  const Arrangement start_;
+};
+
+// The root is free, and nobody follows.
+class OneFreeReach : public Reach {
+ public:
+  OneFreeReach(const Board& board, const Arrangement& start) : board_(board), start_(start) {}
+
+  bool has(BoardNode from, BoardNode to) const override {
+    return std::ranges::binary_search(board_.block(from).nodes, to);
+  }
+  bool has(const Arrangement& arrangement) const override {
+    const Arrangement then = with_free_root(arrangement);
+    return std::ranges::all_of(board_.blocks(),
+                               [&](const Board::Block& block) { return has(block, then); });
+  }
+
+ private:
+  Arrangement with_free_root(Arrangement arrangement) const {
+    auto free =
+        static_cast<BoardNode>(std::ranges::find(arrangement, kNobody) - arrangement.begin());
+    for (; free != 0; free = board_.parent(free))
+      std::swap(arrangement[free], arrangement[board_.parent(free)]);
+    return arrangement;
+  }
+  // The free node comes in by the first.
+  bool has(const Board::Block& block, const Arrangement& then) const {
+    const std::vector<BoardNode> others(block.nodes.begin() + 1, block.nodes.end());
+    const auto a = those_on(others, start_);
+    const auto b = those_on(others, then);
+    if (!are_the_same(a, b)) return false;
+    if (a == b) return true;
+    if (block.is_ring()) return are_in_the_same_order(a, b);
+    if (block.nodes.size() > kMostSearched) return !block.is_bipartite || is_even(a, b);
+    Arrangement from = start_;
+    Arrangement to = then;
+    from[block.nodes.front()] = to[block.nodes.front()] = kNobody;
+    return SmallPart(board_, block.nodes).leads(from, to);
+  }
+
+  const Board& board_;
+  const Arrangement start_;
+};
+
+// No node is free.
+class FullReach : public Reach {
+ public:
+  FullReach(const Board& board, const Arrangement& start) : board_(board), start_(start) {
+    for (BoardNode node = 0; node < board.size(); ++node)
+      regions_[board.region(node)].nodes.push_back(node);
+    for (const Board::Block& block : board.blocks()) {
+      if (block.nodes.size() < 3) continue;
+      Region& region = regions_[board.region(block.nodes.back())];
+      ++region.blocks;
+      region.has_odd_rings_only =
+          region.has_odd_rings_only && block.is_ring() && block.nodes.size() % 2 != 0;
+      region.is_ring = region.blocks == 1 && block.is_ring();
+    }
+  }
+
+  bool has(BoardNode from, BoardNode to) const override {
+    return board_.region(from) == board_.region(to);
+  }
+  bool has(const Arrangement& arrangement) const override {
+    return std::ranges::all_of(regions_,
+                               [&](const auto& region) { return has(region.second, arrangement); });
+  }
+
+ private:
+  struct Region {
+    std::vector<BoardNode> nodes;  // rising: of a ring, in order
+    int blocks = 0;
+    bool is_ring = false;
+    bool has_odd_rings_only = true;
+  };
+
+  bool has(const Region& region, const Arrangement& then) const {
+    const auto a = those_on(region.nodes, start_);
+    const auto b = those_on(region.nodes, then);
+    if (!are_the_same(a, b)) return false;
+    if (a == b) return true;
+    if (region.is_ring) return are_in_the_same_order(a, b);
+    if (region.nodes.size() > kMostSearched) return !region.has_odd_rings_only || is_even(a, b);
+    return SmallPart(board_, region.nodes).leads(start_, then);
+  }
+
+  const Board& board_;
+  const Arrangement start_;
+  std::map<BoardNode, Region> regions_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reach> packed_reach(const Board& board, const Arrangement& start, bool may_follow) {
+  const auto free = std::ranges::count(start, kNobody);
+  if (free == 0 && !may_follow) return std::make_unique<FixedReach>(start);
+  if (board.is_ring()) return std::make_unique<RingReach>(board, start);
+  if (free == 0) return std::make_unique<FullReach>(board, start);
+  return std::make_unique<OneFreeReach>(board, start);
+}
+
+std::unique_ptr<Reach> reach_of(const Board& board, const Arrangement& start, bool may_follow) {
+  const auto free = std::ranges::count(start, kNobody);
+  const bool has_room = free > 1 || (free == 1 && may_follow);
+  return has_room && !board.is_ring() ? crowd_reach(board, start, may_follow)
+                                      : packed_reach(board, start, may_follow);
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Where agents on a board can come to, if nothing matters but who is in whose way.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "board.h"
+#include "grove/detail/model/instance.h"
+
+namespace grove::detail {
+
+// By node of a board: who is there.
+using Arrangement = std::vector<AgentIndex>;
+inline constexpr AgentIndex kNobody = -1;
+
+// Of one arrangement: all that come of it, at whatever cost, each agent going where it likes.
+class Reach {
+ public:
+  virtual ~Reach() = default;
+  // Is there one in which who is on `from` now is on `to`?
+  virtual bool has(BoardNode from, BoardNode to) const = 0;
+  // Is this one of them? Of the same agents.
+  virtual bool has(const Arrangement& arrangement) const = 0;
+};
+
+// `board` must outlive it. If a node is free, the board's root must be.
+std::unique_ptr<Reach> reach_of(const Board& board, const Arrangement& start, bool may_follow);
+
+// Of these boards the argument stands at the head of the .cpp of the same name.
+std::unique_ptr<Reach> crowd_reach(const Board& board, const Arrangement& start, bool may_follow);
+std::unique_ptr<Reach> packed_reach(const Board& board, const Arrangement& start, bool may_follow);
+
+}  // namespace grove::detail

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Joint search when memory runs out anywhere: it gives up, and its bound holds.
+#include "grove/detail/joint/joint_search.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/fuzz/random_puzzle.h"
+#include "tests/support/failing_new.h"
+
+namespace grove::detail {
+namespace joint_memory_test {
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+
+struct End {
+  JointSearch::Outcome outcome = JointSearch::Outcome::kTooLarge;
+  Cost lower_bound = 0;
+};
+
+End run_to_the_end(const Instance& instance) {
+  const auto search = JointSearch::make(instance, 64, kMostBytes);
+  if (!search) return {};
+  End end{JointSearch::Outcome::kWorking};
+  while (end.outcome == JointSearch::Outcome::kWorking)
+    end.outcome = search->run(100, kInfiniteCost, {});
+  end.lower_bound = search->plan() || end.outcome == JointSearch::Outcome::kTooLarge
+                        ? search->lower_bound()
+                        : kInfiniteCost;
+  return end;
+}
+
+TEST(JointSearchWithoutMemory, GivesUpAndKeepsItsBound) {
+  const Instance instance = fuzz::random_puzzle(3).build();
+  const Cost optimum = run_to_the_end(instance).lower_bound;
+  int failures = 0;
+  for (int at = 0;; at += 1 + at / 20, ++failures) {
+    testing::allocations_until_failure = at;
+    const End end = run_to_the_end(instance);
+    testing::allocations_until_failure = -1;
+    ASSERT_LE(end.lower_bound, optimum) << "failure " << at;
+    if (end.outcome == JointSearch::Outcome::kEnded) break;
+  }
+  EXPECT_GT(failures, 20);
+}
+
+}  // namespace joint_memory_test
+}  // namespace grove::detail
