@@ -40,10 +40,10 @@ std::optional<std::string> unreachable_cell(const Problem& problem) {
   const Instance& instance = problem.instance;
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
-    const auto no_way = [&](const DistanceField& to) { return to[agent.start] == kNever; };
+    const auto no_way = [&](Distances to) { return to[agent.start] == kNever; };
     const auto told = [&](Place place) {
-      return fmt::format("agent '{}' cannot reach {}: there is no way from its start",
-                         agent.id, instance.world().name(place));
+      return fmt::format("agent '{}' cannot reach {}: there is no way from its start", agent.id,
+                         instance.world().name(place));
     };
     for (const TaskIndex task : agent.stops)
       if (no_way(problem.distances.to_task(task))) return told(instance.task(task).cell);
@@ -55,7 +55,7 @@ std::optional<std::string> unreachable_cell(const Problem& problem) {
 std::optional<std::string> no_order(const Problem& problem, AgentIndex index) {
   const World& world = problem.instance.world();
   const Agent& agent = problem.instance.agent(index);
-  const auto leads = [&](Place from, const DistanceField& to) {
+  const auto leads = [&](Place from, Distances to) {
     return least_from(world, from, agent.kind, to) < kNever;
   };
   for (TaskIndex a : agent.stops) {
@@ -156,8 +156,8 @@ std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Pl
     const Agent& agent = *agents[r];
     for (Cell cell : required_cells(instance, agent))
       if (place[cell] < r || place[cell] > length - (count - r))
-        return fmt::format("agent '{}' cannot get to {}: other agents fill the corridor",
-                           agent.id, instance.world().name(cell));
+        return fmt::format("agent '{}' cannot get to {}: other agents fill the corridor", agent.id,
+                           instance.world().name(cell));
     if (!agent.goal) continue;
     if (place[*agent.goal] < last_goal)
       return fmt::format("agent '{}' would have to pass another agent in a corridor", agent.id);

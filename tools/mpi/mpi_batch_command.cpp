@@ -214,12 +214,13 @@ class BatchRun {
 
   std::optional<Solution> solve_with(const Instance& instance, const Limits& limits,
                                      RunObserver& observer, const Poll& poll) {
-    const Problem problem(instance, limits);
+    const Problem problem(instance, limits, options_.threads);
     auto answer = answer_without_search(problem, options_, limits, observer);
     const auto found = batch::gather(*agreement_, answer ? "an answer" : "", poll);
     if (std::ranges::count(found, "") < farm_->ranks()) {
       if (farm_->rank() != 0) return std::nullopt;
-      return answer ? std::move(answer) : grove::detail::solve(instance, options_, limits, &observer);
+      return answer ? std::move(answer)
+                    : grove::detail::solve(instance, options_, limits, &observer);
     }
     try {
       return solve_distributed(problem, options_, limits, *search_, observer, poll);
