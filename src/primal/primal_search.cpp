@@ -26,8 +26,8 @@
 // where one before it still passes, so cheap agents planned late would wait for dear ones, while
 // these find ways around those that rest. Measured on maps of 64x64 cells and den312d, with 100
 // agents and 300 tasks: first plans 0.7-8 % above the sum of own costs; in random order 8-14 %, the
-// dearest first 12-18 %. But who must visit another's destination comes before it
-// (visitors_first.h). Later rounds sort by costs with some noise.
+// dearest first 12-18 %. (Those who must visit another's destination before it: 0.5 instead of
+// 0.2 % with 500 agents and 3,000 tasks in a warehouse.) Later rounds sort by costs with some noise.
 #include "grove/detail/primal/primal_search.h"
 
 #include <algorithm>
@@ -43,7 +43,6 @@
 #include "prioritized_planning.h"
 #include "router.h"
 #include "visit_orders.h"
-#include "visitors_first.h"
 
 namespace grove::detail {
 namespace {
@@ -200,7 +199,7 @@ void PrimalSearch::Impl::begin_round(bool first) {
   std::ranges::sort(keys);
   std::vector<AgentIndex> order;
   for (const auto& [key, agent] : keys) order.push_back(agent);
-  planning_.begin(visitors_first(problem_.instance, order));
+  planning_.begin(std::move(order));
   planning_now_ = true;
   first_round_ = first;
   patience_ = tuning_.planning_head_start * meeting_work_;

@@ -157,17 +157,6 @@ TEST(PrimalSearch, EveryPlanIsValidInAHurry) {
   EXPECT_GT(solved, 250);
 }
 
-// a1 ends where a0, whose way is longer, has a task: planned in the order of costs, a0 would fail.
-TEST(PrimalSearch, WhoEndsWhereOthersHaveATaskIsPlannedAfterThem) {
-  const Instance instance = instance_of(
-      {".......", "......."}, {{{0, 0}, Position{6, 0}, {{3, 0}}}, {{4, 1}, Position{3, 0}}});
-  Search search(instance);
-  const std::vector<Plan> plans = search.plans(1);
-  ASSERT_EQ(plans.size(), 1u);
-  EXPECT_EQ(plans[0].cost, 6 + 4);
-  EXPECT_EQ(search.primal.counts().low_level_calls, 4);
-}
-
 TEST(PrimalSearch, StopsWhenEveryAgentIsOnItsOwnBestPath) {
   const Instance instance =
       instance_of({"....", "...."}, {{{0, 0}, Position{3, 0}, {{1, 0}}}, {{0, 1}, Position{0, 1}}});
