@@ -27,7 +27,8 @@
 // these find ways around those that rest. Measured on maps of 64x64 cells and den312d, with 100
 // agents and 300 tasks: first plans 0.7-8 % above the sum of own costs; in random order 8-14 %, the
 // dearest first 12-18 %. (Those who must visit another's destination before it: 0.5 instead of
-// 0.2 % with 500 agents and 3,000 tasks in a warehouse.) Later rounds sort by costs with some noise.
+// 0.2 % with 500 agents and 3,000 tasks in a warehouse.) Later rounds sort by costs with some
+// noise.
 #include "grove/detail/primal/primal_search.h"
 
 #include <algorithm>
