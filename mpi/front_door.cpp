@@ -86,7 +86,7 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
         return translated([&] {
           detail::RunObserver silent;
           detail::RunObserver& listener = rank == 0 ? observer : silent;
-          const detail::Problem problem(inner, limits);
+          const detail::Problem problem(inner, limits, search.threads);
           answer = answer_without_search(problem, search, limits, listener);
           const bool all_search = least(answer ? 0 : 1, communicator) == 1;
           if (all_search) {

@@ -86,7 +86,7 @@ void SpaceTimeLegs::reach(Cell cell, Time time, std::int32_t parent, Target targ
 }
 
 Time SpaceTimeLegs::distance(Cell cell, int goal) const {
-  return goal == stops_->count() ? stops_->to_rest(cell) : stops_->distances_from(cell)[goal];
+  return goal == stops_->count() ? stops_->to_rest(cell) : stops_->distance(cell, goal);
 }
 
 }  // namespace grove::detail

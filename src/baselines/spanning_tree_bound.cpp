@@ -45,7 +45,7 @@ Time SpanningTreeBound::tree(StopSet left, int at) {
 Time SpanningTreeBound::distance(int from, int to) const {
   if (from == destination_) std::swap(from, to);
   const Cell cell = stops_.place(from);
-  return to == destination_ ? stops_.to_rest(cell) : stops_.distances_from(cell)[to];
+  return to == destination_ ? stops_.to_rest(cell) : stops_.distance(cell, to);
 }
 
 }  // namespace grove::detail

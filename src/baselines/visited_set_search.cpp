@@ -92,10 +92,10 @@ void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t pa
 // From there on, at least.
 Time VisitedSetSearch::least_cost(Cell cell, StopSet left) {
   if (left == 0 && stops_->destination()) return stops_->to_rest(cell);
-  const Time* to_stop = stops_->distances_from(cell);
   Time nearest = kNever;
   for (int stop = 0; stop < stops_->count(); ++stop)
-    if (left == 0 || (left >> stop & 1) != 0) nearest = std::min(nearest, to_stop[stop]);
+    if (left == 0 || (left >> stop & 1) != 0)
+      nearest = std::min(nearest, stops_->distance(cell, stop));
   const Time tree = left == 0 ? 0 : (*bound_)(left, SpanningTreeBound::kNowhere);
   return nearest >= kNever || tree >= kNever ? kNever : nearest + tree;
 }

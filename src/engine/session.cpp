@@ -95,9 +95,9 @@ class WholePlans : public ForwardingObserver {
 
 // What outlives a solve: its distances serve the next one.
 struct Kept {
-  Kept(Instance the_instance, const Limits& limits, const Kept* before)
+  Kept(Instance the_instance, const Limits& limits, int threads, const Kept* before)
       : instance(std::move(the_instance)),
-        problem(instance, limits, before ? &before->problem.distances : nullptr) {}
+        problem(instance, limits, threads, before ? &before->problem.distances : nullptr) {}
 
   const Instance instance;
   const Problem problem;
@@ -172,7 +172,7 @@ class Session::Impl {
 
   Solution solve(const SolveOptions& options, const Limits& limits, RunObserver& observer,
                  Time commit) {
-    auto now = std::make_unique<Kept>(instance_, limits, kept_.get());
+    auto now = std::make_unique<Kept>(instance_, limits, options.threads, kept_.get());
     Solution solution = commit > 0 && old_ && is_searched(now->problem)
                             ? solve_later(*now, options, limits, observer, commit)
                             : solve_from(old_ ? &*old_ : nullptr, affected_, now->problem, options,
@@ -203,7 +203,7 @@ class Session::Impl {
     } catch (const InstanceError& error) {
       return unknown(options, error.what());
     }
-    const Kept later(std::move(rest->instance), limits, &now);
+    const Kept later(std::move(rest->instance), limits, options.threads, &now);
     AgentStopsStore stops(now.instance, now.problem.distances);
     const Cost own_costs = sum_of_own_costs(now.problem, stops, limits);
     WholePlans plans(observer, instance_, *old_, commit, later.instance, own_costs);

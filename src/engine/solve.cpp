@@ -155,7 +155,7 @@ Solution solve(const Problem& problem, const SolveOptions& options, const Limits
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer) {
   try {
-    const Problem problem(instance, limits);
+    const Problem problem(instance, limits, options.threads);
     return solve(problem, options, limits, observer);
   } catch (const std::bad_alloc&) {
     RunObserver silent;

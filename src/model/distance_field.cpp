@@ -2,10 +2,24 @@
 #include "grove/detail/model/distance_field.h"
 
 #include <algorithm>
-#include <map>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <thread>
 
 namespace grove::detail {
 namespace {
+
+// With less to do a thread costs more than it saves.
+constexpr std::size_t kStatesForThreads = std::size_t{1} << 20;
+
+std::vector<State> states_on(const World& world, Place place) {
+  std::vector<State> states;
+  world.for_each_state(place, [&](State state) { states.push_back(state); });
+  return states;
+}
 
 // What the agents of an instance must reach, each set of states once.
 class Targets {
@@ -34,9 +48,7 @@ class Targets {
   int on_place(Place place) {
     const auto [known, is_new] = by_place_.try_emplace(place, 0);
     if (is_new) {
-      std::vector<State> states;
-      instance_.world().for_each_state(place, [&](State state) { states.push_back(state); });
-      known->second = add(std::move(states), place);
+      known->second = add(states_on(instance_.world(), place), place);
     }
     return known->second;
   }
@@ -58,48 +70,113 @@ class Targets {
   int anywhere_ = kNone;
 };
 
+// Breadth-first search backwards, again and again. For one thread.
+class Walker {
+ public:
+  explicit Walker(const World& world)
+      : world_(world), queue_(static_cast<std::size_t>(world.state_count())) {}
+
+  DistanceField walk(std::span<const State> targets) {
+    DistanceField distances;
+    walk(targets, kNever, distances);
+    return distances;
+  }
+
+  // None: there is no memory left for what is too far for 16 bits.
+  std::optional<KeptField> field(std::span<const State> targets, const Limits& limits) {
+    std::vector<std::uint16_t> distances;
+    if (walk(targets, Distances::kShortNever, distances)) return KeptField(std::move(distances));
+    if (!limits.memory_allows(queue_.size() * sizeof(Time))) return std::nullopt;
+    return KeptField(walk(targets));
+  }
+
+ private:
+  // False: some are too far to be told from `never`.
+  template <class Steps>
+  bool walk(std::span<const State> targets, Steps never, std::vector<Steps>& distances) {
+    distances.assign(queue_.size(), never);
+    std::size_t end = 0;
+    const auto reach = [&](State state, Steps steps) {
+      if (distances[state] != never) return;
+      distances[state] = steps;
+      queue_[end++] = state;
+    };
+    for (const State state : targets) reach(state, 0);
+    for (std::size_t head = 0; head < end; ++head) {
+      const auto steps = static_cast<Steps>(distances[queue_[head]] + 1);
+      if (steps == never) return false;
+      for (const State before : world_.moves_to(queue_[head])) reach(before, steps);
+    }
+    return true;
+  }
+
+  const World& world_;
+  std::vector<State> queue_;
+};
+
+// Calls what() on so many threads, of which this is one. The system may grant fewer.
+template <class What>
+void on_threads(int threads, const What& what) {
+  std::exception_ptr thrown;
+  std::mutex throwing;
+  const auto safely = [&] {
+    try {
+      what();
+    } catch (...) {
+      const std::lock_guard lock(throwing);
+      thrown = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (int i = 1; i < threads; ++i) others.emplace_back(safely);
+    } catch (const std::system_error&) {
+    }
+    safely();
+  }
+  if (thrown) std::rethrow_exception(thrown);
+}
+
 }  // namespace
 
 DistanceField distance_field(const World& world, std::span<const State> targets) {
-  DistanceField distance(static_cast<std::size_t>(world.state_count()), kNever);
-  std::vector<State> queue;
-  const auto reach = [&](State state, Time steps) {
-    if (distance[state] != kNever) return;
-    distance[state] = steps;
-    queue.push_back(state);
-  };
-  for (const State state : targets) reach(state, 0);
-  for (std::size_t head = 0; head < queue.size(); ++head)
-    for (State before : world.moves_to(queue[head])) reach(before, distance[queue[head]] + 1);
-  return distance;
+  return Walker(world).walk(targets);
 }
 
 DistanceField distance_field(const World& world, Place target) {
-  std::vector<State> states;
-  world.for_each_state(target, [&](State state) { states.push_back(state); });
-  return distance_field(world, states);
+  return distance_field(world, states_on(world, target));
 }
 
-DistanceFields::DistanceFields(const Instance& instance, const Limits& limits,
+DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, int threads,
                                const DistanceFields* known) {
   if (instance.world().states_are_places()) map_ = instance.shared_map();
   const Targets targets(instance);
   const auto states = static_cast<std::size_t>(instance.world().state_count());
-  if (!limits.memory_allows(targets.sets.size() * states * sizeof(Time))) {
+  if (!limits.memory_allows(targets.sets.size() * states * sizeof(std::uint16_t))) {
     limits.memory_exhausted();
     return;
   }
-  for (std::size_t set = 0; set < targets.sets.size(); ++set) {
-    if (limits.stop_requested()) return;
-    FieldPtr field = field_to(targets.places[set], known);
-    if (!field)
-      field = std::make_shared<DistanceField>(distance_field(instance.world(), targets.sets[set]));
-    if (map_ && targets.places[set] != kNoPlace) to_place_.emplace(targets.places[set], field);
-    fields_.push_back(std::move(field));
-  }
-  for (const int set : targets.of_tasks) by_task_.push_back(fields_[set].get());
+  for (const Place place : targets.places) fields_.push_back(field_to(place, known));
+  if (targets.sets.size() * states < kStatesForThreads) threads = 1;
+  std::atomic<std::size_t> next{0};
+  on_threads(threads, [&] {
+    Walker walker(instance.world());
+    for (std::size_t set = next++; set < fields_.size(); set = next++) {
+      if (fields_[set]) continue;
+      if (limits.stop_requested()) return;
+      auto field = walker.field(targets.sets[set], limits);
+      if (!field) return limits.memory_exhausted();
+      fields_[set] = std::make_shared<const KeptField>(std::move(*field));
+    }
+  });
+  if (std::ranges::count(fields_, nullptr) > 0) return;
+  for (std::size_t set = 0; set < fields_.size(); ++set)
+    if (map_ && targets.places[set] != kNoPlace)
+      to_place_.emplace(targets.places[set], fields_[set]);
+  for (const int set : targets.of_tasks) by_task_.push_back(fields_[set]->distances());
   for (const int set : targets.of_agents)
-    by_agent_.push_back(set == Targets::kNone ? nullptr : fields_[set].get());
+    by_agent_.push_back(set == Targets::kNone ? Distances() : fields_[set]->distances());
   complete_ = add_ports(instance, limits);
 }
 
@@ -115,13 +192,14 @@ bool DistanceFields::add_ports(const Instance& instance, const Limits& limits) {
   if (world.kind_count() == 1 || world.state_count() > kMostStatesWithPorts) return true;
   kinds_ = static_cast<std::size_t>(world.kind_count());
   by_port_.resize(static_cast<std::size_t>(instance.task_count()) * kinds_ * kPorts);
-  const auto bytes = static_cast<std::size_t>(world.state_count()) * sizeof(Time) * kPorts;
+  const auto bytes = static_cast<std::size_t>(world.state_count()) * sizeof(std::uint16_t) * kPorts;
+  Walker walker(world);
   for (const Agent& agent : instance.agents()) {
     if (agent.kind == 0) continue;
     for (const TaskIndex task : agent.stops) {
-      DistanceField* fields =
+      KeptField* fields =
           &by_port_[(static_cast<std::size_t>(task) * kinds_ + agent.kind) * kPorts];
-      if (!fields->empty()) continue;
+      if (fields->distances()) continue;
       if (limits.stop_requested()) return false;
       if (!limits.memory_allows(bytes)) {
         limits.memory_exhausted();
@@ -132,21 +210,30 @@ bool DistanceFields::add_ports(const Instance& instance, const Limits& limits) {
         std::vector<State> there;
         for (const State state : instance.states_visiting(task))
           if (world.base(state) == first + port) there.push_back(state);
-        fields[port] = distance_field(world, there);
+        auto field = walker.field(there, limits);
+        if (!field) {
+          limits.memory_exhausted();
+          return false;
+        }
+        fields[port] = std::move(*field);
       }
     }
   }
   return true;
 }
 
-Time least_from(const World& world, Place place, int kind, const DistanceField& distance) {
+Time least_from(const World& world, Place place, int kind, Distances distances) {
   const StateRange bases = world.bases(place, kind);
-  return *std::min_element(distance.begin() + bases.first, distance.begin() + bases.end);
+  Time least = distances[bases.first];
+  for (State s = bases.first + 1; s < bases.end; ++s) least = std::min(least, distances[s]);
+  return least;
 }
 
-Time most_from(const World& world, Place place, int kind, const DistanceField& distance) {
+Time most_from(const World& world, Place place, int kind, Distances distances) {
   const StateRange bases = world.bases(place, kind);
-  return *std::max_element(distance.begin() + bases.first, distance.begin() + bases.end);
+  Time most = distances[bases.first];
+  for (State s = bases.first + 1; s < bases.end; ++s) most = std::max(most, distances[s]);
+  return most;
 }
 
 }  // namespace grove::detail

@@ -103,18 +103,16 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
         stop_at[state] = static_cast<std::int8_t>(kFirstWork - static_cast<int>(stop));
     });
   }
-  if (!instance.rests_on_last_stop(agent)) to_rest_ = &distances.to_rest(agent);
+  if (!instance.rests_on_last_stop(agent)) to_rest_ = distances.to_rest(agent);
 
   const std::size_t ports = port_count();
-  std::vector<Time> to_ports(stop_at.size() * ports);
   longest_legs_.resize(ports * ports);
   for (std::size_t port = 0; port < ports; ++port) {
     const auto stop = port / static_cast<std::size_t>(ports_);
-    const DistanceField& field =
+    const Distances field =
         ports_ == 1 ? distances.to_task(who.stops[stop])
                     : distances.to_port(who.stops[stop], who.kind, static_cast<int>(port) % ports_);
-    for (std::size_t state = 0; state < field.size(); ++state)
-      to_ports[state * ports + port] = field[state];
+    to_port_.push_back(field);
     for (std::size_t from = 0; from < ports; ++from) {
       const Place here = places_[from / static_cast<std::size_t>(ports_)];
       longest_legs_[from * ports + port] =
@@ -123,7 +121,6 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
     }
   }
   stop_at_ = std::make_shared<const std::vector<std::int8_t>>(std::move(stop_at));
-  distances_ = std::make_shared<const std::vector<Time>>(std::move(to_ports));
 }
 
 // Whoever is there for good, on what nobody bars for ever after, turns and works at once: all of

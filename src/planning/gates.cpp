@@ -60,10 +60,9 @@ void Gates::close(const FreeGoals& goals, StageId from, State state, Time time, 
 
 Time Gates::least_cost(const FreeGoals& goals, StageId stage, State state, Time time) const {
   const Gate* gate = &gates_[static_cast<std::size_t>(by_stage_[stage])];
-  const Time* to_port = goals.stops().distances_from(state);
   Time least = kNever;
   for (const FreeGoals::Onward& way : goals.onward(goals.stage(stage))) {
-    const Time there = time + to_port[way.port];
+    const Time there = time + goals.stops().to_port(state, way.port);
     const Time visit = there >= gate->from ? std::max(there, gate->until) : there;
     if (visit < kNever) least = std::min(least, visit + way.cost);
     ++gate;

@@ -11,11 +11,11 @@ GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& dista
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);
   turn_about_ = world.turn_about(who.kind);
-  const auto add = [&](Place place, TaskIndex work, Time duration, const DistanceField& to_goal) {
+  const auto add = [&](Place place, TaskIndex work, Time duration, Distances to_goal) {
     goals_.push_back(place);
     work_.push_back(work);
     durations_.push_back(duration);
-    to_goal_.push_back(&to_goal);
+    to_goal_.push_back(to_goal);
   };
   for (const TaskIndex stop : stops) {
     const Task& task = instance.task(stop);
@@ -27,7 +27,7 @@ GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& dista
 
   after_goal_.assign(goals_.size(), 0);
   for (int k = size() - 2; k >= 0; --k) {
-    const Time leg = least_from(world, goals_[k], who.kind, *to_goal_[k + 1]);
+    const Time leg = least_from(world, goals_[k], who.kind, to_goal_[k + 1]);
     after_goal_[k] = leg >= kNever ? kNever : std::min(kNever, leg + after_goal_[k + 1]);
   }
 }

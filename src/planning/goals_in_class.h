@@ -23,7 +23,9 @@
 // Greed. With a weight on the cost to go (Pohl 1970) labels come out in another order; what is
 // dropped is dropped by t + h and by gates as before, and neither argument speaks of the order. So
 // the first finish is a path within the cap, if perhaps not the cheapest, and what is proven by
-// there being none stays proven.
+// there being none stays proven. No path costs less than the first rest, so f is not taken for less
+// here: who has long to wait at its destination is to go there first, not to look at all that can
+// be done in the meantime.
 #pragma once
 
 #include <algorithm>
@@ -99,7 +101,9 @@ class GoalsInClass {
     return std::max(distance, goals_->stops().distance(state, only_rest_));
   }
   Time layer_of(Time least_cost, Time to_go) const {
-    return least_cost + static_cast<Time>(std::int64_t{to_go} * greed_percent_ / 100);
+    if (greed_percent_ == 0) return least_cost;
+    return std::max(least_cost, first_rest_) +
+           static_cast<Time>(std::int64_t{to_go} * greed_percent_ / 100);
   }
 
   FreeGoals* goals_ = nullptr;

@@ -24,7 +24,7 @@ bool GoalsInTurn::assign(const World& world, const GoalSequence& goals,
     if (deadline < kNever) latest = std::min(latest, deadline + goals.after_goal(k));
     const StateRange bases =
         goal == kNoPlace ? StateRange{0, world.state_count()} : world.bases(goal, kind);
-    stages_[k] = {.to_goal = goals.to_goal(k).data(),
+    stages_[k] = {.to_goal = goals.to_goal(k),
                   .first = bases.first,
                   .states = static_cast<std::uint32_t>(bases.end - bases.first),
                   .after_goal = goals.after_goal(k),

@@ -26,7 +26,9 @@
 // where one before it still passes, so cheap agents planned late would wait for dear ones, while
 // these find ways around those that rest. Measured on maps of 64x64 cells and den312d, with 100
 // agents and 300 tasks: first plans 0.7-8 % above the sum of own costs; in random order 8-14 %, the
-// dearest first 12-18 %. Later rounds sort by costs with some noise.
+// dearest first 12-18 %. (Those who must visit another's destination before it: 0.5 instead of
+// 0.2 % with 500 agents and 3,000 tasks in a warehouse.) Later rounds sort by costs with some
+// noise.
 #include "grove/detail/primal/primal_search.h"
 
 #include <algorithm>
@@ -64,7 +66,7 @@ class PrimalSearch::Impl {
         router_(problem, stops),
         paths_(problem.instance),
         planned_(problem.instance),
-        planning_(router_, planned_, random_, tuning_),
+        planning_(problem.instance.world(), router_, planned_, random_, tuning_),
         neighborhoods_(problem, router_, paths_, random_, tuning_) {}
 
   std::optional<Plan> step(const Limits& limits);
@@ -136,7 +138,6 @@ class PrimalSearch::Impl {
   std::int64_t round_began_ = 0;  // in work
   bool first_round_ = true;
   bool planning_now_ = false;  // prioritised planning is under way
-  std::int64_t attempts_before_ = 0;
   std::int64_t patience_ = 0;  // with a call of prioritised planning, while it is raced
   std::int64_t planning_work_ = 0;
   std::int64_t other_work_ = 0;  // since it began
@@ -202,7 +203,6 @@ void PrimalSearch::Impl::begin_round(bool first) {
   planning_.begin(std::move(order));
   planning_now_ = true;
   first_round_ = first;
-  attempts_before_ = planning_.attempts();
   patience_ = tuning_.planning_head_start * meeting_work_;
   planning_work_ = 0;
   other_work_ = 0;
@@ -212,8 +212,8 @@ void PrimalSearch::Impl::begin_round(bool first) {
 bool PrimalSearch::Impl::planning_is_due() const {
   if (!planning_now_) return false;
   if (!is_raced()) return true;
-  const bool ahead = planning_.attempts() == attempts_before_ &&
-                     planning_work_ < tuning_.planning_head_start * meeting_work_;
+  const bool ahead =
+      planning_.failures() == 0 && planning_work_ < tuning_.planning_head_start * meeting_work_;
   return ahead || planning_work_ <= other_work_;
 }
 

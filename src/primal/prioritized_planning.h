@@ -25,8 +25,9 @@ class PrioritizedPlanning {
   };
 
   // All must outlive this.
-  PrioritizedPlanning(Router& router, PathSet& paths, Random& random, const Tuning& tuning)
-      : router_(router), paths_(paths), random_(random), tuning_(tuning) {}
+  PrioritizedPlanning(const World& world, Router& router, PathSet& paths, Random& random,
+                      const Tuning& tuning)
+      : world_(world), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
 
   // Takes all paths away and begins; agents must have been met.
   void begin(std::vector<AgentIndex> order);
@@ -37,11 +38,18 @@ class PrioritizedPlanning {
 
   // Orders begun so far.
   std::int64_t attempts() const { return attempts_; }
+  // Agents that had no path, since begin().
+  std::int64_t failures() const { return failures_; }
 
  private:
   void begin_again();
   std::int64_t most_labels() const;
+  std::int64_t most_exact_labels() const;
+  void clear_the_way(AgentIndex agent);
+  void begin_with_next();
+  void note_labels(std::int64_t labels);
 
+  const World& world_;
   Router& router_;
   PathSet& paths_;
   Random& random_;
@@ -49,7 +57,12 @@ class PrioritizedPlanning {
   std::vector<AgentIndex> order_;
   std::size_t next_ = 0;  // in order_
   std::int64_t attempts_ = 0;
+  bool greedily_ = false;             // the next call looks for any path
+  std::int64_t labels_of_order_ = 0;  // since this order was begun
+  std::vector<bool> has_failed_;      // by AgentIndex, since then
   std::int64_t failures_ = 0;         // since begin()
+  std::int64_t labels_of_exact_ = 0;  // of all calls that found the best path
+  std::int64_t found_exactly_ = 0;    // such calls
   std::int64_t labels_of_found_ = 0;  // the most that a call with a path took
   Path path_;
 };

@@ -26,22 +26,22 @@ VisitStages::VisitStages(const Problem& problem, AgentIndex agent, Sequence orde
     throw std::invalid_argument("an order must hold every stop of its agent once");
   for (const TaskIndex task : stops()) {
     places_.push_back(instance_.task(task).cell);
-    to_stop_.push_back(&problem.distances.to_task(task));
+    to_stop_.push_back(problem.distances.to_task(task));
   }
   to_rest_ = instance_.rests_on_last_stop(agent) ? to_stop_[order_.back()]
-                                                 : &problem.distances.to_rest(agent);
+                                                 : problem.distances.to_rest(agent);
   all_ = make(all_stops(static_cast<int>(stops().size())));
 }
 
 VisitStages::Stage VisitStages::make(StopSet left) {
-  const DistanceField* to_next = to_rest_;
+  Distances to_next = to_rest_;
   std::int64_t onward = 0;
   Place from = kNoPlace;
-  const auto go_on = [&](const DistanceField* to) {
+  const auto go_on = [&](Distances to) {
     if (from == kNoPlace)
       to_next = to;
     else
-      onward += least_from(instance_.world(), from, instance_.agent(agent_).kind, *to);
+      onward += least_from(instance_.world(), from, instance_.agent(agent_).kind, to);
   };
   for (Stop stop : order_) {
     if ((left >> stop & 1) == 0) continue;

@@ -43,7 +43,7 @@ class VisitStages {
   // when there is no way.
   Time distance(Stage stage, State state) const {
     const Entry& entry = entries_[stage];
-    return (*entry.to_next)[state] + entry.onward;
+    return entry.to_next[state] + entry.onward;
   }
 
   // May an agent of this stage rest in `state`?
@@ -54,8 +54,8 @@ class VisitStages {
  private:
   struct Entry {
     StopSet left;
-    const DistanceField* to_next;  // the first stop left; the place to rest if none is
-    Time onward;                   // from there through all others; less than kNever
+    Distances to_next;  // the first stop left; the place to rest if none is
+    Time onward;        // from there through all others; less than kNever
   };
 
   Stage after_stop(Stage stage, int stop) {
@@ -73,8 +73,8 @@ class VisitStages {
   State start_;
   std::vector<Place> places_;  // by stop
   Sequence order_;
-  std::vector<const DistanceField*> to_stop_;
-  const DistanceField* to_rest_;
+  std::vector<Distances> to_stop_;
+  Distances to_rest_;
   Stage all_;
   std::vector<Entry> entries_;
   StopSetIndex index_;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace grove::detail {
 namespace distance_field_test {
 
@@ -30,6 +32,67 @@ TEST(DistanceFields, HoldsTasksAndDestinations) {
   const DistanceFields fields(instance);
   EXPECT_EQ(fields.to_rest(0)[0], 3);
   EXPECT_EQ(fields.to_task(0)[3], 2);
+}
+
+// A corridor of so many cells, the last but one a wall; one task on its first cell.
+Instance corridor(int cells) {
+  std::vector<bool> passable(static_cast<std::size_t>(cells), true);
+  passable[passable.size() - 2] = false;
+  InstanceBuilder builder(Grid(cells, 1, std::move(passable)));
+  builder.add_agent("a", {1, 0}, Position{2, 0});
+  builder.add_task("t", {0, 0}, std::vector<std::string>{"a"});
+  return std::move(builder).build();
+}
+
+// 65,534 is the longest way that 16 bits have room for.
+TEST(DistanceFields, AreRightHoweverLongTheWay) {
+  for (const int cells : {65'536, 65'537, 65'538, 65'539, 140'000}) {
+    const Instance instance = corridor(cells);
+    const DistanceFields fields(instance);
+    ASSERT_TRUE(fields.complete());
+    const DistanceField expected = distance_field(instance.grid(), 0);
+    EXPECT_EQ(expected[cells - 3], cells - 3);
+    for (Cell cell = 0; cell < cells; ++cell)
+      ASSERT_EQ(fields.to_task(0)[cell], expected[cell]) << cell << " of " << cells;
+    EXPECT_EQ(fields.to_task(0)[cells - 1], kNever);
+  }
+}
+
+// Enough of them that threads are worth it.
+Instance many_tasks() {
+  constexpr int kSide = 200;
+  std::vector<bool> passable(kSide * kSide, true);
+  for (std::size_t cell = 0; cell < passable.size(); cell += 7) passable[cell] = false;
+  InstanceBuilder builder(Grid(kSide, kSide, passable));
+  builder.add_agent("a", {1, 0}, Position{2, 0});
+  for (int task = 0; task < 40; ++task)
+    builder.add_task("t" + std::to_string(task), Place{1 + 350 * task},
+                     std::vector<std::string>{"a"});
+  return std::move(builder).build();
+}
+
+TEST(DistanceFields, AreTheSameOnManyThreads) {
+  const Instance instance = many_tasks();
+  const DistanceFields fields(instance, Limits(), 4);
+  ASSERT_TRUE(fields.complete());
+  for (TaskIndex task = 0; task < instance.task_count(); ++task) {
+    const DistanceField expected = distance_field(instance.grid(), instance.task(task).cell);
+    for (Cell cell = 0; cell < instance.grid().cell_count(); ++cell)
+      ASSERT_EQ(fields.to_task(task)[cell], expected[cell]) << task << ' ' << cell;
+  }
+}
+
+TEST(DistanceFields, AreNotThereWhenALimitStruck) {
+  const Instance instance = many_tasks();
+  for (const int threads : {1, 4}) {
+    Limits stopped;
+    stopped.stop(StopReason::kInterrupt);
+    EXPECT_FALSE(DistanceFields(instance, stopped, threads).complete());
+    Limits without_memory;
+    without_memory.set_memory_limit(1);
+    EXPECT_FALSE(DistanceFields(instance, without_memory, threads).complete());
+    EXPECT_EQ(without_memory.reason(), StopReason::kMemory);
+  }
 }
 
 }  // namespace distance_field_test

@@ -31,7 +31,7 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
   PathSet paths(instance);
   Random random(1);
   const Tuning tuning;
-  PrioritizedPlanning planning(router, paths, random, tuning);
+  PrioritizedPlanning planning(problem.instance.world(), router, paths, random, tuning);
   std::vector<AgentIndex> order;
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     ASSERT_TRUE(router.meet(agent, Limits()));

@@ -31,11 +31,11 @@ std::string first_violation(const Instance& instance, const Plan& plan) {
 // A search with what it needs.
 struct Search {
   explicit Search(const Instance& the_instance, std::uint64_t seed = 0,
-                  Techniques techniques = Techniques::usual())
+                  Techniques techniques = Techniques::usual(), const Tuning& tuning = {})
       : instance(the_instance),
         problem(instance, limits),
         stops(instance, problem.distances),
-        primal(problem, stops, seed, techniques) {}
+        primal(problem, stops, seed, techniques, tuning) {}
 
   // The plans of so many steps, each checked.
   std::vector<Plan> plans(int steps) {
@@ -124,14 +124,37 @@ TEST(PrimalSearch, APastDeadlineDoesNothing) {
   EXPECT_FALSE(search.primal.best_cost());
 }
 
-TEST(PrimalSearch, MovesTheAgentThatFailsToTheFront) {
+TEST(PrimalSearch, WhoFailsIsPlannedBeforeThoseInItsWay) {
   // a0 has the shorter way and is planned first; its destination shuts a1 in.
   const Instance instance = instance_of({"......", "@@@.@@", "@@@.@@"},
                                         {{{2, 0}, Position{3, 1}}, {{3, 2}, Position{0, 0}}});
-  Search search(instance);
-  const std::vector<Plan> plans = search.plans(3);
-  ASSERT_FALSE(plans.empty());
-  EXPECT_GT(search.primal.counts().attempts, 1);
+  for (const bool keeps : {false, true}) {
+    Tuning tuning;
+    if (keeps) tuning.planning_labels_to_keep = 0;
+    Search search(instance, 0, Techniques::usual().without(Technique::kConfigurations), tuning);
+    const std::vector<Plan> plans = search.plans(1);
+    ASSERT_FALSE(plans.empty());
+    EXPECT_EQ(search.primal.source(), PlanSource::kPriorities);
+    EXPECT_EQ(search.primal.counts().attempts, keeps ? 1 : 2);
+  }
+}
+
+// However orders go on and paths are found.
+TEST(PrimalSearch, EveryPlanIsValidInAHurry) {
+  Tuning tuning;
+  tuning.planning_labels_to_keep = 0;
+  tuning.planning_exact_labels = 1;
+  tuning.planning_exact_labels_of_found = 0;
+  int solved = 0;
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = fuzz::random_instance(seed).build();
+    if (!searchable(instance)) continue;
+    Search search(instance, seed, Techniques::usual().without(Technique::kConfigurations), tuning);
+    if (!search.plans(6).empty()) ++solved;
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(solved, 250);
 }
 
 TEST(PrimalSearch, StopsWhenEveryAgentIsOnItsOwnBestPath) {

@@ -98,7 +98,7 @@ class Run {
 
   // All search or none does: rank 0 then says what there is to say.
   std::optional<Solution> solve_with(RunObserver& observer) {
-    const Problem problem(loaded_->instance, limits_);
+    const Problem problem(loaded_->instance, limits_, options_.threads);
     const auto answer = answer_without_search(problem, options_, limits_, observer);
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {

@@ -2,9 +2,12 @@
 // Shortest distances, ignoring other agents.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "grove/detail/model/assert.h"
@@ -22,45 +25,85 @@ DistanceField distance_field(const World& world, std::span<const State> targets)
 // From all states on `target`.
 DistanceField distance_field(const World& world, Place target);
 
+// A distance field as it is kept, in half the memory where nothing is further than 65,534 steps. A
+// view of what a KeptField holds.
+class Distances {
+ public:
+  Distances() = default;  // none
+
+  Time operator[](State state) const {
+    if (!short_) return long_[state];
+    const std::uint16_t steps = short_[state];
+    return steps == kShortNever ? kNever : steps;
+  }
+  explicit operator bool() const { return short_ || long_; }
+
+  static constexpr std::uint16_t kShortNever = 0xFFFF;
+
+ private:
+  friend class KeptField;
+  Distances(const std::uint16_t* in_short, const Time* in_long)
+      : short_(in_short), long_(in_long) {}
+
+  const std::uint16_t* short_ = nullptr;  // null: they are in long_
+  const Time* long_ = nullptr;
+};
+
+class KeptField {
+ public:
+  KeptField() = default;
+  // kShortNever stands for kNever.
+  explicit KeptField(std::vector<std::uint16_t> distances) : short_(std::move(distances)) {}
+  explicit KeptField(DistanceField distances) : long_(std::move(distances)) {}
+
+  Distances distances() const {
+    return {short_.empty() ? nullptr : short_.data(), long_.empty() ? nullptr : long_.data()};
+  }
+
+ private:
+  std::vector<std::uint16_t> short_;
+  DistanceField long_;
+};
+
 // The fields of all that any agent of an instance must reach: its tasks, and where to rest. Each
 // is computed once. Immutable after construction; any thread may read it.
 class DistanceFields {
  public:
-  // Asks `limits` for the memory and looks at them between fields; if they strike, complete() is
-  // false. Shares what `known` (null: nothing) has of the same map, as long as every state is its
-  // place.
+  // Computes them on so many threads, if there is enough to do. Asks `limits` for the memory and
+  // looks at them between fields; if they strike, complete() is false. Shares what `known` (null:
+  // nothing) has of the same map, as long as every state is its place.
   explicit DistanceFields(const Instance& instance, const Limits& limits = Limits(),
-                          const DistanceFields* known = nullptr);
+                          int threads = 1, const DistanceFields* known = nullptr);
 
   // All fields are there. If not, nothing must be asked for.
   bool complete() const { return complete_; }
 
   // To where the task is visited: a state on its place or, if it takes time, the end of the work.
-  const DistanceField& to_task(TaskIndex task) const { return *by_task_[task]; }
+  Distances to_task(TaskIndex task) const { return by_task_[task]; }
   // The same in one heading, a port: the agent of that kind is there, or has done the work, looking
   // that way. Only if there are such fields: on worlds of moderate size in which agents turn.
   static constexpr int kPorts = 4;
   bool has_ports() const { return !by_port_.empty(); }
-  const DistanceField& to_port(TaskIndex task, int kind, int port) const {
-    return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
+  Distances to_port(TaskIndex task, int kind, int port) const {
+    return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port].distances();
   }
   // To where the agent may rest. Not of agents that rest on the last stop of their sequence.
-  const DistanceField& to_rest(AgentIndex agent) const {
+  Distances to_rest(AgentIndex agent) const {
     GROVE_ASSERT(by_agent_[agent], "an agent that rests on its last stop has no other place");
-    return *by_agent_[agent];
+    return by_agent_[agent];
   }
 
  private:
-  using FieldPtr = std::shared_ptr<const DistanceField>;
+  using FieldPtr = std::shared_ptr<const KeptField>;
   FieldPtr field_to(Place place, const DistanceFields* known) const;
 
-  std::shared_ptr<const Map> map_;     // null unless every state is its place
+  std::shared_ptr<const Map> map_;      // null unless every state is its place
   std::map<Place, FieldPtr> to_place_;  // of that map
   std::vector<FieldPtr> fields_;
-  std::vector<const DistanceField*> by_task_;
-  std::vector<const DistanceField*> by_agent_;
+  std::vector<Distances> by_task_;
+  std::vector<Distances> by_agent_;
   // By task, kind and heading; empty where no such agent has the task.
-  std::vector<DistanceField> by_port_;
+  std::vector<KeptField> by_port_;
   std::size_t kinds_ = 1;
   bool complete_ = false;
 
@@ -69,8 +112,8 @@ class DistanceFields {
 };
 
 // The least of the distances from the base states of one kind on a place.
-Time least_from(const World& world, Place place, int kind, const DistanceField& distance);
+Time least_from(const World& world, Place place, int kind, Distances distances);
 // The greatest.
-Time most_from(const World& world, Place place, int kind, const DistanceField& distance);
+Time most_from(const World& world, Place place, int kind, Distances distances);
 
 }  // namespace grove::detail

@@ -45,24 +45,24 @@ class AgentStops {
   StopSet all() const { return all_stops(count()); }
 
   // It rests on the last stop of its sequence; else where to_rest() is 0, whatever the sequence.
-  bool rests_on_last_stop() const { return to_rest_ == nullptr; }
+  bool rests_on_last_stop() const { return !to_rest_; }
   // How long an agent may have still to turn and to work, at most, where it came to rest for good,
   // if it does not tarry.
   Time longest_finish(Place place) const;
 
   // How many ports each stop has (CostMatrix). Where there is but one, a port is its stop.
   int ports() const { return ports_; }
-  // From a state to each port, in a row.
-  const Time* distances_from(State state) const {
-    return distances_->data() + static_cast<std::size_t>(state) * port_count();
-  }
+  // From a state to a port.
+  Time to_port(State state, int port) const { return to_port_[port][state]; }
   // To a stop, by whatever port.
   Time distance(State state, int stop) const {
-    const Time* to_port = distances_from(state) + stop * ports_;
-    return *std::min_element(to_port, to_port + ports_);
+    Time least = to_port(state, stop * ports_);
+    for (int port = 1; port < ports_; ++port)
+      least = std::min(least, to_port(state, stop * ports_ + port));
+    return least;
   }
   // From a state to where the agent may rest, unless it rests on its last stop.
-  Time to_rest(State state) const { return (*to_rest_)[state]; }
+  Time to_rest(State state) const { return to_rest_[state]; }
   // From a port of one stop to a port of another, at most, whatever the base state on the stop.
   Time longest_leg(int from, int to) const {
     return longest_legs_[static_cast<std::size_t>(from) * port_count() + to];
@@ -92,10 +92,10 @@ class AgentStops {
   std::vector<Time> durations_;  // by stop
   StopSet work_stops_ = 0;
   std::shared_ptr<const std::vector<std::int8_t>> stop_at_;  // by state
-  std::shared_ptr<const std::vector<Time>> distances_;       // by state, then port
-  std::vector<Time> longest_legs_;                           // by port, then port
+  std::vector<Distances> to_port_;
+  std::vector<Time> longest_legs_;  // by port, then port
   int ports_ = 1;
-  const DistanceField* to_rest_ = nullptr;
+  Distances to_rest_;
   Completions completions_;
 };
 
@@ -180,10 +180,9 @@ class FreeGoals {
   Time distance(StageId id, State state) const {
     const Stage& s = stages_[id];
     if (s.left == 0) return to_rest(s, state);
-    const Time* to_port = stops_.distances_from(state);
     Time best = kNever;
     for (const Onward& o : std::span(&onward_[s.first], static_cast<std::size_t>(s.nearest)))
-      best = std::min(best, to_port[o.port] + o.cost);
+      best = std::min(best, stops_.to_port(state, o.port) + o.cost);
     return best;
   }
   // All ways known from a stage; the first Stage::nearest of them settle distance().

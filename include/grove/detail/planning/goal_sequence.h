@@ -36,13 +36,13 @@ class GoalSequence {
   // least: exact where agents turn freely. Admissible and consistent. kNever or more when there is
   // no way.
   Time distance(State state, int k) const {
-    const Time to_goal = (*to_goal_[checked(k)])[state];
+    const Time to_goal = to_goal_[checked(k)][state];
     return to_goal == kNever ? kNever : to_goal + after_goal_[k];
   }
 
   // The two parts of that: the distance field of goal k, and the steps from there on (at most
   // kNever).
-  const DistanceField& to_goal(int k) const { return *to_goal_[checked(k)]; }
+  Distances to_goal(int k) const { return to_goal_[checked(k)]; }
   Time after_goal(int k) const { return after_goal_[checked(k)]; }
 
  private:
@@ -57,7 +57,7 @@ class GoalSequence {
   std::vector<Place> goals_;
   std::vector<TaskIndex> work_;
   std::vector<Time> durations_;
-  std::vector<const DistanceField*> to_goal_;
+  std::vector<Distances> to_goal_;
   std::vector<Time> after_goal_;  // from goal k through the rest
 };
 

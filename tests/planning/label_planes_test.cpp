@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "src/planning/label_planes.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/sanitizers.h"
+
+namespace grove::detail {
+namespace label_planes_test {
+
+struct Mark {
+  std::uint32_t stamp;
+  std::int32_t value;
+};
+
+constexpr int kSlots = 1 << 20;
+constexpr int kPlanes = 20;
+constexpr int kSlotsOnAPage = 512;
+
+// A search that touches every page of every plane.
+void write_all(LabelPlanes<Mark>& planes) {
+  for (int plane = 0; plane < kPlanes; ++plane) {
+    ASSERT_TRUE(planes.open(plane, Limits()));
+    for (int slot = 0; slot < kSlots; slot += kSlotsOnAPage) {
+      EXPECT_FALSE(planes.is_current(planes.label(slot, plane)));
+      planes.label(slot, plane) = {planes.stamp(), slot + plane};
+    }
+  }
+  for (int plane = 0; plane < kPlanes; ++plane)
+    for (int slot = 0; slot < kSlots; slot += kSlotsOnAPage)
+      EXPECT_EQ(planes.label(slot, plane).value, slot + plane);
+}
+
+TEST(LabelPlanes, ForgetFromSearchToSearch) {
+  LabelPlanes<Mark> planes;
+  for (const int written : {0, 1 << 10, 1 << 20, 1 << 21}) {
+    planes.begin_search(kSlots, written);
+    write_all(planes);
+  }
+}
+
+TEST(LabelPlanes, GiveBackWhatManySearchesHaveTouched) {
+#ifdef GROVE_SANITIZERS_MEMORY
+  GTEST_SKIP() << "the sanitizer's own memory stays";
+#endif
+  const std::size_t before = resident_bytes();
+  constexpr std::size_t kAll = sizeof(Mark) * kSlots * kPlanes;
+  LabelPlanes<Mark> planes;
+  planes.begin_search(kSlots, 0);
+  write_all(planes);
+  planes.begin_search(kSlots, 1 << 10);
+  EXPECT_GT(resident_bytes(), before + kAll / 2);
+  planes.begin_search(kSlots, 1 << 20);
+  EXPECT_LT(resident_bytes(), before + kAll / 2);
+}
+
+TEST(LabelPlanes, AskForMemory) {
+  Limits limits;
+  limits.set_memory_limit(1);
+  LabelPlanes<Mark> planes;
+  planes.begin_search(kSlots);
+  EXPECT_FALSE(planes.open(0, limits));
+  EXPECT_TRUE(planes.exhausted());
+  EXPECT_EQ(limits.reason(), StopReason::kMemory);
+}
+
+}  // namespace label_planes_test
+}  // namespace grove::detail
