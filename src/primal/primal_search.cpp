@@ -37,6 +37,7 @@
 #include "configuration_search.h"
 #include "grove/detail/model/random.h"
 #include "grove/detail/search/work.h"
+#include "guided_search.h"
 #include "neighborhood_search.h"
 #include "path_set.h"
 #include "prioritized_planning.h"
@@ -47,6 +48,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
+constexpr std::uint64_t kSeeds = std::uint64_t{1} << 32;
 
 }  // namespace
 
@@ -84,12 +86,17 @@ class PrimalSearch::Impl {
   bool optimal() const { return met_ == agents_ && best_ <= own_costs_; }
   std::int64_t work() const {
     return router_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
-           joint_steps_ * agents_;
+           joint_steps_ * agents_ + (guided_ ? guided_->work() : 0);
   }
   std::int64_t work_at_last_plan() const { return work_at_last_plan_; }
   Counts counts() const {
-    return {steps_,          planning_.attempts(), joint_steps_, neighborhoods_.steps(),
-            router_.calls(), router_.expanded()};
+    const std::int64_t guided = guided_ ? guided_->joint_steps() : 0;
+    return {steps_,
+            planning_.attempts(),
+            joint_steps_ + guided,
+            neighborhoods_.steps(),
+            router_.calls(),
+            router_.expanded()};
   }
 
  private:
@@ -102,6 +109,9 @@ class PrimalSearch::Impl {
   void plan(const Limits& limits);
   void take_over_planned();
   void configure(const Limits& limits);
+  void begin_guiding(const Plan& plan);
+  bool guiding_is_due() const;
+  void guide(const Limits& limits);
   std::vector<Sequence> own_orders() const;
   void put_all(const Plan& plan, PlanSource source);
   void begin_improving();
@@ -119,6 +129,7 @@ class PrimalSearch::Impl {
   PathSet planned_;  // by prioritised planning
   PrioritizedPlanning planning_;
   std::unique_ptr<ConfigurationSearch> configurations_;
+  std::unique_ptr<GuidedSearch> guided_;  // once there was a plan that is far from own costs
   NeighborhoodSearch neighborhoods_;
 
   AgentIndex met_ = 0;  // agents from here on have not been met
@@ -132,6 +143,7 @@ class PrimalSearch::Impl {
   std::int64_t steps_ = 0;
   std::int64_t joint_steps_ = 0;
   std::int64_t work_at_last_plan_ = 0;
+  std::int64_t guided_rounds_ = 0;  // without a cheaper plan
   // Of the round under way.
   std::int64_t round_began_ = 0;  // in work
   bool first_round_ = true;
@@ -170,10 +182,12 @@ void PrimalSearch::Impl::advance(const Limits& limits) {
     planning_work_ += work() - before;
     return;
   }
-  if (improving_)
-    improve(limits);
-  else
+  if (!improving_)
     configure(limits);
+  else if (guiding_is_due())
+    guide(limits);
+  else
+    improve(limits);
   other_work_ += work() - before;
 }
 
@@ -214,7 +228,8 @@ bool PrimalSearch::Impl::planning_is_due() const {
   if (!is_raced()) return true;
   const bool ahead = planning_.attempts() == attempts_before_ &&
                      planning_work_ < tuning_.planning_head_start * meeting_work_;
-  return ahead || planning_work_ <= other_work_;
+  const bool takes_long = planning_work_ > tuning_.long_planning * meeting_work_;
+  return ahead || planning_work_ <= other_work_ / (takes_long ? tuning_.others_to_planning : 1);
 }
 
 void PrimalSearch::Impl::plan(const Limits& limits) {
@@ -252,6 +267,34 @@ void PrimalSearch::Impl::configure(const Limits& limits) {
       outcome == Outcome::kExhausted || (outcome == Outcome::kStopped && !limits.stop_requested());
   if (lost) may_configure_ = false;
   if (lost || outcome == Outcome::kFound) configurations_.reset();
+}
+
+void PrimalSearch::Impl::begin_guiding(const Plan& plan) {
+  const double crowded = (1 + tuning_.guided_loss) * static_cast<double>(own_costs_);
+  if (guided_ || !may_configure_ || static_cast<double>(plan.cost) < crowded) return;
+  guided_ = std::make_unique<GuidedSearch>(
+      problem_, own_orders(), static_cast<double>(own_costs_) / agents_, random_.below(kSeeds),
+      tuning_);
+  guided_->learn(plan);
+}
+
+bool PrimalSearch::Impl::guiding_is_due() const {
+  return guided_ && guided_rounds_ < tuning_.guided_rounds;
+}
+
+void PrimalSearch::Impl::guide(const Limits& limits) {
+  using Outcome = GuidedSearch::Outcome;
+  const Outcome outcome = guided_->run(limits, tuning_.primal_step_work);
+  if (outcome == Outcome::kWorking || limits.stop_requested()) return;
+  ++guided_rounds_;
+  if (outcome == Outcome::kStopped) guided_rounds_ = tuning_.guided_rounds;  // for want of memory
+  if (outcome != Outcome::kFound) return;
+  const Plan& plan = guided_->plan();
+  if (plan.cost < paths_.cost()) {
+    put_all(plan, PlanSource::kConfigurations);
+    guided_rounds_ = 0;
+  }
+  guided_->learn(plan);
 }
 
 // The cheapest orders, as meeting the agents has found them.
@@ -305,6 +348,7 @@ void PrimalSearch::Impl::put_all(const Plan& plan, PlanSource source) {
   }
   source_of_paths_ = source;
   begin_improving();
+  begin_guiding(plan);
 }
 
 PrimalSearch::PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed,
