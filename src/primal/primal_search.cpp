@@ -81,7 +81,9 @@ class PrimalSearch::Impl {
     if (best_ == kInfiniteCost) return joint_steps_ < tuning_.joint_steps_to_plan;
     const std::int64_t meetings =
         std::min(tuning_.long_planning, meeting_work_ / tuning_.meeting_of_root_work);
-    return planning_now_ && first_round_ && planning_work_ < meetings * meeting_work_;
+    const bool plans = planning_now_ && first_round_;
+    return (plans && planning_work_ < meetings * meeting_work_) ||
+           (guiding_is_due() && guided_->work() < meetings * meeting_work_);
   }
   bool optimal() const { return met_ == agents_ && best_ <= own_costs_; }
   std::int64_t work() const {
@@ -244,6 +246,7 @@ void PrimalSearch::Impl::take_over_planned() {
   planning_now_ = false;
   configurations_.reset();
   if (first_round_ && improving_ && planned_.cost() >= paths_.cost()) return planned_.clear();
+  guided_rounds_ = tuning_.guided_rounds;  // such plans are the cheaper ones
   paths_.clear();
   for (AgentIndex agent = 0; agent < agents_; ++agent) paths_.put(agent, planned_.take(agent));
   source_of_paths_ = PlanSource::kPriorities;
