@@ -35,6 +35,7 @@
 #include <vector>
 
 #include "configuration_search.h"
+#include "grove/detail/model/assert.h"
 #include "grove/detail/model/random.h"
 #include "grove/detail/search/work.h"
 #include "guided_search.h"
@@ -102,6 +103,7 @@ class PrimalSearch::Impl {
   }
 
  private:
+  bool may_tell(const Limits& limits) const;
   void advance(const Limits& limits);
   void meet(const Limits& limits);
   void begin_round(bool first);
@@ -140,6 +142,8 @@ class PrimalSearch::Impl {
   std::optional<Plan> adopted_;  // before all agents were met
   bool improving_ = false;       // there is a plan in paths_
   Cost best_ = kInfiniteCost;
+  Cost told_ = kInfiniteCost;  // the best one that was returned, or adopted
+  std::int64_t work_when_told_ = 0;
   PlanSource source_ = PlanSource::kPriorities;
   PlanSource source_of_paths_ = PlanSource::kPriorities;
   std::int64_t steps_ = 0;
@@ -171,9 +175,20 @@ std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
     source_ = source_of_paths_;
     if (source_ != PlanSource::kNeighborhood) break;
   }
-  if (best_ == before) return std::nullopt;
-  work_at_last_plan_ = work();
+  if (best_ < before) work_at_last_plan_ = work();
+  if (best_ == told_ || !may_tell(limits)) return std::nullopt;
+  GROVE_ASSERT(paths_.cost() == best_, "the best plan is there until it is told");
+  told_ = best_;
+  work_when_told_ = work();
   return router_.plan(paths_.paths());
+}
+
+// To make a plan of paths and to check it takes about as long as a third of its cost in work: where
+// many agents improve by small steps it is told now and then, but before a later round may end it.
+bool PrimalSearch::Impl::may_tell(const Limits& limits) const {
+  return source_ != PlanSource::kNeighborhood || optimal() || limits.stop_requested() ||
+         (planning_now_ && !first_round_) ||
+         work() - work_when_told_ >= tuning_.work_to_tell * best_;
 }
 
 void PrimalSearch::Impl::advance(const Limits& limits) {
@@ -226,7 +241,7 @@ void PrimalSearch::Impl::begin_round(bool first) {
 }
 
 bool PrimalSearch::Impl::planning_is_due() const {
-  if (!planning_now_) return false;
+  if (!planning_now_ || (!first_round_ && best_ < told_)) return false;
   if (!is_raced()) return true;
   const bool ahead = planning_.attempts() == attempts_before_ &&
                      planning_work_ < tuning_.planning_head_start * meeting_work_;
@@ -333,7 +348,7 @@ bool PrimalSearch::Impl::stalled() const {
 
 void PrimalSearch::Impl::adopt(const Plan& plan) {
   if (plan.cost >= best_) return;
-  best_ = plan.cost;
+  best_ = told_ = plan.cost;
   if (met_ < agents_) {
     adopted_ = plan;
     return;

@@ -20,9 +20,7 @@ Traffic::Traffic(const World& world, double usual, const Tuning& tuning)
   for (Place place = 0; place < world.place_count(); ++place)
     first_.push_back(first_.back() + world.neighbors(place).size());
   moving_.resize(first_.back(), 0);
-  price_.resize(first_.back(), kStep);
-  for (Place place = 0; place < world.place_count(); ++place)
-    for (const Place neighbor : world.neighbors(place)) back_.push_back(move(neighbor, place));
+  price_back_.resize(first_.back(), kStep);
 }
 
 Traffic::Move Traffic::move(Place from, Place to) const {
@@ -46,19 +44,27 @@ void Traffic::add(const Path& path, double weight) {
 
 void Traffic::set_prices() {
   for (Place place = 0; place < world_.place_count(); ++place)
-    for (const Place to : world_.neighbors(place)) {
-      const Move there = move(place, to);
+    for (Move back = first_[place]; back < first_[place + 1]; ++back) {
       const double dearness =
-          (tuning_.traffic_there * there_[to] + tuning_.traffic_against * moving_[back_[there]]) /
-          usual_;
-      price_[there] = static_cast<Time>(kStep * (1 + std::min(dearness, kMostDearness)));
+          (tuning_.traffic_there * there_[place] + tuning_.traffic_against * moving_[back]) / usual_;
+      price_back_[back] = static_cast<Time>(kStep * (1 + std::min(dearness, kMostDearness)));
     }
 }
 
-Time Traffic::price(State from, State to) const {
-  const Place before = world_.place(from);
-  const Place after = world_.place(to);
-  return before == after ? kStep : price_[move(before, after)];
+// Calls visit(before, price) for each state that a move leads from to this one.
+template <class Visit>
+void Traffic::visit_before(State state, Visit visit) const {
+  const auto states = world_.moves_to(state);
+  const Place place = world_.place(state);
+  if (world_.is_plain()) {
+    for (std::size_t i = 0; i < states.size(); ++i)
+      visit(states[i], price_back_[first_[place] + i]);
+    return;
+  }
+  for (const State before : states) {
+    const Place from = world_.place(before);
+    visit(before, from == place ? kStep : price_back_[move(place, from)]);
+  }
 }
 
 // Dijkstra with a bucket for each dearness, used again and again.
@@ -79,7 +85,7 @@ DistanceField Traffic::field(const DistanceField& distance) {
       const State state = bucket.back();
       bucket.pop_back();
       if (dearness[state] != dear) continue;
-      for (const State before : world_.moves_to(state)) reach(before, dear + price(before, state));
+      visit_before(state, [&](State before, Time price) { reach(before, dear + price); });
     }
   }
   return dearness;

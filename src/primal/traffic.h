@@ -39,16 +39,16 @@ class Traffic {
   static_assert(kStep * (1 + kMostDearness) < kBuckets);
 
   Move move(Place from, Place to) const;
-  Time price(State from, State to) const;
+  template <class Visit>
+  void visit_before(State state, Visit visit) const;
 
   const World& world_;
   const double usual_;
   const Tuning& tuning_;
   std::vector<Move> first_;        // by place
-  std::vector<Move> back_;         // by move: the one in the other direction
   std::vector<double> there_;      // by place: steps that agents end there
   std::vector<double> moving_;     // by move
-  std::vector<Time> price_;        // by move
+  std::vector<Time> price_back_;   // by move: the price of that in the other direction
   std::vector<std::vector<State>> buckets_;
 };
 
