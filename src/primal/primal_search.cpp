@@ -18,6 +18,12 @@
 // later rounds it shares with the large neighbourhood search of the round before in the same way,
 // so no round waits for a plan that never comes.
 //
+// Where it is so crowded that the configuration search's plan costs much more than the agents alone,
+// guided search (guided_search.cpp) goes on from it, round by round, as long as that makes cheaper
+// plans: it gains in a second what large neighbourhood search, which changes a plan too little at a
+// time to empty a jam, does not gain in a minute. That follows. Prioritised planning mostly fails
+// there: after long_planning meetings it gets the ninth part of the work.
+//
 // The tree waits for that cheaper plan, but no longer than its root takes: that looks at all pairs
 // of agents, so it is taken to be as many meetings as go into the meeting's work by
 // meeting_of_root_work, long_planning at most.
