@@ -13,8 +13,8 @@
 //   random-32-32-20, 400                 27,806    20,123   0.3 s
 //   room-64-64-8, 600                   114,028    88,729   1.2 s
 //
-// No better: traffic of ways planned beforehand, and ten candidates for each joint step of which the
-// best is taken (as in lacam3).
+// No better: traffic of ways planned beforehand, and ten candidates for each joint step of which
+// the best is taken (as in lacam3).
 #include "guided_search.h"
 
 #include <algorithm>
@@ -36,8 +36,7 @@ GuidedSearch::GuidedSearch(const Problem& problem, std::vector<Sequence> orders,
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     for (const TaskIndex task : instance.agent(agent).stops)
       fields_.try_emplace(&problem.distances.to_task(task));
-    if (!instance.rests_on_last_stop(agent))
-      fields_.try_emplace(&problem.distances.to_rest(agent));
+    if (!instance.rests_on_last_stop(agent)) fields_.try_emplace(&problem.distances.to_rest(agent));
   }
 }
 

@@ -54,7 +54,7 @@ class GuidedSearch {
   std::vector<Sequence> orders_;
   Dice dice_;  // the seeds
   Traffic traffic_;
-  std::int64_t learnt_ = 0;                         // plans
+  std::int64_t learnt_ = 0;                               // plans
   std::map<const DistanceField*, DistanceField> fields_;  // by the distances that they stand for
   std::map<const DistanceField*, DistanceField>::iterator next_field_;
   std::unique_ptr<Lacam> lacam_;

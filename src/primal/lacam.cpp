@@ -16,9 +16,10 @@
 // *heads* for its stops therefore loses nothing: every step can be undone, so whatever can be
 // visited in one order can be in any other.
 //
-// A guide (guided_search.cpp) brings nearly all agents home, but the last ones may go round in circles
-// by it, each making way for the other: warehouse-10-20-10-2-1 with 900 agents had 36 of them left
-// after 204 steps and after 3,800. So as soon as a configuration is met again, steps take its place.
+// A guide (guided_search.cpp) brings nearly all agents home, but the last ones may go round in
+// circles by it, each making way for the other: warehouse-10-20-10-2-1 with 900 agents had 36 of
+// them left after 204 steps and after 3,800. So as soon as a configuration is met again, steps take
+// its place.
 //
 // An agent without a destination heads for one of its stops to rest there, but a configuration is
 // an end wherever it rests.

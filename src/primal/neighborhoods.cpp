@@ -21,7 +21,7 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   kind_ = choose_kind();
   if (kind_ == kDelayed) add_delayed();
   if (kind_ == kOneSpot) add_around_spot();
-  if (std::ssize(chosen_) < tuning_.fewest_replanned) add_anyone();
+  if (std::ssize(chosen_) < kFew) add_anyone();
   random_.shuffle(chosen_);
   return chosen_;
 }

@@ -31,6 +31,7 @@ class Neighborhoods {
  private:
   enum Kind : std::uint8_t { kDelayed, kAnyone, kOneSpot };
   static constexpr int kKinds = 3;
+  static constexpr std::int64_t kFew = 2;  // fewer are filled up with anyone
 
   std::int64_t most_wanted() const;
   Kind choose_kind();

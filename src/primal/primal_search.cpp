@@ -18,11 +18,11 @@
 // later rounds it shares with the large neighbourhood search of the round before in the same way,
 // so no round waits for a plan that never comes.
 //
-// Where it is so crowded that the configuration search's plan costs much more than the agents alone,
-// guided search (guided_search.cpp) goes on from it, round by round, as long as that makes cheaper
-// plans: it gains in a second what large neighbourhood search, which changes a plan too little at a
-// time to empty a jam, does not gain in a minute. That follows. Prioritised planning mostly fails
-// there: after long_planning meetings it gets the ninth part of the work.
+// Where it is so crowded that the configuration search's plan costs much more than the agents
+// alone, guided search (guided_search.cpp) goes on from it, round by round, as long as that makes
+// cheaper plans: it gains in a second what large neighbourhood search, which changes a plan too
+// little at a time to empty a jam, does not gain in a minute. That follows. Prioritised planning
+// mostly fails there: after long_planning meetings it gets the ninth part of the work.
 //
 // The tree waits for that cheaper plan, but no longer than its root takes: that looks at all pairs
 // of agents, so it is taken to be as many meetings as go into the meeting's work by
@@ -68,6 +68,7 @@ class PrimalSearch::Impl {
         seed_(seed),
         // (Its agents move into each other's places.)
         may_configure_(techniques.has(Technique::kConfigurations) && problem.instance.may_follow()),
+        may_guide_(may_configure_),
         agents_(problem.instance.agent_count()),
         random_(seed),
         router_(problem, stops),
@@ -90,19 +91,18 @@ class PrimalSearch::Impl {
         std::min(tuning_.long_planning, meeting_work_ / tuning_.meeting_of_root_work);
     const bool plans = planning_now_ && first_round_;
     return (plans && planning_work_ < meetings * meeting_work_) ||
-           (guiding_is_due() && guided_->work() < meetings * meeting_work_);
+           (guided_ && guided_work_ < meetings * meeting_work_);
   }
   bool optimal() const { return met_ == agents_ && best_ <= own_costs_; }
   std::int64_t work() const {
     return router_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
-           joint_steps_ * agents_ + (guided_ ? guided_->work() : 0);
+           joint_steps_ * agents_ + guided_work_;
   }
   std::int64_t work_at_last_plan() const { return work_at_last_plan_; }
   Counts counts() const {
-    const std::int64_t guided = guided_ ? guided_->joint_steps() : 0;
     return {steps_,
             planning_.attempts(),
-            joint_steps_ + guided,
+            joint_steps_ + guided_joint_steps_,
             neighborhoods_.steps(),
             router_.calls(),
             router_.expanded()};
@@ -120,7 +120,6 @@ class PrimalSearch::Impl {
   void take_over_planned();
   void configure(const Limits& limits);
   void begin_guiding(const Plan& plan);
-  bool guiding_is_due() const;
   void guide(const Limits& limits);
   std::vector<Sequence> own_orders() const;
   void put_all(const Plan& plan, PlanSource source);
@@ -132,6 +131,7 @@ class PrimalSearch::Impl {
   const Tuning tuning_;
   const std::uint64_t seed_;
   bool may_configure_;
+  bool may_guide_;  // once
   const int agents_;
   Random random_;
   Router router_;
@@ -139,7 +139,7 @@ class PrimalSearch::Impl {
   PathSet planned_;  // by prioritised planning
   PrioritizedPlanning planning_;
   std::unique_ptr<ConfigurationSearch> configurations_;
-  std::unique_ptr<GuidedSearch> guided_;  // once there was a plan that is far from own costs
+  std::unique_ptr<GuidedSearch> guided_;  // while it makes cheaper plans
   NeighborhoodSearch neighborhoods_;
 
   AgentIndex met_ = 0;  // agents from here on have not been met
@@ -155,7 +155,9 @@ class PrimalSearch::Impl {
   std::int64_t steps_ = 0;
   std::int64_t joint_steps_ = 0;
   std::int64_t work_at_last_plan_ = 0;
-  std::int64_t guided_rounds_ = 0;  // without a cheaper plan
+  std::int64_t rounds_in_vain_ = 0;  // of guided search
+  std::int64_t guided_work_ = 0;
+  std::int64_t guided_joint_steps_ = 0;
   // Of the round under way.
   std::int64_t round_began_ = 0;  // in work
   bool first_round_ = true;
@@ -207,7 +209,7 @@ void PrimalSearch::Impl::advance(const Limits& limits) {
   }
   if (!improving_)
     configure(limits);
-  else if (guiding_is_due())
+  else if (guided_)
     guide(limits);
   else
     improve(limits);
@@ -267,7 +269,7 @@ void PrimalSearch::Impl::take_over_planned() {
   planning_now_ = false;
   configurations_.reset();
   if (first_round_ && improving_ && planned_.cost() >= paths_.cost()) return planned_.clear();
-  guided_rounds_ = tuning_.guided_rounds;  // such plans are the cheaper ones
+  guided_.reset();  // such plans are the cheaper ones
   paths_.clear();
   for (AgentIndex agent = 0; agent < agents_; ++agent) paths_.put(agent, planned_.take(agent));
   source_of_paths_ = PlanSource::kPriorities;
@@ -295,30 +297,31 @@ void PrimalSearch::Impl::configure(const Limits& limits) {
 
 void PrimalSearch::Impl::begin_guiding(const Plan& plan) {
   const double crowded = (1 + tuning_.guided_loss) * static_cast<double>(own_costs_);
-  if (guided_ || !may_configure_ || static_cast<double>(plan.cost) < crowded) return;
-  guided_ = std::make_unique<GuidedSearch>(
-      problem_, own_orders(), static_cast<double>(own_costs_) / agents_, random_.below(kSeeds),
-      tuning_);
+  if (!may_guide_ || !may_configure_ || static_cast<double>(plan.cost) < crowded) return;
+  may_guide_ = false;
+  guided_ = std::make_unique<GuidedSearch>(problem_, own_orders(),
+                                           static_cast<double>(own_costs_) / agents_,
+                                           random_.below(kSeeds), tuning_);
   guided_->learn(plan);
-}
-
-bool PrimalSearch::Impl::guiding_is_due() const {
-  return guided_ && guided_rounds_ < tuning_.guided_rounds;
 }
 
 void PrimalSearch::Impl::guide(const Limits& limits) {
   using Outcome = GuidedSearch::Outcome;
   const Outcome outcome = guided_->run(limits, tuning_.primal_step_work);
+  guided_work_ = guided_->work();
+  guided_joint_steps_ = guided_->joint_steps();
   if (outcome == Outcome::kWorking || limits.stop_requested()) return;
-  ++guided_rounds_;
-  if (outcome == Outcome::kStopped) guided_rounds_ = tuning_.guided_rounds;  // for want of memory
-  if (outcome != Outcome::kFound) return;
-  const Plan& plan = guided_->plan();
-  if (plan.cost < paths_.cost()) {
-    put_all(plan, PlanSource::kConfigurations);
-    guided_rounds_ = 0;
+  ++rounds_in_vain_;
+  if (outcome == Outcome::kFound) {
+    const Plan& plan = guided_->plan();
+    if (plan.cost < paths_.cost()) {
+      put_all(plan, PlanSource::kConfigurations);
+      rounds_in_vain_ = 0;
+    }
+    guided_->learn(plan);
   }
-  guided_->learn(plan);
+  // Where memory is short it is left to others.
+  if (outcome == Outcome::kStopped || rounds_in_vain_ >= tuning_.guided_rounds) guided_.reset();
 }
 
 // The cheapest orders, as meeting the agents has found them.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Agents that all take a shortest way jam where these meet, and a jam costs more than the way around
-// it. What tells where is the traffic of a plan, waits included: so distances in which it is dear
-// make the next plan (guided_search.cpp). (Guidance by traffic: Chen, Harabor, Li and Stuckey, AAAI
-// 2024, who count ways that are planned beforehand; a plan's own traffic does as well, measured, and
-// knows of waits.) Moves against a stream are dearer than those along it, so streams part.
+// Agents that all take a shortest way jam where these meet, and a jam costs more than the way
+// around it. What tells where is the traffic of a plan, waits included: so distances in which it is
+// dear make the next plan (guided_search.cpp). (Guidance by traffic: Chen, Harabor, Li and Stuckey,
+// AAAI 2024, who count ways that are planned beforehand; a plan's own traffic does as well,
+// measured, and knows of waits.) Moves against a stream are dearer than those along it, so streams
+// part.
 #include "traffic.h"
 
 #include <algorithm>
@@ -46,7 +47,8 @@ void Traffic::set_prices() {
   for (Place place = 0; place < world_.place_count(); ++place)
     for (Move back = first_[place]; back < first_[place + 1]; ++back) {
       const double dearness =
-          (tuning_.traffic_there * there_[place] + tuning_.traffic_against * moving_[back]) / usual_;
+          (tuning_.traffic_there * there_[place] + tuning_.traffic_against * moving_[back]) /
+          usual_;
       price_back_[back] = static_cast<Time>(kStep * (1 + std::min(dearness, kMostDearness)));
     }
 }

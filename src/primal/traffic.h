@@ -32,7 +32,7 @@ class Traffic {
   DistanceField field(const DistanceField& distance);
 
  private:
-  using Move = std::size_t;  // between places, by the first place
+  using Move = std::size_t;         // between places, by the first place
   static constexpr Time kStep = 8;  // the price of a step without traffic
   static constexpr double kMostDearness = 60;
   static constexpr std::size_t kBuckets = 512;  // more than any price
@@ -45,10 +45,10 @@ class Traffic {
   const World& world_;
   const double usual_;
   const Tuning& tuning_;
-  std::vector<Move> first_;        // by place
-  std::vector<double> there_;      // by place: steps that agents end there
-  std::vector<double> moving_;     // by move
-  std::vector<Time> price_back_;   // by move: the price of that in the other direction
+  std::vector<Move> first_;       // by place
+  std::vector<double> there_;     // by place: steps that agents end there
+  std::vector<double> moving_;    // by move
+  std::vector<Time> price_back_;  // by move: the price of that in the other direction
   std::vector<std::vector<State>> buckets_;
 };
 

@@ -31,8 +31,7 @@ VisitStages::VisitStages(const Problem& problem, AgentIndex agent, Sequence orde
     if (guide) ways_.to_stop.push_back(guide->to_task[task]);
   }
   const bool on_last_stop = instance_.rests_on_last_stop(agent);
-  steps_.to_rest =
-      on_last_stop ? steps_.to_stop[order_.back()] : &problem.distances.to_rest(agent);
+  steps_.to_rest = on_last_stop ? steps_.to_stop[order_.back()] : &problem.distances.to_rest(agent);
   if (guide)
     ways_.to_rest = on_last_stop ? ways_.to_stop[order_.back()] : guide->to_rest[agent];
   else

@@ -149,13 +149,14 @@ TEST(GuidedSearch, LeavesTheLastMemoryToOthers) {
 
 // Who is led round in circles finds home nevertheless.
 TEST(Lacam, LeavesAGuideThatLeadsNowhere) {
-  const Instance instance = instance_of({"....", "...."}, {{{0, 0}, Position{3, 0}},
-                                                           {{3, 0}, Position{0, 0}},
-                                                           {{0, 1}, Position{2, 1}}});
+  const Instance instance =
+      instance_of({"....", "...."},
+                  {{{0, 0}, Position{3, 0}}, {{3, 0}, Position{0, 0}}, {{0, 1}, Position{2, 1}}});
   const Limits limits;
   const Problem problem(instance, limits);
   const DistanceField nowhere(static_cast<std::size_t>(instance.world().state_count()), 1);
-  const LegFields guide{{}, std::vector(static_cast<std::size_t>(instance.agent_count()), &nowhere)};
+  const LegFields guide{{},
+                        std::vector(static_cast<std::size_t>(instance.agent_count()), &nowhere)};
   Lacam search(problem, *cheapest_orders(problem, limits), 0, &guide);
   std::int64_t steps = 20'000;
   ASSERT_EQ(search.run(limits, steps), Lacam::Outcome::kFound);
