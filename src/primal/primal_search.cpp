@@ -21,9 +21,9 @@
 // Where it is so crowded that the configuration search's plan costs much more than the agents
 // alone, guided search (guided_search.cpp) goes on from it, round by round, as long as that makes
 // cheaper plans. Large neighbourhood search, which changes too little at a time to empty a jam,
-// follows: warehouse-10-20-10-2-1 with 900 agents goes from 206,729 to 115,468 in six seconds, where
-// it alone came from 204,322 to 197,747 in four. Prioritised planning mostly fails there: after
-// long_planning meetings it gets the ninth part of the work.
+// follows: warehouse-10-20-10-2-1 with 900 agents goes from 206,729 to 115,468 in six seconds,
+// where it alone came from 204,322 to 197,747 in four. Prioritised planning mostly fails there:
+// after long_planning meetings it gets the ninth part of the work.
 //
 // The tree waits for that cheaper plan, but no longer than its root takes: that looks at all pairs
 // of agents, so it is taken to be as many meetings as go into the meeting's work by
