@@ -254,7 +254,7 @@ bool PrimalSearch::Impl::planning_is_due() const {
   if (!is_raced()) return true;
   const bool ahead = planning_.attempts() == attempts_before_ &&
                      planning_work_ < tuning_.planning_head_start * meeting_work_;
-  const bool takes_long = planning_work_ > tuning_.long_planning * meeting_work_;
+  const bool takes_long = improving_ && planning_work_ > tuning_.long_planning * meeting_work_;
   return ahead || planning_work_ <= other_work_ / (takes_long ? tuning_.others_to_planning : 1);
 }
 
