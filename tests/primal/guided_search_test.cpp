@@ -142,7 +142,7 @@ TEST(GuidedSearch, LeavesTheLastMemoryToOthers) {
   Trial trial(instance);
   ASSERT_TRUE(trial.first);
   Limits limits;
-  limits.set_memory_limit(resident_bytes());
+  limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 20));
   EXPECT_EQ(trial.guided.run(limits, 1'000'000), Outcome::kStopped);
   EXPECT_EQ(limits.reason(), StopReason::kNone);
 }
