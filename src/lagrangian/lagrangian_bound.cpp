@@ -60,7 +60,7 @@ LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsStore
       tuning_(tuning),
       stops_(stops),
       rows_(instance.world(), instance.agent_count()),
-      traffic_(instance.world()),
+      encounters_(instance.world()),
       pairs_(instance.world(), stops_,
              {.set_nodes = static_cast<std::size_t>(tuning.path_set_nodes),
               .compared_pairs = static_cast<std::size_t>(tuning.compared_pairs),
@@ -153,7 +153,7 @@ void LagrangianBound::end_round(Job& job, Cost cutoff, Cost known, const Limits&
   if (!is_counted_) {
     look_at_collisions();
     is_counted_ = true;
-    job.work += traffic_.end() * instance_.agent_count() / kStepsPerWork;
+    job.work += encounters_.end() * instance_.agent_count() / kStepsPerWork;
   }
   look_at_pairs(job, limits);
   if (!colliding_.empty()) return;
@@ -162,8 +162,8 @@ void LagrangianBound::end_round(Job& job, Cost cutoff, Cost known, const Limits&
 }
 
 void LagrangianBound::look_at_collisions() {
-  traffic_.count(paths_);
-  for (const Collision& collision : traffic_.collisions()) {
+  encounters_.count(paths_);
+  for (const Collision& collision : encounters_.collisions()) {
     rows_.add(collision);
     const auto [a, b] = std::minmax(collision.a, collision.b);
     const FinishPair pair{a, b, static_cast<Time>(paths_[a].size()) - 1,
@@ -186,7 +186,7 @@ void LagrangianBound::look_at_pairs(Job& job, const Limits& limits) {
 void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const Price bound =
       std::accumulate(prices_.begin(), prices_.end(), Price{0}) - rows_.sum_of_multipliers();
-  const double squares = rows_.turn(paths_, traffic_, tuning_.lagrangian_memory);
+  const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_memory);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;
   if (squares > 0) rows_.go(ascent_.step(static_cast<double>(bound), most, squares));
   const std::lock_guard lock(mutex_);

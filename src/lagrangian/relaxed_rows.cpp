@@ -94,8 +94,8 @@ bool RelaxedRows::has(const FinishPair& pair) const {
          });
 }
 
-double RelaxedRows::turn(std::span<const Path> paths, const Traffic& traffic, double memory) {
-  count_uses(paths, traffic);
+double RelaxedRows::turn(std::span<const Path> paths, const Encounters& encounters, double memory) {
+  count_uses(paths, encounters);
   double squares = 0;
   for (Row& row : rows_) {
     const bool is_at_rest = row.multiplier <= 0;  // and cannot go down
@@ -108,18 +108,18 @@ double RelaxedRows::turn(std::span<const Path> paths, const Traffic& traffic, do
   return squares;
 }
 
-void RelaxedRows::count_uses(std::span<const Path> paths, const Traffic& traffic) {
+void RelaxedRows::count_uses(std::span<const Path> paths, const Encounters& encounters) {
   const auto finishes_by = [&](AgentIndex agent, Time time) {
     return !paths[agent].empty() && static_cast<Time>(paths[agent].size()) - 1 <= time ? 1 : 0;
   };
   for (Row& row : rows_) {
     row.used = 0;
-    if (row.kind == Kind::kPlace) row.used = traffic.at(row.a, row.time);
+    if (row.kind == Kind::kPlace) row.used = encounters.at(row.a, row.time);
     if (row.kind == Kind::kFinish)
       row.used = finishes_by(row.a, row.time) + finishes_by(row.b, row.time_b);
   }
   for (const Path& path : paths)
-    if (!path.empty()) count_moves(path, std::max(traffic.end(), penalties_.end()));
+    if (!path.empty()) count_moves(path, std::max(encounters.end(), penalties_.end()));
 }
 
 void RelaxedRows::count_moves(const Path& path, Time end) {

@@ -16,6 +16,11 @@
 // *heads* for its stops therefore loses nothing: every step can be undone, so whatever can be
 // visited in one order can be in any other.
 //
+// A guide (guided_search.cpp) brings nearly all agents home, but the last ones may go round in
+// circles by it, each making way for the other: warehouse-10-20-10-2-1 with 900 agents had 36 of
+// them left after 204 steps and after 3,800. So as soon as a configuration is met again, steps take
+// its place.
+//
 // An agent without a destination heads for one of its stops to rest there, but a configuration is
 // an end wherever it rests.
 //
@@ -53,25 +58,28 @@ namespace {
 
 constexpr std::size_t kMemoryToSpare = 1 << 20;
 
-std::vector<VisitStages> visit_stages(const Problem& problem, std::span<const Sequence> orders) {
+std::vector<VisitStages> visit_stages(const Problem& problem, std::span<const Sequence> orders,
+                                      const LegFields* guide) {
   const int agents = problem.instance.agent_count();
   if (orders.size() != static_cast<std::size_t>(agents))
     throw std::invalid_argument("every agent needs an order");
   std::vector<VisitStages> states;
   for (AgentIndex agent = 0; agent < agents; ++agent)
-    states.emplace_back(problem, agent, orders[agent]);
+    states.emplace_back(problem, agent, orders[agent], guide);
   return states;
 }
 
 }  // namespace
 
-Lacam::Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed)
+Lacam::Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
+             const LegFields* guide)
     : instance_(problem.instance),
-      agents_(visit_stages(problem, orders)),
+      agents_(visit_stages(problem, orders, guide)),
       dice_(seed),
       generator_(instance_.world(), agents_),
       configurations_(instance_.agent_count()),
       ages_(agents()),
+      is_guided_(guide != nullptr),
       places_(agents()) {
   start(problem);
 }
@@ -171,10 +179,17 @@ void Lacam::arrive(Id from, std::span<const State> states) {
     places_[i] = {states[i], agents_[i].after(before[i].stage, states[i])};
   const Id known = configurations_.count();
   const Id id = configurations_.insert(places_);
-  if (id == known)
+  if (id == known) {
     add_node(id, from);
-  else if (id != from && nodes_[id].first != kNone)
-    stack_.push_back(id);
+    return;
+  }
+  if (is_guided_) leave_guide();
+  if (id != from && nodes_[id].first != kNone) stack_.push_back(id);
+}
+
+void Lacam::leave_guide() {
+  is_guided_ = false;
+  for (VisitStages& agent : agents_) agent.go_by_steps();
 }
 
 void Lacam::add_node(Id id, Id parent) {

@@ -17,8 +17,10 @@ class Lacam {
  public:
   using Outcome = ConfigurationSearch::Outcome;
 
-  // As ConfigurationSearch.
-  Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed);
+  // As ConfigurationSearch. `guide`: by what agents find their ways, as far as it leads; its fields
+  // must outlive this.
+  Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
+        const LegFields* guide = nullptr);
   Lacam(const Lacam&) = delete;
   Lacam& operator=(const Lacam&) = delete;
 
@@ -62,6 +64,7 @@ class Lacam {
   void branch(Id id, ConstraintId constraint);
   void arrive(Id from, std::span<const State> states);
   void add_node(Id id, Id parent);
+  void leave_guide();
   Age age_of(std::size_t agent, Id parent, Standing place);
   bool at_rest(std::size_t agent, Standing place) const {
     return agents_[agent].may_rest(place.stage, place.state);
@@ -79,6 +82,7 @@ class Lacam {
   std::vector<Constraint> constraints_;
   std::vector<Id> stack_;
   std::optional<Plan> plan_;
+  bool is_guided_;
 
   // Of the configuration being expanded.
   Id ranked_ = -1;

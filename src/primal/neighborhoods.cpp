@@ -15,15 +15,23 @@ namespace grove::detail {
 const std::vector<AgentIndex>& Neighborhoods::choose() {
   const int agents = problem_.instance.agent_count();
   chosen_.clear();
-  const std::int64_t spread = tuning_.most_replanned - tuning_.fewest_replanned;
+  const std::int64_t spread = most_wanted() - tuning_.fewest_replanned;
   wanted_ = std::min<std::int64_t>(
       agents, tuning_.fewest_replanned + random_.below(std::max<std::int64_t>(spread, 0) + 1));
   kind_ = choose_kind();
   if (kind_ == kDelayed) add_delayed();
   if (kind_ == kOneSpot) add_around_spot();
-  if (std::ssize(chosen_) < tuning_.fewest_replanned) add_anyone();
+  if (std::ssize(chosen_) < kFew) add_anyone();
   random_.shuffle(chosen_);
   return chosen_;
+}
+
+// Where small ones do not gain any more, larger ones may (variable neighbourhood search: Mladenovic
+// and Hansen 1997).
+std::int64_t Neighborhoods::most_wanted() const {
+  const std::int64_t times =
+      1 + in_vain_ / (tuning_.neighborhoods_in_vain * problem_.instance.agent_count());
+  return tuning_.most_replanned * std::min<std::int64_t>(times, tuning_.times_more_replanned);
 }
 
 Neighborhoods::Kind Neighborhoods::choose_kind() {
@@ -38,6 +46,7 @@ Neighborhoods::Kind Neighborhoods::choose_kind() {
 }
 
 void Neighborhoods::reward(Cost gain) {
+  in_vain_ = gain > 0 ? 0 : in_vain_ + 1;
   double& weight = weights_[kind_];
   weight = tuning_.kind_memory * weight + (1 - tuning_.kind_memory) * static_cast<double>(gain);
 }

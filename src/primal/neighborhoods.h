@@ -31,7 +31,9 @@ class Neighborhoods {
  private:
   enum Kind : std::uint8_t { kDelayed, kAnyone, kOneSpot };
   static constexpr int kKinds = 3;
+  static constexpr std::int64_t kFew = 2;  // fewer are filled up with anyone
 
+  std::int64_t most_wanted() const;
   Kind choose_kind();
   void add(AgentIndex agent);
   bool full() const { return std::ssize(chosen_) >= wanted_; }
@@ -50,6 +52,7 @@ class Neighborhoods {
   std::array<double, kKinds> weights_{1, 1, 1};
   Kind kind_ = kAnyone;
   std::int64_t wanted_ = 0;
+  std::int64_t in_vain_ = 0;  // neighbourhoods since one that gained
   std::vector<AgentIndex> chosen_;
   std::vector<Place> queue_;
   std::vector<std::int32_t> seen_at_;  // by place: the search that saw it

@@ -17,7 +17,8 @@ bool is_complete(Sequence order, std::size_t stops) {
 
 }  // namespace
 
-VisitStages::VisitStages(const Problem& problem, AgentIndex agent, Sequence order)
+VisitStages::VisitStages(const Problem& problem, AgentIndex agent, Sequence order,
+                         const LegFields* guide)
     : instance_(problem.instance),
       agent_(agent),
       start_(problem.instance.agent(agent).start),
@@ -26,15 +27,32 @@ VisitStages::VisitStages(const Problem& problem, AgentIndex agent, Sequence orde
     throw std::invalid_argument("an order must hold every stop of its agent once");
   for (const TaskIndex task : stops()) {
     places_.push_back(instance_.task(task).cell);
-    to_stop_.push_back(problem.distances.to_task(task));
+    steps_.to_stop.push_back(problem.distances.to_task(task));
+    if (guide) ways_.to_stop.push_back(guide->to_task[task]);
   }
-  to_rest_ = instance_.rests_on_last_stop(agent) ? to_stop_[order_.back()]
-                                                 : problem.distances.to_rest(agent);
+  const bool on_last_stop = instance_.rests_on_last_stop(agent);
+  steps_.to_rest = on_last_stop ? steps_.to_stop[order_.back()] : problem.distances.to_rest(agent);
+  if (guide)
+    ways_.to_rest = on_last_stop ? ways_.to_stop[order_.back()] : guide->to_rest[agent];
+  else
+    ways_ = steps_;
   all_ = make(all_stops(static_cast<int>(stops().size())));
 }
 
+void VisitStages::go_by_steps() {
+  ways_ = steps_;
+  for (Entry& known : entries_) known = entry(known.left);
+}
+
 VisitStages::Stage VisitStages::make(StopSet left) {
-  Distances to_next = to_rest_;
+  const auto stage = static_cast<Stage>(entries_.size());
+  entries_.push_back(entry(left));
+  index_.insert(left, static_cast<std::uint32_t>(stage));
+  return stage;
+}
+
+VisitStages::Entry VisitStages::entry(StopSet left) const {
+  Distances to_next = ways_.to_rest;
   std::int64_t onward = 0;
   Place from = kNoPlace;
   const auto go_on = [&](Distances to) {
@@ -45,15 +63,11 @@ VisitStages::Stage VisitStages::make(StopSet left) {
   };
   for (Stop stop : order_) {
     if ((left >> stop & 1) == 0) continue;
-    go_on(to_stop_[stop]);
+    go_on(ways_.to_stop[stop]);
     from = places_[stop];
   }
-  go_on(to_rest_);
-  const auto stage = static_cast<Stage>(entries_.size());
-  entries_.push_back(
-      {left, to_next, static_cast<Time>(std::min<std::int64_t>(onward, kNever - 1))});
-  index_.insert(left, static_cast<std::uint32_t>(stage));
-  return stage;
+  go_on(ways_.to_rest);
+  return {left, to_next, static_cast<Time>(std::min<std::int64_t>(onward, kNever - 1))};
 }
 
 }  // namespace grove::detail

@@ -13,13 +13,21 @@
 
 namespace grove::detail {
 
+// By which agents find their ways, instead of by the distances in steps.
+struct LegFields {
+  std::vector<Distances> to_task;  // by TaskIndex
+  std::vector<Distances> to_rest;  // by AgentIndex, as DistanceFields::to_rest
+};
+
 // What an agent has still to visit, as numbered stages, made when first met. For one thread.
 class VisitStages {
  public:
   using Stage = std::int32_t;
 
-  // `problem` must outlive this. Throws std::invalid_argument if `order` is no complete sequence.
-  VisitStages(const Problem& problem, AgentIndex agent, Sequence order);
+  // `problem` must outlive this, and the fields of `guide`; null: steps. Throws
+  // std::invalid_argument if `order` is no complete sequence.
+  VisitStages(const Problem& problem, AgentIndex agent, Sequence order,
+              const LegFields* guide = nullptr);
 
   // Everything is left but what is on the start.
   Stage first() { return after(all_, start_); }
@@ -39,12 +47,15 @@ class VisitStages {
     return stop < std::ssize(stops()) && (entries_[stage].left >> stop & 1) != 0;
   }
 
-  // Steps from `state` through all that is left, in order, to where it is to rest; kNever or more
-  // when there is no way.
+  // From `state` through all that is left, in order, to where it is to rest, by the guide or in
+  // steps; kNever or more when there is no way.
   Time distance(Stage stage, State state) const {
     const Entry& entry = entries_[stage];
     return entry.to_next[state] + entry.onward;
   }
+
+  // From now on there is no guide.
+  void go_by_steps();
 
   // May an agent of this stage rest in `state`?
   bool may_rest(Stage stage, State state) const {
@@ -52,6 +63,11 @@ class VisitStages {
   }
 
  private:
+  // Where there is to go.
+  struct Targets {
+    std::vector<Distances> to_stop;
+    Distances to_rest;
+  };
   struct Entry {
     StopSet left;
     Distances to_next;  // the first stop left; the place to rest if none is
@@ -65,6 +81,7 @@ class VisitStages {
     return known != StopSetIndex::kAbsent ? static_cast<Stage>(known) : make(left);
   }
   Stage make(StopSet left);
+  Entry entry(StopSet left) const;
 
   const std::vector<TaskIndex>& stops() const { return instance_.agent(agent_).stops; }
 
@@ -73,8 +90,8 @@ class VisitStages {
   State start_;
   std::vector<Place> places_;  // by stop
   Sequence order_;
-  std::vector<Distances> to_stop_;
-  Distances to_rest_;
+  Targets steps_;
+  Targets ways_;  // by the guide, or as steps_
   Stage all_;
   std::vector<Entry> entries_;
   StopSetIndex index_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/random_crowd.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -101,7 +103,7 @@ CrowdBoard on_grid(CrowdBoard::Kind kind, const std::vector<std::string>& rows,
 CrowdBoard on_roads(CrowdBoard::Kind kind, int vertices,
                     const std::vector<std::pair<int, int>>& joined) {
   std::vector<Vertex> all;
-  for (int v = 0; v < vertices; ++v) all.push_back({"v" + std::to_string(v), {}});
+  for (int v = 0; v < vertices; ++v) all.push_back({fmt::format("v{}", v), {}});
   std::vector<Road> roads;
   for (const auto& [a, b] : joined) roads.push_back({a, b, 1, false});
   return {.kind = kind, .grid = {}, .roads = Roadmap(std::move(all), std::move(roads))};
@@ -374,10 +376,10 @@ class CrowdMaker {
     InstanceBuilder builder(board_.map());
     if (!may_follow_) builder.forbid_following();
     for (std::size_t agent = 0; agent < starts.size(); ++agent)
-      builder.add_agent("a" + std::to_string(agent), State{starts[agent]}, goals[agent]);
+      builder.add_agent(fmt::format("a{}", agent), State{starts[agent]}, goals[agent]);
     for (std::size_t task = 0; task < tasks.size(); ++task)
-      builder.add_task("t" + std::to_string(task), tasks[task].second,
-                       std::vector<std::string>{"a" + std::to_string(tasks[task].first)});
+      builder.add_task(fmt::format("t{}", task), tasks[task].second,
+                       std::vector<std::string>{fmt::format("a{}", tasks[task].first)});
     return std::move(builder).build();
   }
   std::string name() const {

@@ -55,7 +55,19 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
     neighborhoods.reward(round % 3);
   }
   EXPECT_EQ(seen.size(), order.size());
-  EXPECT_EQ(sizes.size(), GetParam() == 12 ? 7u : static_cast<std::size_t>(GetParam()) - 1);
+  EXPECT_EQ(*sizes.rbegin(), std::min<std::size_t>(8, order.size()));
+  EXPECT_EQ(sizes.contains(6), order.size() >= 6);
+
+  for (int round = 0; round < 500; ++round) {
+    neighborhoods.choose();
+    neighborhoods.reward(0);
+  }
+  std::size_t largest = 0;
+  for (int round = 0; round < 50; ++round) {
+    largest = std::max(largest, neighborhoods.choose().size());
+    neighborhoods.reward(0);
+  }
+  EXPECT_EQ(largest, order.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Agents, NeighborhoodsTest, ::testing::Values(2, 3, 12));

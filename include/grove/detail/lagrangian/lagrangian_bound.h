@@ -8,11 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include "grove/detail/lagrangian/encounters.h"
 #include "grove/detail/lagrangian/finish_pairs.h"
 #include "grove/detail/lagrangian/level_ascent.h"
 #include "grove/detail/lagrangian/penalized_search.h"
 #include "grove/detail/lagrangian/relaxed_rows.h"
-#include "grove/detail/lagrangian/traffic.h"
 #include "grove/detail/model/tuning.h"
 #include "grove/detail/planning/agent_stops_store.h"
 
@@ -83,7 +83,7 @@ class LagrangianBound {
   const Tuning& tuning_;
   AgentStopsStore stops_;  // of pairs_
   RelaxedRows rows_;
-  Traffic traffic_;
+  Encounters encounters_;
   FinishPairs pairs_;
   LevelAscent ascent_;
   std::vector<Path> paths_;            // by agent: of its price in this round

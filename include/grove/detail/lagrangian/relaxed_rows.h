@@ -7,10 +7,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "grove/detail/lagrangian/encounters.h"
 #include "grove/detail/lagrangian/finish_pairs.h"
 #include "grove/detail/lagrangian/penalized_search.h"
 #include "grove/detail/lagrangian/penalties.h"
-#include "grove/detail/lagrangian/traffic.h"
 
 namespace grove::detail {
 
@@ -40,7 +40,7 @@ class RelaxedRows {
 
   // Sets the direction of each row: what these paths use it beyond once, and so much of the old
   // direction. Returns the squared length of all.
-  double turn(std::span<const Path> paths, const Traffic& traffic, double memory);
+  double turn(std::span<const Path> paths, const Encounters& encounters, double memory);
   // Multipliers go so far in their directions, but not below 0.
   void go(double step);
 
@@ -63,7 +63,7 @@ class RelaxedRows {
   void add_row(std::unordered_map<std::uint64_t, RowId>& rows, std::uint64_t key, Row row);
   std::uint64_t place_key(Place place, Time time) const;
   std::uint64_t edge_key(Place from, Place to, Time arrival) const;
-  void count_uses(std::span<const Path> paths, const Traffic& traffic);
+  void count_uses(std::span<const Path> paths, const Encounters& encounters);
   void count_moves(const Path& path, Time end);
   void use_edge(Place from, Place to, Time arrival);
   void give(Row& row);

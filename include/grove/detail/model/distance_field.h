@@ -30,6 +30,8 @@ DistanceField distance_field(const World& world, Place target);
 class Distances {
  public:
   Distances() = default;  // none
+  // Of a field that stays where it is.
+  explicit Distances(const DistanceField& field) : long_(field.data()) {}
 
   Time operator[](State state) const {
     if (!short_) return long_[state];
@@ -37,6 +39,8 @@ class Distances {
     return steps == kShortNever ? kNever : steps;
   }
   explicit operator bool() const { return short_ || long_; }
+  // By which field it is, not by what is in it.
+  friend auto operator<=>(const Distances&, const Distances&) = default;
 
   static constexpr std::uint16_t kShortNever = 0xFFFF;
 

@@ -38,7 +38,7 @@ class PrimalSearch {
 
   // Goes on for about a millisecond (or one call of the low level, where that is longer). Returns a
   // plan if it is cheaper than any returned or adopted before; source() then tells how it was
-  // found. Returns nothing when a limit struck.
+  // found. (Of large plans that become cheaper time after time not each.)
   std::optional<Plan> step(const Limits& limits);
   PlanSource source() const;
 
@@ -46,7 +46,7 @@ class PrimalSearch {
   // Ignored unless it is cheaper than all before.
   void adopt(const Plan& plan);
 
-  // The cheapest plan returned or adopted.
+  // The cheapest plan returned or adopted, or about to be returned.
   std::optional<Cost> best_cost() const;
   // A plan is likely soon: the first, while the configuration search has neither given up nor begun
   // anew; or after its plan a much cheaper one, while prioritised planning has not taken long.

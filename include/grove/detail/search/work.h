@@ -9,9 +9,10 @@
 namespace grove::detail::work {
 
 // What the tree and the primal search are weighed against each other by.
-inline constexpr std::int64_t kPerCall = 16;    // of a low level, beside its labels
-inline constexpr std::int64_t kStepsSeen = 4;   // to one unit: of a node's paths, looked through
-inline constexpr std::int64_t kStepsMoved = 8;  // to one unit: of paths, into or out of a table
+inline constexpr std::int64_t kPerCall = 16;      // of a low level, beside its labels
+inline constexpr std::int64_t kStepsSeen = 4;     // to one unit: of a node's paths, looked through
+inline constexpr std::int64_t kStepsMoved = 8;    // to one unit: of paths, into or out of a table
+inline constexpr std::int64_t kStatesPriced = 5;  // to one unit: of a distance field by traffic
 
 // How long an expansion takes: labels and calls as above, and what else it does (ExpansionCounts).
 // By regression on the processor time of single ones: on six instances of 10 to 80 agents a unit

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "src/primal/traffic.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/fuzz/random_instance.h"
+#include "tests/support/instances.h"
+
+namespace grove::detail {
+namespace traffic_test {
+
+using testing::instance_of;
+
+// Two ways of equal length round a block, cells 0 to 14, and fields to the cell in the middle of
+// the right side.
+struct Block {
+  Block() { traffic.set_prices(); }
+  DistanceField field(Place to) {
+    const DistanceField steps = distance_field(world, to);
+    return traffic.field(Distances(steps));
+  }
+  void walk(const Path& path) {
+    traffic.add(path, 1);
+    traffic.set_prices();
+  }
+
+  const Instance instance = instance_of({".....", ".@@@.", "....."}, {{{0, 1}, Position{4, 1}}});
+  const World& world = instance.world();
+  const Tuning tuning;
+  Traffic traffic{world, 4, tuning};
+  const Path above{5, 0, 1, 2, 3, 4, 9};
+};
+
+// On worlds of all kinds: grids, roads one way or both, agents that turn or work.
+TEST(Traffic, WithoutAnyAStepIsAStep) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Instance instance = fuzz::random_instance(seed).build();
+    const World& world = instance.world();
+    const Tuning tuning;
+    Traffic traffic(world, 3, tuning);
+    traffic.set_prices();
+    const DistanceFields distances(instance);
+    for (TaskIndex task = 0; task < instance.task_count(); ++task) {
+      const DistanceField& steps = distances.to_task(task);
+      const DistanceField dear = traffic.field(Distances(steps));
+      for (State state = 0; state < world.state_count(); ++state) {
+        ASSERT_EQ(dear[state] == kNever, steps[state] == kNever);
+        if (steps[state] < kNever) {
+          ASSERT_EQ(dear[state] % 8, 0);
+          ASSERT_EQ(dear[state] / 8, steps[state]);
+        }
+      }
+    }
+  }
+}
+
+TEST(Traffic, MakesTheOtherWayRoundCheaper) {
+  Block block;
+  const DistanceField before = block.field(9);
+  EXPECT_EQ(before[0], before[10]);
+  block.walk(block.above);
+  const DistanceField after = block.field(9);
+  EXPECT_GT(after[0], before[0]);
+  EXPECT_LT(after[10], after[0]);
+}
+
+TEST(Traffic, IsDearerAgainstTheStream) {
+  Block block;
+  block.walk(block.above);
+  EXPECT_GT(block.field(1)[3], block.field(3)[1]);
+}
+
+TEST(Traffic, CountsWaits) {
+  Block block;
+  block.walk({5, 0, 0, 0, 0, 1, 2, 3, 4, 9});
+  EXPECT_GT(block.field(1)[5], block.field(3)[1]);
+}
+
+TEST(Traffic, Fades) {
+  Block block;
+  const DistanceField before = block.field(9);
+  block.walk(block.above);
+  block.traffic.fade(0);
+  block.traffic.set_prices();
+  EXPECT_EQ(block.field(9), before);
+}
+
+// The price has a greatest value: the buckets hold it.
+TEST(Traffic, ALotIsStillFinite) {
+  Block block;
+  for (int i = 0; i < 10'000; ++i) block.traffic.add(block.above, 1);
+  block.traffic.set_prices();
+  const DistanceField field = block.field(5);
+  for (State state = 0; state < block.world.state_count(); ++state)
+    EXPECT_EQ(field[state] < kNever, !block.world.moves(state).empty());
+}
+
+}  // namespace traffic_test
+}  // namespace grove::detail
