@@ -41,8 +41,8 @@ TEST(Traffic, WithoutAnyAStepIsAStep) {
     traffic.set_prices();
     const DistanceFields distances(instance);
     for (TaskIndex task = 0; task < instance.task_count(); ++task) {
-      const DistanceField& steps = distances.to_task(task);
-      const DistanceField dear = traffic.field(Distances(steps));
+      const Distances steps = distances.to_task(task);
+      const DistanceField dear = traffic.field(steps);
       for (State state = 0; state < world.state_count(); ++state) {
         ASSERT_EQ(dear[state] == kNever, steps[state] == kNever);
         if (steps[state] < kNever) {
