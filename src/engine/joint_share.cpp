@@ -2,8 +2,8 @@
 // Most small instances are closed by the first nodes of the tree, so the tree begins. What is still
 // open then and has few joint states is often one where everybody is in everybody's way: there the
 // search over joint states ends soon, and the tree perhaps never. Which of the two nobody knows, so
-// they share the work, of which joint search has the most; when one of them holds more memory than it may, or has ended, the other has
-// it all.
+// they share the work, of which joint search has the most; when one of them holds more memory than
+// it may, or has ended, the other has it all.
 #include "joint_share.h"
 
 #include <algorithm>

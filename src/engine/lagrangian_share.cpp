@@ -5,6 +5,7 @@
 // when it promises less than is proven already, or when nothing is to be gained any more.
 #include "grove/detail/engine/lagrangian_share.h"
 
+#include <new>
 #include <utility>
 
 namespace grove::detail {
@@ -28,12 +29,17 @@ std::optional<LagrangianBound::Job> LagrangianShare::next(bool has_plan) {
       static_cast<double>(own_) > tuning_.most_lagrangian * static_cast<double>(others))
     return std::nullopt;
   const std::lock_guard lock(making_);
-  if (!bound_) {
+  if (!bound_) make();
+  return bound_ ? bound_->next() : std::nullopt;
+}
+
+// Without memory for it there is none.
+void LagrangianShare::make() {
+  try {
     bound_ = LagrangianBound::make(*instance_, *stops_, tuning_);
-    is_over_ = bound_ == nullptr;
-    if (!bound_) return std::nullopt;
+  } catch (const std::bad_alloc&) {
   }
-  return bound_->next();
+  is_over_ = bound_ == nullptr;
 }
 
 Cost LagrangianShare::commit(LagrangianBound::Job job) {

@@ -9,8 +9,9 @@
 // work it may do 8 x^3: much more than the tree while it improves, as much at x = 1/2, an eighth at
 // 1/4; and never less than 1/32. But the tree closes most small instances within its first tenths
 // of a second, whatever plan there is, so it grows into that freedom: it may not have more than 1/4
-// until the tree has done a thirty-second of tree_is_long_work, and 8 when it has done all. None of
-// this knows how large the instance is or how fast the machine.
+// until the tree has done a thirty-second of tree_is_long_work, and 8 when it has done all. While
+// more is proven beside the tree than by it, what it does raises no bound: then the primal search
+// has as much as it at least. None of this knows how large the instance is or how fast the machine.
 #include "primal_share.h"
 
 #include <algorithm>
@@ -19,9 +20,10 @@ namespace grove::detail {
 PrimalShare::PrimalShare(int agents, const Tuning& tuning)
     : agents_(agents), tuning_(tuning), ratio_(tuning.most_primal) {}
 
-void PrimalShare::tree_worked(std::int64_t work) {
+void PrimalShare::tree_worked(std::int64_t work, bool is_behind) {
   tree_ += work;
-  credit_ += std::min(ratio_, most_ratio_now()) * static_cast<double>(work);
+  const double ratio = is_behind ? std::max(ratio_, tuning_.least_primal_beside) : ratio_;
+  credit_ += std::min(ratio, most_ratio_now()) * static_cast<double>(work);
 }
 
 bool PrimalShare::may_begin() const {

@@ -13,8 +13,9 @@ class PrimalShare {
  public:
   PrimalShare(int agents, const Tuning& tuning);
 
-  // The tree has done so much more work, in the units of PrimalSearch::work().
-  void tree_worked(std::int64_t work);
+  // The tree has done so much more work, in the units of PrimalSearch::work(). `is_behind`: more is
+  // proven beside it.
+  void tree_worked(std::int64_t work, bool is_behind = false);
   // Has the tree done enough for the primal search to begin?
   bool may_begin() const;
   // Is it the turn of the primal search?

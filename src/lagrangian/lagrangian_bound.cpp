@@ -16,7 +16,9 @@
 #include "grove/detail/lagrangian/lagrangian_bound.h"
 
 #include <algorithm>
+#include <new>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "grove/detail/lagrangian/least_cost.h"
@@ -88,6 +90,17 @@ std::optional<LagrangianBound::Job> LagrangianBound::next() {
 
 void LagrangianBound::perform(Job& job, Pricer& pricer, Cost cutoff, Cost known,
                               const Limits& limits) {
+  try {
+    do_perform(job, pricer, cutoff, known, limits);
+  } catch (const std::bad_alloc&) {
+    job.failed = true;
+  } catch (const std::overflow_error&) {  // of a penalty
+    job.failed = true;
+  }
+}
+
+void LagrangianBound::do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known,
+                                 const Limits& limits) {
   if (job.first < job.end)
     price(job, pricer, limits);
   else
@@ -133,6 +146,8 @@ Price LagrangianBound::price_below(Price below, AgentIndex agent, FreeGoals& goa
 void LagrangianBound::commit(Job job) {
   const std::lock_guard lock(mutex_);
   --in_hand_;
+  if (job.failed) phase_ = Phase::kEnded;
+  if (phase_ == Phase::kEnded) return;
   for (AgentIndex agent = job.first; agent < job.end; ++agent) {
     const auto at = static_cast<std::size_t>(agent - job.first);
     prices_[agent] = job.prices[at];

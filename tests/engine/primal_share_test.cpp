@@ -98,6 +98,13 @@ TEST(PrimalShare, WithAPlanItFollowsItsSuccess) {
   }
   EXPECT_LT(least, 0.2) << "too successful to be a test";
   EXPECT_EQ(greatest, 1);
+  // It has not been successful for long, but the tree is no better.
+  PrimalShare share = settled(s.primal, 12);
+  share.tree_worked(1'000'000, true);
+  share.primal_worked(s.primal, 999'999);
+  EXPECT_TRUE(share.due(s.primal));
+  share.primal_worked(s.primal, 2);
+  EXPECT_FALSE(share.due(s.primal));
 }
 
 TEST(PrimalShare, ASearchThatExpectsAPlanIsDueAndNotCharged) {

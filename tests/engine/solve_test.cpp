@@ -108,14 +108,14 @@ TEST(Solve, InfiniteOmegaBuildsOneTree) {
   EXPECT_EQ(solution.stats.counts.at("roots_generated"), 1);
 }
 
-TEST(Solve, AnUnsolvablePuzzleEndsAtTheLimitAsUnknown) {
-  // A dead-end tree without room to pass; not one of the cases that are seen beforehand.
+TEST(Solve, ACrowdWithoutRoomIsSeenToBeOne) {
+  // A dead-end tree without room to pass.
   const Solution solution = solve_to(
       instance_of({"...", "@.@"},
                   {{{0, 0}, Position{2, 0}}, {{2, 0}, Position{1, 1}}, {{1, 0}, Position{0, 0}}}),
       "0", 0.2);
-  EXPECT_EQ(solution.status, Status::kUnknown);
-  EXPECT_GT(solution.lower_bound, 0);
+  EXPECT_EQ(solution.status, Status::kInfeasible);
+  EXPECT_FALSE(solution.stats.texts.at("reason").empty());
 }
 
 TEST(Solve, AnExpiredDeadlineStillBoundsFromBelow) {

@@ -39,6 +39,8 @@ class LagrangianShare {
   int rounds() const { return rounds_; }
 
  private:
+  void make();
+
   const Tuning& tuning_;
   const Instance* instance_ = nullptr;
   std::optional<AgentStopsStore> stops_;

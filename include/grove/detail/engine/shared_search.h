@@ -47,6 +47,9 @@ class SharedSearch {
   // Is there something for an idle worker to take, or to find out?
   bool may_take() const { return frontier_.open() > 0 || frontier_.live() == 0; }
 
+  // Is more proven beside the tree than by its nodes?
+  bool tree_is_behind() const { return frontier_.bound() < ledger_.lower_bound(); }
+
   // Gives up nodes, and what was found out, as memory demands.
   void keep_within_memory();
   // What was found out, for expanders to go on with.

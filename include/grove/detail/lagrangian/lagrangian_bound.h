@@ -50,11 +50,13 @@ class LagrangianBound {
     std::vector<Price> prices;
     std::vector<Path> paths;  // empty: as before
     std::int64_t work = 0;    // in the unit of search/work.h
+    bool failed = false;      // memory was refused: nothing of it counts
   };
   // The next one; none: all are in hand, or it has ended. Whoever takes one performs it and commits
   // it.
   std::optional<Job> next();
   // `cutoff`: plans that cost so much or more are of no interest. `known`: no plan costs less.
+  // Where memory is refused it ends, and keeps the bound that it has.
   void perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void commit(Job job);
 
@@ -69,6 +71,7 @@ class LagrangianBound {
   enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };
 
   LagrangianBound(const Instance& instance, const AgentStopsStore& stops, const Tuning& tuning);
+  void do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void price(Job& job, Pricer& pricer, const Limits& limits) const;
   Price first_price(AgentIndex agent, FreeGoals& goals, PenalizedSearch& search,
                     const Limits& limits, Path& path) const;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The Lagrangian bound when memory runs out anywhere in a round: it ends, and what it has holds.
+#include "grove/detail/lagrangian/lagrangian_bound.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/lagrangian/tiny_agents.h"
+#include "tests/support/failing_new.h"
+
+namespace grove::detail::lagrangian_test {
+namespace {
+
+constexpr int kRounds = 12;
+
+// Two who must pass each other in a corridor with one bay: no plan costs less than 9.
+Instance corridor() {
+  std::vector<bool> passable(10, true);
+  for (const int wall : {5, 6, 8, 9}) passable[wall] = false;
+  InstanceBuilder builder{Map(Grid(5, 2, passable))};
+  builder.add_agent("a", Position{0, 0}, Position{4, 0});
+  builder.add_agent("b", Position{4, 0}, Position{0, 0});
+  return std::move(builder).build();
+}
+
+struct End {
+  Cost lower_bound = 0;
+  bool failed = false;
+};
+
+// `refuse_at`: the allocation within the jobs that is refused; less than 0: none.
+End run(Known& known, int refuse_at) {
+  const Tuning tuning;
+  const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
+  Pricer pricer(bound->penalties(), known.stops);
+  End end;
+  while (!bound->ended() && bound->rounds() < kRounds) {
+    auto job = bound->next();
+    if (!job) break;
+    testing::allocations_until_failure = refuse_at;
+    bound->perform(*job, pricer, 20, 0, {});
+    refuse_at = testing::allocations_until_failure;
+    testing::allocations_until_failure = -1;
+    end.failed = end.failed || job->failed;
+    bound->commit(std::move(*job));
+  }
+  end.lower_bound = bound->lower_bound();
+  return end;
+}
+
+TEST(LagrangianBoundWithoutMemory, EndsAndKeepsItsBound) {
+  Known known(corridor());
+  const Cost whole = run(known, -1).lower_bound;
+  int failures = 0;
+  for (int at = 0;; at += 1 + at / 20, ++failures) {
+    const End end = run(known, at);
+    ASSERT_LE(end.lower_bound, whole) << "failure " << at;
+    if (!end.failed) break;
+  }
+  EXPECT_GT(failures, 8);
+}
+
+}  // namespace
+}  // namespace grove::detail::lagrangian_test
