@@ -152,12 +152,13 @@ TEST(Solve, AnInterruptKeepsTheBound) {
   Limits limits;
   limits.watch_interrupt(&interrupter.flag);
   const Instance instance =
-      instance_of({"...", "@.@"},
-                  {{{0, 0}, Position{2, 0}}, {{2, 0}, Position{1, 1}}, {{1, 0}, Position{0, 0}}});
-  const Solution solution = solve(instance, SolveOptions(), limits, &interrupter);
+      instance_of({".........", "@@@@.@@@@"}, {{{0, 0}, Position{8, 0}}, {{8, 0}, Position{0, 0}}});
+  SolveOptions options;
+  options.techniques = Techniques();  // so it takes more nodes
+  const Solution solution = solve(instance, options, limits, &interrupter);
   EXPECT_EQ(solution.status, Status::kUnknown);
   EXPECT_EQ(solution.stats.texts.at("stopped_by"), "interrupt");
-  EXPECT_GE(solution.lower_bound, 4);
+  EXPECT_GE(solution.lower_bound, 16);
 }
 
 // The bound a run reports must never fall.
