@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the tree closes at once needs no other bound, so the tree begins; and a plan comes first.
-// Where there are few agents the tree knows better (measured: findings on 5 to 20 agents with
-// tasks), so it is not tried. Where it is, it has its part of the work until it is over: by itself,
+// Where there are few agents the tree knows better (see lagrangian_agents), so it is not tried.
+// Where it is, it has its part of the work until it is over: by itself,
 // when it promises less than is proven already, or when nothing is to be gained any more.
 #include "grove/detail/engine/lagrangian_share.h"
 

@@ -126,16 +126,15 @@ void RelaxedRows::count_moves(const Path& path, Time end) {
   Place from = world_.place(path[0]);
   for (Time time = 1; time < end; ++time) {
     const Place to = place_at(world_, path, time);
-    if (!has_edge_rows_[std::min(from, to)]) {
-      // nothing
-    } else if (from != to) {
-      use_edge(from, to, time);
-    } else {
-      for (const Place other : world_.neighbors(from))
-        if (other > from) use_edge(from, other, time);
-    }
+    if (has_edge_rows_[std::min(from, to)]) count_move(from, to, time);
     from = to;
   }
+}
+
+void RelaxedRows::count_move(Place from, Place to, Time arrival) {
+  if (from != to) return use_edge(from, to, arrival);
+  for (const Place other : world_.neighbors(from))
+    if (other > from) use_edge(from, other, arrival);
 }
 
 void RelaxedRows::use_edge(Place from, Place to, Time arrival) {

@@ -65,6 +65,7 @@ class RelaxedRows {
   std::uint64_t edge_key(Place from, Place to, Time arrival) const;
   void count_uses(std::span<const Path> paths, const Encounters& encounters);
   void count_moves(const Path& path, Time end);
+  void count_move(Place from, Place to, Time arrival);
   void use_edge(Place from, Place to, Time arrival);
   void give(Row& row);
   void charge(const Row& row, Amount more);
