@@ -31,12 +31,12 @@ std::string data(const std::string& name) {
   return std::string(GROVE_DATA) + "/" + name;
 }
 
-// Six agents in a room with too little space to get past each other: unsolvable in a way that
-// nothing sees beforehand, so a run ends only at a limit.
-constexpr const char* kPuzzleMap = "type octile\nheight 2\nwidth 4\nmap\n....\n@.@@\n";
-constexpr const char* kPuzzle = R"({"map": "puzzle.map", "agents": [
-  {"id": "a", "start": [0, 0], "goal": [3, 0]}, {"id": "b", "start": [1, 0], "goal": [1, 1]},
-  {"id": "c", "start": [2, 0], "goal": [0, 0]}, {"id": "d", "start": [3, 0], "goal": [2, 0]}], "tasks": []})";
+// Each agent can come to where it must rest, but not both: unsolvable in a way that only the search
+// over joint states finds out, so without that a run ends only at a limit.
+constexpr const char* kPuzzleMap = "type octile\nheight 1\nwidth 5\nmap\n.....\n";
+constexpr const char* kPuzzle = R"({"map": "puzzle.map",
+  "agents": [{"id": "a", "start": [0, 0]}, {"id": "b", "start": [4, 0]}],
+  "tasks": [{"id": "t", "cell": [3, 0], "agents": ["a"]}, {"id": "u", "cell": [1, 0], "agents": ["b"]}]})";
 
 class SolveCommand : public ::testing::Test {
  protected:
@@ -96,7 +96,7 @@ TEST_F(SolveCommand, ReadsAnInstanceFromStandardInput) {
   options_.input = kPuzzle;
   const ProcessResult solved = solve({"-", "--time-limit", "0"});
   EXPECT_EQ(solved.exit_code, 0) << solved.err;
-  EXPECT_THAT(solved.out, HasSubstr("standard input: 4 agents"));
+  EXPECT_THAT(solved.out, HasSubstr("standard input: 2 agents"));
   EXPECT_EQ(plan("stdin.plan.json")["stats"]["instance"], "standard input");
   options_.input = "{";
   EXPECT_THAT(complaint(solve({"-"})), HasSubstr("standard input: line 1, column 2"));
@@ -206,14 +206,14 @@ TEST_F(SolveCommand, SeesThatAPuzzleHasNoPlan) {
 
 // The puzzle's tree would outgrow this in a second.
 TEST_F(SolveCommand, GoesOnAtTheMemoryLimit) {
-  const ProcessResult solved = solve({"puzzle.json", "--policy", "fixed", "--memory-limit", "0.02",
-                                      "--time-limit", "5", "--output", "p.json"});
+  const ProcessResult solved = solve({"puzzle.json", "--policy", "fixed", "--memory-limit", "0.03",
+                                      "--time-limit", "4", "--output", "p.json"});
   EXPECT_EQ(solved.exit_code, 0) << solved.err;
   const json stats = plan("p.json")["stats"];
   EXPECT_EQ(stats["stopped_by"], "time limit");
   EXPECT_GT(stats["nodes_evicted"], 0);
   EXPECT_LT(stats["node_bytes"], 200);
-  EXPECT_LT(stats["peak_memory_mb"], 25);
+  EXPECT_LT(stats["peak_memory_mb"], 35);
   EXPECT_THAT(solved.out, HasSubstr("bytes per node"));
 }
 
