@@ -2,9 +2,15 @@
 // What the tree closes at once needs no other bound, so the tree begins; and a plan comes first.
 // Where there are few agents the tree knows better (measured: findings on 5 to 20 agents with
 // tasks), so it is not tried. Where it is, it has its part of the work until it is over: by itself,
-// when it promises less than is proven already, or when nothing is to be gained any more.
+// when it promises less than is proven already, or when nothing is to be gained any more. A worker
+// that has nothing else to do goes on with it in any case.
+//
+// Where ranks share the search, it is rank 0's, and others find prices for it: at once, for it
+// cannot go on without. All ranks have about as much other work, so its part is that of all of
+// them. With many ranks, then, rank 0 does little else.
 #include "grove/detail/engine/lagrangian_share.h"
 
+#include <stdexcept>
 #include <utility>
 
 namespace grove::detail {
@@ -20,28 +26,94 @@ void LagrangianShare::open(const Instance& instance, const AgentStopsStore& stop
   is_over_ = instance.agent_count() < tuning_.lagrangian_agents;
 }
 
-std::optional<LagrangianBound::Job> LagrangianShare::next(bool has_plan) {
-  if (is_over_) return std::nullopt;
+bool LagrangianShare::due(bool has_plan) const {
+  if (helps_) return true;
+  if (is_over_) return false;
   const std::int64_t others = others_;
   const std::int64_t begin = tuning_.lagrangian_begins_work * (has_plan ? 1 : kPatienceWithoutPlan);
-  if (others < begin ||
-      static_cast<double>(own_) > tuning_.most_lagrangian * static_cast<double>(others))
-    return std::nullopt;
+  const double of_all_ranks = static_cast<double>(others) * ranks_;
+  return others >= begin && static_cast<double>(own_) <= tuning_.most_lagrangian * of_all_ranks;
+}
+
+std::optional<LagrangianBound::Job> LagrangianShare::next() {
+  if (helps_) return help_->next();
+  if (is_over_) return std::nullopt;
   const std::lock_guard lock(making_);
   if (!bound_) {
     bound_ = LagrangianBound::make(*instance_, *stops_, tuning_);
     is_over_ = bound_ == nullptr;
     if (!bound_) return std::nullopt;
+    bound_->set_helpers(ranks_ - 1);
   }
   return bound_->next();
 }
 
+// Null before it was made.
+LagrangianBound* LagrangianShare::bound() const {
+  const std::lock_guard lock(making_);
+  return bound_.get();
+}
+
+bool LagrangianShare::has_jobs() const {
+  if (helps_) return help_->has_jobs();
+  const LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
+  return bound != nullptr && bound->has_jobs();
+}
+
+void LagrangianShare::perform(LagrangianBound::Job& job, Pricer& pricer, Cost cutoff, Cost known,
+                              const Limits& limits) {
+  if (helps_)
+    pricer.perform(job, limits);
+  else
+    bound_->perform(job, pricer, cutoff, known, limits);
+}
+
+Pricer LagrangianShare::pricer(const AgentStopsStore& stops) const {
+  return {helps_ ? help_->tariff() : bound_->tariff(), stops};
+}
+
 Cost LagrangianShare::commit(LagrangianBound::Job job) {
+  if (helps_) {
+    help_->commit(std::move(job));
+    return 0;
+  }
   own_ += job.work;
   bound_->commit(std::move(job));
+  return heard_of_bound();
+}
+
+Cost LagrangianShare::heard_of_bound() {
   rounds_ = bound_->rounds();
   if (bound_->ended()) is_over_ = true;
   return bound_->lower_bound();
+}
+
+std::vector<std::pair<int, PriceShare>> LagrangianShare::share_out() {
+  LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
+  if (bound == nullptr) return {};
+  auto shares = bound->share_out();
+  for (auto& [rank, share] : shares) ++rank;  // rank 0 is no helper
+  return shares;
+}
+
+Cost LagrangianShare::accept(int rank, PriceAnswer answer) {
+  LagrangianBound* const bound = this->bound();
+  if (bound == nullptr || rank < 1 || rank >= ranks_)
+    throw std::invalid_argument("prices of a rank that was not asked");
+  own_ += answer.work;
+  prices_of_ranks_ += bound->accept(rank - 1, std::move(answer));
+  return heard_of_bound();
+}
+
+void LagrangianShare::help(const Instance& instance, PriceShare share) {
+  const std::lock_guard lock(making_);
+  if (!help_) help_ = std::make_unique<PricingHelp>(instance);
+  help_->accept(std::move(share));
+  helps_ = true;
+}
+
+std::optional<PriceAnswer> LagrangianShare::take_answer() {
+  return helps_ ? help_->take_answer() : std::nullopt;
 }
 
 }  // namespace grove::detail
