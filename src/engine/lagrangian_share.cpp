@@ -88,11 +88,16 @@ Cost LagrangianShare::heard_of_bound() {
   return bound_->lower_bound();
 }
 
+// Rank 0 is no helper. What is asked for counts from now on: while others do it there is time for
+// other work here.
 std::vector<std::pair<int, PriceShare>> LagrangianShare::share_out() {
+  std::vector<std::pair<int, PriceShare>> shares;
   LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
-  if (bound == nullptr) return {};
-  auto shares = bound->share_out();
-  for (auto& [rank, share] : shares) ++rank;  // rank 0 is no helper
+  if (bound == nullptr) return shares;
+  for (auto& [helper, work, share] : bound->share_out()) {
+    own_ += asked_of_[static_cast<std::size_t>(helper + 1)] = work;
+    shares.emplace_back(helper + 1, std::move(share));
+  }
   return shares;
 }
 
@@ -100,7 +105,7 @@ Cost LagrangianShare::accept(int rank, PriceAnswer answer) {
   LagrangianBound* const bound = this->bound();
   if (bound == nullptr || rank < 1 || rank >= ranks_)
     throw std::invalid_argument("prices of a rank that was not asked");
-  own_ += answer.work;
+  own_ += answer.work - asked_of_[static_cast<std::size_t>(rank)];
   prices_of_ranks_ += bound->accept(rank - 1, std::move(answer));
   return heard_of_bound();
 }

@@ -160,9 +160,9 @@ void LagrangianBound::end_pricing_if_done() {
 }
 
 // The round cannot end meanwhile, for nobody has these agents yet; so the tariff stays as it is.
-std::vector<std::pair<int, PriceShare>> LagrangianBound::share_out() {
+std::vector<LagrangianBound::Asked> LagrangianBound::share_out() {
   const std::vector<Cut> cuts = cut();
-  std::vector<std::pair<int, PriceShare>> shares;
+  std::vector<Asked> shares;
   for (const Cut& cut : cuts) {
     Helper& helper = helpers_[static_cast<std::size_t>(cut.helper)];
     PriceShare share;
@@ -172,7 +172,7 @@ std::vector<std::pair<int, PriceShare>> LagrangianBound::share_out() {
       share.known.push_back(known_[agent] = known_price(agent));
     share.news = tariff().news_for(helper.charges);
     helper.owes = true;
-    shares.emplace_back(cut.helper, std::move(share));
+    shares.push_back({cut.helper, cut.work, std::move(share)});
   }
   if (cuts.empty()) return shares;
   const std::lock_guard lock(mutex_);
@@ -196,9 +196,9 @@ std::vector<LagrangianBound::Cut> LagrangianBound::cut() {
   for (int helper = 0; std::ssize(cuts) < shares && next_agent_ < end_agent_; ++helper) {
     if (helpers_[static_cast<std::size_t>(helper)].owes) continue;
     const AgentIndex end = end_agent_;
-    for (std::int64_t labels = 0; labels < part && next_agent_ < end_agent_;)
-      labels += labels_[--end_agent_];
-    cuts.push_back({helper, end_agent_, end});
+    std::int64_t labels = 0;
+    while (labels < part && next_agent_ < end_agent_) labels += labels_[--end_agent_];
+    cuts.push_back({helper, end_agent_, end, labels / kLabelsPerWork});
   }
   return cuts;
 }

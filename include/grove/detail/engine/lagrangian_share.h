@@ -44,7 +44,10 @@ class LagrangianShare {
   int rounds() const { return rounds_; }
 
   // On rank 0, before the search: so many ranks share it.
-  void set_ranks(int ranks) { ranks_ = ranks; }
+  void set_ranks(int ranks) {
+    ranks_ = ranks;
+    asked_of_.resize(static_cast<std::size_t>(ranks));
+  }
   // Which ranks to ask for prices now, and for which.
   std::vector<std::pair<int, PriceShare>> share_out();
   // What that rank has found. Proven by now: no plan costs less.
@@ -70,6 +73,7 @@ class LagrangianShare {
   std::atomic<bool> is_over_{true};
   std::atomic<bool> helps_{false};
   int ranks_ = 1;
+  std::vector<std::int64_t> asked_of_;  // by rank: the work that its answer should take
   mutable std::mutex making_;               // guards the making of what follows:
   std::unique_ptr<LagrangianBound> bound_;  // when it is first due
   std::unique_ptr<PricingHelp> help_;       // when help is first asked for; then there is no bound_

@@ -6,7 +6,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "grove/detail/lagrangian/finish_pairs.h"
@@ -45,7 +44,12 @@ class LagrangianBound {
   // There are others, numbered from 0, who may be asked for prices.
   void set_helpers(int count) { helpers_.resize(static_cast<std::size_t>(count)); }
   // Whom to ask now, and what for: those who have answered, if there is enough to be done.
-  std::vector<std::pair<int, PriceShare>> share_out();
+  struct Asked {
+    int helper;
+    std::int64_t work;  // that it will probably take
+    PriceShare share;
+  };
+  std::vector<Asked> share_out();
   // What this one was asked for. Counts if the round is still that one and nobody else has found
   // those prices. Returns how many did.
   int accept(int helper, PriceAnswer answer);
@@ -66,6 +70,7 @@ class LagrangianBound {
     int helper;
     AgentIndex first;
     AgentIndex end;
+    std::int64_t work;  // expected
   };
   struct Helper {
     std::vector<Tariff::Amount> charges;  // that it knows
