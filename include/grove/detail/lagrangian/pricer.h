@@ -25,7 +25,6 @@ struct PriceJob {
   std::vector<Path> paths;  // empty: there is none cheaper
   std::int64_t work = 0;    // in the unit of search/work.h
 };
-constexpr Price kNoPrice = -1;
 
 // What one thread prices agents with. Not of those that others have.
 class Pricer {
