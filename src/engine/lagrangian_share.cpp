@@ -7,7 +7,7 @@
 //
 // Where ranks share the search, it is rank 0's, and others find prices for it: at once, for it
 // cannot go on without. All ranks have about as much other work, so its part is that of all of
-// them. With many ranks, then, rank 0 does little else.
+// them; but rank 0 keeps some of its time for its nodes, for the bound waits for them too.
 #include "grove/detail/engine/lagrangian_share.h"
 
 #include <stdexcept>
@@ -17,6 +17,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kPatienceWithoutPlan = 10;  // times as much work of others
+constexpr double kMostHere = 2;                    // of its own work to other work of rank 0
 
 }  // namespace
 
@@ -31,8 +32,10 @@ bool LagrangianShare::due(bool has_plan) const {
   if (is_over_) return false;
   const std::int64_t others = others_;
   const std::int64_t begin = tuning_.lagrangian_begins_work * (has_plan ? 1 : kPatienceWithoutPlan);
-  const double of_all_ranks = static_cast<double>(others) * ranks_;
-  return others >= begin && static_cast<double>(own_) <= tuning_.most_lagrangian * of_all_ranks;
+  if (others < begin) return false;
+  const double here = static_cast<double>(others);
+  return static_cast<double>(own_) <= tuning_.most_lagrangian * here * ranks_ &&
+         (ranks_ == 1 || static_cast<double>(own_here_) <= kMostHere * here);
 }
 
 std::optional<LagrangianBound::Job> LagrangianShare::next() {
@@ -78,6 +81,7 @@ Cost LagrangianShare::commit(LagrangianBound::Job job) {
     return 0;
   }
   own_ += job.work;
+  own_here_ += job.work;
   bound_->commit(std::move(job));
   return heard_of_bound();
 }

@@ -67,7 +67,8 @@ class LagrangianShare {
   const Instance* instance_ = nullptr;
   std::optional<AgentStopsStore> stops_;
   std::atomic<std::int64_t> others_{0};
-  std::atomic<std::int64_t> own_{0};
+  std::atomic<std::int64_t> own_{0};       // that of other ranks too
+  std::atomic<std::int64_t> own_here_{0};  // without it
   std::atomic<int> rounds_{0};
   std::atomic<std::int64_t> prices_of_ranks_{0};
   std::atomic<bool> is_over_{true};
