@@ -167,7 +167,7 @@ TEST(Threads, FindPricesForEachOther) {
     ASSERT_TRUE(solution.plan);
     EXPECT_TRUE(check(instance, solution).empty());
     EXPECT_LE(solution.lower_bound, solution.plan->cost);
-    EXPECT_GT(solution.stats.counts.at("lagrangian_rounds"), 1);
+    EXPECT_GT(solution.stats.counts.at("lagrangian_rounds"), 0);
     EXPECT_GT(solution.stats.counts.at("prices_of_ranks"), 0);
     EXPECT_TRUE(network.empty());
   }
