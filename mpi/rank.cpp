@@ -52,9 +52,8 @@ void Rank::handle(int from, message::Message&& message) {
                           search_.lagrangian().help(problem_.instance, std::move(ask.share));
                         },
                         [&](message::Prices& prices) {
-                          ledger_.prove(
-                              search_.lagrangian().accept(from, std::move(prices.answer)),
-                              ProvenBy::kLagrangian);
+                          ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
+                                        ProvenBy::kLagrangian);
                         },
                         [&](message::NewTree& tree) {
                           roots_[tree.number] = trees_.add(tree.tree, tree.number);

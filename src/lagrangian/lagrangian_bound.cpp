@@ -33,7 +33,7 @@ namespace {
 constexpr int kMostStops = 10;
 constexpr std::size_t kMostMarkBytes = std::size_t{1} << 26;  // of one agent's search
 constexpr std::size_t kBytesOfMark = 16;
-constexpr std::int64_t kFirstLabels = 2000;  // of an agent, until it is known better
+constexpr std::int64_t kFirstLabels = 2000;            // of an agent, until it is known better
 constexpr std::int64_t kStepsPerWork = 32;             // of paths, counted
 constexpr double kLeastWay = 0.02 * Penalties::kUnit;  // nothing comes of a shorter one
 

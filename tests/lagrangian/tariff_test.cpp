@@ -49,8 +49,9 @@ TEST(Tariff, IsTheSameForWhoWasToldOfIt) {
       for (int i = random.below(6); i > 0; --i)
         tariff.add(random_row(instance.world(), instance.agent_count(), random));
       for (int i = random.below(20); i > 0 && tariff.count() > 0; --i, ++changes)
-        tariff.set_charge(static_cast<Tariff::RowId>(random.below(static_cast<int>(tariff.count()))),
-                          random.pick<int>({0, 1, 63, 64, 8191, 8192, 1 << 16}));
+        tariff.set_charge(
+            static_cast<Tariff::RowId>(random.below(static_cast<int>(tariff.count()))),
+            random.pick<int>({0, 1, 63, 64, 8191, 8192, 1 << 16}));
       if (random.percent(30)) continue;
       copy.learn(tariff.news_for(known));
       ASSERT_EQ(copy.count(), tariff.count());
@@ -100,10 +101,10 @@ TEST(Tariff, RefusesWhatItCannotBeTold) {
   refuses({{{.kind = Kind::kEdge, .a = 0, .b = 0}}, ""});
   refuses({{{.kind = Kind::kFinish, .a = 0, .b = instance.agent_count()}}, ""});
   const RelaxedRow row{.kind = Kind::kPlace};
-  refuses({{row}, std::string{'\x00'}});           // no amount
-  refuses({{row}, std::string{'\x01', '\x02'}});   // no such row
-  refuses({{row}, std::string{'\x00', '\x01'}});   // less than nothing
-  refuses({{row}, std::string(12, '\xff')});       // no end
+  refuses({{row}, std::string{'\x00'}});          // no amount
+  refuses({{row}, std::string{'\x01', '\x02'}});  // no such row
+  refuses({{row}, std::string{'\x00', '\x01'}});  // less than nothing
+  refuses({{row}, std::string(12, '\xff')});      // no end
 }
 
 }  // namespace

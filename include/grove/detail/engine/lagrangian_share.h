@@ -74,7 +74,7 @@ class LagrangianShare {
   std::atomic<bool> is_over_{true};
   std::atomic<bool> helps_{false};
   int ranks_ = 1;
-  std::vector<std::int64_t> asked_of_;  // by rank: the work that its answer should take
+  std::vector<std::int64_t> asked_of_;      // by rank: the work that its answer should take
   mutable std::mutex making_;               // guards the making of what follows:
   std::unique_ptr<LagrangianBound> bound_;  // when it is first due
   std::unique_ptr<PricingHelp> help_;       // when help is first asked for; then there is no bound_

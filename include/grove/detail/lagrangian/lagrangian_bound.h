@@ -111,9 +111,9 @@ class LagrangianBound {
   // Agents are priced here from the first one on, and helpers are asked for the last ones; when
   // there are no others left, also for those not yet answered, from the last one back.
   AgentIndex next_agent_ = 0;
-  AgentIndex end_agent_ = 0;   // not to be asked for any more; from here on helpers are
-  AgentIndex asked_ = 0;       // and were
-  AgentIndex taken_over_ = 0;  // from here on
+  AgentIndex end_agent_ = 0;             // not to be asked for any more; from here on helpers are
+  AgentIndex asked_ = 0;                 // and were
+  AgentIndex taken_over_ = 0;            // from here on
   std::vector<std::uint8_t> is_priced_;  // by agent
   std::vector<Price> known_;             // by agent: what helpers were told
   int unpriced_ = 0;
