@@ -26,9 +26,16 @@
 // anew before it hears of that itself: batches carry their era, and wait. Until a rank's status is
 // of the new era it is not known what it holds.
 //
+// *Prices.* The Lagrangian bound is rank 0's, beside its nodes. It asks other ranks for prices
+// under its multipliers, each for one share of the agents at a time: the next when it has answered.
+// An answer that comes late, or of other multipliers, is dropped there (lagrangian_bound.cpp), and
+// what is missing is found there; so nothing here waits for prices, and no bound depends on the
+// order in which they come. What rank 0 proves by them goes to the coordinator in its statuses.
+//
 // *Leaving.* After End, and what it was ordered before, a rank says farewell and sends nothing
 // more; the coordinator then tells each how many batches were sent to it, so that nothing is left
-// under way.
+// under way. The last question for prices arrives before that, for it was sent before by the same
+// rank, and the last answer before the farewell of who gave it.
 #include "mpi/coordinator.h"
 
 #include <stdexcept>

@@ -2,6 +2,7 @@
 // The ledger where it is in another process.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <optional>
@@ -29,8 +30,9 @@ class LedgerCopy : public Ledger {
   bool over() const override { return over_ || limits_.stop_requested(); }
   Cost cutoff() const override { return cutoff_; }
   std::optional<Plan> plan_below(Cost cost) const override;
-  // That of the nodes here will do to choose among them.
-  Cost lower_bound() const override { return frontier_.bound(); }
+  // Where that of the whole search is not known, that of the nodes here will do to choose among
+  // them.
+  Cost lower_bound() const override { return std::min(known_.load(), frontier_.bound()); }
   // Nobody prunes by the plan before it has been checked.
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, ProvenBy by) override;
@@ -40,6 +42,8 @@ class LedgerCopy : public Ledger {
   std::optional<Found> take_found();
   // What was proven beside the nodes, and by whom.
   std::pair<Cost, ProvenBy> proven() const;
+  // No plan of the whole search costs less.
+  void know(Cost bound) { known_ = bound; }
   // A plan that has been checked.
   void adopt(Plan plan);
   // The run is over.
@@ -50,6 +54,7 @@ class LedgerCopy : public Ledger {
   const Frontier& frontier_;
   std::atomic<bool> over_{false};
   std::atomic<Cost> cutoff_{kInfiniteCost};
+  std::atomic<Cost> known_{kInfiniteCost};
   mutable std::mutex mutex_;
   std::optional<Plan> incumbent_;  // under mutex_, as is found_
   std::optional<Found> found_;

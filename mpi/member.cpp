@@ -23,7 +23,10 @@ bool Member::converse(double now) {
     else
       rank_.handle(parcel->from, std::move(message));
   }
-  if (coordinator_) coordinator_->step();
+  if (coordinator_) {
+    coordinator_->step();
+    rank_.know(coordinator_->lower_bound());
+  }
   rank_.speak(now);
   return heard;
 }

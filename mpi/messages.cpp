@@ -34,7 +34,38 @@ void enumerated(Archive& archive, Enum& value, Enum last) {
   value = static_cast<Enum>(number);
 }
 
+template <class Archive>
+void serialize(Archive& archive, RelaxedRow& row) {
+  enumerated(archive, row.kind, RelaxedRow::Kind::kFinish);
+  archive(row.a, row.b, row.time, row.time_b);
+}
+
+template <class Archive>
+void serialize(Archive& archive, TariffNews& news) {
+  archive(news.rows, news.charges);
+}
+
+template <class Archive>
+void serialize(Archive& archive, PriceShare& share) {
+  archive(share.round, share.first, share.known, share.news);
+}
+
+template <class Archive>
+void serialize(Archive& archive, PriceAnswer& answer) {
+  archive(answer.round, answer.digest, answer.first, answer.prices, answer.paths, answer.work);
+}
+
 namespace message {
+
+template <class Archive>
+void serialize(Archive& archive, AskPrices& ask) {
+  archive(ask.share);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Prices& prices) {
+  archive(prices.answer);
+}
 
 template <class Archive>
 void serialize(Archive& archive, Status& s) {

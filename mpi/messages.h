@@ -13,6 +13,7 @@
 #include "grove/detail/engine/proven_by.h"
 #include "grove/detail/engine/serialise.h"
 #include "grove/detail/engine/survey.h"
+#include "grove/detail/lagrangian/price_share.h"
 #include "grove/detail/model/limits.h"
 #include "grove/detail/primal/plan_source.h"
 #include "grove/detail/search/findings.h"
@@ -40,6 +41,16 @@ struct Status {
   std::vector<Frontier::Level> levels;     // the least ones, of open nodes that the end waits for
   // Of each rank that it has nodes from: how many batches it has taken over.
   std::vector<std::pair<std::int32_t, std::int64_t>> batches;
+};
+
+// Rank 0 to a rank that has answered all that it was asked before: find these prices, at once.
+struct AskPrices {
+  PriceShare share;
+};
+
+// A rank to rank 0: it has.
+struct Prices {
+  PriceAnswer answer;
 };
 
 // Rank to coordinator: a plan, to be checked.
@@ -130,7 +141,7 @@ struct Goodbye {
 
 using Message =
     std::variant<Status, Found, Gathered, Part, Account, Farewell,  // to the coordinator
-                 Batch,                                             // to another rank
+                 Batch, AskPrices, Prices,                          // to another rank
                  NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More, End,
                  Goodbye>;
 

@@ -39,13 +39,22 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       stops_(stops),
       ledger_(limits, nodes_.frontier),
       search_(options, limits, nodes_, ledger_, elsewhere_, unwatched_),
-      trees_(problem, stops_, nodes_.pool) {}
+      trees_(problem, stops_, nodes_.pool) {
+  if (transport.rank() == 0) search_.lagrangian().set_ranks(transport.ranks());
+}
 
 void Rank::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("a message for the coordinator came to a rank");
   };
   std::visit(Overloaded{[&](message::Batch& batch) { take_over(from, batch); },
+                        [&](message::AskPrices& ask) {
+                          search_.lagrangian().help(problem_.instance, std::move(ask.share));
+                        },
+                        [&](message::Prices& prices) {
+                          ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
+                                        ProvenBy::kLagrangian);
+                        },
                         [&](message::NewTree& tree) {
                           roots_[tree.number] = trees_.add(tree.tree, tree.number);
                           take_over_held();
@@ -202,6 +211,7 @@ bool Rank::is_wanted(Cost bound) const {
 // would wait a pause for each doubling.
 void Rank::speak(double now) {
   if (ended_) return;
+  speak_of_prices();
   message::Status status = this->status();
   send_found();
   const bool at_once = urgent_ || status.bound != said_.bound || status.proven != said_.proven ||
@@ -215,6 +225,13 @@ void Rank::speak(double now) {
   said_ = std::move(status);
   said_at_ = now;
   urgent_ = false;
+}
+
+void Rank::speak_of_prices() {
+  for (auto& [rank, share] : search_.lagrangian().share_out())
+    send(rank, message::AskPrices{std::move(share)});
+  if (auto answer = search_.lagrangian().take_answer())
+    send(0, message::Prices{std::move(*answer)});
 }
 
 double Rank::pause(int ranks) {

@@ -41,6 +41,8 @@ class Rank {
 
   // Something that a rank may be told. Throws std::invalid_argument for what cannot be.
   void handle(int from, message::Message&& message);
+  // On rank 0: no plan of the whole search costs less.
+  void know(Cost bound) { ledger_.know(bound); }
   // Says what is new: plans always; where it stands at once if that may matter at once, else not
   // more often than ranks can bear. `now` in seconds of any clock.
   void speak(double now);
@@ -68,6 +70,7 @@ class Rank {
   void gather();
   void send_part();
   void send_found();
+  void speak_of_prices();
   void push(const std::vector<NodeRecord>& records, const std::vector<Finding>& findings);
   void begin_anew(Cost proven);
   message::Status status() const;

@@ -31,8 +31,9 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kDescription =
     R"(Predicts how fast grove-mpi would solve an instance on a machine with many more processors
 than this one has. It really solves the instance, once for each number of ranks: one thread
-plays all ranks in turn, with the engine's own code, on a simulated clock. An expansion takes
-as long as its work takes on this processor, a message what the network's figures below say.
+plays all ranks in turn, with the engine's own code, on a simulated clock. An expansion, or a
+price for the Lagrangian bound, takes as long as its work takes on this processor, a message
+what the network's figures below say.
 So each number of ranks takes about as long to simulate as one thread takes to solve.
 )";
 
@@ -40,7 +41,7 @@ constexpr const char* kFooter =
     R"(The table (CSV, one row per number of ranks; wall_s: simulated seconds):
   speed_up, efficiency        against one rank; efficiency = speed-up / ranks
   nodes_overhead, expanding_overhead
-                              nodes, and time to expand them, beyond those of one rank
+                              nodes, and time to work on them and on prices, beyond those of one rank
   messages..., bytes..., nodes_sent
                               sent by all ranks
   talking_share               of the ranks' time, sending and receiving
@@ -91,7 +92,7 @@ void add_options(CLI::App& app, SimArguments& a) {
              "seconds between two looks of a rank at the network")
       ->type_name("S");
   add_number(app, "--cost-per-work", a.machine.seconds_per_work, 0, 1e3,
-             "seconds that a unit of an expansion's work takes; 0: what it takes here")
+             "seconds that a unit of work takes; 0: what it takes here")
       ->type_name("S");
   a.solve.instance.add_rules_to(app);
   add_omega_option(app, a.solve);

@@ -13,7 +13,7 @@ void SimulatedWorker::begin(double now, Expander& expander) {
   worker_.perform(*turn_, expander);
   Worker::publish(*turn_);  // nobody else on this rank asks before this turn has ended
   const double processor_s = processor_time() - before_s;
-  const double work = expander.whole_work() - before;
+  const double work = expander.whole_work() - before + static_cast<double>(turn_->lagrangian.work);
   const double takes_s =
       machine_.seconds_per_work > 0 ? work * machine_.seconds_per_work : processor_s;
   began_ = now;

@@ -70,7 +70,10 @@ struct SimulatedRank {
         first_look(setting.machine.poll * (rank * kGoldenRatio - std::floor(rank * kGoldenRatio))) {
   }
 
-  bool has_open_nodes() { return member.rank().nodes().frontier.open() > 0; }
+  bool has_work() {
+    return member.rank().nodes().frontier.open() > 0 ||
+           member.rank().search().lagrangian().has_jobs();
+  }
 
   Limits limits;  // of its own, for ranks end one after the other
   TimedTransport transport;
@@ -167,7 +170,7 @@ class Simulation {
     if (const double next = setting_.network.next_arrival(rank); next < kNotDue)
       talk_from(next, rank);
     if (r.silent_until > time) talk_from(r.silent_until, rank);
-    if (!r.said_farewell && !r.player.busy() && r.has_open_nodes())
+    if (!r.said_farewell && !r.player.busy() && r.has_work())
       foresee(r.talks_until, rank, Who::kWorker);
     if (!r.said_farewell || r.left || !r.member.left()) return;
     r.left = true;

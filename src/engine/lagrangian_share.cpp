@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
 // What the tree closes at once needs no other bound, so the tree begins; and a plan comes first.
-// Where there are few agents the tree knows better (see lagrangian_agents), so it is not tried.
-// Where it is, it has its part of the work until it is over: by itself,
-// when it promises less than is proven already, or when nothing is to be gained any more.
+// Where there are few agents the tree knows better (see lagrangian_agents),
+// so it is not tried. Where it is, it has its part of the work until it is over: by itself,
+// when it promises less than is proven already, or when nothing is to be gained any more. A worker
+// that has nothing else to do goes on with it in any case.
+//
+// Where ranks share the search, it is rank 0's, and others find prices for it: at once, for it
+// cannot go on without. All ranks have about as much other work, so its part is that of all of
+// them; but rank 0 keeps some of its time for its nodes, for the bound waits for them too.
 #include "grove/detail/engine/lagrangian_share.h"
 
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kPatienceWithoutPlan = 10;  // times as much work of others
+constexpr double kMostHere = 4;                    // of its own work to other work of rank 0
 
 }  // namespace
 
@@ -21,13 +28,20 @@ void LagrangianShare::open(const Instance& instance, const AgentStopsStore& stop
   is_over_ = instance.agent_count() < tuning_.lagrangian_agents;
 }
 
-std::optional<LagrangianBound::Job> LagrangianShare::next(bool has_plan) {
-  if (is_over_) return std::nullopt;
+bool LagrangianShare::due(bool has_plan) const {
+  if (helps_) return true;
+  if (is_over_) return false;
   const std::int64_t others = others_;
   const std::int64_t begin = tuning_.lagrangian_begins_work * (has_plan ? 1 : kPatienceWithoutPlan);
-  if (others < begin ||
-      static_cast<double>(own_) > tuning_.most_lagrangian * static_cast<double>(others))
-    return std::nullopt;
+  if (others < begin) return false;
+  const double here = static_cast<double>(others);
+  return static_cast<double>(own_) <= tuning_.most_lagrangian * here * ranks_ &&
+         (ranks_ == 1 || static_cast<double>(own_here_) <= kMostHere * here);
+}
+
+std::optional<LagrangianBound::Job> LagrangianShare::next() {
+  if (helps_) return help_->next();
+  if (is_over_) return std::nullopt;
   const std::lock_guard lock(making_);
   if (!bound_) make();
   return bound_ ? bound_->next() : std::nullopt;
@@ -37,17 +51,85 @@ std::optional<LagrangianBound::Job> LagrangianShare::next(bool has_plan) {
 void LagrangianShare::make() {
   try {
     bound_ = LagrangianBound::make(*instance_, *stops_, tuning_);
+    if (bound_) bound_->set_helpers(ranks_ - 1);
   } catch (const std::bad_alloc&) {
+    bound_.reset();
   }
   is_over_ = bound_ == nullptr;
 }
 
+// Null before it was made.
+LagrangianBound* LagrangianShare::bound() const {
+  const std::lock_guard lock(making_);
+  return bound_.get();
+}
+
+bool LagrangianShare::has_jobs() const {
+  if (helps_) return help_->has_jobs();
+  const LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
+  return bound != nullptr && bound->has_jobs();
+}
+
+void LagrangianShare::perform(LagrangianBound::Job& job, Pricer& pricer, Cost cutoff, Cost known,
+                              const Limits& limits) {
+  if (helps_)
+    pricer.perform(job, limits);
+  else
+    bound_->perform(job, pricer, cutoff, known, limits);
+}
+
+Pricer LagrangianShare::pricer(const AgentStopsStore& stops) const {
+  return {helps_ ? help_->tariff() : bound_->tariff(), stops};
+}
+
 Cost LagrangianShare::commit(LagrangianBound::Job job) {
+  if (helps_) {
+    help_->commit(std::move(job));
+    return 0;
+  }
   own_ += job.work;
+  own_here_ += job.work;
   bound_->commit(std::move(job));
+  return heard_of_bound();
+}
+
+Cost LagrangianShare::heard_of_bound() {
   rounds_ = bound_->rounds();
   if (bound_->ended()) is_over_ = true;
   return bound_->lower_bound();
+}
+
+// Rank 0 is no helper. What is asked for counts from now on: while others do it there is time for
+// other work here.
+std::vector<std::pair<int, PriceShare>> LagrangianShare::share_out() {
+  std::vector<std::pair<int, PriceShare>> shares;
+  LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
+  if (bound == nullptr) return shares;
+  for (auto& [helper, work, share] : bound->share_out()) {
+    own_ += asked_of_[static_cast<std::size_t>(helper + 1)] = work;
+    shares.emplace_back(helper + 1, std::move(share));
+  }
+  return shares;
+}
+
+Cost LagrangianShare::accept(int rank, PriceAnswer answer) {
+  LagrangianBound* const bound = this->bound();
+  if (bound == nullptr || rank < 1 || rank >= ranks_)
+    throw std::invalid_argument("prices of a rank that was not asked");
+  own_ += answer.work - asked_of_[static_cast<std::size_t>(rank)];
+  prices_of_ranks_ += bound->accept(rank - 1, std::move(answer));
+  return heard_of_bound();
+}
+
+void LagrangianShare::help(const Instance& instance, PriceShare share) {
+  const std::lock_guard lock(making_);
+  if (!help_) help_ = std::make_unique<PricingHelp>(instance);
+  help_->accept(std::move(share));
+  helps_ = true;
+}
+
+std::optional<PriceAnswer> LagrangianShare::take_answer() {
+  return helps_ ? help_->take_answer() : std::nullopt;
 }
 
 }  // namespace grove::detail

@@ -68,13 +68,17 @@ std::optional<Worker::Turn> Worker::choose() {
   };
   shared_.keep_within_memory();
   if (joint_->due() && !shared_.over()) return one(Job::kJoint);
-  if (auto job = shared_.over()
-                     ? std::nullopt
-                     : shared_.lagrangian().next(shared_.ledger().cutoff() < kInfiniteCost)) {
-    auto turn = one(Job::kLagrangian);
-    turn->lagrangian = std::move(*job);
+  const auto lagrangian = [&] {
+    std::optional<Turn> turn;
+    if (shared_.over()) return turn;
+    if (auto job = shared_.lagrangian().next()) {
+      turn = one(Job::kLagrangian);
+      turn->lagrangian = std::move(*job);
+    }
     return turn;
-  }
+  };
+  if (shared_.lagrangian().due(shared_.ledger().cutoff() < kInfiniteCost))
+    if (auto turn = lagrangian()) return turn;
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
   if (has_primal && share_->may_begin() && share_->due(primal())) return one(Job::kPrimal);
   if (NodePtr node = shared_.take()) return one(Job::kExpand, std::move(node));
@@ -82,7 +86,7 @@ std::optional<Worker::Turn> Worker::choose() {
     return one(Job::kHelp, std::move(node));
   if (has_primal && !shared_.over() && !primal().optimal()) return one(Job::kPrimal);
   if (shared_.trees().claim_preparation()) return one(Job::kPrepare);
-  return std::nullopt;
+  return lagrangian();
 }
 
 // The primal search, which knows the incumbent.

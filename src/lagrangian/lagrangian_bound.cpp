@@ -11,6 +11,13 @@
 // the sum each price must have been found under one and the same multipliers: they are moved only
 // when no job is in hand.
 //
+// Helpers, in other processes, have copies of the multipliers. What they answer names its
+// multipliers by their digest (tariff.h) and counts only while that is the digest here, in a round
+// that still lacks those prices; so it does not matter for the bound how late an answer is, nor
+// what helpers were told. What a helper has been told of a path's price only ends its search
+// earlier, at a price that is not above. Nobody waits for a helper: prices that are not there when
+// all others are, are found here.
+//
 // For how far to go see level_ascent.h; the direction is what the cheapest paths use of each row
 // beyond once - a subgradient - smoothed, for one step alone is blind for what the last one did.
 #include "grove/detail/lagrangian/lagrangian_bound.h"
@@ -21,28 +28,17 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/lagrangian/least_cost.h"
-
 namespace grove::detail {
 namespace {
 
 constexpr int kMostStops = 10;
 constexpr std::size_t kMostMarkBytes = std::size_t{1} << 26;  // of one agent's search
 constexpr std::size_t kBytesOfMark = 16;
-constexpr std::int64_t kLabelsPerWork = 2;   // see search/work.h
-constexpr std::int64_t kFirstLabels = 2000;  // of an agent, until it is known better
-constexpr std::int64_t kMostLabels = std::int64_t{1} << 23;
+constexpr std::int64_t kFirstLabels = 2000;            // of an agent, until it is known better
 constexpr std::int64_t kStepsPerWork = 32;             // of paths, counted
 constexpr double kLeastWay = 0.02 * Penalties::kUnit;  // nothing comes of a shorter one
 
 }  // namespace
-
-FreeGoals& Pricer::goals(AgentIndex agent) {
-  if (static_cast<std::size_t>(agent) >= goals_.size()) goals_.resize(agent + std::size_t{1});
-  if (!goals_[agent])
-    goals_[agent] = std::make_unique<FreeGoals>(stops_.of(agent), SequenceClass{});
-  return *goals_[agent];
-}
 
 std::unique_ptr<LagrangianBound> LagrangianBound::make(const Instance& instance,
                                                        const AgentStopsStore& stops,
@@ -70,21 +66,49 @@ LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsStore
       ascent_(tuning),
       paths_(static_cast<std::size_t>(instance.agent_count())),
       prices_(paths_.size()),
-      labels_(paths_.size(), kFirstLabels) {}
+      labels_(paths_.size(), kFirstLabels),
+      is_priced_(paths_.size()),
+      known_(paths_.size()) {
+  begin_pricing();
+}
+
+void LagrangianBound::begin_pricing() {
+  next_agent_ = 0;
+  end_agent_ = asked_ = taken_over_ = instance_.agent_count();
+  unpriced_ = instance_.agent_count();
+  std::ranges::fill(is_priced_, std::uint8_t{0});
+}
 
 std::optional<LagrangianBound::Job> LagrangianBound::next() {
   const std::lock_guard lock(mutex_);
-  if (phase_ == Phase::kEnded || (phase_ == Phase::kBetween && in_hand_ > 0)) return std::nullopt;
+  std::optional<Job> job;
+  if (phase_ == Phase::kPricing) job = next_price();
+  if (phase_ == Phase::kBetween && in_hand_ == 0) job.emplace();
+  if (job) ++in_hand_;
+  return job;
+}
+
+bool LagrangianBound::has_jobs() const {
+  const std::lock_guard lock(mutex_);
+  return phase_ == Phase::kPricing ? next_agent_ < end_agent_ || asked_ < taken_over_
+                                   : phase_ == Phase::kBetween && in_hand_ == 0;
+}
+
+std::optional<LagrangianBound::Job> LagrangianBound::next_price() {
+  const std::int64_t most = tuning_.lagrangian_step_work * kLabelsPerWork;
+  std::int64_t labels = 0;
   Job job;
-  if (phase_ == Phase::kPricing) {
-    if (next_agent_ == instance_.agent_count()) return std::nullopt;
-    job.first = job.end = next_agent_;
-    for (std::int64_t labels = 0; job.end < instance_.agent_count() &&
-                                  labels < tuning_.lagrangian_step_work * kLabelsPerWork;)
-      labels += labels_[job.end++];
-    next_agent_ = job.end;
-  }
-  ++in_hand_;
+  job.first = job.end = next_agent_;
+  while (job.end < end_agent_ && labels < most) labels += labels_[job.end++];
+  next_agent_ = job.end;
+  if (job.first < job.end) return job;
+  while (taken_over_ > asked_ && is_priced_[taken_over_ - 1]) --taken_over_;
+  job.first = job.end = taken_over_;
+  while (job.first > asked_ && !is_priced_[job.first - 1] && labels < most)
+    labels += labels_[--job.first];
+  taken_over_ = job.first;
+  if (job.first == job.end) return std::nullopt;
+  job.known.assign(known_.begin() + job.first, known_.begin() + job.end);
   return job;
 }
 
@@ -101,46 +125,15 @@ void LagrangianBound::perform(Job& job, Pricer& pricer, Cost cutoff, Cost known,
 
 void LagrangianBound::do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known,
                                  const Limits& limits) {
-  if (job.first < job.end)
-    price(job, pricer, limits);
-  else
-    end_round(job, cutoff, known, limits);
+  if (job.first == job.end) return end_round(job, cutoff, known, limits);
+  for (auto agent = job.first + static_cast<AgentIndex>(job.known.size()); agent < job.end; ++agent)
+    job.known.push_back(known_price(agent));
+  pricer.perform(job, limits);
 }
 
-void LagrangianBound::price(Job& job, Pricer& pricer, const Limits& limits) const {
-  for (AgentIndex agent = job.first; agent < job.end; ++agent) {
-    FreeGoals& goals = pricer.goals(agent);
-    const std::int64_t labels = pricer.search().labels();
-    Path path;
-    job.prices.push_back(paths_[agent].empty()
-                             ? first_price(agent, goals, pricer.search(), limits, path)
-                             : price_below(rows_.price(agent, paths_[agent]), agent, goals,
-                                           pricer.search(), limits, path));
-    job.paths.push_back(std::move(path));
-    job.work += (pricer.search().labels() - labels) / kLabelsPerWork + 1;
-  }
-}
-
-// No path is known that would say where to stop, but hardly any costs more than the least.
-Price LagrangianBound::first_price(AgentIndex agent, FreeGoals& goals, PenalizedSearch& search,
-                                   const Limits& limits, Path& path) const {
-  const Price least = Price{least_cost(goals, limits)} * Penalties::kUnit;
-  Price price = 0;
-  for (Price more = Penalties::kUnit; path.empty(); more *= 4) {
-    const Price below = std::min(least + more, PenalizedSearch::kMostPrice);
-    price = price_below(below, agent, goals, search, limits, path);
-    if (price < below || below == PenalizedSearch::kMostPrice) break;
-  }
-  return price;
-}
-
-Price LagrangianBound::price_below(Price below, AgentIndex agent, FreeGoals& goals,
-                                   PenalizedSearch& search, const Limits& limits,
-                                   Path& path) const {
-  Completions& completions = goals.completions();
-  if (Price{completions.beyond()} * Penalties::kUnit < below)
-    completions.widen(static_cast<Time>(below / Penalties::kUnit), limits);
-  return search.search(goals, rows_.on_finish(agent), below, kMostLabels, limits, &path);
+// Of the path that it has, under the multipliers of this round.
+Price LagrangianBound::known_price(AgentIndex agent) const {
+  return paths_[agent].empty() ? kNoPrice : tariff().price(agent, paths_[agent]);
 }
 
 void LagrangianBound::commit(Job job) {
@@ -148,19 +141,106 @@ void LagrangianBound::commit(Job job) {
   --in_hand_;
   if (job.failed) phase_ = Phase::kEnded;
   if (phase_ == Phase::kEnded) return;
+  if (job.first == job.end) {
+    work_between_ += job.work;
+    return;
+  }
   for (AgentIndex agent = job.first; agent < job.end; ++agent) {
     const auto at = static_cast<std::size_t>(agent - job.first);
-    prices_[agent] = job.prices[at];
     labels_[agent] = job.work * kLabelsPerWork / (job.end - job.first);
-    if (!job.paths[at].empty()) paths_[agent] = std::move(job.paths[at]);
+    take_price(agent, job.prices[at], std::move(job.paths[at]));
   }
-  if (phase_ == Phase::kPricing && next_agent_ == instance_.agent_count() && in_hand_ == 0) {
-    phase_ = Phase::kBetween;
-    ++rounds_;
-    const Price bound =
-        std::accumulate(prices_.begin(), prices_.end(), Price{0}) - rows_.sum_of_multipliers();
-    best_ = std::max(best_, bound);
+  end_pricing_if_done();
+}
+
+// If it is the first one: of helpers and of those here who did not wait for them.
+bool LagrangianBound::take_price(AgentIndex agent, Price price, Path path) {
+  if (is_priced_[agent]) return false;
+  is_priced_[agent] = 1;
+  --unpriced_;
+  prices_[agent] = price;
+  if (!path.empty()) paths_[agent] = std::move(path);
+  return true;
+}
+
+void LagrangianBound::end_pricing_if_done() {
+  if (phase_ != Phase::kPricing || unpriced_ > 0 || in_hand_ > 0) return;
+  phase_ = Phase::kBetween;
+  ++rounds_;
+  work_between_ = 0;
+  const Price bound =
+      std::accumulate(prices_.begin(), prices_.end(), Price{0}) - tariff().sum_of_charges();
+  best_ = std::max(best_, bound);
+}
+
+// The round cannot end meanwhile, for nobody has these agents yet; so the tariff stays as it is.
+std::vector<LagrangianBound::Asked> LagrangianBound::share_out() {
+  const std::vector<Cut> cuts = cut();
+  std::vector<Asked> shares;
+  for (const Cut& cut : cuts) {
+    Helper& helper = helpers_[static_cast<std::size_t>(cut.helper)];
+    PriceShare share;
+    share.round = rounds_;
+    share.first = cut.first;
+    for (AgentIndex agent = cut.first; agent < cut.end; ++agent)
+      share.known.push_back(known_[agent] = known_price(agent));
+    share.news = tariff().news_for(helper.charges);
+    helper.owes = true;
+    shares.push_back({cut.helper, cut.work, std::move(share)});
   }
+  if (cuts.empty()) return shares;
+  const std::lock_guard lock(mutex_);
+  asked_ = cuts.back().first;
+  return shares;
+}
+
+// So that all have about as much to do, counting what is done here alone between two rounds; and
+// nobody so little that a message is not worth it.
+std::vector<LagrangianBound::Cut> LagrangianBound::cut() {
+  const std::lock_guard lock(mutex_);
+  std::vector<Cut> cuts;
+  if (phase_ != Phase::kPricing) return cuts;
+  const auto idle = std::ranges::count(helpers_, false, &Helper::owes);
+  const std::int64_t least = tuning_.lagrangian_share_work;
+  const std::int64_t left = idle > 0 ? work_left() : 0;
+  const std::int64_t shares = std::min<std::int64_t>(idle, left / least - 1);
+  if (shares <= 0) return cuts;
+  const std::int64_t between = std::exchange(work_between_, 0);
+  const std::int64_t part = std::max(least, (left + between) / (shares + 1)) * kLabelsPerWork;
+  for (int helper = 0; std::ssize(cuts) < shares && next_agent_ < end_agent_; ++helper) {
+    if (helpers_[static_cast<std::size_t>(helper)].owes) continue;
+    const AgentIndex end = end_agent_;
+    std::int64_t labels = 0;
+    while (labels < part && next_agent_ < end_agent_) labels += labels_[--end_agent_];
+    cuts.push_back({helper, end_agent_, end, labels / kLabelsPerWork});
+  }
+  return cuts;
+}
+
+// Of the agents that nobody has been asked for, by what they took last.
+std::int64_t LagrangianBound::work_left() const {
+  return std::accumulate(labels_.begin() + next_agent_, labels_.begin() + end_agent_,
+                         std::int64_t{0}) /
+         kLabelsPerWork;
+}
+
+int LagrangianBound::accept(int helper, PriceAnswer answer) {
+  helpers_.at(static_cast<std::size_t>(helper)).owes = false;
+  const std::lock_guard lock(mutex_);
+  if (phase_ != Phase::kPricing || answer.round != rounds_ || answer.digest != tariff().digest())
+    return 0;
+  const auto agents = static_cast<AgentIndex>(answer.prices.size());
+  if (agents == 0 || answer.paths.size() != answer.prices.size() || answer.first < asked_ ||
+      answer.first > instance_.agent_count() - agents)
+    throw std::invalid_argument("prices that nobody has asked for");
+  int counted = 0;
+  for (AgentIndex i = 0; i < agents; ++i) {
+    labels_[answer.first + i] = answer.work * kLabelsPerWork / agents;
+    counted += take_price(answer.first + i, answer.prices[static_cast<std::size_t>(i)],
+                          std::move(answer.paths[static_cast<std::size_t>(i)]));
+  }
+  end_pricing_if_done();
+  return counted;
 }
 
 // In parts: pairs are dear.
@@ -200,7 +280,7 @@ void LagrangianBound::look_at_pairs(Job& job, const Limits& limits) {
 
 void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const Price bound =
-      std::accumulate(prices_.begin(), prices_.end(), Price{0}) - rows_.sum_of_multipliers();
+      std::accumulate(prices_.begin(), prices_.end(), Price{0}) - tariff().sum_of_charges();
   const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_memory);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;
   if (squares > 0) rows_.go(ascent_.step(static_cast<double>(bound), most, squares));
@@ -210,7 +290,7 @@ void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
       rounds_ > tuning_.lagrangian_trial && hoped < static_cast<double>(known) * Penalties::kUnit;
   const bool is_over = squares <= 0 || ascent_.way() < kLeastWay || is_futile;
   phase_ = is_over ? Phase::kEnded : Phase::kPricing;
-  next_agent_ = 0;
+  begin_pricing();
 }
 
 bool LagrangianBound::ended() const {

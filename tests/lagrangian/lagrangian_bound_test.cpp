@@ -31,7 +31,7 @@ class LagrangianBoundTest : public ::testing::Test {
   static Cost bound_of(Known& known, const Tuning& tuning, int rounds, Cost optimum) {
     const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
     if (!bound) return 0;
-    Pricer pricer(bound->penalties(), known.stops);
+    Pricer pricer(bound->tariff(), known.stops);
     while (!bound->ended() && bound->rounds() < rounds) {
       auto job = bound->next();
       if (!job) {

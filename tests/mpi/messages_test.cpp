@@ -46,10 +46,44 @@ TEST(Messages, TellWhatARankHasDone) {
   EXPECT_EQ(sum.memory.nodes, 2);
 }
 
+message::AskPrices some_question() {
+  message::AskPrices ask;
+  ask.share.round = 7;
+  ask.share.first = 2;
+  ask.share.known = {4096, kNoPrice};
+  ask.share.news.rows = {{.kind = RelaxedRow::Kind::kEdge, .a = 3, .b = 4, .time = 9}};
+  ask.share.news.charges = std::string("\x00\x05", 2);
+  return ask;
+}
+
+TEST(Messages, AskForPricesAndTellThem) {
+  const auto share =
+      std::get<message::AskPrices>(message::message_of(bytes_of(some_question()))).share;
+  EXPECT_EQ(share.round, 7);
+  EXPECT_EQ(share.first, 2);
+  EXPECT_EQ(share.known, some_question().share.known);
+  EXPECT_EQ(share.news.rows, some_question().share.news.rows);
+  EXPECT_EQ(share.news.charges, some_question().share.news.charges);
+  message::Prices sent;
+  sent.answer.round = 7;
+  sent.answer.digest = 0xfedcba9876543210;
+  sent.answer.first = 2;
+  sent.answer.prices = {4095, 0};
+  sent.answer.paths = {{1, 2, 3}, {}};
+  sent.answer.work = 11;
+  const auto answer = std::get<message::Prices>(message::message_of(bytes_of(sent))).answer;
+  EXPECT_EQ(answer.round, 7);
+  EXPECT_EQ(answer.digest, 0xfedcba9876543210);
+  EXPECT_EQ(answer.first, 2);
+  EXPECT_EQ(answer.prices, sent.answer.prices);
+  EXPECT_EQ(answer.paths, sent.answer.paths);
+  EXPECT_EQ(answer.work, 11);
+}
+
 TEST(Messages, AreRefusedWhenCutShort) {
-  const std::string whole = bytes_of(some_status());
-  for (std::size_t length = 0; length < whole.size(); ++length)
-    EXPECT_THROW(message::message_of(whole.substr(0, length)), std::invalid_argument) << length;
+  for (const std::string& whole : {bytes_of(some_status()), bytes_of(some_question())})
+    for (std::size_t length = 0; length < whole.size(); ++length)
+      EXPECT_THROW(message::message_of(whole.substr(0, length)), std::invalid_argument) << length;
 }
 
 TEST(Messages, NoiseIsRefusedOrTakenForOtherValues) {

@@ -114,6 +114,29 @@ TEST(Simulator, NoMachineMakesAWrongAnswer) {
     }
 }
 
+TEST(Simulator, RanksFindPricesForRankZero) {
+  const Machine quick{
+      .latency = 0, .bandwidth = 1e15, .message_cost = 0, .poll = 0, .seconds_per_work = 1e-6};
+  std::int64_t prices = 0;
+  for (const Case& c : cases())
+    for (const int ranks : {1, 3, 16}) {
+      SolveOptions options = with_start(c);
+      options.techniques = options.techniques.with(Technique::kLagrangian);
+      options.tuning.lagrangian_agents = 1;
+      options.tuning.lagrangian_begins_work = 0;
+      options.tuning.lagrangian_share_work = options.tuning.lagrangian_step_work = 1;
+      const SimulatedRun run = run_of(c, options, ranks, quick);
+      ASSERT_TRUE(run.ended);
+      EXPECT_EQ(run.solution.status, Status::kOptimal);
+      EXPECT_EQ(run.solution.lower_bound, c.truth.lower_bound);
+      const auto& counts = run.solution.stats.counts;
+      EXPECT_GT(counts.at("lagrangian_rounds"), 0);
+      EXPECT_TRUE(ranks > 1 || !counts.contains("prices_of_ranks"));
+      if (ranks > 1) prices += counts.at("prices_of_ranks");
+    }
+  EXPECT_GT(prices, 100);
+}
+
 TEST(Simulator, TheSameFiguresMakeTheSameRun) {
   const Case& c = cases().front();
   const auto table = [&] {

@@ -15,6 +15,7 @@
 
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/engine/solve.h"
+#include "grove/detail/model/check.h"
 #include "grove/detail/search/problem.h"
 #include "mpi/solve_distributed.h"
 #include "tests/primal/crowd.h"
@@ -149,6 +150,29 @@ TEST(Threads, FindTheOptimumInOneTree) {
 
 TEST(Threads, FindTheOptimumInManyTrees) {
   expect_optima(Policy::kFixed, {Technique::kTarget, Technique::kStrongBranching});
+}
+
+// A crowd, which nobody solves so soon. What is proven is below a plan that was checked.
+TEST(Threads, FindPricesForEachOther) {
+  const Instance instance =
+      random_crowd({.size = 20, .obstacles = 20, .agents = 120, .tasks = 0}, 1);
+  std::int64_t prices = 0;
+  for (const int threads : {1, 2}) {
+    SolveOptions options = poor(threads, Policy::kFree, Techniques::usual());
+    options.tuning.lagrangian_begins_work = 0;
+    options.tuning.lagrangian_share_work = 1000;
+    ThreadNetwork network(3, std::chrono::microseconds(1000), 1);
+    Limits limits;
+    limits.set_deadline(Clock::now() + std::chrono::milliseconds(1500));
+    const Solution solution = solve_by_ranks(instance, options, 3, network, limits);
+    ASSERT_TRUE(solution.plan);
+    EXPECT_TRUE(check(instance, solution).empty());
+    EXPECT_LE(solution.lower_bound, solution.plan->cost);
+    const auto found = solution.stats.counts.find("prices_of_ranks");
+    if (found != solution.stats.counts.end()) prices += found->second;
+    EXPECT_TRUE(network.empty());
+  }
+  EXPECT_GT(prices, 0);
 }
 
 }  // namespace threads_test

@@ -166,7 +166,9 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     options.tuning.lagrangian_agents = 1;
     options.tuning.lagrangian_begins_work = 0;
     options.tuning.lagrangian_step_work = 1;
-    options.tuning.most_lagrangian = 2;
+    options.tuning.lagrangian_share_work = 1;
+    options.tuning.most_lagrangian = dice.pick<double>({0.1, 2, 50});
+    options.tuning.lagrangian_level = dice.pick<double>({0.02, 0.2});
   }
   if (dice.percent(20)) options.policy = Policy::kFixed;
   if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
@@ -217,6 +219,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     tally.nodes += stats.at("nodes_expanded");
     tally.batches += stats.at("batches");
     tally.restarts += stats.at("restarts");
+    if (stats.contains("prices_of_ranks")) tally.prices += stats.at("prices_of_ranks");
   }
   return wrong;
 }

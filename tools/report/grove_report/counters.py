@@ -13,6 +13,7 @@ LABELS = {
     "pair_expansions": "nodes in searches over pairs and groups of agents",
     "joint_states": "states of all agents together",
     "lagrangian_rounds": "rounds of prices",
+    "prices_of_ranks": "prices that other ranks have found",
     "joint_pairs": "pairs of places in two sets of optimal paths",
     "low_level_expanded": "labels of single-agent searches",
     "prices": "costs under one constraint more",

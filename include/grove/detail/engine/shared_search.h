@@ -45,7 +45,9 @@ class SharedSearch {
   // A node, perhaps in other hands, that came back unfinished last; null if it has been finished.
   NodePtr unfinished() const;
   // Is there something for an idle worker to take, or to find out?
-  bool may_take() const { return frontier_.open() > 0 || frontier_.live() == 0; }
+  bool may_take() const {
+    return frontier_.open() > 0 || frontier_.live() == 0 || lagrangian_.has_jobs();
+  }
 
   // Is more proven beside the tree than by its nodes?
   bool tree_is_behind() const { return frontier_.bound() < ledger_.lower_bound(); }

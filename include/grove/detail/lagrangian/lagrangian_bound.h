@@ -11,31 +11,18 @@
 #include "grove/detail/lagrangian/encounters.h"
 #include "grove/detail/lagrangian/finish_pairs.h"
 #include "grove/detail/lagrangian/level_ascent.h"
-#include "grove/detail/lagrangian/penalized_search.h"
+#include "grove/detail/lagrangian/price_share.h"
+#include "grove/detail/lagrangian/pricer.h"
 #include "grove/detail/lagrangian/relaxed_rows.h"
 #include "grove/detail/model/tuning.h"
 #include "grove/detail/planning/agent_stops_store.h"
 
 namespace grove::detail {
 
-// What one thread prices agents with. Not of those that others have.
-class Pricer {
- public:
-  Pricer(const Penalties& penalties, const AgentStopsStore& stops)
-      : stops_(stops), search_(penalties) {}
-
-  FreeGoals& goals(AgentIndex agent);
-  PenalizedSearch& search() { return search_; }
-
- private:
-  AgentStopsStore stops_;
-  PenalizedSearch search_;
-  std::vector<std::unique_ptr<FreeGoals>> goals_;  // by agent
-};
-
 // The instance at the root, without any demand. Rounds of jobs: every agent gets its price, which
-// any number of threads may find side by side; then the multipliers are moved. What happens depends
-// on no clock and on no order in which jobs end. Methods may be called from any thread.
+// any number of threads may find side by side, and other processes; then the multipliers are moved.
+// What happens depends on no clock and on no order in which jobs end. Methods may be called from
+// any thread, but those about helpers: these by one.
 class LagrangianBound {
  public:
   // None: not for this method, for an agent may have done too many things to keep a price for each.
@@ -43,40 +30,62 @@ class LagrangianBound {
   static std::unique_ptr<LagrangianBound> make(const Instance& instance,
                                                const AgentStopsStore& stops, const Tuning& tuning);
 
-  // What is done at one go: the prices of some agents, or a part of what follows in a round.
-  struct Job {
-    AgentIndex first = 0;
-    AgentIndex end = 0;  // none to price: the other thing
-    std::vector<Price> prices;
-    std::vector<Path> paths;  // empty: as before
-    std::int64_t work = 0;    // in the unit of search/work.h
-    bool failed = false;      // memory was refused: nothing of it counts
-  };
+  // What is done at one go: the prices of some agents, or, if of none, a part of what follows in a
+  // round.
+  using Job = PriceJob;
   // The next one; none: all are in hand, or it has ended. Whoever takes one performs it and commits
   // it.
   std::optional<Job> next();
+  bool has_jobs() const;
   // `cutoff`: plans that cost so much or more are of no interest. `known`: no plan costs less.
   // Where memory is refused it ends, and keeps the bound that it has.
   void perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void commit(Job job);
+
+  // There are others, numbered from 0, who may be asked for prices.
+  void set_helpers(int count) { helpers_.resize(static_cast<std::size_t>(count)); }
+  // Whom to ask now, and what for: those who have answered, if there is enough to be done.
+  struct Asked {
+    int helper;
+    std::int64_t work;  // that it will probably take
+    PriceShare share;
+  };
+  std::vector<Asked> share_out();
+  // What this one was asked for. Counts if the round is still that one and nobody else has found
+  // those prices. Returns how many did.
+  int accept(int helper, PriceAnswer answer);
 
   // Nothing is to be gained any more.
   bool ended() const;
   // Proven: no plan costs less.
   Cost lower_bound() const;
   int rounds() const;
-  const Penalties& penalties() const { return rows_.penalties(); }
+  const Tariff& tariff() const { return rows_.tariff(); }
 
  private:
   enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };
 
   LagrangianBound(const Instance& instance, const AgentStopsStore& stops, const Tuning& tuning);
+  // To be asked of a helper: agents in a row.
+  struct Cut {
+    int helper;
+    AgentIndex first;
+    AgentIndex end;
+    std::int64_t work;  // expected
+  };
+  struct Helper {
+    std::vector<Tariff::Amount> charges;  // that it knows
+    bool owes = false;                    // an answer
+  };
+
+  void begin_pricing();
+  std::optional<Job> next_price();
+  Price known_price(AgentIndex agent) const;
+  std::vector<Cut> cut();
+  std::int64_t work_left() const;
+  bool take_price(AgentIndex agent, Price price, Path path);
+  void end_pricing_if_done();
   void do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
-  void price(Job& job, Pricer& pricer, const Limits& limits) const;
-  Price first_price(AgentIndex agent, FreeGoals& goals, PenalizedSearch& search,
-                    const Limits& limits, Path& path) const;
-  Price price_below(Price below, AgentIndex agent, FreeGoals& goals, PenalizedSearch& search,
-                    const Limits& limits, Path& path) const;
   void end_round(Job& job, Cost cutoff, Cost known, const Limits& limits);
   void look_at_collisions();
   void look_at_pairs(Job& job, const Limits& limits);
@@ -94,13 +103,23 @@ class LagrangianBound {
   std::vector<std::int64_t> labels_;   // by agent: that its price took last
   std::vector<FinishPair> colliding_;  // still to be looked at in this round
   bool is_counted_ = false;            // of this round
+  std::vector<Helper> helpers_;        // of the one thread that asks them
 
   mutable std::mutex mutex_;  // guards:
   Phase phase_ = Phase::kPricing;
-  AgentIndex next_agent_ = 0;
   int in_hand_ = 0;  // jobs
   int rounds_ = 0;
   Price best_ = 0;
+  // Agents are priced here from the first one on, and helpers are asked for the last ones; when
+  // there are no others left, also for those not yet answered, from the last one back.
+  AgentIndex next_agent_ = 0;
+  AgentIndex end_agent_ = 0;             // not to be asked for any more; from here on helpers are
+  AgentIndex asked_ = 0;                 // and were
+  AgentIndex taken_over_ = 0;            // from here on
+  std::vector<std::uint8_t> is_priced_;  // by agent
+  std::vector<Price> known_;             // by agent: what helpers were told
+  int unpriced_ = 0;
+  std::int64_t work_between_ = 0;  // when the multipliers were moved last
 };
 
 }  // namespace grove::detail

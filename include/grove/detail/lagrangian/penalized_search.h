@@ -18,6 +18,7 @@ namespace grove::detail {
 
 // In Penalties::kUnit.
 using Price = std::int64_t;
+constexpr Price kNoPrice = -1;  // where none is known
 
 // The cheapest path of one agent alone, all orders of its stops considered. Its price is its cost,
 // the penalties of its steps and of its rest for ever, and one on the time at which it finishes.

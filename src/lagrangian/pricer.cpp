@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "grove/detail/lagrangian/pricer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "grove/detail/lagrangian/least_cost.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::int64_t kMostLabels = std::int64_t{1} << 23;
+
+}  // namespace
+
+void Pricer::perform(PriceJob& job, const Limits& limits) {
+  for (AgentIndex agent = job.first; agent < job.end; ++agent) {
+    const Price known = job.known[static_cast<std::size_t>(agent - job.first)];
+    const std::int64_t labels = search_.labels();
+    Path path;
+    job.prices.push_back(known == kNoPrice ? first_price(agent, limits, path)
+                                           : price_below(known, agent, limits, path));
+    job.paths.push_back(std::move(path));
+    job.work += (search_.labels() - labels) / kLabelsPerWork + 1;
+  }
+}
+
+FreeGoals& Pricer::goals(AgentIndex agent) {
+  if (static_cast<std::size_t>(agent) >= goals_.size()) goals_.resize(agent + std::size_t{1});
+  if (!goals_[agent])
+    goals_[agent] = std::make_unique<FreeGoals>(stops_.of(agent), SequenceClass{});
+  return *goals_[agent];
+}
+
+// No path is known that would say where to stop, but hardly any costs more than the least.
+Price Pricer::first_price(AgentIndex agent, const Limits& limits, Path& path) {
+  const Price least = Price{least_cost(goals(agent), limits)} * Penalties::kUnit;
+  Price price = 0;
+  for (Price more = Penalties::kUnit; path.empty(); more *= 4) {
+    const Price below = std::min(least + more, PenalizedSearch::kMostPrice);
+    price = price_below(below, agent, limits, path);
+    if (price < below || below == PenalizedSearch::kMostPrice) break;
+  }
+  return price;
+}
+
+Price Pricer::price_below(Price below, AgentIndex agent, const Limits& limits, Path& path) {
+  FreeGoals& goals = this->goals(agent);
+  Completions& completions = goals.completions();
+  if (Price{completions.beyond()} * Penalties::kUnit < below)
+    completions.widen(static_cast<Time>(below / Penalties::kUnit), limits);
+  return search_.search(goals, tariff_.on_finish(agent), below, kMostLabels, limits, &path);
+}
+
+}  // namespace grove::detail

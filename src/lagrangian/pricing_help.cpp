@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// There is no second share before the first is answered, and it is answered when the last of its
+// jobs has come back: so no job ever sees two tariffs, and the digest, taken when the share came,
+// is that of all its prices.
+#include "grove/detail/lagrangian/pricing_help.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace grove::detail {
+
+PricingHelp::PricingHelp(const Instance& instance)
+    : instance_(instance), tariff_(instance.world(), instance.agent_count()) {}
+
+void PricingHelp::accept(PriceShare share) {
+  const std::lock_guard lock(mutex_);
+  const auto agents = static_cast<std::int64_t>(share.known.size());
+  if (share_ || agents == 0 || share.first < 0 || share.first + agents > instance_.agent_count())
+    throw std::invalid_argument("prices are asked for that cannot be wanted");
+  tariff_.learn(share.news);
+  answer_.round = share.round;
+  answer_.digest = tariff_.digest();
+  answer_.first = share.first;
+  answer_.prices.assign(share.known.size(), 0);
+  answer_.paths.assign(share.known.size(), {});
+  answer_.work = 0;
+  next_ = done_ = 0;
+  share_ = std::move(share);
+}
+
+std::optional<PriceJob> PricingHelp::next() {
+  const std::lock_guard lock(mutex_);
+  if (!share_ || next_ == share_->known.size()) return std::nullopt;
+  PriceJob job;
+  job.first = share_->first + static_cast<AgentIndex>(next_);
+  job.end = job.first + 1;
+  job.known = {share_->known[next_++]};
+  return job;
+}
+
+bool PricingHelp::has_jobs() const {
+  const std::lock_guard lock(mutex_);
+  return share_ && next_ < share_->known.size();
+}
+
+void PricingHelp::commit(PriceJob job) {
+  const std::lock_guard lock(mutex_);
+  const auto at = static_cast<std::size_t>(job.first - answer_.first);
+  std::ranges::copy(job.prices, answer_.prices.begin() + static_cast<std::ptrdiff_t>(at));
+  std::ranges::move(job.paths, answer_.paths.begin() + static_cast<std::ptrdiff_t>(at));
+  answer_.work += job.work;
+  done_ += job.prices.size();
+}
+
+std::optional<PriceAnswer> PricingHelp::take_answer() {
+  const std::lock_guard lock(mutex_);
+  if (!share_ || done_ < share_->known.size()) return std::nullopt;
+  share_.reset();
+  return std::exchange(answer_, {});
+}
+
+}  // namespace grove::detail

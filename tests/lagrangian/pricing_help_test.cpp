@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// A Lagrangian bound and those who find prices for it, with all that can happen to what they say.
+#include "grove/detail/lagrangian/pricing_help.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "grove/detail/lagrangian/lagrangian_bound.h"
+#include "tests/fuzz/random.h"
+#include "tests/lagrangian/tiny_agents.h"
+#include "tests/oracle/joint_oracle.h"
+#include "tests/support/fuzz_factor.h"
+
+namespace grove::detail::lagrangian_test {
+namespace {
+
+Tuning restless(fuzz::Random& random) {
+  Tuning tuning;
+  tuning.lagrangian_level = random.pick<double>({0.02, 0.3, 1});
+  tuning.lagrangian_shrink = random.pick<double>({0.8, 0.99});
+  tuning.lagrangian_step_work = 1;
+  tuning.lagrangian_share_work = 1;
+  tuning.lagrangian_trial = 1000;
+  return tuning;
+}
+
+// One process that helps, and its answers that are still under way.
+struct HelpingProcess {
+  explicit HelpingProcess(Known& known)
+      : help(known.instance), pricer(help.tariff(), known.stops) {}
+
+  bool work() {
+    if (auto job = help.next()) {
+      pricer.perform(*job, {});
+      help.commit(std::move(*job));
+      return true;
+    }
+    auto answer = help.take_answer();
+    if (answer) answers.push_back(std::move(*answer));
+    return answer.has_value();
+  }
+
+  PricingHelp help;
+  Pricer pricer;
+  std::deque<PriceAnswer> answers;
+};
+
+// All of them, in one thread and random order.
+class Ascent {
+ public:
+  Ascent(Known& known, const Tuning& tuning, int helpers, fuzz::Random& random)
+      : bound(LagrangianBound::make(known.instance, known.stops, tuning)),
+        pricer(bound->tariff(), known.stops),
+        random_(random) {
+    bound->set_helpers(helpers);
+    for (int i = 0; i < helpers; ++i) processes.emplace_back(known);
+  }
+
+  // Something happens.
+  void step(Cost cutoff) {
+    const int helper = random_.below(static_cast<int>(processes.size()));
+    HelpingProcess& process = processes[static_cast<std::size_t>(helper)];
+    if (random_.percent(30)) {
+      for (auto& asked : bound->share_out())
+        processes[static_cast<std::size_t>(asked.helper)].help.accept(std::move(asked.share));
+    } else if (random_.percent(50)) {
+      process.work();
+    } else if (!process.answers.empty() && random_.percent(60)) {
+      accepted += bound->accept(helper, std::move(process.answers.front()));
+      process.answers.pop_front();
+    } else if (auto job = bound->next()) {
+      bound->perform(*job, pricer, cutoff, 0, {});
+      bound->commit(std::move(*job));
+    }
+  }
+
+  const std::unique_ptr<LagrangianBound> bound;
+  Pricer pricer;
+  std::deque<HelpingProcess> processes;
+  int accepted = 0;
+
+ private:
+  fuzz::Random& random_;
+};
+
+TEST(PricingHelp, NeverRaisesTheBoundAboveTheOptimum) {
+  int tried = 0, accepted = 0, rounds = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(200));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = tiny_instance(seed);
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (!truth.plan || instance.agent_count() < 2) continue;
+    Known known(instance);
+    fuzz::Random random(seed);
+    const Tuning tuning = restless(random);
+    if (!LagrangianBound::make(instance, known.stops, tuning)) continue;
+    Ascent ascent(known, tuning, random.between(1, 3), random);
+    for (int i = 0; i < 1500 && !ascent.bound->ended(); ++i) {
+      ascent.step(truth.plan->cost + 5);
+      ASSERT_LE(ascent.bound->lower_bound(), truth.plan->cost) << ascent.bound->rounds();
+    }
+    ++tried;
+    accepted += ascent.accepted;
+    rounds += ascent.bound->rounds();
+  }
+  EXPECT_GT(tried, 80);
+  EXPECT_GT(accepted, 700);
+  EXPECT_GT(rounds, 2000);
+}
+
+// Two who must pass each other in a corridor with one bay: the multipliers move for long.
+Instance corridor() {
+  // . . . . .
+  // @ @ . @ @
+  std::vector<bool> passable(10, true);
+  for (const int wall : {5, 6, 8, 9}) passable[wall] = false;
+  InstanceBuilder builder{Map(Grid(5, 2, passable))};
+  builder.add_agent("a", Position{0, 0}, Position{4, 0});
+  builder.add_agent("b", Position{4, 0}, Position{0, 0});
+  return std::move(builder).build();
+}
+
+class OneHelper : public ::testing::Test {
+ protected:
+  OneHelper() { bound->set_helpers(1); }
+
+  void work_alone_until_round(int round) {
+    while (bound->rounds() < round) {
+      auto job = bound->next();
+      ASSERT_TRUE(job);
+      bound->perform(*job, pricer, 20, 0, {});
+      bound->commit(std::move(*job));
+    }
+  }
+  // To where prices are asked for.
+  std::optional<PriceShare> ask() {
+    for (int i = 0; i < 100; ++i) {
+      auto asked = bound->share_out();
+      if (!asked.empty()) return std::move(asked.front().share);
+      auto job = bound->next();
+      if (!job) break;
+      bound->perform(*job, pricer, 20, 0, {});
+      bound->commit(std::move(*job));
+    }
+    return std::nullopt;
+  }
+  PriceAnswer answer_to(PriceShare share) {
+    process.help.accept(std::move(share));
+    while (process.work()) {
+    }
+    PriceAnswer answer = std::move(process.answers.back());
+    process.answers.pop_back();
+    return answer;
+  }
+  Known known{corridor()};
+  Tuning tuning = [] {
+    Tuning t;
+    t.lagrangian_step_work = t.lagrangian_share_work = 1;
+    return t;
+  }();
+  std::unique_ptr<LagrangianBound> bound =
+      LagrangianBound::make(known.instance, known.stops, tuning);
+  Pricer pricer{bound->tariff(), known.stops};
+  HelpingProcess process{known};
+};
+
+TEST_F(OneHelper, IsCountedInItsRound) {
+  auto share = ask();
+  ASSERT_TRUE(share);
+  const auto agents = static_cast<int>(share->known.size());
+  EXPECT_EQ(bound->accept(0, answer_to(std::move(*share))), agents);
+}
+
+TEST_F(OneHelper, IsNotCountedInAnotherRoundWhateverItSays) {
+  work_alone_until_round(5);
+  auto share = ask();
+  ASSERT_TRUE(share);
+  PriceAnswer late = answer_to(std::move(*share));
+  const auto round = bound->rounds();
+  work_alone_until_round(round + 1);  // nobody waits for it
+  EXPECT_FALSE(ask()) << "it owes an answer";
+  EXPECT_EQ(bound->accept(0, late), 0);
+  share = ask();
+  ASSERT_TRUE(share) << "it owes nothing any more";
+  late.round = share->round;
+  late.first = share->first;
+  late.prices.resize(share->known.size(), 1000 * Penalties::kUnit);
+  late.paths.resize(share->known.size());
+  EXPECT_EQ(bound->accept(0, late), 0) << "prices under other multipliers";
+}
+
+TEST_F(OneHelper, IsNotCountedAfterTheOthersHaveDoneItsPart) {
+  auto share = ask();
+  ASSERT_TRUE(share);
+  PriceAnswer late = answer_to(std::move(*share));
+  work_alone_until_round(1);
+  EXPECT_EQ(bound->accept(0, std::move(late)), 0);
+}
+
+TEST_F(OneHelper, RefusesWhatCannotBeAskedFor) {
+  auto share = ask();
+  ASSERT_TRUE(share);
+  PriceShare other = *share;
+  other.first = 2;
+  EXPECT_THROW(process.help.accept(other), std::invalid_argument);
+  other.first = 0;
+  other.known.clear();
+  EXPECT_THROW(process.help.accept(other), std::invalid_argument);
+  process.help.accept(*share);
+  EXPECT_THROW(process.help.accept(*share), std::invalid_argument) << "one at a time";
+}
+
+}  // namespace
+}  // namespace grove::detail::lagrangian_test
