@@ -167,7 +167,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     options.tuning.lagrangian_begins_work = 0;
     options.tuning.lagrangian_step_work = 1;
     options.tuning.lagrangian_share_work = 1;
-    options.tuning.most_lagrangian = dice.pick<double>({0.1, 2, 50});
+    options.tuning.most_lagrangian = dice.pick<double>({2, 50});
     options.tuning.lagrangian_level = dice.pick<double>({0.02, 0.2});
   }
   if (dice.percent(20)) options.policy = Policy::kFixed;
