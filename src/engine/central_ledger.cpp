@@ -55,7 +55,7 @@ void CentralLedger::prove(Cost bound, ProvenBy by) {
     gate_.update(bound, bound);
     return gate_.lower_bound();
   });
-  if (gate_.proven_infeasible() && !ended_beside_.exchange(true))
+  if (bound >= kInfiniteCost && gate_.proven_infeasible() && !ended_beside_.exchange(true))
     announcements_.infeasible(kNoJointPlan);
 }
 

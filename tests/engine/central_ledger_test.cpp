@@ -122,6 +122,16 @@ TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesMayCloseAPlan) {
   EXPECT_FALSE(ledger_.has_no_joint_plan());
 }
 
+// That the trees hold no plan is no finding of who proves less beside them.
+TEST_F(CentralLedgerTest, WhoProvesLessIsNotTheReasonThatThereIsNoPlan) {
+  nodes_.least = kInfiniteCost;
+  ledger_.expect_trees_from(kInfiniteCost);
+  ledger_.nodes_changed();
+  ASSERT_TRUE(ledger_.gate().proven_infeasible());
+  ledger_.prove(7, ProvenBy::kLagrangian);
+  EXPECT_FALSE(ledger_.has_no_joint_plan());
+}
+
 // Another worker pushes the last tree's root and says so, just after the nodes were looked at.
 TEST_F(CentralLedgerTest, ATreeThatComesMeanwhileIsNotOverlooked) {
   nodes_.least = kInfiniteCost;
