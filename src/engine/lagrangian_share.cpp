@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What the tree closes at once needs no other bound, so the tree begins; and a plan comes first.
-// Where there are few agents the tree knows better (see lagrangian_agents),
-// so it is not tried. Where it is, it has its part of the work until it is over: by itself,
-// when it promises less than is proven already, or when nothing is to be gained any more. A worker
-// that has nothing else to do goes on with it in any case.
+// Where there are few agents the tree knows better (see lagrangian_agents), so it is not tried.
+// Where it is, it has its part of the work until it is over: by itself, when it promises less than
+// is proven already, or when nothing is to be gained any more. A worker that has nothing else to do
+// goes on with it in any case.
 //
 // Where ranks share the search, it is rank 0's, and others find prices for it: at once, for it
 // cannot go on without. All ranks have about as much other work, so its part is that of all of

@@ -13,10 +13,10 @@
 //
 // Helpers, in other processes, have copies of the multipliers. What they answer names its
 // multipliers by their digest (tariff.h) and counts only while that is the digest here, in a round
-// that still lacks those prices; so it does not matter for the bound how late an answer is, nor
-// what helpers were told. What a helper has been told of a path's price only ends its search
-// earlier, at a price that is not above. Nobody waits for a helper: prices that are not there when
-// all others are, are found here.
+// that still lacks those prices; so, but for that digest's chance of 2^-64, it does not matter for
+// the bound how late an answer is, nor what helpers were told. What a helper has been told of a
+// path's price only ends its search earlier, at a price that is not above. Nobody waits for a
+// helper: prices that are not there when all others are, are found here.
 //
 // For how far to go see level_ascent.h; the direction is what the cheapest paths use of each row
 // beyond once - a subgradient - smoothed, for one step alone is blind for what the last one did.

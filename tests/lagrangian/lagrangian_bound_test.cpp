@@ -74,14 +74,7 @@ TEST_F(LagrangianBoundTest, IsNeverAboveTheOptimum) {
 
 // Two who must pass each other in a corridor with one bay: prices see it.
 TEST_F(LagrangianBoundTest, SeesWhoCannotBothBeFirst) {
-  // . . . . .
-  // @ @ . @ @
-  std::vector<bool> passable(10, true);
-  for (const int wall : {5, 6, 8, 9}) passable[wall] = false;
-  InstanceBuilder builder{Map(Grid(5, 2, passable))};
-  builder.add_agent("a", Position{0, 0}, Position{4, 0});
-  builder.add_agent("b", Position{4, 0}, Position{0, 0});
-  Known known(std::move(builder).build());
+  Known known(corridor());
   const oracle::Answer truth = oracle::solve_jointly(known.instance);
   ASSERT_TRUE(truth.plan);
   EXPECT_GE(bound_of(known, Tuning(), 300, truth.plan->cost), 9);

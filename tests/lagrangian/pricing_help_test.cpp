@@ -114,18 +114,6 @@ TEST(PricingHelp, NeverRaisesTheBoundAboveTheOptimum) {
   EXPECT_GT(rounds, 2000);
 }
 
-// Two who must pass each other in a corridor with one bay: the multipliers move for long.
-Instance corridor() {
-  // . . . . .
-  // @ @ . @ @
-  std::vector<bool> passable(10, true);
-  for (const int wall : {5, 6, 8, 9}) passable[wall] = false;
-  InstanceBuilder builder{Map(Grid(5, 2, passable))};
-  builder.add_agent("a", Position{0, 0}, Position{4, 0});
-  builder.add_agent("b", Position{4, 0}, Position{0, 0});
-  return std::move(builder).build();
-}
-
 class OneHelper : public ::testing::Test {
  protected:
   OneHelper() { bound->set_helpers(1); }

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "grove/detail/joint/agent_graph.h"
 #include "grove/detail/model/distance_field.h"
@@ -14,6 +16,18 @@ namespace grove::detail::lagrangian_test {
 
 inline Instance tiny_instance(std::uint64_t seed) {
   return (seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed)).build();
+}
+
+// Two who must pass each other in a corridor with one bay: the multipliers move for long.
+inline Instance corridor() {
+  // . . . . .
+  // @ @ . @ @
+  std::vector<bool> passable(10, true);
+  for (const int wall : {5, 6, 8, 9}) passable[wall] = false;
+  InstanceBuilder builder{Map(Grid(5, 2, passable))};
+  builder.add_agent("a", Position{0, 0}, Position{4, 0});
+  builder.add_agent("b", Position{4, 0}, Position{0, 0});
+  return std::move(builder).build();
 }
 
 // What is known of the agents of an instance.

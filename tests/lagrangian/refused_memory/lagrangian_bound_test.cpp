@@ -12,16 +12,6 @@ namespace {
 
 constexpr int kRounds = 12;
 
-// Two who must pass each other in a corridor with one bay: no plan costs less than 9.
-Instance corridor() {
-  std::vector<bool> passable(10, true);
-  for (const int wall : {5, 6, 8, 9}) passable[wall] = false;
-  InstanceBuilder builder{Map(Grid(5, 2, passable))};
-  builder.add_agent("a", Position{0, 0}, Position{4, 0});
-  builder.add_agent("b", Position{4, 0}, Position{0, 0});
-  return std::move(builder).build();
-}
-
 struct End {
   Cost lower_bound = 0;
   bool failed = false;

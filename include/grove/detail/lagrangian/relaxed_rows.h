@@ -28,7 +28,6 @@ class RelaxedRows {
   void add(const FinishPair& pair);
   // Is there a row that says that these two cannot both finish by these times?
   bool has(const FinishPair& pair) const;
-  std::size_t count() const { return tariff_.count(); }
 
   // Sets the direction of each row: what these paths use it beyond once, and so much of the old
   // direction. Returns the squared length of all.
