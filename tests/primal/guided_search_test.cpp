@@ -7,7 +7,7 @@
 #include <string>
 
 #include "crowd.h"
-#include "grove/detail/model/check.h"
+#include "first_violation.h"
 #include "src/primal/configuration_search.h"
 #include "src/primal/visit_orders.h"
 #include "tests/fuzz/random_instance.h"
@@ -18,17 +18,10 @@ namespace grove::detail {
 namespace guided_search_test {
 
 using testing::Crowd;
+using testing::first_violation;
 using testing::instance_of;
 using testing::random_crowd;
 using Outcome = GuidedSearch::Outcome;
-
-std::string first_violation(const Instance& instance, const Plan& plan) {
-  Solution claim;
-  claim.status = status_of(plan.cost, 0, claim.omega);
-  claim.plan = plan;
-  const auto violations = check(instance, claim, 1);
-  return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
-}
 
 // The plan of a configuration search, and a guided search that has learnt it.
 struct Trial {

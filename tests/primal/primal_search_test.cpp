@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "crowd.h"
-#include "grove/detail/model/check.h"
+#include "first_violation.h"
 #include "grove/detail/search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/instances.h"
@@ -18,15 +18,8 @@
 namespace grove::detail {
 namespace primal_search_test {
 
+using testing::first_violation;
 using testing::instance_of;
-
-std::string first_violation(const Instance& instance, const Plan& plan) {
-  Solution claim;
-  claim.status = status_of(plan.cost, 0, claim.omega);
-  claim.plan = plan;
-  const auto violations = check(instance, claim, 1);
-  return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
-}
 
 // A search with what it needs.
 struct Search {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What the checker says of a plan.
+#pragma once
+
+#include <string>
+
+#include "grove/detail/model/check.h"
+
+namespace grove::detail::testing {
+
+// Empty: it is valid.
+inline std::string first_violation(const Instance& instance, const Plan& plan) {
+  Solution claim;
+  claim.status = status_of(plan.cost, 0, claim.omega);
+  claim.plan = plan;
+  const auto violations = check(instance, claim, 1);
+  return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
+}
+
+}  // namespace grove::detail::testing
