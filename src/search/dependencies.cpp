@@ -55,6 +55,7 @@ Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
       agents_(problem.instance.agent_count()),
       techniques_(options.techniques),
       tuning_(options.tuning),
+      proof_(options.proof),
       memory_(memory),
       pair_view_(problem, options, memory),
       pair_brancher_(problem, options, planner, memory),
@@ -76,10 +77,14 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& vi
   if (outcome != Outcome::kDone) return outcome;
   std::vector<GroupExcess> statements;
   collect(statements);
+  const auto dearest = std::ranges::max_element(statements, {}, &GroupExcess::excess);
   // One that is above the cutoff by itself settles it.
-  if (std::ranges::none_of(statements, [&](const GroupExcess& s) { return s.excess > slack; }))
+  if (dearest != statements.end() && dearest->excess > slack)
+    statements = {*dearest};
+  else
     bound =
         std::min(cutoff, node->cost() + covering_bound(statements, tuning_.covering_steps, limits));
+  if (proof_ != nullptr && bound > node->bound()) write_down_bound(view, statements, bound);
   return Outcome::kDone;
 }
 
@@ -118,6 +123,8 @@ Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, NodeV
       // (Of following the comparison knows nothing.)
       known.exact = *dependence == Dependence::kCompatible && instance_.may_follow();
       known.excess = *dependence == Dependence::kDependent ? 1 : 0;
+      if (proof_ != nullptr && known.excess > 0)
+        write_down_lemma(view, std::array{a, b}, 1, kNoProof, {});
     }
     const bool solved =
         known.exact || solve(node, std::array{a, b}, slack, tuning_.pair_expansions, limits, known);
@@ -188,8 +195,12 @@ std::vector<Situations::Id> Dependencies::key(std::span<const AgentIndex> group)
 bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
                          std::int64_t most_expansions, const Limits& limits, Known& known) {
   const Cost base = node->cost();
+  // All closed for want of any path: that holds whatever the cutoff.
+  const Cost closed = base + slack + 1 >= kInfiniteCost ? kInfiniteCost : slack + 1;
+  const Cost known_before = known.excess;
   open_.clear();
   open_.push_back({base, node});
+  written_.clear();
   for (std::int64_t i = 0; i < most_expansions && !open_.empty(); ++i) {
     // Of equal cost the newest: the first conflict-free node ends the search.
     const auto best = std::ranges::min_element(open_.rbegin(), open_.rend(), {}, &Open::cost);
@@ -204,16 +215,47 @@ bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group,
     ++known.expansions;
     if (outcome == Brancher::Outcome::kConflictFree) {
       known.exact = true;
-      return true;
+      break;
     }
+    if (proof_ != nullptr && pair_brancher_.branching()) write_down_splits(next, base, closed);
     for (NodePtr& child : children_) open_.push_back({child->cost(), std::move(child)});
   }
-  // All closed for want of any path: that holds whatever the cutoff.
-  const Cost closed = base + slack + 1 >= kInfiniteCost ? kInfiniteCost : slack + 1;
   const auto least = std::ranges::min_element(open_, {}, &Open::cost);
-  known.excess = std::max(known.excess, least == open_.end() ? closed : least->cost - base);
+  if (!known.exact)
+    known.excess = std::max(known.excess, least == open_.end() ? closed : least->cost - base);
+  if (proof_ != nullptr && known.excess > known_before) {
+    pair_view_.enter(node, group);
+    write_down_lemma(pair_view_, group, known.excess, proof_key(*node), written_);
+  }
   open_.clear();
   return true;
+}
+
+// The costs are those of the group beyond what it costs at the beginning, until they are written.
+void Dependencies::write_down_splits(const Open& from, Cost base, Cost closed) {
+  const Split& split = pair_brancher_.branching()->split;
+  ProofSplit written{proof_key(*from.node), split, {closed, closed}};
+  for (const NodePtr& child : children_)
+    written.costs[child->added() == split[0] ? 0 : 1] = child->cost() - base;
+  written_.push_back(written);
+}
+
+void Dependencies::write_down_lemma(const NodeView& view, std::span<const AgentIndex> group,
+                                    Cost excess, ProofKey root,
+                                    std::span<const ProofSplit> splits) {
+  const ProofLemma lemma = lemma_at(view, group, excess);
+  std::vector<ProofSplit> of_group(splits.begin(), splits.end());
+  for (ProofSplit& split : of_group)
+    for (Cost& cost : split.costs) cost = std::min(kInfiniteCost, cost + lemma.bound - excess);
+  proof_->lemma(lemma, root, of_group);
+}
+
+void Dependencies::write_down_bound(const NodeView& view, std::span<const GroupExcess> statements,
+                                    Cost bound) {
+  std::vector<ProofExcess> excesses;
+  for (const GroupExcess& s : statements)
+    excesses.push_back({lemma_at(view, s.agents, s.excess).key(), s.agents, s.excess});
+  proof_->bound(proof_key(*view.node()), view.node()->cost(), bound, excesses);
 }
 
 void Dependencies::leave() {
@@ -244,6 +286,12 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) {
     return s.agents == t.agents;
   };
   statements.erase(std::unique(statements.begin(), statements.end(), repeats), statements.end());
+}
+
+ProofKey Dependencies::why(NodeView& view, const Split& split) {
+  look_at(view);
+  const auto [a, b] = std::minmax(split[0].agent, split[1].agent);
+  return lemma_at(view, std::array{a, b}, known(a, b).excess).key();
 }
 
 void Dependencies::splits(NodeView& view, std::vector<Split>& splits) {

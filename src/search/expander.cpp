@@ -47,6 +47,7 @@ Expander::Expander(const Problem& problem, AgentStopsStore& stops, const SearchO
                    std::shared_ptr<CommonMemory> memory, std::unique_ptr<AgentPlanner> planner)
     : problem_(problem),
       techniques_(options.techniques),
+      proof_(options.proof),
       planner_(problem, stops, std::move(planner)),
       memory_(planner_, std::move(memory), options.tuning.path_set_nodes),
       view_(problem, options, memory_),
@@ -106,9 +107,22 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
       break;
     case Brancher::Outcome::kBranched:
       expansion.branching = brancher_.branching();
+      if (proof_ != nullptr && expansion.branching)
+        write_down(*expansion.branching, node, expansion.children, cutoff);
       break;
   }
   return expansion;
+}
+
+// A side without a child holds no plan cheaper than the cutoff.
+void Expander::write_down(const Branching& branching, const NodePtr& node,
+                          std::span<const NodePtr> children, Cost cutoff) {
+  const Split& split = branching.split;
+  ProofSplit written{proof_key(*node), split, {cutoff, cutoff}};
+  for (const NodePtr& child : children)
+    written.costs[child->added() == split[0] ? 0 : 1] = child->cost();
+  if (splits_on_costs(split)) written.lemma = dependencies_.why(view_, split);
+  proof_->split(written);
 }
 
 bool Expander::help(const NodePtr& node, Cost cutoff, double share, const Limits& limits) {

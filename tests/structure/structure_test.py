@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 # Lowest first; each may use only those before it.
-LAYERS = ["model", "execution", "io", "sequencing", "planning", "joint", "lagrangian", "conflicts", "search", "primal", "baselines",
+LAYERS = ["model", "execution", "io", "sequencing", "planning", "joint", "lagrangian", "conflicts", "search", "proof", "primal", "baselines",
           "engine", "batch", "api", "mpi", "tools"]
 CODE_FOLDERS = ["include", "src", "mpi", "cluster", "examples", "python", "tools", "tests", "benchmarks"]
 CPP = {".h", ".hpp", ".cpp"}

@@ -32,7 +32,8 @@ std::string check_omega(const std::string& text) {
 }
 
 std::string check_backend(const std::string& text) {
-  return is_built(kBackends.at(text)) ? "" : "this Grove was built without CBC; expected auto or dp";
+  return is_built(kBackends.at(text)) ? ""
+                                      : "this Grove was built without CBC; expected auto or dp";
 }
 
 std::string check_method(const std::string& text) {
@@ -197,6 +198,11 @@ void add_file_options(CLI::App& app, SolveArguments& a) {
                  "write every better plan, as soon as it is found, to PREFIX-1.plan.json, "
                  "PREFIX-2.plan.json and so on; those of an earlier run are removed")
       ->type_name("PREFIX");
+  app.add_option(
+         "--proof", a.proof,
+         "write a certificate of the lower bound, which grove-verify checks without trusting "
+         "this program (docs/proof.md)")
+      ->type_name("FILE");
   app.add_option(
          "-o,--output", a.output,
          "the plan file; by default the instance's name with .plan.json, in this directory. "

@@ -36,6 +36,7 @@ struct SolveArguments {
   CheckpointArguments checkpoints;
   std::filesystem::path start;
   std::string incumbents;
+  std::filesystem::path proof;
   std::filesystem::path output;
   bool keeps_cheaper = true;  // a cheaper valid plan that is in the output file already
   bool require_plan = false;

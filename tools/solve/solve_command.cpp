@@ -11,6 +11,7 @@
 #include "tools/common/commands.h"
 #include "tools/common/signals.h"
 #include "tools/solve/incumbent_files.h"
+#include "tools/solve/proof_output.h"
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 #include "tools/solve/start_plan.h"
@@ -49,6 +50,8 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
   expect_fit(method_of(a), loaded.instance, options, a.instance.name());
   const CheckpointFolder checkpoints = prepare_checkpoints(a.checkpoints, loaded.instance, options);
+  ProofOutput proof(a, checkpoints.resumed != nullptr);
+  options.proof = proof.log();
   const auto log = open_log(a);
   log->head(head_of(app, a, loaded, std::to_string(a.threads)));
   if (checkpoints.resumed) log->resumed(checkpoints.resumed->header());
@@ -61,6 +64,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   Solution solution =
       solve_by(method_of(a), a.anytime, loaded.instance, options, limits, &observer);
 
+  proof.write(loaded.instance, solution);
   add_run_facts(solution, app, a, start);
   finish_run(a, loaded.instance, solution, *log);
   if (a.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);

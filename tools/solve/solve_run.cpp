@@ -32,7 +32,7 @@ std::string method_text(const SolveArguments& a) {
 
 // The files of --incumbents must not replace any other of the run.
 void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
-  for (const auto& file : {a.output, a.log, a.start, a.instance.path(), loaded.map_path})
+  for (const auto& file : {a.output, a.log, a.proof, a.start, a.instance.path(), loaded.map_path})
     if (IncumbentFiles::may_be_file(a.incumbents, file))
       throw InputError(file.string(), "",
                        fmt::format("--incumbents {} may write over it; expected another prefix",
@@ -45,12 +45,15 @@ void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
 
 void prepare_outputs(SolveArguments& a, const LoadedInstance& loaded) {
   if (a.output.empty()) a.output = a.instance.stem() + ".plan.json";
-  for (const auto& file : {a.output, a.log}) {
+  for (const auto& file : {a.output, a.log, a.proof}) {
     require_distinct_files(file, a.instance.path(), "the instance");
     require_distinct_files(file, loaded.map_path, "the map");
   }
   require_distinct_files(a.log, a.start, "the start plan");
   require_distinct_files(a.log, a.output, "the plan file");
+  require_distinct_files(a.proof, a.output, "the plan file");
+  require_distinct_files(a.proof, a.log, "the log");
+  require_distinct_files(a.proof, a.start, "the start plan");
   if (a.output != kStandardOutput) require_writable(a.output);
   if (!a.incumbents.empty()) prepare_incumbents(a, loaded);
 }

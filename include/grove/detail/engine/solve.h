@@ -55,6 +55,8 @@ struct SolveOptions {
   std::size_t node_memory = kUnlimited;
   // See SearchOptions::audit.
   bool audit = false;
+  // See SearchOptions::proof. Must outlive the run.
+  ProofLog* proof = nullptr;
 };
 
 // Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower

@@ -13,7 +13,7 @@ inline Techniques techniques_of(const SolveOptions& options) {
 }
 
 inline SearchOptions search_options_of(const SolveOptions& options) {
-  return {techniques_of(options), options.seed, options.audit, options.tuning};
+  return {techniques_of(options), options.seed, options.audit, options.tuning, options.proof};
 }
 
 }  // namespace grove::detail

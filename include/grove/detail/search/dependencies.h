@@ -11,6 +11,7 @@
 #include "grove/detail/search/brancher.h"
 #include "grove/detail/search/covering.h"
 #include "grove/detail/search/memory.h"
+#include "grove/detail/search/proof_log.h"
 
 namespace grove::detail {
 
@@ -43,6 +44,8 @@ class Dependencies {
   // known not to be able to keep both their costs: "the one comes to rest later | the other does".
   // Appended.
   void splits(NodeView& view, std::vector<Split>& splits);
+  // Names the lemma by which such a split, at the node that `view` has entered, loses no plan.
+  ProofKey why(NodeView& view, const Split& split);
 
   // Lets all nodes go.
   void leave();
@@ -77,12 +80,17 @@ class Dependencies {
   bool solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
              std::int64_t most_expansions, const Limits& limits, Known& known);
   void collect(std::vector<GroupExcess>& statements);
+  void write_down_splits(const Open& from, Cost base, Cost closed);
+  void write_down_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess,
+                        ProofKey root, std::span<const ProofSplit> splits);
+  void write_down_bound(const NodeView& view, std::span<const GroupExcess> statements, Cost bound);
 
   const Instance& instance_;
   const PathPlanner& planner_;
   const int agents_;
   const Techniques techniques_;
   const Tuning tuning_;
+  ProofLog* const proof_;
   Memory& memory_;
   NodeView pair_view_;  // of a pair or group
   Brancher pair_brancher_;
@@ -90,6 +98,7 @@ class Dependencies {
   std::vector<Situations::Id> situation_;  // by AgentIndex, at the node
   std::vector<Open> open_;                 // a heap: least cost first
   std::vector<NodePtr> children_;
+  std::vector<ProofSplit> written_;  // of the group under way, if there is a proof to be written
   std::vector<Excesses::Partner> partners_;
   std::vector<std::vector<AgentIndex>> groups_;
   std::int64_t expansions_ = 0;

@@ -95,9 +95,12 @@ class Expander {
 
   void enter(const NodePtr& node);
   Plan plan(const Node& node);
+  void write_down(const Branching& branching, const NodePtr& node,
+                  std::span<const NodePtr> children, Cost cutoff);
 
   const Problem& problem_;
   const Techniques techniques_;
+  ProofLog* const proof_;
   PathPlanner planner_;
   Memory memory_;
   NodeView view_;

@@ -9,6 +9,8 @@
 
 namespace grove::detail {
 
+class ProofLog;  // grove/search/proof_log.h
+
 struct SearchOptions {
   Techniques techniques;
   std::uint64_t seed = 0;  // breaks ties among conflicts
@@ -16,6 +18,7 @@ struct SearchOptions {
   // stand for (audit.h). Costs several times what the search does.
   bool audit = false;
   Tuning tuning = {};
+  ProofLog* proof = nullptr;  // where to write down why bounds hold; null: nowhere
 };
 
 }  // namespace grove::detail

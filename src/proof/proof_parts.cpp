@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// The file is a row of numbers of 8 bytes, compressed; each entry is its kind, how many numbers
+// follow, and these. Most bytes are zero, and cost next to nothing.
+#include "grove/detail/proof/proof_parts.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <mutex>
+#include <string_view>
+#include <utility>
+
+#include "grove/detail/io/descriptor.h"
+#include "grove/detail/io/input_error.h"
+#include "zstd_stream.h"
+
+namespace grove::detail {
+namespace {
+
+enum Kind : std::int64_t { kSplit = 1, kBound = 2, kLemma = 3 };
+constexpr std::int64_t kMostNumbers = std::int64_t{1} << 28;  // of an entry
+
+using Numbers = std::vector<std::int64_t>;
+
+std::int64_t number(ProofKey key) {
+  return static_cast<std::int64_t>(key);
+}
+
+void add(Numbers& numbers, const AgentConstraint& demand) {
+  const Constraint& c = demand.constraint;
+  numbers.insert(numbers.end(),
+                 {demand.agent, c.cell, c.from, c.begin, c.end, static_cast<std::int64_t>(c.kind)});
+}
+
+void add(Numbers& numbers, const ProofSplit& split) {
+  numbers.insert(numbers.end(),
+                 {number(split.node), number(split.lemma), split.costs[0], split.costs[1]});
+  for (const AgentConstraint& demand : split.split) add(numbers, demand);
+}
+
+[[noreturn]] void refuse_part(const std::filesystem::path& path) {
+  throw InputError(path.string(), "", "expected what a search wrote down for its proof");
+}
+
+// Takes numbers back in the order in which they were added.
+class Taking {
+ public:
+  Taking(const Numbers& numbers, const std::filesystem::path& path)
+      : numbers_(numbers), path_(path) {}
+
+  std::int64_t number() {
+    if (at_ == numbers_.size()) refuse();
+    return numbers_[at_++];
+  }
+  bool is_over() const { return at_ == numbers_.size(); }
+  ProofKey key() { return static_cast<ProofKey>(number()); }
+  std::int32_t small() { return static_cast<std::int32_t>(number()); }
+  // How many of something follow.
+  std::int64_t count() {
+    const std::int64_t count = number();
+    if (count < 0 || std::cmp_greater(count, numbers_.size() - at_)) refuse();
+    return count;
+  }
+  std::vector<AgentIndex> agents() {
+    std::vector<AgentIndex> agents;
+    for (std::int64_t left = count(); left > 0; --left) agents.push_back(small());
+    return agents;
+  }
+  AgentConstraint demand() {
+    AgentConstraint demand;
+    demand.agent = small();
+    demand.constraint = {small(), small(), small(), small(), ConstraintKind::kBar};
+    const auto kind = constraint_kind(static_cast<std::uint8_t>(number()));
+    if (!kind) refuse();
+    demand.constraint.kind = *kind;
+    return demand;
+  }
+  ProofSplit split() {
+    ProofSplit split;
+    split.node = key();
+    split.lemma = key();
+    for (Cost& cost : split.costs) cost = number();
+    for (AgentConstraint& of_split : split.split) of_split = demand();
+    return split;
+  }
+
+ private:
+  [[noreturn]] void refuse() const { refuse_part(path_); }
+
+  const Numbers& numbers_;
+  const std::filesystem::path& path_;
+  std::size_t at_ = 0;
+};
+
+void tell(std::int64_t kind, Taking taking, ProofLog& log) {
+  if (kind == kSplit) return log.split(taking.split());
+  if (kind == kBound) {
+    const ProofKey node = taking.key();
+    const Cost cost = taking.number();
+    const Cost bound = taking.number();
+    std::vector<ProofExcess> excesses;
+    while (!taking.is_over()) {
+      const ProofKey lemma = taking.key();
+      const Cost excess = taking.number();
+      excesses.push_back({lemma, taking.agents(), excess});
+    }
+    return log.bound(node, cost, bound, excesses);
+  }
+  ProofLemma lemma;
+  const ProofKey root = taking.key();
+  lemma.bound = taking.number();
+  lemma.agents = taking.agents();
+  for (std::int64_t left = taking.count(); left > 0; --left)
+    lemma.demands.push_back(taking.demand());
+  std::vector<ProofSplit> splits;
+  while (!taking.is_over()) splits.push_back(taking.split());
+  log.lemma(lemma, root, splits);
+}
+
+}  // namespace
+
+class ProofRecorder::Stream {
+ public:
+  explicit Stream(std::filesystem::path path)
+      : path_(std::move(path)),
+        file_(path_, O_WRONLY | O_CREAT | O_TRUNC),
+        compressor_([this](std::string_view bytes) { write(bytes); }) {
+    if (!file_.is_open()) fail_to_write(path_);
+  }
+
+  void add(Kind kind, const Numbers& numbers) {
+    const std::lock_guard lock(mutex_);
+    const std::int64_t head[] = {kind, std::ssize(numbers)};
+    compressor_.add({reinterpret_cast<const char*>(head), sizeof head});
+    compressor_.add({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Cost)});
+  }
+
+  void flush() {
+    const std::lock_guard lock(mutex_);
+    compressor_.end();
+  }
+
+ private:
+  void write(std::string_view bytes) {
+    if (!write_all(file_.get(), bytes)) fail_to_write(path_);
+  }
+
+  const std::filesystem::path path_;
+  Descriptor file_;
+  std::mutex mutex_;  // guards:
+  ZstdCompressor compressor_;
+};
+
+ProofRecorder::ProofRecorder(std::filesystem::path path)
+    : stream_(std::make_unique<Stream>(std::move(path))) {}
+
+ProofRecorder::~ProofRecorder() = default;
+
+void ProofRecorder::split(const ProofSplit& split) {
+  Numbers numbers;
+  add(numbers, split);
+  stream_->add(kSplit, numbers);
+}
+
+void ProofRecorder::bound(ProofKey node, Cost cost, Cost bound,
+                          std::span<const ProofExcess> excesses) {
+  Numbers numbers{number(node), cost, bound};
+  for (const ProofExcess& excess : excesses) {
+    numbers.insert(numbers.end(), {number(excess.lemma), excess.excess, std::ssize(excess.agents)});
+    numbers.insert(numbers.end(), excess.agents.begin(), excess.agents.end());
+  }
+  stream_->add(kBound, numbers);
+}
+
+void ProofRecorder::lemma(const ProofLemma& lemma, ProofKey root,
+                          std::span<const ProofSplit> splits) {
+  Numbers numbers{number(root), lemma.bound, std::ssize(lemma.agents)};
+  numbers.insert(numbers.end(), lemma.agents.begin(), lemma.agents.end());
+  numbers.push_back(std::ssize(lemma.demands));
+  for (const AgentConstraint& demand : lemma.demands) add(numbers, demand);
+  for (const ProofSplit& split : splits) add(numbers, split);
+  stream_->add(kLemma, numbers);
+}
+
+void ProofRecorder::flush() {
+  stream_->flush();
+}
+
+void read_proof_part(const std::filesystem::path& path, ProofLog& log) {
+  const Descriptor file(path, O_RDONLY);
+  if (!file.is_open()) fail_to_read(path);
+  ZstdDecompressor stream([&](char* buffer, std::size_t size) {
+    const ssize_t count = ::read(file.get(), buffer, size);
+    if (count < 0) fail_to_read(path);
+    return static_cast<std::size_t>(count);
+  });
+  const auto read = [&](std::int64_t* to, std::size_t count) {
+    const std::size_t bytes = count * sizeof *to;
+    return stream.read(reinterpret_cast<char*>(to), bytes) == bytes;
+  };
+  Numbers numbers;
+  for (std::int64_t head[2]; read(head, 2);) {
+    if (head[0] < kSplit || head[0] > kLemma || head[1] < 0 || head[1] > kMostNumbers)
+      refuse_part(path);
+    numbers.resize(static_cast<std::size_t>(head[1]));
+    if (!read(numbers.data(), numbers.size())) break;
+    tell(head[0], Taking(numbers, path), log);
+  }
+  if (stream.broken()) refuse_part(path);
+}
+
+}  // namespace grove::detail

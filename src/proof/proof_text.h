@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What certificates are written in.
+#pragma once
+
+#include <string>
+
+#include "grove/detail/conflicts/conflict.h"
+#include "grove/detail/model/instance.h"
+#include "grove/detail/model/omega.h"
+#include "grove/detail/planning/constraint.h"
+
+namespace grove::detail {
+
+// "3 bar 17 4 4"
+std::string proof_text(const AgentConstraint& demand, const Instance& instance);
+// "split 3 bar 17 4 4 | 5 bar 17 4 4"
+std::string proof_text(const Split& split, const Instance& instance);
+// A number, or "inf".
+std::string proof_text(Cost cost);
+
+}  // namespace grove::detail

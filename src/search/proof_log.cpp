@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "grove/detail/search/proof_log.h"
+
+#include <ranges>
+
+namespace grove::detail {
+namespace {
+
+ProofKey mixed(ProofKey key, std::int64_t value) {
+  key = (key ^ static_cast<ProofKey>(value)) * 0x9E3779B97F4A7C15u;
+  key ^= key >> 32;
+  key *= 0xD6E8FEB86659FD93u;
+  return key ^ key >> 29;
+}
+
+ProofKey key_of_tree(const Tree& tree) {
+  ProofKey key = 1;
+  for (std::size_t agent = 0; agent < tree.orders.size(); ++agent) {
+    const SequenceClass& sequences = tree.orders[agent]->sequences;
+    if (sequences.prefix.empty() && sequences.forbidden_next == 0) continue;
+    key = mixed(key, static_cast<std::int64_t>(agent));
+    for (const Stop stop : sequences.prefix) key = mixed(key, stop);
+    key = mixed(key, static_cast<std::int64_t>(sequences.forbidden_next));
+  }
+  return key;
+}
+
+// What a tree fixes of an agent's order, as demands.
+void add_order(AgentIndex agent, const AgentOrder& order, std::vector<AgentConstraint>& demands) {
+  const SequenceClass& sequences = order.sequences;
+  const auto add = [&](std::size_t number, Stop stop, ConstraintKind kind) {
+    const auto at = static_cast<Time>(number);
+    demands.push_back({agent, {kNoPlace, stop, at, at, kind}});
+  };
+  for (std::size_t number = 0; number < sequences.prefix.size(); ++number)
+    add(number, sequences.prefix[number], ConstraintKind::kStopIs);
+  for (Stop stop = 0; stop < kMaxTasksPerAgent; ++stop)
+    if ((sequences.forbidden_next >> stop & 1) != 0)
+      add(sequences.prefix.size(), stop, ConstraintKind::kStopIsNot);
+}
+
+}  // namespace
+
+ProofKey proof_key(const Node& node) {
+  std::vector<const AgentConstraint*> added;
+  for (const Node* at = &node; !at->is_root(); at = at->parent())
+    if (at->added().agent >= 0) added.push_back(&at->added());
+  ProofKey key = key_of_tree(node.tree());
+  for (const AgentConstraint* demand : added | std::views::reverse) key = proof_key(key, *demand);
+  return key;
+}
+
+ProofKey proof_key(ProofKey parent, const AgentConstraint& added) {
+  const Constraint& c = added.constraint;
+  for (const std::int64_t value : {added.agent, c.cell, c.from, c.begin, c.end})
+    parent = mixed(parent, value);
+  return mixed(parent, static_cast<std::int64_t>(c.kind));
+}
+
+ProofKey ProofLemma::key() const {
+  ProofKey key = mixed(2, bound);
+  for (const AgentIndex agent : agents) key = mixed(key, agent);
+  for (const AgentConstraint& demand : demands) key = proof_key(key, demand);
+  return key;
+}
+
+ProofLemma lemma_at(const NodeView& view, std::span<const AgentIndex> group, Cost excess) {
+  ProofLemma lemma;
+  lemma.agents.assign(group.begin(), group.end());
+  for (const AgentIndex agent : group) {
+    lemma.bound += view.cost_of(agent);
+    add_order(agent, view.order(agent), lemma.demands);
+    for (const Constraint& demand : view.constraints(agent))
+      lemma.demands.push_back({agent, demand});
+  }
+  lemma.bound = std::min(kInfiniteCost, lemma.bound + excess);
+  return lemma;
+}
+
+}  // namespace grove::detail
