@@ -10,6 +10,7 @@
 
 #include "grove/detail/engine/multicore.h"
 #include "grove/detail/engine/worker.h"
+#include "grove/detail/search/proof_log.h"
 #include "mpi/member.h"
 
 namespace grove::detail {
@@ -93,6 +94,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
     if (!heard) std::this_thread::sleep_for(kNap);
   }
   if (!member.coordinator()) return std::nullopt;
+  if (options.proof != nullptr) member.rank().search().lagrangian().write_down(*options.proof);
   return member.coordinator()->conclude();
 }
 

@@ -22,8 +22,10 @@ constexpr double kMostHere = 4;                    // of its own work to other w
 
 }  // namespace
 
-void LagrangianShare::open(const Instance& instance, const AgentStopsStore& stops) {
+void LagrangianShare::open(const Instance& instance, const AgentStopsStore& stops,
+                           bool keeps_reasons) {
   instance_ = &instance;
+  keeps_reasons_ = keeps_reasons;
   stops_.emplace(stops);
   is_over_ = instance.agent_count() < tuning_.lagrangian_agents;
 }
@@ -52,6 +54,7 @@ void LagrangianShare::make() {
   try {
     bound_ = LagrangianBound::make(*instance_, *stops_, tuning_);
     if (bound_) bound_->set_helpers(ranks_ - 1);
+    if (bound_ && keeps_reasons_) bound_->keep_reasons();
   } catch (const std::bad_alloc&) {
     bound_.reset();
   }
@@ -91,6 +94,16 @@ Cost LagrangianShare::commit(LagrangianBound::Job job) {
   own_here_ += job.work;
   bound_->commit(std::move(job));
   return heard_of_bound();
+}
+
+void LagrangianShare::write_down(ProofLog& proof) const {
+  const LagrangianBound* const bound = this->bound();
+  if (bound == nullptr || bound->reasons().empty()) return;
+  std::vector<ProofRow> rows;
+  for (const auto& [row, charge] : bound->reasons())
+    rows.push_back({static_cast<ProofRow::Kind>(row.kind), row.a, row.b, row.time,
+                    row.kind == RelaxedRow::Kind::kFinish ? row.time_b : 0, charge});
+  proof.prices(bound->lower_bound(), rows);
 }
 
 Cost LagrangianShare::heard_of_bound() {

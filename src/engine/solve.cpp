@@ -14,6 +14,7 @@
 #include "grove/detail/engine/worker.h"
 #include "grove/detail/search/feasibility.h"
 #include "grove/detail/search/gate.h"
+#include "grove/detail/search/proof_log.h"
 #include "local_checkpoints.h"
 #include "stop_text.h"
 
@@ -86,6 +87,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   }
   if (workers) workers->add_counts(stats);
   workers.reset();  // their memory may be needed for the answer
+  if (options.proof != nullptr) shared.lagrangian().write_down(*options.proof);
   if (begun) checkpoints.write_last();
   run.end();
   Solution solution = run.conclude();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grove/detail/engine/techniques_of.h"
+#include "grove/detail/search/proof_log.h"
 #include "joint_share.h"
 #include "primal_share.h"
 
@@ -54,7 +55,7 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
   const std::int64_t agents = problem.instance.agent_count();
   share_->tree_worked(options.tuning.root_work_per_pair * agents * agents);
   if (number == 0 && techniques_of(options).has(Technique::kLagrangian))
-    shared.lagrangian().open(problem.instance, stops);
+    shared.lagrangian().open(problem.instance, stops, options.proof != nullptr);
 }
 
 Worker::~Worker() = default;
@@ -167,6 +168,8 @@ void Worker::commit(Turn& turn) {
     others_worked(turn.work);
   } else if (turn.job == Turn::Job::kJoint) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), PlanSource::kJointSearch);
+    if (options_.proof != nullptr && turn.proven > shared_.ledger().lower_bound())
+      options_.proof->joint(turn.proven);
     shared_.ledger().prove(turn.proven, ProvenBy::kJointSearch);
   } else if (turn.job == Turn::Job::kLagrangian) {
     const Cost proven = shared_.lagrangian().commit(std::move(turn.lagrangian));

@@ -170,7 +170,14 @@ void LagrangianBound::end_pricing_if_done() {
   work_between_ = 0;
   const Price bound =
       std::accumulate(prices_.begin(), prices_.end(), Price{0}) - tariff().sum_of_charges();
+  if (bound > best_ && keeps_reasons_) note_reasons();
   best_ = std::max(best_, bound);
+}
+
+void LagrangianBound::note_reasons() {
+  reasons_.clear();
+  for (Tariff::RowId id = 0; id < tariff().count(); ++id)
+    if (tariff().charge(id) > 0) reasons_.push_back({tariff().row(id), tariff().charge(id)});
 }
 
 // The round cannot end meanwhile, for nobody has these agents yet; so the tariff stays as it is.

@@ -57,6 +57,16 @@ class Collected : public ProofLog {
              std::span<const ProofSplit> /*splits*/) override {
     lemmas.insert(lemma.key());
   }
+  void prices(Cost bound, std::span<const ProofRow> rows) override {
+    if (bound <= priced) return;
+    priced = bound;
+    priced_rows.assign(rows.begin(), rows.end());
+  }
+  void joint(Cost bound) override { joined = std::max(joined, bound); }
+
+  Cost priced = 0;  // what prices say, and joint search
+  std::vector<ProofRow> priced_rows;
+  Cost joined = 0;
 };
 
 Cost covered(std::span<const ProofExcess> excesses) {
@@ -183,6 +193,9 @@ class LemmaWriter : public ProofLog {
         [&](const Entry& entry) { writer_.line(proof_text(entry.split->split, instance_)); });
   }
 
+  void prices(Cost /*bound*/, std::span<const ProofRow> /*rows*/) override {}
+  void joint(Cost /*bound*/) override {}
+
   std::int64_t number(ProofKey key) const { return numbers_.at(key); }
   std::int64_t count() const { return std::ssize(numbers_); }
 
@@ -202,8 +215,10 @@ class Making {
   }
 
   Certificate write(Cost claimed, const std::filesystem::path& file) {
-    made_.bound = std::min(claimed, tree_.value(kRoot, claimed_root(claimed)));
-    choose_lemmas();
+    const Cost of_tree = std::min(claimed, tree_.value(kRoot, claimed_root(claimed)));
+    made_.bound = std::min(claimed, std::max({of_tree, collected_.priced, collected_.joined}));
+    const bool by_tree = of_tree >= made_.bound;
+    if (by_tree) choose_lemmas();
     Writer writer(file);
     writer.line("grove-proof 1");
     writer.line(fmt::format("instance {:016x}", certificate_checksum(instance_)));
@@ -211,7 +226,12 @@ class Making {
     LemmaWriter lemmas(instance_, needed_, writer);
     for (const auto& part : parts_) read_proof_part(part, lemmas);
     writer.line("theorem " + proof_text(made_.bound));
-    write_tree(lemmas, writer);
+    if (by_tree)
+      write_tree(lemmas, writer);
+    else if (collected_.priced >= made_.bound)
+      write_prices(writer);
+    else
+      writer.line("joint");
     writer.line("end");
     made_.lemmas = lemmas.count();
     made_.bytes = writer.commit();
@@ -275,6 +295,12 @@ class Making {
           ++made_.splits;
           writer.line(split_text(*entry.split, lemmas));
         });
+  }
+
+  void write_prices(Writer& writer) const {
+    writer.line("prices");
+    for (const ProofRow& row : collected_.priced_rows) writer.line(proof_text(row));
+    writer.line("end");
   }
 
   std::string split_text(const ProofSplit& s, const LemmaWriter& lemmas) const {

@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace {
 
-enum Kind : std::int64_t { kSplit = 1, kBound = 2, kLemma = 3 };
+enum Kind : std::int64_t { kSplit = 1, kBound = 2, kLemma = 3, kPrices = 4, kJoint = 5 };
 constexpr std::int64_t kMostNumbers = std::int64_t{1} << 28;  // of an entry
 
 using Numbers = std::vector<std::int64_t>;
@@ -84,6 +84,19 @@ class Taking {
     return split;
   }
 
+  ProofRow row() {
+    ProofRow row;
+    const std::int64_t kind = number();
+    if (kind < 0 || kind > static_cast<std::int64_t>(ProofRow::Kind::kFinish)) refuse();
+    row.kind = static_cast<ProofRow::Kind>(kind);
+    row.a = small();
+    row.b = small();
+    row.time = small();
+    row.time_b = small();
+    row.charge = number();
+    return row;
+  }
+
  private:
   [[noreturn]] void refuse() const { refuse_part(path_); }
 
@@ -105,6 +118,13 @@ void tell(std::int64_t kind, Taking taking, ProofLog& log) {
       excesses.push_back({lemma, taking.agents(), excess});
     }
     return log.bound(node, cost, bound, excesses);
+  }
+  if (kind == kJoint) return log.joint(taking.number());
+  if (kind == kPrices) {
+    const Cost bound = taking.number();
+    std::vector<ProofRow> rows;
+    while (!taking.is_over()) rows.push_back(taking.row());
+    return log.prices(bound, rows);
   }
   ProofLemma lemma;
   const ProofKey root = taking.key();
@@ -182,6 +202,18 @@ void ProofRecorder::lemma(const ProofLemma& lemma, ProofKey root,
   stream_->add(kLemma, numbers);
 }
 
+void ProofRecorder::prices(Cost bound, std::span<const ProofRow> rows) {
+  Numbers numbers{bound};
+  for (const ProofRow& row : rows)
+    numbers.insert(numbers.end(), {static_cast<std::int64_t>(row.kind), row.a, row.b, row.time,
+                                   row.time_b, row.charge});
+  stream_->add(kPrices, numbers);
+}
+
+void ProofRecorder::joint(Cost bound) {
+  stream_->add(kJoint, {bound});
+}
+
 void ProofRecorder::flush() {
   stream_->flush();
 }
@@ -200,7 +232,7 @@ void read_proof_part(const std::filesystem::path& path, ProofLog& log) {
   };
   Numbers numbers;
   for (std::int64_t head[2]; read(head, 2);) {
-    if (head[0] < kSplit || head[0] > kLemma || head[1] < 0 || head[1] > kMostNumbers)
+    if (head[0] < kSplit || head[0] > kJoint || head[1] < 0 || head[1] > kMostNumbers)
       refuse_part(path);
     numbers.resize(static_cast<std::size_t>(head[1]));
     if (!read(numbers.data(), numbers.size())) break;

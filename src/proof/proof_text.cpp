@@ -45,6 +45,18 @@ std::string proof_text(const Split& split, const Instance& instance) {
                      proof_text(split[1], instance));
 }
 
+std::string proof_text(const ProofRow& row) {
+  switch (row.kind) {
+    case ProofRow::Kind::kPlace:
+      return fmt::format("place {} {} {}", row.a, row.time, row.charge);
+    case ProofRow::Kind::kEdge:
+      return fmt::format("edge {} {} {} {}", row.a, row.b, row.time, row.charge);
+    case ProofRow::Kind::kFinish:
+      return fmt::format("finish {} {} {} {} {}", row.a, row.time, row.b, row.time_b, row.charge);
+  }
+  return {};
+}
+
 std::string proof_text(Cost cost) {
   return cost >= kInfiniteCost ? "inf" : fmt::to_string(cost);
 }

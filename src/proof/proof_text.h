@@ -8,6 +8,7 @@
 #include "grove/detail/model/instance.h"
 #include "grove/detail/model/omega.h"
 #include "grove/detail/planning/constraint.h"
+#include "grove/detail/search/proof_log.h"
 
 namespace grove::detail {
 
@@ -15,6 +16,8 @@ namespace grove::detail {
 std::string proof_text(const AgentConstraint& demand, const Instance& instance);
 // "split 3 bar 17 4 4 | 5 bar 17 4 4"
 std::string proof_text(const Split& split, const Instance& instance);
+// "place 17 4 512"
+std::string proof_text(const ProofRow& row);
 // A number, or "inf".
 std::string proof_text(Cost cost);
 

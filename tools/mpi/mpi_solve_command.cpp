@@ -20,6 +20,7 @@
 #include "tools/mpi/mpi_commands.h"
 #include "tools/mpi/together.h"
 #include "tools/solve/incumbent_files.h"
+#include "tools/solve/proof_output.h"
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 #include "tools/solve/start_plan.h"
@@ -58,6 +59,8 @@ class Run {
     together(session_, [&] {
       if (is_first()) prepare(crew);
     });
+    together(session_, [&] { proof_.emplace(a_, session_.rank()); });
+    options_.proof = proof_->log();
     if (is_first())
       solve_and_write();
     else
@@ -84,6 +87,7 @@ class Run {
     log_->head(head_of(app_, a_, *loaded_, workers_text(crew)));
     for (const std::string& warning : warnings(crew)) log_->warning(warning);
     if (checkpoints_.resumed) log_->resumed(checkpoints_.resumed->header());
+    if (!checkpoints_.resumed) ProofOutput::remove_old(a_);
   }
 
   void solve_and_write() {
@@ -91,6 +95,7 @@ class Run {
     IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
                             options_.omega, rows);
     Solution solution = *solve_with(observer);
+    proof_->write(loaded_->instance, solution);
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
     finish_run(a_, loaded_->instance, solution, *log_);
@@ -102,10 +107,15 @@ class Run {
     const auto answer = answer_without_search(problem, options_, limits_, observer);
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {
-      return solve_by_all(problem, observer);
+      auto solution = solve_by_all(problem, observer);
+      proof_->close();
+      session_.gather("");  // now all have
+      return solution;
     }
     if (!is_first()) return std::nullopt;
-    return answer ? answer : solve(loaded_->instance, options_, limits_, &observer);
+    auto solution = answer ? answer : solve(loaded_->instance, options_, limits_, &observer);
+    proof_->close();
+    return solution;
   }
 
   // What goes wrong here goes wrong on one rank alone, for which the others would wait for ever: a
@@ -135,6 +145,7 @@ class Run {
   RunObserver silent_;
   CheckpointFolder checkpoints_;
   std::unique_ptr<LogFormat> log_;
+  std::optional<ProofOutput> proof_;
 };
 
 }  // namespace

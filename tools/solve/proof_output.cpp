@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <CLI/Error.hpp>
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "grove/detail/engine/method.h"
 #include "grove/detail/io/atomic_file.h"
@@ -16,8 +18,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path part_of(const fs::path& file, std::size_t number) {
-  return fs::path(file).concat(fmt::format(".part-{}", number));
+// Of all ranks and runs.
+std::vector<fs::path> parts_of(const fs::path& file) {
+  const std::string prefix = file.filename().string() + ".part-";
+  std::vector<fs::path> parts;
+  for (const auto& entry : fs::directory_iterator(fs::absolute(file).parent_path()))
+    if (entry.path().filename().string().starts_with(prefix)) parts.push_back(entry.path());
+  std::ranges::sort(parts);
+  return parts;
+}
+
+fs::path unused_part(const fs::path& file, int rank) {
+  for (int number = 0;; ++number) {
+    fs::path part = fs::path(file).concat(fmt::format(".part-{}-{}", rank, number));
+    if (!fs::exists(part)) return part;
+  }
 }
 
 std::string text_of(const Certificate& made, Cost claimed) {
@@ -35,33 +50,34 @@ std::string text_of(const Certificate& made, Cost claimed) {
 
 }  // namespace
 
-ProofOutput::ProofOutput(const SolveArguments& a, bool resumed)
+ProofOutput::ProofOutput(const SolveArguments& a, int rank)
     : file_(a.proof), goes_on_(!a.checkpoints.directory.empty()) {
   if (file_.empty()) return;
   if (solve_options(a).policy == Policy::kFixed || is_adaptation(method_of(a)))
     throw CLI::ValidationError("--proof",
                                "expected --policy free and a method of one tree with it");
-  require_writable(file_);
-  for (std::size_t number = 0; fs::exists(part_of(file_, number)); ++number) {
-    if (resumed)
-      parts_.push_back(part_of(file_, number));
-    else
-      fs::remove(part_of(file_, number));
-  }
-  parts_.push_back(part_of(file_, parts_.size()));
-  recorder_ = std::make_unique<ProofRecorder>(parts_.back());
+  recorder_ = std::make_unique<ProofRecorder>(unused_part(file_, rank));
+}
+
+void ProofOutput::remove_old(const SolveArguments& a) {
+  if (a.proof.empty()) return;
+  require_writable(a.proof);
+  for (const fs::path& part : parts_of(a.proof)) fs::remove(part);
+}
+
+void ProofOutput::close() {
+  if (recorder_) recorder_->flush();
 }
 
 void ProofOutput::write(const Instance& instance, Solution& solution) {
   if (!recorder_) return;
-  recorder_->flush();
+  const std::vector<fs::path> parts = parts_of(file_);
   const Cost claimed =
       solution.status == Status::kInfeasible ? kInfiniteCost : solution.lower_bound;
-  const Certificate made = write_certificate(instance, parts_, claimed, file_);
+  const Certificate made = write_certificate(instance, parts, claimed, file_);
   solution.stats.texts["proof"] = text_of(made, claimed);
-  recorder_.reset();
   if (goes_on_) return;
-  for (const fs::path& part : parts_) fs::remove(part);
+  for (const fs::path& part : parts) fs::remove(part);
 }
 
 }  // namespace grove::detail

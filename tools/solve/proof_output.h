@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <vector>
 
 #include "grove/detail/model/instance.h"
 #include "grove/detail/model/plan.h"
@@ -13,24 +12,28 @@
 
 namespace grove::detail {
 
-// While the run goes on, what it writes down is in files beside the certificate, FILE.part-N; of a
-// run that is to go on from its checkpoint they stay, and with those that follow make one
-// certificate in the end.
+// While the run goes on, what each rank writes down is in files beside the certificate,
+// FILE.part-RANK-N; of a run that is to go on from its checkpoint they stay, and with those that
+// follow make one certificate in the end.
 class ProofOutput {
  public:
-  // Nothing is done if none is asked for. Throws InputError, and CLI::ValidationError for runs that
-  // cannot write one. `resumed`: the run goes on from a checkpoint.
-  ProofOutput(const SolveArguments& arguments, bool resumed);
+  // Nothing is done if none is asked for. Removes what earlier runs left, unless this one goes on
+  // from a checkpoint; of several ranks one does, before the others make theirs. Throws InputError,
+  // and CLI::ValidationError for runs that cannot write one.
+  explicit ProofOutput(const SolveArguments& arguments, int rank = 0);
+  static void remove_old(const SolveArguments& arguments);
 
   // For SolveOptions; null if none is asked for.
   ProofLog* log() { return recorder_.get(); }
-  // Makes the certificate, and notes in the solution's statistics what it proves.
+  // All that this rank has written down is in its file; it writes no more.
+  void close();
+  // Once all ranks have closed theirs: makes the certificate, and notes in the solution's
+  // statistics what it proves.
   void write(const Instance& instance, Solution& solution);
 
  private:
   const std::filesystem::path file_;
   const bool goes_on_;  // a later run may
-  std::vector<std::filesystem::path> parts_;
   std::unique_ptr<ProofRecorder> recorder_;
 };
 

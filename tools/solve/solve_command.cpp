@@ -50,7 +50,8 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
   expect_fit(method_of(a), loaded.instance, options, a.instance.name());
   const CheckpointFolder checkpoints = prepare_checkpoints(a.checkpoints, loaded.instance, options);
-  ProofOutput proof(a, checkpoints.resumed != nullptr);
+  if (!checkpoints.resumed) ProofOutput::remove_old(a);
+  ProofOutput proof(a);
   options.proof = proof.log();
   const auto log = open_log(a);
   log->head(head_of(app, a, loaded, std::to_string(a.threads)));
@@ -64,6 +65,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   Solution solution =
       solve_by(method_of(a), a.anytime, loaded.instance, options, limits, &observer);
 
+  proof.close();
   proof.write(loaded.instance, solution);
   add_run_facts(solution, app, a, start);
   finish_run(a, loaded.instance, solution, *log);

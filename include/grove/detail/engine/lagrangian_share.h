@@ -12,6 +12,7 @@
 
 #include "grove/detail/lagrangian/lagrangian_bound.h"
 #include "grove/detail/lagrangian/pricing_help.h"
+#include "grove/detail/search/proof_log.h"
 
 namespace grove::detail {
 
@@ -23,8 +24,8 @@ class LagrangianShare {
   // `tuning` must outlive this. Until open() it is never due.
   explicit LagrangianShare(const Tuning& tuning) : tuning_(tuning) {}
 
-  // Before the search. `instance` must outlive this.
-  void open(const Instance& instance, const AgentStopsStore& stops);
+  // Before the search. `instance` must outlive this. `keeps_reasons`: for write_down().
+  void open(const Instance& instance, const AgentStopsStore& stops, bool keeps_reasons);
 
   // So much was done beside it.
   void others_worked(std::int64_t work) { others_ += work; }
@@ -42,6 +43,8 @@ class LagrangianShare {
   // Of one who has a job.
   Pricer pricer(const AgentStopsStore& stops) const;
   int rounds() const { return rounds_; }
+  // After the search: why the bound holds.
+  void write_down(ProofLog& proof) const;
 
   // On rank 0, before the search: so many ranks share it.
   void set_ranks(int ranks) {
@@ -67,6 +70,7 @@ class LagrangianShare {
   const Tuning& tuning_;
   const Instance* instance_ = nullptr;
   std::optional<AgentStopsStore> stops_;
+  bool keeps_reasons_ = false;
   std::atomic<std::int64_t> others_{0};
   std::atomic<std::int64_t> own_{0};       // that of other ranks too
   std::atomic<std::int64_t> own_here_{0};  // without it

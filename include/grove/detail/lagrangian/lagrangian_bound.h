@@ -55,6 +55,15 @@ class LagrangianBound {
   // those prices. Returns how many did.
   int accept(int helper, PriceAnswer answer);
 
+  // From now on, remembers by which charges it has the bound that it has.
+  void keep_reasons() { keeps_reasons_ = true; }
+  struct Reason {
+    RelaxedRow row;
+    Tariff::Amount charge;
+  };
+  // Once no job is in hand.
+  const std::vector<Reason>& reasons() const { return reasons_; }
+
   // Nothing is to be gained any more.
   bool ended() const;
   // Proven: no plan costs less.
@@ -85,6 +94,7 @@ class LagrangianBound {
   std::int64_t work_left() const;
   bool take_price(AgentIndex agent, Price price, Path path);
   void end_pricing_if_done();
+  void note_reasons();
   void do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void end_round(Job& job, Cost cutoff, Cost known, const Limits& limits);
   void look_at_collisions();
@@ -104,12 +114,14 @@ class LagrangianBound {
   std::vector<FinishPair> colliding_;  // still to be looked at in this round
   bool is_counted_ = false;            // of this round
   std::vector<Helper> helpers_;        // of the one thread that asks them
+  bool keeps_reasons_ = false;
 
   mutable std::mutex mutex_;  // guards:
   Phase phase_ = Phase::kPricing;
   int in_hand_ = 0;  // jobs
   int rounds_ = 0;
   Price best_ = 0;
+  std::vector<Reason> reasons_;  // for it, if they are kept
   // Agents are priced here from the first one on, and helpers are asked for the last ones; when
   // there are no others left, also for those not yet answered, from the last one back.
   AgentIndex next_agent_ = 0;
