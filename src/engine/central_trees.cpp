@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "grove/detail/search/proof_log.h"
+
 namespace grove::detail {
 namespace {
 
@@ -75,8 +77,15 @@ bool CentralTrees::is_due() const {
 
 void CentralTrees::instantiate(const NodePtr& root) {
   announcements_.root(root);
+  if (options_.proof != nullptr) write_down(*root);
   roots_.push_back(root);
   last_cost_ = root->cost();
+}
+
+void CentralTrees::write_down(const Node& root) const {
+  ProofTree tree{proof_key(root), root.cost(), {}};
+  for (const auto& order : root.tree().orders) tree.sequences.push_back(order->sequences.prefix);
+  options_.proof->tree(tree);
 }
 
 // Instantiates the next tree. Under growing_. If anything throws, the root stays prepared.

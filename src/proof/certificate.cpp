@@ -44,7 +44,11 @@ class Collected : public ProofLog {
  public:
   Entries entries;
   std::unordered_set<ProofKey> lemmas;
+  std::vector<ProofTree> trees;
 
+  void tree(const ProofTree& tree) override {
+    if (std::ranges::count(trees, tree.root, &ProofTree::root) == 0) trees.push_back(tree);
+  }
   void split(const ProofSplit& split) override { entries[split.node].split = split; }
   void bound(ProofKey node, Cost cost, Cost bound, std::span<const ProofExcess> excesses) override {
     Entry& entry = entries[node];
@@ -77,9 +81,9 @@ Cost covered(std::span<const ProofExcess> excesses) {
 
 // A tree of splits, from its root down to where nothing more is asked for. Without recursion: it
 // may be as deep as it has nodes.
-class Tree {
+class SplitTree {
  public:
-  explicit Tree(Entries& entries) : entries_(entries) {}
+  explicit SplitTree(Entries& entries) : entries_(entries) {}
 
   // What the node proves if its agents cost so much.
   Cost value(ProofKey root, Cost cost) {
@@ -173,6 +177,7 @@ class LemmaWriter : public ProofLog {
   LemmaWriter(const Instance& instance, const std::unordered_set<ProofKey>& needed, Writer& writer)
       : instance_(instance), needed_(needed), writer_(writer) {}
 
+  void tree(const ProofTree& /*tree*/) override {}
   void split(const ProofSplit& /*split*/) override {}
   void bound(ProofKey /*node*/, Cost /*cost*/, Cost /*bound*/,
              std::span<const ProofExcess> /*excesses*/) override {}
@@ -186,7 +191,7 @@ class LemmaWriter : public ProofLog {
     if (splits.empty()) return writer_.line("joint");
     Entries entries;
     for (const ProofSplit& split : splits) entries[split.node].split = split;
-    Tree tree(entries);
+    SplitTree tree(entries);
     tree.value(root, 0);
     tree.walk(
         root, 0, lemma.bound, [&](const Entry*) { writer_.line("leaf"); },
@@ -206,6 +211,76 @@ class LemmaWriter : public ProofLog {
   std::unordered_map<ProofKey, std::int64_t> numbers_;
 };
 
+// What is done with a tree of the certificate, leaf by leaf and split by split.
+class Visitor {
+ public:
+  virtual ~Visitor() = default;
+  // Null: the agents' own costs are enough.
+  virtual void leaf(Entry* entry) = 0;
+  virtual void split(const Entry& entry) = 0;
+  virtual void split(const Split& on_sequence) = 0;
+};
+
+// Notes which lemmas are needed.
+class Choosing : public Visitor {
+ public:
+  explicit Choosing(Cost bound) : bound_(bound) {}
+  std::unordered_set<ProofKey> needed;
+
+  void leaf(Entry* entry) override {
+    if (entry == nullptr) return;
+    std::vector<ProofExcess>& chosen = entry->excesses;
+    std::ranges::stable_partition(
+        chosen, [&](const ProofExcess& excess) { return needed.contains(excess.lemma); });
+    const Cost wanted = bound_ - entry->cost;
+    for (std::size_t i = chosen.size(); i-- > 0;) {
+      std::vector<ProofExcess> rest = chosen;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      if (covered(rest) >= wanted) chosen = std::move(rest);
+    }
+    for (const ProofExcess& excess : chosen) needed.insert(excess.lemma);
+  }
+  void split(const Entry& entry) override {
+    if (entry.split->lemma != kNoProof) needed.insert(entry.split->lemma);
+  }
+  void split(const Split& /*on_sequence*/) override {}
+
+ private:
+  const Cost bound_;
+};
+
+class TreeWriter : public Visitor {
+ public:
+  TreeWriter(const Instance& instance, const LemmaWriter& lemmas, Writer& writer, Certificate& made)
+      : instance_(instance), lemmas_(lemmas), writer_(writer), made_(made) {}
+
+  void leaf(Entry* entry) override {
+    ++made_.leaves;
+    std::string line = "leaf";
+    if (entry != nullptr)
+      for (const ProofExcess& excess : entry->excesses)
+        line += fmt::format(" {}", lemmas_.number(excess.lemma));
+    writer_.line(line);
+  }
+  void split(const Entry& entry) override {
+    const ProofSplit& s = *entry.split;
+    if (s.lemma == kNoProof) return split(s.split);
+    ++made_.splits;
+    writer_.line(fmt::format("later {} {} {} {} {}", s.split[0].agent, s.split[0].constraint.end,
+                             s.split[1].agent, s.split[1].constraint.end, lemmas_.number(s.lemma)));
+  }
+  void split(const Split& split) override {
+    ++made_.splits;
+    writer_.line(proof_text(split, instance_));
+  }
+
+ private:
+  const Instance& instance_;
+  const LemmaWriter& lemmas_;
+  Writer& writer_;
+  Certificate& made_;
+};
+
 class Making {
  public:
   Making(const Instance& instance, std::span<const std::filesystem::path> parts)
@@ -215,19 +290,21 @@ class Making {
   }
 
   Certificate write(Cost claimed, const std::filesystem::path& file) {
-    const Cost of_tree = std::min(claimed, tree_.value(kRoot, claimed_root(claimed)));
-    made_.bound = std::min(claimed, std::max({of_tree, collected_.priced, collected_.joined}));
-    const bool by_tree = of_tree >= made_.bound;
-    if (by_tree) choose_lemmas();
+    const Cost of_trees = value_of_trees(claimed);
+    made_.bound = std::min(claimed, std::max({of_trees, collected_.priced, collected_.joined}));
+    const bool by_trees = of_trees >= made_.bound;
+    Choosing choosing(made_.bound);
+    if (by_trees) visit_forest(choosing);
     Writer writer(file);
     writer.line("grove-proof 1");
     writer.line(fmt::format("instance {:016x}", certificate_checksum(instance_)));
     writer.line(instance_.may_follow() ? "following yes" : "following no");
-    LemmaWriter lemmas(instance_, needed_, writer);
+    LemmaWriter lemmas(instance_, choosing.needed, writer);
     for (const auto& part : parts_) read_proof_part(part, lemmas);
     writer.line("theorem " + proof_text(made_.bound));
-    if (by_tree)
-      write_tree(lemmas, writer);
+    TreeWriter writing(instance_, lemmas, writer, made_);
+    if (by_trees)
+      visit_forest(writing);
     else if (collected_.priced >= made_.bound)
       write_prices(writer);
     else
@@ -239,10 +316,7 @@ class Making {
   }
 
  private:
-  static constexpr ProofKey kRoot = 1;
-
-  // Nobody wrote anything down of a root that was not expanded: it is a leaf.
-  Cost claimed_root(Cost claimed) const { return collected_.entries.contains(kRoot) ? 0 : claimed; }
+  using Trees = std::vector<const ProofTree*>;
 
   // Of lemmas that a process was killed over.
   void drop_what_lacks_lemmas() {
@@ -256,45 +330,48 @@ class Making {
     }
   }
 
-  void choose_lemmas() {
-    tree_.walk(
-        kRoot, claimed_root(made_.bound), made_.bound,
-        [&](Entry* entry) {
-          if (entry != nullptr) choose(*entry);
-        },
-        [&](const Entry& entry) {
-          if (entry.split->lemma != kNoProof) needed_.insert(entry.split->lemma);
-        });
+  Cost value_of_trees(Cost claimed) {
+    Cost value = claimed;
+    for (const ProofTree& tree : collected_.trees)
+      value = std::min(value, tree_.value(tree.root, tree.cost));
+    return value;
   }
 
-  void choose(Entry& leaf) {
-    std::vector<ProofExcess>& chosen = leaf.excesses;
-    std::ranges::stable_partition(
-        chosen, [&](const ProofExcess& excess) { return needed_.contains(excess.lemma); });
-    const Cost wanted = made_.bound - leaf.cost;
-    for (std::size_t i = chosen.size(); i-- > 0;) {
-      std::vector<ProofExcess> rest = chosen;
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-      if (covered(rest) >= wanted) chosen = std::move(rest);
+  void visit_forest(Visitor& visitor) {
+    Trees all;
+    for (const ProofTree& tree : collected_.trees) all.push_back(&tree);
+    visit_forest(all, 0, 0, visitor);
+  }
+
+  // These trees have the first stops of the first agents in common: down to tree after tree, stop
+  // after stop, by "it is the next one of the first of these trees, or it is not". Where there are
+  // none of them the agents' own costs are enough, for so it is in all sequences without a tree.
+  void visit_forest(const Trees& trees, std::size_t agent, std::size_t number, Visitor& visitor) {
+    if (trees.empty()) return visitor.leaf(nullptr);
+    const std::vector<Sequence>& sequences = trees.front()->sequences;
+    while (agent < sequences.size() && number == sequences[agent].size()) {
+      ++agent;
+      number = 0;
     }
-    for (const ProofExcess& excess : chosen) needed_.insert(excess.lemma);
+    if (agent == sequences.size()) return visit_tree(*trees.front(), visitor);
+    const Stop stop = sequences[agent][number];
+    const auto demand = [&](ConstraintKind kind) {
+      const auto at = static_cast<Time>(number);
+      return AgentConstraint{static_cast<AgentIndex>(agent), {kNoPlace, stop, at, at, kind}};
+    };
+    visitor.split({demand(ConstraintKind::kStopIs), demand(ConstraintKind::kStopIsNot)});
+    Trees of_it;
+    Trees others;
+    for (const ProofTree* tree : trees)
+      (tree->sequences[agent][number] == stop ? of_it : others).push_back(tree);
+    visit_forest(of_it, agent, number + 1, visitor);
+    visit_forest(others, agent, number, visitor);
   }
 
-  void write_tree(const LemmaWriter& lemmas, Writer& writer) {
+  void visit_tree(const ProofTree& tree, Visitor& visitor) {
     tree_.walk(
-        kRoot, claimed_root(made_.bound), made_.bound,
-        [&](const Entry* entry) {
-          ++made_.leaves;
-          std::string line = "leaf";
-          if (entry != nullptr)
-            for (const ProofExcess& excess : entry->excesses)
-              line += fmt::format(" {}", lemmas.number(excess.lemma));
-          writer.line(line);
-        },
-        [&](const Entry& entry) {
-          ++made_.splits;
-          writer.line(split_text(*entry.split, lemmas));
-        });
+        tree.root, tree.cost, made_.bound, [&](Entry* entry) { visitor.leaf(entry); },
+        [&](const Entry& entry) { visitor.split(entry); });
   }
 
   void write_prices(Writer& writer) const {
@@ -303,17 +380,10 @@ class Making {
     writer.line("end");
   }
 
-  std::string split_text(const ProofSplit& s, const LemmaWriter& lemmas) const {
-    if (s.lemma == kNoProof) return proof_text(s.split, instance_);
-    return fmt::format("later {} {} {} {} {}", s.split[0].agent, s.split[0].constraint.end,
-                       s.split[1].agent, s.split[1].constraint.end, lemmas.number(s.lemma));
-  }
-
   const Instance& instance_;
   const std::span<const std::filesystem::path> parts_;
   Collected collected_;
-  Tree tree_;
-  std::unordered_set<ProofKey> needed_;
+  SplitTree tree_;
   Certificate made_;
 };
 

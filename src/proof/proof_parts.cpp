@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace {
 
-enum Kind : std::int64_t { kSplit = 1, kBound = 2, kLemma = 3, kPrices = 4, kJoint = 5 };
+enum Kind : std::int64_t { kSplit = 1, kBound = 2, kLemma = 3, kPrices = 4, kJoint = 5, kTree = 6 };
 constexpr std::int64_t kMostNumbers = std::int64_t{1} << 28;  // of an entry
 
 using Numbers = std::vector<std::int64_t>;
@@ -84,6 +84,17 @@ class Taking {
     return split;
   }
 
+  ProofTree tree() {
+    ProofTree tree;
+    tree.root = key();
+    tree.cost = number();
+    while (!is_over()) {
+      Sequence& sequence = tree.sequences.emplace_back();
+      for (std::int64_t left = count(); left > 0; --left)
+        sequence.push_back(static_cast<Stop>(number()));
+    }
+    return tree;
+  }
   ProofRow row() {
     ProofRow row;
     const std::int64_t kind = number();
@@ -120,6 +131,7 @@ void tell(std::int64_t kind, Taking taking, ProofLog& log) {
     return log.bound(node, cost, bound, excesses);
   }
   if (kind == kJoint) return log.joint(taking.number());
+  if (kind == kTree) return log.tree(taking.tree());
   if (kind == kPrices) {
     const Cost bound = taking.number();
     std::vector<ProofRow> rows;
@@ -175,6 +187,15 @@ ProofRecorder::ProofRecorder(std::filesystem::path path)
     : stream_(std::make_unique<Stream>(std::move(path))) {}
 
 ProofRecorder::~ProofRecorder() = default;
+
+void ProofRecorder::tree(const ProofTree& tree) {
+  Numbers numbers{number(tree.root), tree.cost};
+  for (const Sequence& sequence : tree.sequences) {
+    numbers.push_back(std::ssize(sequence));
+    numbers.insert(numbers.end(), sequence.begin(), sequence.end());
+  }
+  stream_->add(kTree, numbers);
+}
 
 void ProofRecorder::split(const ProofSplit& split) {
   Numbers numbers;
@@ -232,7 +253,7 @@ void read_proof_part(const std::filesystem::path& path, ProofLog& log) {
   };
   Numbers numbers;
   for (std::int64_t head[2]; read(head, 2);) {
-    if (head[0] < kSplit || head[0] > kJoint || head[1] < 0 || head[1] > kMostNumbers)
+    if (head[0] < kSplit || head[0] > kTree || head[1] < 0 || head[1] > kMostNumbers)
       refuse_part(path);
     numbers.resize(static_cast<std::size_t>(head[1]));
     if (!read(numbers.data(), numbers.size())) break;

@@ -13,18 +13,6 @@ ProofKey mixed(ProofKey key, std::int64_t value) {
   return key ^ key >> 29;
 }
 
-ProofKey key_of_tree(const Tree& tree) {
-  ProofKey key = 1;
-  for (std::size_t agent = 0; agent < tree.orders.size(); ++agent) {
-    const SequenceClass& sequences = tree.orders[agent]->sequences;
-    if (sequences.prefix.empty() && sequences.forbidden_next == 0) continue;
-    key = mixed(key, static_cast<std::int64_t>(agent));
-    for (const Stop stop : sequences.prefix) key = mixed(key, stop);
-    key = mixed(key, static_cast<std::int64_t>(sequences.forbidden_next));
-  }
-  return key;
-}
-
 // What a tree fixes of an agent's order, as demands.
 void add_order(AgentIndex agent, const AgentOrder& order, std::vector<AgentConstraint>& demands) {
   const SequenceClass& sequences = order.sequences;
@@ -41,11 +29,22 @@ void add_order(AgentIndex agent, const AgentOrder& order, std::vector<AgentConst
 
 }  // namespace
 
+ProofKey proof_key(const Tree& tree) {
+  ProofKey key = 1;
+  for (std::size_t agent = 0; agent < tree.orders.size(); ++agent) {
+    const SequenceClass& sequences = tree.orders[agent]->sequences;
+    key = mixed(key, static_cast<std::int64_t>(agent));
+    for (const Stop stop : sequences.prefix) key = mixed(key, stop);
+    key = mixed(key, static_cast<std::int64_t>(sequences.forbidden_next));
+  }
+  return key;
+}
+
 ProofKey proof_key(const Node& node) {
   std::vector<const AgentConstraint*> added;
   for (const Node* at = &node; !at->is_root(); at = at->parent())
     if (at->added().agent >= 0) added.push_back(&at->added());
-  ProofKey key = key_of_tree(node.tree());
+  ProofKey key = proof_key(node.tree());
   for (const AgentConstraint* demand : added | std::views::reverse) key = proof_key(key, *demand);
   return key;
 }

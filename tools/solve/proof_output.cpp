@@ -53,9 +53,9 @@ std::string text_of(const Certificate& made, Cost claimed) {
 ProofOutput::ProofOutput(const SolveArguments& a, int rank)
     : file_(a.proof), goes_on_(!a.checkpoints.directory.empty()) {
   if (file_.empty()) return;
-  if (solve_options(a).policy == Policy::kFixed || is_adaptation(method_of(a)))
+  if (method_of(a) == Method::kCtsCbsB || method_of(a) == Method::kCtsCbsC)
     throw CLI::ValidationError("--proof",
-                               "expected --policy free and a method of one tree with it");
+                               fmt::format("expected another method than {} with it", a.method));
   recorder_ = std::make_unique<ProofRecorder>(unused_part(file_, rank));
 }
 

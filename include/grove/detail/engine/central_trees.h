@@ -46,6 +46,7 @@ class CentralTrees : public TreeSource {
  private:
   bool is_due() const;
   void instantiate(const NodePtr& root);
+  void write_down(const Node& root) const;
   void grow();
   bool begin_anew();
 

@@ -18,6 +18,7 @@ class ProofRecorder : public ProofLog {
   explicit ProofRecorder(std::filesystem::path path);
   ~ProofRecorder() override;
 
+  void tree(const ProofTree& tree) override;
   void split(const ProofSplit& split) override;
   void bound(ProofKey node, Cost cost, Cost bound, std::span<const ProofExcess> excesses) override;
   void lemma(const ProofLemma& lemma, ProofKey root, std::span<const ProofSplit> splits) override;

@@ -19,6 +19,7 @@ namespace grove::detail {
 using ProofKey = std::uint64_t;
 inline constexpr ProofKey kNoProof = 0;
 
+ProofKey proof_key(const Tree& tree);
 // O(depth).
 ProofKey proof_key(const Node& node);
 // Of a node of that name with one constraint more.
@@ -30,6 +31,13 @@ inline bool splits_on_costs(const Split& split) {
     return demand.constraint.kind == ConstraintKind::kNoRestBy;
   });
 }
+
+// There is a tree, of the joint sequences that begin so.
+struct ProofTree {
+  ProofKey root = kNoProof;
+  Cost cost = 0;                    // of its root
+  std::vector<Sequence> sequences;  // by AgentIndex: of their stops
+};
 
 // A node was split in two.
 struct ProofSplit {
@@ -77,6 +85,8 @@ class ProofLog {
   ProofLog& operator=(const ProofLog&) = delete;
   virtual ~ProofLog() = default;
 
+  // Joint sequences of no such tree cost as much as the bound that the run ends with.
+  virtual void tree(const ProofTree& tree) = 0;
   virtual void split(const ProofSplit& split) = 0;
   // The plans of a node cost `bound` or more, as its agents cost `cost` at least, and by what the
   // lemmas say.
