@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+// grove-proofs: are certificates of tiny instances of all kinds verified, and do they say what is
+// true? And is one that was tampered with ever believed where it is false? The checker is another
+// program (--verify). Exit codes: 0 all is well, 1 not, 2 bad usage.
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <zstd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "grove/detail/io/instance_file.h"
+#include "grove/detail/io/map_file.h"
+#include "grove/detail/io/roadmap_file.h"
+#include "grove/detail/proof/certificate.h"
+#include "grove/detail/proof/proof_parts.h"
+#include "tests/fuzz/fuzz_case.h"
+#include "tests/fuzz/random.h"
+#include "tests/oracle/joint_oracle.h"
+
+namespace grove::detail::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+using Lines = std::vector<std::string>;
+
+struct Arguments {
+  fs::path verify;
+  fs::path folder = ".";
+  int count = 200;
+  int mutations = 0;
+  std::uint64_t seed = 1;
+  double seconds = 0.5;  // for each case
+};
+
+constexpr std::size_t kOracleStates = 300'000;
+
+struct Verdict {
+  int code = 0;
+  std::string text;
+  Cost bound = 0;  // if it was verified
+};
+
+Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path& proof) {
+  const std::string command =
+      fmt::format("'{}' '{}' '{}' 2>&1", a.verify.string(), instance.string(), proof.string());
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("cannot run the checker");
+  Verdict verdict;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    verdict.text.append(buffer.data(), size);
+  const int status = ::pclose(pipe);
+  verdict.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (verdict.code != 0) return verdict;
+  constexpr std::string_view kCost = "verified: no plan costs less than ";
+  const std::size_t at = verdict.text.find(kCost);
+  if (at == std::string::npos) {
+    verdict.bound = verdict.text.find("verified: there is no plan") != std::string::npos
+                        ? kInfiniteCost
+                        : throw std::runtime_error("the checker says " + verdict.text);
+  } else {
+    verdict.bound = std::stoll(verdict.text.substr(at + kCost.size()));
+  }
+  return verdict;
+}
+
+Lines lines_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string packed{std::istreambuf_iterator<char>(in), {}};
+  std::string text;
+  ZSTD_DCtx* const context = ZSTD_createDCtx();
+  ZSTD_inBuffer from{packed.data(), packed.size(), 0};
+  std::vector<char> buffer(ZSTD_DStreamOutSize());
+  while (from.pos < from.size) {
+    ZSTD_outBuffer to{buffer.data(), buffer.size(), 0};
+    if (ZSTD_isError(ZSTD_decompressStream(context, &to, &from)))
+      throw std::runtime_error("a certificate that is not compressed as it should be");
+    text.append(buffer.data(), to.pos);
+  }
+  ZSTD_freeDCtx(context);
+  Lines lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// Changes something of a certificate, as one would who wants to have it say more, or by chance.
+class Mutation {
+ public:
+  Mutation(Lines lines, std::uint64_t seed) : lines_(std::move(lines)), random_(seed) {}
+
+  Lines made() {
+    for (int left = random_.percent(80) ? 1 : random_.between(2, 4); left > 0; --left) change();
+    if (random_.percent(60)) raise_theorem();
+    return lines_;
+  }
+
+ private:
+  void change() {
+    const int at = random_.below(static_cast<int>(lines_.size()));
+    switch (random_.below(8)) {
+      case 0:
+      case 1:
+      case 2:
+        return change_number(lines_[at]);
+      case 3:
+        lines_.erase(lines_.begin() + at);
+        return;
+      case 4:
+        lines_.insert(lines_.begin() + at, random_.pick(lines_));
+        return;
+      case 5:
+        std::swap(lines_[at], lines_[random_.below(static_cast<int>(lines_.size()))]);
+        return;
+      case 6:
+        return cut_off(at);
+      default:
+        return change_word(lines_[at]);
+    }
+  }
+
+  void change_number(std::string& line) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      if (std::isdigit(static_cast<unsigned char>(line[i])) && (i == 0 || line[i - 1] == ' '))
+        numbers.push_back(i);
+    if (numbers.empty()) return;
+    const std::size_t begin = random_.pick(numbers);
+    const std::size_t end = std::min(line.find(' ', begin), line.size());
+    std::int64_t number = 0;
+    std::from_chars(line.data() + begin, line.data() + end, number);
+    number += random_.pick<int>({-1, 1, 1, 2, -2, 10, -10});
+    line.replace(begin, end - begin, fmt::to_string(std::max<std::int64_t>(0, number)));
+  }
+
+  void change_word(std::string& line) {
+    constexpr std::array<std::string_view, 8> kWords{"bar",  "move", "norest", "rest",
+                                                     "pass", "stop", "nostop", "inf"};
+    const std::string_view to = kWords[random_.below(kWords.size())];
+    for (const std::string_view word : kWords)
+      if (const std::size_t at = line.find(word); at != std::string::npos) {
+        line.replace(at, word.size(), to);
+        return;
+      }
+  }
+
+  // What is below a split is replaced by a leaf.
+  void cut_off(int at) {
+    const auto opens = [](const std::string& line) {
+      return line.starts_with("split") || line.starts_with("later");
+    };
+    const auto closes = [](const std::string& line) {
+      return line.starts_with("leaf") || line == "joint";
+    };
+    if (!opens(lines_[at])) return;
+    int open = 1;
+    std::size_t end = at;
+    for (; end < lines_.size() && open > 0; ++end)
+      open += opens(lines_[end]) ? 1 : closes(lines_[end]) ? -1 : 0;
+    lines_.erase(lines_.begin() + at, lines_.begin() + static_cast<std::ptrdiff_t>(end));
+    lines_.insert(lines_.begin() + at, random_.percent(50) ? "leaf" : "leaf 0");
+  }
+
+  void raise_theorem() {
+    for (std::string& line : lines_)
+      if (line.starts_with("theorem ")) {
+        if (random_.percent(10))
+          line = "theorem inf";
+        else if (line != "theorem inf")
+          line = fmt::format("theorem {}", std::stoll(line.substr(8)) + random_.between(1, 3));
+      }
+  }
+
+  Lines lines_;
+  Random random_;
+};
+
+class Trial {
+ public:
+  explicit Trial(const Arguments& a)
+      : a_(a),
+        map_(a.folder / "proofs.map"),
+        roadmap_(a.folder / "proofs.roadmap.json"),
+        instance_file_(a.folder / "proofs.cts.json"),
+        part_(a.folder / "proofs.part"),
+        proof_(a.folder / "proofs.proof"),
+        mutant_(a.folder / "proofs.mutant") {}
+
+  void look_at(std::uint64_t seed) {
+    seed_ = seed;
+    case_ = random_case(seed);
+    case_.options.audit = false;
+    const Instance instance = case_.instance.build();
+    const oracle::Answer truth = oracle::solve_jointly(instance, kOracleStates);
+    if (truth.verdict == oracle::Verdict::kTooLarge) return;
+    optimum_ = truth.plan ? truth.plan->cost : kInfiniteCost;
+    write(instance);
+    const Solution solution = solve(instance);
+    const bool is_infeasible = solution.status == Status::kInfeasible;
+    const Cost claimed = is_infeasible ? kInfiniteCost : solution.lower_bound;
+    const Certificate made = write_certificate(instance, std::array{part_}, claimed, proof_);
+    judge(made, claimed, solution);
+    for (int i = 0; i < a_.mutations; ++i) tamper(seed * 1000 + static_cast<std::uint64_t>(i));
+  }
+
+  bool is_well() const { return wrong_ == 0; }
+  std::string summary() const {
+    std::string text = fmt::format(
+        "{} certificates: {} of the bound claimed, {} of the optimum, {} of less (by reason: ",
+        cases_, whole_, of_optimum_, cases_ - whole_);
+    for (const auto& [reason, count] : lesser_) text += fmt::format("{}: {}; ", reason, count);
+    text += fmt::format(
+        ")\n{} tampered with: {} refused, {} unreadable, {} believed and true\n{} wrong", mutants_,
+        refused_, unreadable_, believed_, wrong_);
+    return text;
+  }
+
+ private:
+  void write(const Instance& instance) const {
+    if (const Roadmap* roadmap = instance.roadmap()) {
+      write_roadmap(roadmap_, *roadmap, Outlives::kProcess);
+      write_instance(instance_file_, instance, roadmap_.filename(), Outlives::kProcess);
+    } else {
+      write_map(map_, instance.grid());
+      write_instance(instance_file_, instance, map_.filename(), Outlives::kProcess);
+    }
+  }
+
+  Solution solve(const Instance& instance) const {
+    ProofRecorder recorder(part_);
+    SolveOptions options = case_.options;
+    options.proof = &recorder;
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() +
+                        std::chrono::microseconds(static_cast<std::int64_t>(a_.seconds * 1e6)));
+    const Solution solution = detail::solve(instance, options, limits, nullptr);
+    recorder.flush();
+    return solution;
+  }
+
+  void judge(const Certificate& made, Cost claimed, const Solution& solution) {
+    ++cases_;
+    const Verdict verdict = verdict_of(a_, instance_file_, proof_);
+    if (verdict.code != 0)
+      complain(fmt::format("a certificate of {} is not verified: {}", made.bound, verdict.text));
+    else if (verdict.bound != made.bound)
+      complain(fmt::format("{} was certified, and {} verified", made.bound, verdict.bound));
+    else if (verdict.bound > optimum_)
+      complain(fmt::format("{} was verified, and the optimum is {}", verdict.bound, optimum_));
+    if (made.bound >= claimed) ++whole_;
+    if (made.bound == optimum_) ++of_optimum_;
+    if (made.bound >= claimed) return;
+    const auto reason = solution.stats.texts.find("reason");
+    ++lesser_[reason == solution.stats.texts.end() ? "none given" : reason->second.substr(0, 40)];
+    if (reason == solution.stats.texts.end())
+      complain(fmt::format("only {} of {} is certified", made.bound, claimed));
+  }
+
+  void tamper(std::uint64_t seed) {
+    const Lines original = lines_of(proof_);
+    const Lines lines = Mutation(original, seed).made();
+    if (lines == original) return;
+    std::ofstream out(mutant_, std::ios::binary);
+    for (const std::string& line : lines) out << line << '\n';
+    out.close();
+    ++mutants_;
+    const Verdict verdict = verdict_of(a_, instance_file_, mutant_);
+    switch (verdict.code) {
+      case 0:
+        if (verdict.bound > optimum_)
+          complain(fmt::format("tampered with by seed {}: {} is believed, and the optimum is {}",
+                               seed, verdict.bound, optimum_));
+        ++believed_;
+        return;
+      case 1:
+        ++refused_;
+        return;
+      case 2:
+        ++unreadable_;
+        return;
+      default:
+        complain(fmt::format("tampered with by seed {}: the checker ends with {}: {}", seed,
+                             verdict.code, verdict.text));
+    }
+  }
+
+  void complain(const std::string& what) {
+    ++wrong_;
+    fmt::print("case {}: WRONG: {}\n{}\n", seed_, what, case_.to_text());
+  }
+
+  const Arguments& a_;
+  const fs::path map_, roadmap_, instance_file_, part_, proof_, mutant_;
+  std::uint64_t seed_ = 0;
+  FuzzCase case_;
+  Cost optimum_ = 0;
+  int cases_ = 0, whole_ = 0, of_optimum_ = 0, wrong_ = 0;
+  int mutants_ = 0, refused_ = 0, unreadable_ = 0, believed_ = 0;
+  std::map<std::string, int> lesser_;
+};
+
+}  // namespace
+}  // namespace grove::detail::fuzz
+
+int main(int argc, char** argv) {
+  grove::detail::fuzz::Arguments a;
+  CLI::App app("Certificates of tiny instances, checked and tampered with", "grove-proofs");
+  app.add_option("--verify", a.verify, "the checker")->required()->check(CLI::ExistingFile);
+  app.add_option("--folder", a.folder, "for its files")->check(CLI::ExistingDirectory);
+  app.add_option("--count", a.count)->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--mutations", a.mutations, "of each certificate")->capture_default_str();
+  app.add_option("--seed", a.seed, "of the first; each other one's is one more")
+      ->capture_default_str();
+  app.add_option("--seconds", a.seconds, "for each")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  grove::detail::fuzz::Trial trial(a);
+  for (int i = 0; i < a.count; ++i) trial.look_at(a.seed + static_cast<std::uint64_t>(i));
+  fmt::print("{}\n", trial.summary());
+  return trial.is_well() ? 0 : 1;
+}
