@@ -292,7 +292,7 @@ class Making {
   Certificate write(Cost claimed, const std::filesystem::path& file) {
     const Cost of_trees = value_of_trees(claimed);
     made_.bound = std::min(claimed, std::max({of_trees, collected_.priced, collected_.joined}));
-    const bool by_trees = of_trees >= made_.bound;
+    const bool by_trees = of_trees >= made_.bound && !is_evidently_infeasible(claimed);
     Choosing choosing(made_.bound);
     if (by_trees) visit_forest(choosing);
     Writer writer(file);
@@ -317,6 +317,12 @@ class Making {
 
  private:
   using Trees = std::vector<const ProofTree*>;
+
+  // There was no search. Why is not written down, so whoever wants to know looks at all that the
+  // agents can do.
+  bool is_evidently_infeasible(Cost claimed) const {
+    return claimed >= kInfiniteCost && collected_.trees.empty();
+  }
 
   // Of lemmas that a process was killed over.
   void drop_what_lacks_lemmas() {
