@@ -93,7 +93,10 @@ std::vector<std::pair<std::string, Json>> columns(const Row& row) {
       {"claimed_lower_bound", optional_json(outcome.claimed_lower_bound)},
       {"claimed_s", outcome.claimed_s ? Json(rounded(*outcome.claimed_s)) : Json(nullptr)},
       {"anytime", outcome.anytime},
-      {"trace", text_or_null(trace_text(outcome.trace))}};
+      {"trace", text_or_null(trace_text(outcome.trace))},
+      {"certified", optional_json(outcome.certified)},
+      {"verify_s", outcome.verify_s ? Json(rounded(*outcome.verify_s)) : Json(nullptr)},
+      {"proof_bytes", optional_json(outcome.proof_bytes)}};
 }
 
 template <typename Value>
@@ -148,6 +151,9 @@ Outcome outcome_of(const nlohmann::json& json) {
                   .claimed_lower_bound = later_member<Cost>(json, "claimed_lower_bound"),
                   .claimed_s = later_member<double>(json, "claimed_s"),
                   .trace = parse_trace(later_member<std::string>(json, "trace").value_or("")),
+                  .certified = later_member<bool>(json, "certified"),
+                  .verify_s = later_member<double>(json, "verify_s"),
+                  .proof_bytes = later_member<std::int64_t>(json, "proof_bytes"),
                   .anytime = later_member<bool>(json, "anytime").value_or(false)};
   constexpr std::array<std::string_view, 4> kWithoutResult{kError, kWrongPlan, kClaimed,
                                                            kUnsuitable};

@@ -19,6 +19,7 @@
 #include "tools/bench/bench_run.h"
 #include "tools/bench/rehearsal.h"
 #include "tools/common/commands.h"
+#include "tools/common/companion.h"
 #include "tools/common/machine.h"
 #include "tools/common/options.h"
 #include "tools/common/progress_style.h"
@@ -82,6 +83,7 @@ struct BenchArguments {
   double memory_limit_gb = 0;
   std::int64_t jobs = 0;  // 0: as many as fit
   bool keep_plans = false;
+  bool certify = false;
   bool quiet = false;
 };
 
@@ -187,6 +189,7 @@ void run(const CLI::App& app, BenchArguments& a) {
   options.folder = a.output_dir;
   options.jobs = jobs;
   options.keep_plans = a.keep_plans;
+  if (a.certify) options.verify = program_beside("grove-verify");
   options.version = version_text();
   options.machine = processor_text();
   options.stopped = [] { return interrupted.load(); };
@@ -264,6 +267,9 @@ void add_bench_command(CLI::App& root) {
   app->add_flag(
       "--keep-plans", a->keep_plans,
       "keep the plan files, as DIR/plans/NAME/ID.plan.json; NAME+seed7 with another seed than 0");
+  app->add_flag("--certify", a->certify,
+                "have each of Grove's runs write a certificate of its lower bound, and grove-verify "
+                "check it: column certified");
   app->add_flag("--quiet", a->quiet, "no progress on the screen");
   app->callback([app, a] { run(*app, *a); });
 }

@@ -21,6 +21,7 @@
 #include "grove/detail/batch/result_table.h"
 #include "grove/detail/io/expressible.h"
 #include "grove/detail/io/input_error.h"
+#include "grove/detail/io/instance_file.h"
 #include "grove/detail/io/plan_file.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/judge.h"
@@ -36,6 +37,7 @@ constexpr double kCsvInterval_s = 30;  // the whole file is written each time
 // The disk takes longer than a quick run. What a crash of the machine loses is run again.
 constexpr double kFlushInterval_s = 1;
 constexpr auto kWatchInterval = std::chrono::milliseconds(100);
+constexpr double kLongestCheck_s = 3600;
 
 class Bench {
  public:
@@ -139,12 +141,15 @@ class Bench {
     fs::path said;
     fs::path log;
     fs::path folder;  // of another solver
+    fs::path proof;
+    fs::path instance;  // for the checker, where it is a scenario
   };
   Files files_of(std::size_t worker) const {
     const auto named = [&](const char* end) {
       return scratch() / fmt::format("{}{}", worker, end);
     };
-    return {named(".plan.json"), named(".txt"), named(".jsonl"), named(".folder")};
+    return {named(".plan.json"), named(".txt"),   named(".jsonl"),
+            named(".folder"),    named(".proof"), named(".cts.json")};
   }
 
   void do_run(std::size_t run, std::size_t worker) {
@@ -189,17 +194,42 @@ class Bench {
     const double limit = row.run.settings.time_limit_s;
     fs::remove(files.plan);
     fs::remove(files.log);
+    fs::remove(files.proof);
     auto command =
         solve_command(options_.program, instances_[index].entry, method_of(run), limit, files.plan);
     command.insert(command.end(), {"--log", files.log.string(), "--log-format", "jsonl"});
+    if (!options_.verify.empty())
+      command.insert(command.end(), {"--proof", files.proof.string()});
     const ChildEnd end = run_one(command, row, files, true, std::nullopt);
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     const LoadedInstance loaded = load(instances_[index].entry);
     row.outcome = judged(end, limit, loaded.instance, files.plan, files.said);
     if (!row.outcome.failed()) row.outcome.trace = trace_of_log(files.log);
     if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
+    if (fs::exists(files.proof) && !certify(row.outcome, index, loaded, files)) return false;
     row.root_cost = root_costs_.of(index, loaded.instance);
     if (options_.keep_plans) keep(files.plan, plan_name(row), row);
+    return true;
+  }
+
+  // False: it was cancelled.
+  bool certify(batch::Outcome& outcome, std::size_t index, const LoadedInstance& loaded,
+               const Files& files) const {
+    const batch::Entry& entry = instances_[index].entry;
+    fs::path instance = entry.path;
+    if (entry.agents > 0) {
+      instance = files.instance;
+      write_instance(instance, loaded.instance, fs::absolute(loaded.map_path), Outlives::kProcess);
+    }
+    const ChildEnd end = run_child({options_.verify, instance.string(), files.proof.string()},
+                                   files.said,
+                                   {.seconds = kLongestCheck_s,
+                                    .cancelled = [this] { return must_stop(); },
+                                    .memory_gb = std::nullopt});
+    if (end.kind == ChildEnd::Kind::kCancelled) return false;
+    outcome.verify_s = end.wall_s;
+    outcome.proof_bytes = static_cast<std::int64_t>(fs::file_size(files.proof));
+    outcome.certified = is_verified(outcome, end, files.said);
     return true;
   }
 

@@ -36,6 +36,7 @@ struct BenchOptions {
   std::filesystem::path folder;
   int jobs = 1;
   bool keep_plans = false;
+  std::string verify;             // the checker of certificates; empty: none are asked for
   double root_cost_s = 10;        // for the root cost of an instance
   double root_cost_gb = 1;        // the process may have so much while it works one out
   double grace_s = 10;            // so much longer than its time limit a run may last, and

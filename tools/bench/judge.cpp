@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -46,6 +47,24 @@ std::string last_words(const std::filesystem::path& said) {
   } catch (const InputError&) {
     return "";
   }
+}
+
+bool is_verified(batch::Outcome& outcome, const ChildEnd& end, const std::filesystem::path& said) {
+  constexpr std::string_view kCost = "verified: no plan costs less than ";
+  std::string why = end.kind == ChildEnd::Kind::kTooLong ? "takes too long" : "is not verified";
+  if (end.kind == ChildEnd::Kind::kExited && end.code == 0) {
+    const std::string text = read_text(said);
+    if (text.starts_with("verified: there is no plan")) return true;
+    if (text.starts_with(kCost)) {
+      const Cost cost = std::atoll(text.c_str() + kCost.size());
+      if (outcome.status != to_string(Status::kInfeasible) && cost >= outcome.lower_bound) return true;
+      why = fmt::format("proves no more than {}", cost);
+    }
+  } else {
+    why += last_words(said);
+  }
+  if (outcome.error.empty()) outcome.error = "the certificate " + why;
+  return false;
 }
 
 std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log) {

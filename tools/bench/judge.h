@@ -21,6 +21,10 @@ namespace grove::detail::bench {
 batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
                       const std::filesystem::path& plan_file, const std::filesystem::path& said);
 
+// Has the checker of certificates, which said what is in the file `said`, verified all that the
+// outcome claims? What it says else becomes the outcome's error, if it has none.
+bool is_verified(batch::Outcome& outcome, const ChildEnd& end, const std::filesystem::path& said);
+
 inline constexpr const char* kTimeLimit = "time limit";  // as an error
 
 // So many are kept.

@@ -50,6 +50,12 @@ void become_standard_input(std::string_view text) {
   ::dup2(::fileno(file), STDIN_FILENO);
 }
 
+std::string program_beside(const std::string& name) {
+  const fs::path program = own_folder() / name;
+  if (!fs::exists(program)) throw InputError(program.string(), "", "there is no such program");
+  return program.string();
+}
+
 void become(const std::string& companion, const std::vector<std::string>& arguments) {
   const std::string program = place_of(companion).string();
   if (!fs::exists(program))

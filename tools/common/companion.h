@@ -13,6 +13,9 @@ namespace grove::detail {
 // InputError.
 void become_standard_input(std::string_view text);
 
+// A program of users that is built and installed beside this one. Throws InputError if it is not.
+std::string program_beside(const std::string& name);
+
 // Becomes that program; returns never. Throws InputError if it is not there or cannot be run.
 [[noreturn]] void become(const std::string& companion, const std::vector<std::string>& arguments);
 
