@@ -78,6 +78,9 @@ install(TARGETS grove grove-sim RUNTIME COMPONENT programs)
 if(GROVE_WITH_MPI)
   install(TARGETS grove-mpi RUNTIME COMPONENT programs)
 endif()
+if(GROVE_WITH_VERIFY)
+  install(PROGRAMS ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/grove-verify TYPE BIN COMPONENT programs)
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bench/solvers
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/smoke-test

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+//! One agent as searches see it: its poses, its stops, and what remains at least, were there no demands but on the order of stops.
+use crate::instance::{Agent, Instance, Place, World};
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// Later than all times of a certificate: `inf`.
+pub const NEVER: u32 = 1 << 30;
+
+/// Lists of numbers, one for each number.
+struct Lists {
+    first: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Lists {
+    fn of(count: usize, pairs: &[(u32, u32)]) -> Lists {
+        let mut first = vec![0u32; count + 1];
+        pairs.iter().for_each(|pair| first[pair.0 as usize + 1] += 1);
+        (0..count).for_each(|i| first[i + 1] += first[i]);
+        let (mut free, mut items) = (first.clone(), vec![0; pairs.len()]);
+        for &(from, to) in pairs {
+            items[free[from as usize] as usize] = to;
+            free[from as usize] += 1;
+        }
+        Lists { first, items }
+    }
+
+    fn at(&self, i: u32) -> &[u32] {
+        &self.items[self.first[i as usize] as usize..self.first[i as usize + 1] as usize]
+    }
+}
+
+/// The poses of agents that turn alike (`turn` 0: do not), and steps between them.
+pub struct Poses {
+    turn: u32,
+    each: u32,
+    place: Vec<Place>,
+    next: Lists,
+    back: Lists,
+}
+
+impl Poses {
+    pub fn of(world: &World, turn: u32) -> Poses {
+        let each = if turn == 0 { 1 } else { 4 + 8 * (turn - 1) };
+        let places = world.links.len() as u32;
+        let count = places.checked_mul(each).expect("fewer poses");
+        let mut poses = Poses { turn, each, place: (0..count).map(|pose| pose / each).collect(), ..Poses::empty() };
+        let mut steps = Vec::new();
+        for place in (0..places).filter(|&place| world.passable[place as usize]) {
+            if turn == 0 {
+                steps.extend(world.links[place as usize].iter().map(|&next| (place, next)));
+                continue;
+            }
+            for from in 0..4 {
+                steps.extend(world.ahead(place, from).map(|next| (place * each + from, next * each + from)));
+                for to in [(from + 1) % 4, (from + 3) % 4] {
+                    steps.extend((0..turn).map(|k| (poses.pose(place, (from, to, k)), poses.pose(place, (from, to, k + 1)))));
+                }
+            }
+        }
+        poses.next = Lists::of(count as usize, &steps);
+        steps.iter_mut().for_each(|step| *step = (step.1, step.0));
+        poses.back = Lists::of(count as usize, &steps);
+        poses
+    }
+
+    fn empty() -> Poses {
+        let lists = || Lists { first: Vec::new(), items: Vec::new() };
+        Poses { turn: 0, each: 1, place: Vec::new(), next: lists(), back: lists() }
+    }
+
+    fn pose(&self, place: Place, (from, to, k): (u32, u32, u32)) -> u32 {
+        place * self.each
+            + match k {
+                _ if self.turn == 0 => 0,
+                0 => from,
+                _ if k == self.turn => to,
+                _ => 4 + (from * 2 + u32::from(to == (from + 1) % 4)) * (self.turn - 1) + k - 1,
+            }
+    }
+
+    pub fn place(&self, pose: u32) -> Place {
+        self.place[pose as usize]
+    }
+
+    pub fn next(&self, pose: u32) -> &[u32] {
+        self.next.at(pose)
+    }
+
+    fn on(&self, place: Place) -> std::ops::Range<u32> {
+        place * self.each..(place + 1) * self.each
+    }
+
+    /// How much it takes at least from each pose, to go to a source and there as much as it says.
+    fn spread(&self, mut sources: Vec<(u32, u32)>) -> Vec<u32> {
+        sources.sort_unstable_by(|one, two| two.cmp(one));
+        let mut found = vec![NEVER; self.place.len()];
+        let (mut now, mut wave, mut cost) = (Vec::new(), Vec::new(), 0);
+        while !wave.is_empty() || sources.last().map_or(false, |source| source.0 < NEVER) {
+            if wave.is_empty() {
+                cost = sources[sources.len() - 1].0;
+            }
+            while sources.last().map_or(false, |source| source.0 == cost) {
+                wave.extend(sources.pop().map(|source| source.1));
+            }
+            std::mem::swap(&mut now, &mut wave);
+            for pose in now.drain(..) {
+                if found[pose as usize] == NEVER {
+                    found[pose as usize] = cost;
+                    wave.extend(self.back.at(pose).iter().filter(|&&before| found[before as usize] == NEVER));
+                }
+            }
+            cost += 1;
+        }
+        found
+    }
+}
+
+pub struct Stop {
+    pub task: u32,
+    pub place: Place,
+    pub duration: u32,
+}
+
+/// What remains, for one choice of which stops may have which number.
+pub struct Remaining {
+    after: Vec<u32>,
+    rows: Vec<Option<Rc<Vec<u32>>>>,
+}
+
+pub struct Body {
+    pub poses: Rc<Poses>,
+    pub start: u32,
+    /// The stop at which it is at work at time 0, and when that ends.
+    pub working: Option<(u32, u32)>,
+    pub stops: Vec<Stop>,
+    /// Of each place: the stops there. Empty if there are none at all.
+    stops_at: Vec<u64>,
+    /// In any order of stops the last is where it rests.
+    pub rests_on_last: bool,
+    pub plain_goal: Option<Place>,
+    ends: Rc<Vec<u32>>,
+    legs: Vec<u32>,
+    known: HashMap<Vec<u64>, Remaining>,
+}
+
+impl Body {
+    pub fn of(instance: &Instance, agent: &Agent, poses: Rc<Poses>) -> Body {
+        let timed = |place| agent.tasks.iter().any(|&t| instance.tasks[t as usize].place == place && instance.tasks[t as usize].duration > 0);
+        let mut stops: Vec<Stop> = Vec::new();
+        let mut stops_at = vec![0u64; if agent.tasks.is_empty() { 0 } else { instance.world.links.len() }];
+        for &task in &agent.tasks {
+            let (place, duration) = (instance.tasks[task as usize].place, instance.tasks[task as usize].duration);
+            if duration > 0 || (!timed(place) && stops_at[place as usize] == 0) {
+                assert!(stops.len() < 28, "more tasks of one agent than this program takes");
+                stops_at[place as usize] |= 1 << stops.len();
+                stops.push(Stop { task, place, duration });
+            }
+        }
+        let number_of = |task| stops.iter().position(|stop| stop.task == task).expect("a stop") as u32;
+        let working = agent.working.map(|(task, done)| (number_of(task), instance.tasks[task as usize].duration - done));
+        let ends: Vec<(u32, u32)> = match (agent.goal, agent.goal_heading) {
+            (Some(goal), Some(heading)) => vec![(0, poses.pose(goal, (heading, heading, 0)))],
+            (Some(goal), None) => poses.on(goal).map(|pose| (0, pose)).collect(),
+            (None, _) if stops.is_empty() => (0..poses.place.len() as u32).map(|pose| (0, pose)).collect(),
+            (None, _) => stops.iter().flat_map(|stop| poses.on(stop.place)).map(|pose| (0, pose)).collect(),
+        };
+        let plain = |goal: &Place| agent.goal_heading.is_none() && !timed(*goal);
+        let mut body = Body {
+            start: poses.pose(agent.start, agent.looks),
+            working,
+            rests_on_last: agent.goal.is_none() && stops.iter().all(|stop| stop.duration == 0),
+            plain_goal: agent.goal.filter(plain),
+            ends: Rc::new(poses.spread(ends)),
+            legs: Vec::new(),
+            known: HashMap::new(),
+            poses,
+            stops,
+            stops_at,
+        };
+        let posts = body.posts();
+        let to: Vec<Vec<u32>> = posts.iter().map(|&(_, pose)| body.poses.spread(vec![(0, pose)])).collect();
+        body.legs = posts.iter().flat_map(|&(_, from)| to.iter().map(move |row| row[from as usize])).collect();
+        body
+    }
+
+    /// Stops with the poses in which they may be done.
+    fn posts(&self) -> Vec<(usize, u32)> {
+        (0..self.stops.len()).flat_map(|stop| self.poses.on(self.stops[stop].place).map(move |pose| (stop, pose))).collect()
+    }
+
+    pub fn all(&self) -> u64 {
+        (1 << self.stops.len()) - 1
+    }
+
+    pub fn stops_at(&self, place: Place) -> u64 {
+        self.stops_at.get(place as usize).copied().unwrap_or(0)
+    }
+
+    pub fn has_no_duration(&self, stops: u64) -> u64 {
+        (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)
+    }
+
+    /// For each set of stops done, and each post of the last of them.
+    fn after(&self, allowed: &[u64]) -> Vec<u32> {
+        let posts = self.posts();
+        let mut after = vec![NEVER; posts.len() << self.stops.len()];
+        for done in (1..=self.all()).rev() {
+            let base = done as usize * posts.len();
+            for (from, &(stop, pose)) in posts.iter().enumerate().filter(|(_, post)| done >> post.0 & 1 == 1) {
+                after[base + from] = if done == self.all() { self.ends[pose as usize] } else { NEVER };
+                let open = allowed.get(done.count_ones() as usize).copied().unwrap_or(0) & !done;
+                for (to, &(next, _)) in posts.iter().enumerate().filter(|(_, post)| open >> post.0 & 1 == 1) {
+                    let rest = after[(done | 1 << next) as usize * posts.len() + to];
+                    let cost = self.legs[from * posts.len() + to] + self.stops[next].duration + rest;
+                    after[base + from] = after[base + from].min(cost);
+                }
+                debug_assert!(done >> stop & 1 == 1);
+            }
+        }
+        after
+    }
+
+    /// What remains at least, of each pose, when these stops are done.
+    pub fn remaining(&mut self, allowed: &[u64], done: u64) -> Rc<Vec<u32>> {
+        if done == self.all() {
+            return self.ends.clone();
+        }
+        if !self.known.contains_key(allowed) {
+            if self.known.len() >= 64 {
+                self.known.clear();
+            }
+            let remaining = Remaining { after: self.after(allowed), rows: vec![None; 1 << self.stops.len()] };
+            self.known.insert(allowed.to_vec(), remaining);
+        }
+        let remaining = &self.known[allowed];
+        if let Some(row) = &remaining.rows[done as usize] {
+            return row.clone();
+        }
+        let (posts, open) = (self.posts(), allowed[done.count_ones() as usize] & !done);
+        let at = |post: usize, stop: usize| (done | 1 << stop) as usize * posts.len() + post;
+        let sources = posts.iter().enumerate().filter(|(_, &(stop, _))| open >> stop & 1 == 1);
+        let sources = sources.map(|(post, &(stop, pose))| (remaining.after[at(post, stop)] + self.stops[stop].duration, pose));
+        let row = Rc::new(self.poses.spread(sources.collect()));
+        self.known.get_mut(allowed).expect("known").rows[done as usize] = Some(row.clone());
+        row
+    }
+}

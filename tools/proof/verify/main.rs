@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+//! grove-verify: whether a certificate proves its bound (docs/proof.md, which it is written from).
+mod body;
+mod cover;
+mod instance;
+mod joint;
+mod json;
+mod prices;
+mod proof;
+mod reader;
+mod rules;
+mod search;
+
+use proof::Fault;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+const USAGE: &str = "Usage: grove-verify INSTANCE PROOF [--time-limit SECONDS] [--memory-limit GB] [--stats]
+
+Exit code 0, 'verified: ...': no valid plan of the instance costs less than the certificate says;
+1, 'refused: ...': it does not prove that, or not within the limits; 2, 'unreadable: ...': what is no certificate or instance.
+Without options: no limit of time, 4 GB. --stats says on standard error what it took.";
+
+/// The line that is read, for who refuses from outside.
+static LINE: AtomicU64 = AtomicU64::new(0);
+static USED: AtomicU64 = AtomicU64::new(0);
+static LIMIT: AtomicU64 = AtomicU64::new(4_000_000_000);
+static SAID: AtomicBool = AtomicBool::new(false);
+
+/// Ends the program with its verdict: whoever is first.
+fn say(code: i32, text: &str) -> ! {
+    if SAID.swap(true, Ordering::SeqCst) {
+        std::thread::sleep(Duration::from_secs(60));
+    }
+    use std::io::Write;
+    let _ = writeln!(std::io::stdout(), "{}", text);
+    std::process::exit(code)
+}
+
+fn refuse(reason: &str) -> ! {
+    say(1, &format!("refused: line {}: {}", LINE.load(Ordering::Relaxed), reason))
+}
+
+/// Counts what is allocated.
+struct Counting;
+
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let used = USED.fetch_add(layout.size() as u64, Ordering::Relaxed) + layout.size() as u64;
+        if used > LIMIT.load(Ordering::Relaxed) && LIMIT.swap(u64::MAX, Ordering::Relaxed) != u64::MAX {
+            refuse("the memory limit is reached");
+        }
+        System.alloc(layout)
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        USED.fetch_sub(layout.size() as u64, Ordering::Relaxed);
+        System.dealloc(pointer, layout)
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+struct Arguments {
+    files: Vec<String>,
+    seconds: Option<f64>,
+    stats: bool,
+}
+
+fn arguments() -> Result<Arguments, String> {
+    let mut found = Arguments { files: Vec::new(), seconds: None, stats: false };
+    let mut words = std::env::args().skip(1);
+    while let Some(word) = words.next() {
+        let mut number = |most: f64| {
+            let value = words.next().and_then(|word| word.parse().ok()).filter(|&value: &f64| value > 0.0 && value <= most);
+            value.ok_or_else(|| format!("{}: expected a number above 0, at most {}", word, most))
+        };
+        match word.as_str() {
+            "--time-limit" => found.seconds = Some(number(1e9)?),
+            "--memory-limit" => LIMIT.store((number(1e6)? * 1e9) as u64, Ordering::Relaxed),
+            "--stats" => found.stats = true,
+            "--help" => {
+                println!("{}", USAGE);
+                std::process::exit(0);
+            }
+            option if option.starts_with("--") => return Err(format!("{}: no such option", option)),
+            _ => found.files.push(word),
+        }
+    }
+    if found.files.len() == 2 { Ok(found) } else { Err("expected INSTANCE and PROOF".to_string()) }
+}
+
+fn verify(arguments: &Arguments) -> (i32, String) {
+    let begin = Instant::now();
+    let instance = instance::Instance::read(Path::new(&arguments.files[0]));
+    let lines = reader::Lines::open(Path::new(&arguments.files[1])).map_err(|error| format!("{}: {}", arguments.files[1], error));
+    let (instance, lines) = match instance.and_then(|instance| Ok((instance, lines?))) {
+        Ok(found) => found,
+        Err(reason) => return (2, format!("unreadable: {}", reason)),
+    };
+    let mut verifier = proof::Verifier::new(instance, lines);
+    let outcome = verifier.run();
+    if arguments.stats {
+        eprintln!("{}, {:.3} s", verifier.statistics(), begin.elapsed().as_secs_f64());
+    }
+    let line = LINE.load(Ordering::Relaxed);
+    match outcome {
+        Ok(Some(bound)) => (0, format!("verified: no plan costs less than {}", bound)),
+        Ok(None) => (0, "verified: there is no plan".to_string()),
+        Err(Fault::Refused(reason)) => (1, format!("refused: line {}: {}", line, reason)),
+        Err(Fault::Unreadable(reason)) => (2, format!("unreadable: line {}: {}", line, reason)),
+    }
+}
+
+fn main() {
+    let arguments = arguments().unwrap_or_else(|reason| {
+        eprintln!("grove-verify: error: {}\n\n{}", reason, USAGE);
+        std::process::exit(2)
+    });
+    if let Some(seconds) = arguments.seconds {
+        std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_secs_f64(seconds));
+            refuse("the time limit is reached")
+        });
+    }
+    std::panic::set_hook(Box::new(|panic| refuse(&panic.to_string().replace('\n', " "))));
+    // Its own stack: the least cover and joint search call themselves for each agent.
+    let worker = std::thread::Builder::new().stack_size(1 << 29).spawn(move || verify(&arguments));
+    let (code, text) = worker.expect("a thread").join().unwrap_or_else(|_| refuse("it could not be checked"));
+    say(code, &text)
+}

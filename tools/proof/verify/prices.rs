@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+//! Prices (docs/proof.md, 4): what a path costs with the rows that it uses.
+use crate::instance::Place;
+use crate::joint::{State, Walk};
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap};
+
+/// Units of rows in a step.
+pub const UNIT: u64 = 1024;
+
+#[derive(Default)]
+pub struct Prices {
+    /// On a place at a time; on it there and one before; between two places.
+    at: HashMap<(Place, u32), u64>,
+    stay: HashMap<(Place, u32), u64>,
+    go: HashMap<(Place, Place, u32), u64>,
+    /// Of each agent: who costs this or less.
+    finish: HashMap<u32, Vec<(u32, u64)>>,
+    pub sum: u64,
+    /// For who rests on a place: times, in order, with the sum from each on.
+    rests: HashMap<Place, Vec<(u32, u64)>>,
+}
+
+impl Prices {
+    pub fn place(&mut self, place: Place, time: u32, price: u64) {
+        *self.at.entry((place, time)).or_insert(0) += price;
+        self.rests.entry(place).or_default().push((time, price));
+        self.sum += price;
+    }
+
+    pub fn edge(&mut self, from: Place, to: Place, time: u32, price: u64) {
+        *self.go.entry((from, to, time)).or_insert(0) += price;
+        *self.stay.entry((from, time)).or_insert(0) += price;
+        self.rests.entry(from).or_default().push((time, price));
+        self.sum += price;
+    }
+
+    pub fn finish(&mut self, agents: [(u32, u32); 2], price: u64) {
+        agents.iter().for_each(|&(agent, time)| self.finish.entry(agent).or_default().push((time, price)));
+        self.sum += price;
+    }
+
+    pub fn close(&mut self) {
+        for rows in self.rests.values_mut() {
+            rows.sort_unstable();
+            let mut sum = 0;
+            for row in rows.iter_mut().rev() {
+                sum += row.1;
+                row.1 = sum;
+            }
+        }
+    }
+
+    /// Of a step that arrives at a time.
+    fn step(&self, from: Place, to: Place, time: u32) -> u64 {
+        let way = if from == to { self.stay.get(&(from, time)) } else { self.go.get(&(from.min(to), from.max(to), time)) };
+        way.unwrap_or(&0) + self.at.get(&(to, time)).unwrap_or(&0)
+    }
+
+    /// Of the end, there and then, for ever.
+    fn end(&self, agent: u32, place: Place, time: u32) -> u64 {
+        let rows = self.rests.get(&place).map_or(&[][..], Vec::as_slice);
+        let rest = rows.get(rows.partition_point(|row| row.0 <= time)).map_or(0, |row| row.1);
+        let finish = self.finish.get(&agent).map_or(&[][..], Vec::as_slice);
+        rest + finish.iter().filter(|row| time <= row.0).map(|row| row.1).sum::<u64>()
+    }
+
+    /// The price of an agent; None: there is no path.
+    pub fn of(&self, agent: u32, walk: &mut Walk) -> Option<u64> {
+        let mut waiting = BinaryHeap::new();
+        let mut known: HashMap<(State, u32), u64> = HashMap::new();
+        let place = walk.body.poses.place(walk.body.start);
+        let steps: Vec<(State, u64)> = walk.starts().into_iter().map(|state| (state, *self.at.get(&(place, 0)).unwrap_or(&0))).collect();
+        let mut push = |walk: &mut Walk, waiting: &mut BinaryHeap<_>, state: State, time: u32, used: u64| {
+            let best = known.entry((state, time)).or_insert(u64::MAX);
+            let remains = walk.remains(&state);
+            if used < *best && remains < crate::body::NEVER {
+                *best = used;
+                waiting.push(Reverse((UNIT * u64::from(time + remains) + used, u32::MAX - time, used, Some(state))));
+            }
+        };
+        steps.into_iter().for_each(|(state, used)| push(walk, &mut waiting, state, 0, used));
+        while let Some(Reverse((total, late, used, state))) = waiting.pop() {
+            let (time, state) = match state {
+                Some(state) => (u32::MAX - late, state),
+                None => return Some(total),
+            };
+            let place = walk.body.poses.place(state.pose);
+            if walk.may_end(&state, time) {
+                waiting.push(Reverse((UNIT * u64::from(time) + used + self.end(agent, place, time), late, used, None)));
+            }
+            for step in walk.steps(state, time) {
+                let used = used + self.step(place, walk.body.poses.place(step.pose), time + 1);
+                push(walk, &mut waiting, step, time + 1, used);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+//! Demands (docs/proof.md, 2), and what those on one agent say of its steps.
+use crate::body::{Body, NEVER};
+use crate::instance::{Place, World};
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Kind {
+    Bar,
+    Move,
+    NoRest,
+    Rest,
+    Pass,
+    Stop,
+    NoStop,
+}
+
+/// `p` and `q` are places, or number and task of a stop; `s` and `e` times.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Demand {
+    pub agent: u32,
+    pub kind: Kind,
+    pub p: u32,
+    pub q: u32,
+    pub s: u32,
+    pub e: u32,
+}
+
+/// Rows of places with two neighbours, and the ends by which one leaves them from their first and last place.
+pub struct Chain {
+    first: Place,
+    last: Place,
+    ends: [Place; 2],
+    pub length: u32,
+}
+
+pub struct Chains {
+    of: Vec<u32>,
+    chains: Vec<Chain>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Chains {
+    pub fn of(world: &World) -> Chains {
+        let near = |place: Place| &world.neighbours[place as usize];
+        let inner = |place: Place| near(place).len() == 2;
+        let mut found = Chains { of: vec![NONE; world.links.len()], chains: Vec::new() };
+        for end in (0..world.links.len() as u32).filter(|&place| !inner(place)) {
+            for &first in near(end).iter().filter(|&&place| inner(place)) {
+                if found.of[first as usize] != NONE {
+                    continue;
+                }
+                let (mut before, mut last, mut length) = (end, first, 2);
+                loop {
+                    found.of[last as usize] = found.chains.len() as u32;
+                    let next = near(last)[usize::from(near(last)[0] == before)];
+                    if !inner(next) {
+                        found.chains.push(Chain { first, last, ends: [end, next], length });
+                        break;
+                    }
+                    before = std::mem::replace(&mut last, next);
+                    length += 1;
+                }
+            }
+        }
+        found
+    }
+
+    /// By which end (1 or 2) a step between an inner place and one that is not enters or leaves the chain.
+    fn side(&self, inner: Place, end: Place) -> u8 {
+        let chain = &self.chains[self.of[inner as usize] as usize];
+        match (inner == chain.first, inner == chain.last) {
+            (true, false) => 1,
+            (false, true) => 2,
+            _ => 1 + u8::from(end != chain.ends[0]),
+        }
+    }
+
+    /// The chain, and the side on which one leaves it from this inner place for this end.
+    pub fn exit(&self, inner: Place, end: Place) -> Option<(u32, u8, &Chain)> {
+        let number = self.of[inner as usize];
+        let chain = self.chains.get(number as usize)?;
+        let side = self.side(inner, end);
+        let exit = if side == 1 { (chain.first, chain.ends[0]) } else { (chain.last, chain.ends[1]) };
+        Some((number, side, chain)).filter(|_| exit == (inner, end))
+    }
+}
+
+#[derive(Clone, Copy, Default)]
+struct Mark {
+    stamp: u32,
+    first: u32,
+    count: u32,
+    leaves: bool,
+    /// Who arrives before that may not come to rest with this arrival.
+    rest: u32,
+}
+
+/// How an agent stands where it is: whether it came too early to rest there; 4 or 8: by which side it entered the chain.
+pub type Way = u8;
+pub const EARLY: Way = 1;
+
+pub struct Rules {
+    stamp: u32,
+    marks: Vec<Mark>,
+    safe: Vec<(u32, u32)>,
+    moves: Vec<Demand>,
+    passes: Vec<(u32, u8, u32, u32)>,
+    /// Which stops may have which number, and whether that says anything.
+    pub allowed: Vec<u64>,
+    pub ordered: bool,
+    /// After all finite times of demands.
+    pub settled: u32,
+}
+
+impl Rules {
+    pub fn new(places: usize) -> Rules {
+        let marks = vec![Mark::default(); places];
+        let (safe, moves, passes) = (Vec::new(), Vec::new(), Vec::new());
+        Rules { stamp: 0, marks, safe, moves, passes, allowed: Vec::new(), ordered: false, settled: 0 }
+    }
+
+    fn mark(&mut self, place: Place) -> &mut Mark {
+        let mark = &mut self.marks[place as usize];
+        if mark.stamp != self.stamp {
+            *mark = Mark { stamp: self.stamp, count: 1, ..Mark::default() };
+        }
+        mark
+    }
+
+    fn marked(&self, place: Place) -> Option<&Mark> {
+        Some(&self.marks[place as usize]).filter(|mark| mark.stamp == self.stamp)
+    }
+
+    /// False: nobody meets these demands.
+    pub fn set(&mut self, body: &Body, chains: &Chains, demands: &[Demand]) -> bool {
+        self.stamp += 1;
+        self.moves.clear();
+        self.passes.clear();
+        self.allowed.clear();
+        self.allowed.resize(body.stops.len(), body.all());
+        self.ordered = false;
+        self.settled = 1;
+        let mut bars: Vec<(Place, u32, u32)> = Vec::new();
+        let mut rest: Option<(Place, u32)> = None;
+        for demand in demands {
+            let Demand { kind, p, q, s, e, .. } = *demand;
+            let last = if e == NEVER { s } else { e };
+            self.settled = self.settled.max(last + 1);
+            match kind {
+                Kind::Bar => bars.push((p, s, e)),
+                Kind::Move => {
+                    self.mark(p).leaves = true;
+                    self.moves.push(*demand);
+                }
+                Kind::NoRest => self.mark(p).rest = self.mark(p).rest.max(s + 1),
+                Kind::Rest if rest.map_or(false, |(place, _)| place != p) => return false,
+                Kind::Rest => rest = Some((p, rest.map_or(s, |(_, time)| time.min(s)))),
+                Kind::Pass => self.passes.extend(chains.exit(p, q).map(|(chain, side, _)| (chain, side, s, e))),
+                Kind::Stop | Kind::NoStop => {
+                    let stop = body.stops.iter().position(|stop| stop.task == q).expect("a stop");
+                    self.allowed[p as usize] &= if kind == Kind::Stop { 1 << stop } else { !(1 << stop) };
+                    self.ordered = true;
+                }
+            }
+        }
+        // From a time on it is on the place where it rests: so on no other.
+        let away = rest.map_or(NEVER, |(_, time)| time.wrapping_sub(1));
+        self.safe.clear();
+        self.safe.push(if away == u32::MAX { (1, 0) } else { (0, away) });
+        bars.extend(rest.map(|(place, _)| (place, 1, 0)));
+        bars.sort_unstable();
+        let mut at = 0;
+        while at < bars.len() {
+            let place = bars[at].0;
+            let end = if rest.map_or(false, |rest| rest.0 == place) || away == NEVER { NEVER } else { away };
+            let (first, mut free) = (self.safe.len() as u32, 0);
+            while at < bars.len() && bars[at].0 == place {
+                let (_, s, e) = bars[at];
+                at += 1;
+                if s <= e {
+                    self.free(free, s.wrapping_sub(1), end);
+                    free = free.max(e + 1);
+                }
+            }
+            self.free(free, NEVER, end);
+            let count = self.safe.len() as u32 - first;
+            let mark = self.mark(place);
+            mark.first = first;
+            mark.count = count;
+        }
+        true
+    }
+
+    /// From one time to the other a place is free, and at most to an end.
+    fn free(&mut self, from: u32, to: u32, end: u32) {
+        if from != u32::MAX && to != u32::MAX && end != u32::MAX && from <= to.min(end) {
+            self.safe.push((from, to.min(end)));
+        }
+    }
+
+    /// The intervals of time in which this place is not barred.
+    pub fn intervals(&self, place: Place) -> std::ops::Range<u32> {
+        self.marked(place).map_or(0..1, |mark| mark.first..mark.first + mark.count)
+    }
+
+    pub fn interval(&self, number: u32) -> (u32, u32) {
+        self.safe[number as usize]
+    }
+
+    /// The first of a place's intervals that ends at this time or later.
+    pub fn ending(&self, place: Place, time: u32) -> u32 {
+        let range = self.intervals(place);
+        let slice = &self.safe[range.start as usize..range.end as usize];
+        range.start + slice.partition_point(|interval| interval.1 < time) as u32
+    }
+
+    /// The interval of a place that holds this time.
+    pub fn holding(&self, place: Place, time: u32) -> Option<u32> {
+        Some(self.ending(place, time)).filter(|&number| number < self.intervals(place).end && self.safe[number as usize].0 <= time)
+    }
+
+    /// Before this time one does not arrive on the place to rest there.
+    pub fn rest_from(&self, place: Place) -> u32 {
+        self.marked(place).map_or(0, |mark| mark.rest)
+    }
+
+    pub fn arrived(&self, place: Place, time: u32) -> Way {
+        if time < self.rest_from(place) { EARLY } else { 0 }
+    }
+
+    /// How it stands in chains after a step between two places, and the chain and side by which it leaves after a traverse.
+    pub fn passing(&self, chains: &Chains, way: Way, from: Place, to: Place) -> (Way, Option<(u32, u8)>) {
+        let known = |place: Place| Some(chains.of[place as usize]).filter(|&chain| self.passes.iter().any(|pass| pass.0 == chain));
+        if self.passes.is_empty() {
+            return (0, None);
+        }
+        let (of, into) = (known(from), known(to));
+        if into.is_some() {
+            return (if of == into { way & !EARLY } else { chains.side(to, from) << 2 }, None);
+        }
+        let exit = of.map(|chain| (chain, chains.side(from, to)));
+        (0, exit.filter(|&(_, side)| way >> 2 != 0 && way >> 2 != side))
+    }
+
+    /// The first time from `lo` to `hi` at which it may arrive by this step.
+    pub fn arrival(&self, from: Place, to: Place, exit: Option<(u32, u8)>, lo: u32, hi: u32) -> Option<u32> {
+        let leaves = self.marked(from).map_or(false, |mark| mark.leaves);
+        let mut time = lo;
+        while time <= hi {
+            let covers = |s: u32, e: u32| s <= time && time <= e;
+            let barred = self.moves.iter().filter(|_| leaves).find(|d| d.p == from && d.q == to && covers(d.s, d.e)).map(|d| d.e);
+            let passed = || self.passes.iter().find(|pass| exit == Some((pass.0, pass.1)) && covers(pass.2, pass.3)).map(|pass| pass.3);
+            match barred.or_else(passed) {
+                Some(end) => time = end + 1,
+                None => return Some(time),
+            }
+        }
+        None
+    }
+}
