@@ -267,9 +267,10 @@ void add_bench_command(CLI::App& root) {
   app->add_flag(
       "--keep-plans", a->keep_plans,
       "keep the plan files, as DIR/plans/NAME/ID.plan.json; NAME+seed7 with another seed than 0");
-  app->add_flag("--certify", a->certify,
-                "have each of Grove's runs write a certificate of its lower bound, and grove-verify "
-                "check it: column certified");
+  app->add_flag(
+      "--certify", a->certify,
+      "have each of Grove's runs write a certificate of its lower bound, and grove-verify "
+      "check it: column certified");
   app->add_flag("--quiet", a->quiet, "no progress on the screen");
   app->callback([app, a] { run(*app, *a); });
 }

@@ -198,8 +198,7 @@ class Bench {
     auto command =
         solve_command(options_.program, instances_[index].entry, method_of(run), limit, files.plan);
     command.insert(command.end(), {"--log", files.log.string(), "--log-format", "jsonl"});
-    if (!options_.verify.empty())
-      command.insert(command.end(), {"--proof", files.proof.string()});
+    if (!options_.verify.empty()) command.insert(command.end(), {"--proof", files.proof.string()});
     const ChildEnd end = run_one(command, row, files, true, std::nullopt);
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     const LoadedInstance loaded = load(instances_[index].entry);
@@ -221,11 +220,11 @@ class Bench {
       instance = files.instance;
       write_instance(instance, loaded.instance, fs::absolute(loaded.map_path), Outlives::kProcess);
     }
-    const ChildEnd end = run_child({options_.verify, instance.string(), files.proof.string()},
-                                   files.said,
-                                   {.seconds = kLongestCheck_s,
-                                    .cancelled = [this] { return must_stop(); },
-                                    .memory_gb = std::nullopt});
+    const ChildEnd end =
+        run_child({options_.verify, instance.string(), files.proof.string()}, files.said,
+                  {.seconds = kLongestCheck_s,
+                   .cancelled = [this] { return must_stop(); },
+                   .memory_gb = std::nullopt});
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     outcome.verify_s = end.wall_s;
     outcome.proof_bytes = static_cast<std::int64_t>(fs::file_size(files.proof));

@@ -57,7 +57,8 @@ bool is_verified(batch::Outcome& outcome, const ChildEnd& end, const std::filesy
     if (text.starts_with("verified: there is no plan")) return true;
     if (text.starts_with(kCost)) {
       const Cost cost = std::atoll(text.c_str() + kCost.size());
-      if (outcome.status != to_string(Status::kInfeasible) && cost >= outcome.lower_bound) return true;
+      if (outcome.status != to_string(Status::kInfeasible) && cost >= outcome.lower_bound)
+        return true;
       why = fmt::format("proves no more than {}", cost);
     }
   } else {

@@ -47,7 +47,7 @@ struct Outcome {
   std::vector<TracePoint> trace = {};    // by time; costs fall
   // Of its lower bound (of "infeasible" too), by another program; none: it was not asked.
   std::optional<bool> certified = {};
-  std::optional<double> verify_s = {};        // that this took
+  std::optional<double> verify_s = {};  // that this took
   std::optional<std::int64_t> proof_bytes = {};
   bool anytime = false;  // it goes on until its time limit: solved as soon as it has a plan
 
