@@ -3,6 +3,7 @@
 """The paper's experiments: its methods and Grove's search on its data set, and a report of all.
 
     paper.py OUT [--movingai DIR] [--scenarios 1-50] [--agents 5,10,20] [--tasks 10,20,..] [--time-limit S] [--jobs J]
+             [--certify]
 
 Comparison: MG-MAPF on three maps, CTS-CBS-A, -B and -C and four baselines at the paper's omega. Study of
 omega: CTS-MAPF on rooms with the fewest agents, the paper's CTS-CBS at omega 0, 0.01, 0.1 and infinity.
@@ -77,6 +78,8 @@ def bench(instances, methods, folder, arguments):
     words = ["bench", instances, "--output-dir", folder, "--time-limit", arguments.time_limit]
     if arguments.jobs:
         words += ["--jobs", arguments.jobs]
+    if arguments.certify:
+        words.append("--certify")
     for name, options in methods.items():
         words += ["--run", f"{name}: {options}"]
     run(arguments.grove, *words)
@@ -94,6 +97,8 @@ def main():
     parser.add_argument("--tasks", metavar="M,M", default="10,20,30,40,50")
     parser.add_argument("--time-limit", metavar="S", default="180", help="seconds for each run (180)")
     parser.add_argument("--grove", metavar="PROGRAM", default=GROVE, help="the program")
+    parser.add_argument("--certify", action="store_true",
+                        help="have each run's lower bound certified and verified (column certified)")
     parser.add_argument("--jobs", metavar="J", help="runs at a time; by default one for each core")
     arguments = parser.parse_args()
 

@@ -82,21 +82,32 @@ TEST(Rows, AreCsvWithTheSameColumns) {
             "solved,status,cost,lower_bound,gap,root_cost,sqr,runtime_s,wall_s,first_plan_s,roots,"
             "rtsp_calls,nodes,low_level_calls,peak_memory_mb,version,machine,ended_at,error,ranks,"
             "threads,memory_limit_gb,plan_file,instance_digest,counts,solver,claimed_cost,"
-            "claimed_lower_bound,claimed_s,anytime,trace\n");
+            "claimed_lower_bound,claimed_s,anytime,trace,certified,verify_s,proof_bytes\n");
   EXPECT_EQ(csv_line(solved_row()),
             "set/a_s3_n2_m4_mg,auto,--omega 0.01,\"a, \"\"b\"\"\",3,2,4,mg,0.01,7,60.0,true,"
             "bounded,200,160,0.25,150,0.75,1.25,1.25,0.25,3,4,5,6,7.25,grove 0.1.0 (git 0123),\"a "
             "processor, 2 cores\",2026-11-30T23:59:59Z,,4,2,1.5,,0123456789abcdef,bypasses=8 "
-            "splits_bar=9,,,,,false,\n");
+            "splits_bar=9,,,,,false,,,,\n");
   EXPECT_EQ(
       csv_line(failed_row()),
       "i,auto,--omega 0.01,\"a, \"\"b\"\"\",,2,4,mg,0.01,7,60.0,false,error,,,,150,,60.0,1.25,"
       ",,,,,,grove,\"a processor, 2 cores\",2026-11-30T23:59:59Z,ended by signal 9 (Killed),4,2,"
-      ",,0123456789abcdef,,,,,,false,\n");
+      ",,0123456789abcdef,,,,,,false,,,,\n");
   Row row = failed_row();
   row.outcome.error = "two\nlines";
   EXPECT_NE(csv_line(row).find(",\"two\nlines\","), std::string::npos);
   EXPECT_NE(csv_line(limited_row()).find(",\"plans/a, \"\"b\"\".plan.json\","), std::string::npos);
+}
+
+TEST(Rows, TellWhatIsCertified) {
+  Row row = solved_row();
+  row.outcome.certified = true;
+  row.outcome.verify_s = 0.125;
+  row.outcome.proof_bytes = 301;
+  EXPECT_TRUE(csv_line(row).ends_with(",true,0.125,301\n"));
+  EXPECT_EQ(parse_json_line(json_line(row)).outcome, row.outcome);
+  row.outcome.certified = false;
+  EXPECT_EQ(parse_json_line(json_line(row)).outcome.certified, false);
 }
 
 // What another solver says comes back, in both formats.
@@ -109,7 +120,7 @@ TEST(Rows, TellClaims) {
   row.outcome.anytime = true;
   row.outcome.trace = {{0.25, 210, std::nullopt}, {1, 200, 160}};
   EXPECT_EQ(parse_json_line(json_line(row)), row);
-  EXPECT_TRUE(csv_line(row).ends_with(",lacam3,198,150,0.75,true,0.25:210:- 1:200:160\n"));
+  EXPECT_TRUE(csv_line(row).ends_with(",lacam3,198,150,0.75,true,0.25:210:- 1:200:160,,,\n"));
   EXPECT_EQ(row.runtime_s(), 0.25);  // when it had its first plan
   row.outcome.first_plan_s.reset();
   EXPECT_EQ(row.runtime_s(), row.wall_s);

@@ -67,6 +67,9 @@ class Row(NamedTuple):
     claimed_s: Optional[float]
     anytime: bool   # it goes on until its limit
     trace: tuple    # Points; empty: it does not tell
+    certified: Optional[bool]  # None: no certificate was asked for
+    verify_s: Optional[float]
+    proof_bytes: Optional[int]
 
     @property
     def ended_s(self):
@@ -186,7 +189,8 @@ COLUMNS = {
     "threads": (_integer, None), "instance_digest": (_text, ""), "counts": (_counts, {}),
     "first_plan_s": (_number, None), "plan_file": (_text, ""), "solver": (_text, ""),
     "claimed_cost": (_integer, None), "claimed_lower_bound": (_integer, None), "claimed_s": (_number, None),
-    "anytime": (_boolean, False), "trace": (_trace, ()),
+    "anytime": (_boolean, False), "trace": (_trace, ()), "certified": (_boolean, None),
+    "verify_s": (_number, None), "proof_bytes": (_integer, None),
 }
 assert tuple(COLUMNS) == Row._fields
 _NAMES = tuple(COLUMNS)
