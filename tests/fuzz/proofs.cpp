@@ -42,6 +42,7 @@ struct Arguments {
   int mutations = 0;
   std::uint64_t seed = 1;
   double seconds = 0.5;  // for each case
+  bool json = false;
 };
 
 constexpr std::size_t kOracleStates = 300'000;
@@ -208,7 +209,13 @@ class Trial {
     if (truth.verdict == oracle::Verdict::kTooLarge) return;
     optimum_ = truth.plan ? truth.plan->cost : kInfiniteCost;
     write(instance);
-    const Solution solution = solve(instance);
+    Solution solution;
+    try {
+      solution = solve(instance);
+    } catch (const std::exception& error) {
+      ++threw_;
+      return complain(error.what());
+    }
     const bool is_infeasible = solution.status == Status::kInfeasible;
     const Cost claimed = is_infeasible ? kInfiniteCost : solution.lower_bound;
     const Certificate made = write_certificate(instance, std::array{part_}, claimed, proof_);
@@ -217,6 +224,13 @@ class Trial {
   }
 
   bool is_well() const { return wrong_ == 0; }
+  // For mutants.py.
+  std::string json() const {
+    return fmt::format(
+        "{{\"cases\": {}, \"false\": {}, \"refused\": {}, \"refused_false\": {}, \"believed\": {}, "
+        "\"threw\": {}}}",
+        cases_, false_, refused_or_short_, refused_false_, false_and_verified_, threw_);
+  }
   std::string summary() const {
     std::string text = fmt::format(
         "{} certificates: {} of the bound claimed, {} of the optimum, {} of less (by reason: ",
@@ -262,6 +276,12 @@ class Trial {
   void judge(const Certificate& made, Cost claimed, const Solution& solution) {
     ++cases_;
     const Verdict verdict = verdict_of(a_, instance_file_, proof_);
+    const bool is_false = claimed > optimum_;
+    const bool is_refused = verdict.code != 0 || verdict.bound < claimed;
+    false_ += is_false ? 1 : 0;
+    refused_or_short_ += is_refused ? 1 : 0;
+    refused_false_ += is_false && is_refused ? 1 : 0;
+    false_and_verified_ += verdict.code == 0 && verdict.bound > optimum_ ? 1 : 0;
     if (verdict.code != 0)
       complain(fmt::format("a certificate of {} is not verified: {}", made.bound, verdict.text));
     else if (verdict.bound != made.bound)
@@ -307,6 +327,7 @@ class Trial {
 
   void complain(const std::string& what) {
     ++wrong_;
+    if (a_.json) return;
     fmt::print("case {}: WRONG: {}\n{}\n", seed_, what, case_.to_text());
   }
 
@@ -315,6 +336,7 @@ class Trial {
   std::uint64_t seed_ = 0;
   FuzzCase case_;
   Cost optimum_ = 0;
+  int false_ = 0, refused_or_short_ = 0, refused_false_ = 0, false_and_verified_ = 0, threw_ = 0;
   int cases_ = 0, whole_ = 0, of_optimum_ = 0, wrong_ = 0;
   int mutants_ = 0, refused_ = 0, unreadable_ = 0, believed_ = 0;
   std::map<std::string, int> lesser_;
@@ -335,6 +357,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", a.seconds, "for each")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag("--json", a.json, "counts alone, for programs");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -342,6 +365,6 @@ int main(int argc, char** argv) {
   }
   grove::detail::fuzz::Trial trial(a);
   for (int i = 0; i < a.count; ++i) trial.look_at(a.seed + static_cast<std::uint64_t>(i));
-  fmt::print("{}\n", trial.summary());
+  fmt::print("{}\n", a.json ? trial.json() : trial.summary());
   return trial.is_well() ? 0 : 1;
 }

@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Which bugs of the search do certificates betray, without anybody knowing the optimum?
+
+    mutants.py FOLDER [--count N] [--only K,K] [--jobs J]
+
+Copies the sources to FOLDER, plants the bugs of mutants.txt there, builds that once, and runs grove-proofs for each
+of them, chosen by the environment variable GROVE_MUTANT as it starts: N tiny instances of all kinds, searched, with
+a certificate each that grove-verify checks. A table says of each bug how often what was claimed was false (the oracle
+knows), how often the certificate was refused or fell short of the claim, and how often a false claim was verified: never.
+"""
+import argparse
+import concurrent.futures
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+LIST = Path(__file__).with_suffix(".txt")
+HELPER = """#pragma once
+#include <cstdlib>
+// Is the bug of this number the one that this process has?
+inline bool grove_mutant(int number) {
+  static const char* const chosen = std::getenv("GROVE_MUTANT");
+  static const int mutant = chosen ? std::atoi(chosen) : -1;
+  return mutant == number;
+}
+"""
+
+
+def read_list():
+    """[(number, file, before, old, new)]"""
+    mutants, file = [], None
+    for line in LIST.read_text(encoding="utf-8").splitlines():
+        if not line or line.startswith("#"):
+            continue
+        if " => " not in line:
+            file = line
+            continue
+        place, new = line.rsplit(" => ", 1)
+        before, old = place.split("@", 1)
+        mutants.append((len(mutants) + 1, file, before, old, new))
+    return mutants
+
+
+def pattern(text):
+    """Matches it with any blanks between its words."""
+    return r"\s*".join(re.escape(word) for word in re.findall(r"\w+|[^\w\s]", text))
+
+
+def plant(text, number, before, old, new):
+    found = list(re.finditer(f"({pattern(before)}\\s*)({pattern(old)})", text))
+    if len(found) != 1:
+        sys.exit(f"mutants.py: error: mutant {number}: found {len(found)} times, expected once: {before}@{old}")
+    match = found[0]
+    is_statement = old.endswith(";")
+    there = match.group(2)
+    planted = (f"if (!grove_mutant({number})) {there}" if is_statement
+               else f"(grove_mutant({number}) ? ({new}) : ({there}))")
+    return text[:match.start(2)] + planted + text[match.end(2):]
+
+
+def copy_sources(folder, mutants):
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout.decode()
+    for name in filter(None, names.split("\0")):
+        target = folder / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, target)
+    (folder / "include/grove_mutant.h").write_text(HELPER, encoding="utf-8")
+    texts = {}
+    for number, file, before, old, new in mutants:
+        text = texts.get(file) or (ROOT / file).read_text(encoding="utf-8")
+        texts[file] = plant(text, number, before, old, new)
+    for file, text in texts.items():
+        include = '#include "grove_mutant.h"\n'
+        # Behind what a header has to begin with.
+        text = (text.replace("#pragma once\n", "#pragma once\n" + include, 1) if file.endswith(".h")
+                else include + text)
+        target = folder / file
+        if target.read_text(encoding="utf-8") != text:
+            target.write_text(text, encoding="utf-8")
+
+
+def build(folder):
+    options = ["-D", "GROVE_BUILD_UNIT_TESTS=OFF", "-D", "GROVE_WITH_MPI=OFF", "-D", "GROVE_BUILD_BENCHMARKS=OFF"]
+    subprocess.run(["cmake", "--preset", "release", *options], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", "--preset", "release", "--target", "grove-proofs", "grove-verify"],
+                   cwd=folder, check=True)
+
+
+def trial(folder, number, count, seconds):
+    place = folder / f"run-{number}"
+    place.mkdir(exist_ok=True)
+    bin_folder = folder / "build/release/bin"
+    program = next(path for path in (folder / "build/release").rglob("grove-proofs") if path.is_file())
+    command = [program, "--verify", bin_folder / "grove-verify", "--folder", place, "--count", str(count), "--json"]
+    try:
+        result = subprocess.run(command, env=os.environ | {"GROVE_MUTANT": str(number)}, capture_output=True,
+                                text=True, timeout=seconds)
+        lines = [line for line in result.stdout.splitlines() if line.startswith("{")]
+        return json.loads(lines[-1]) if lines else {"died": result.returncode}
+    except subprocess.TimeoutExpired:
+        return {"died": "time"}
+    finally:
+        shutil.rmtree(place, ignore_errors=True)
+
+
+def verdict(counts):
+    if "died" in counts:
+        return "the program ends: it noticed itself"
+    if counts["believed"]:
+        return "A FALSE CLAIM WAS VERIFIED"
+    if counts["false"] and counts["refused_false"] == counts["false"]:
+        return "caught, each time"
+    if counts["refused"]:
+        return "caught"
+    if counts["threw"]:
+        return "noticed by the search itself"
+    return "nothing false was said, nothing caught"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--count", type=int, default=300)
+    parser.add_argument("--seconds", type=float, default=900, help="for each bug")
+    parser.add_argument("--only", type=lambda text: {int(k) for k in text.split(",")})
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    arguments = parser.parse_args()
+    mutants = read_list()
+    folder = arguments.folder.resolve()
+    copy_sources(folder, mutants)
+    build(folder)
+    chosen = [(0, "", "", "none", "")] + [m for m in mutants if not arguments.only or m[0] in arguments.only]
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        runs = [pool.submit(trial, folder, m[0], arguments.count, arguments.seconds) for m in chosen]
+        print("| bug | where | claims | false | refused or short | false and verified | verdict |\n|---|---|---|---|---|---|---|")
+        failed = False
+        for (number, file, _, old, new), run in zip(chosen, runs):
+            counts = run.result()
+            says = verdict(counts)
+            failed |= "VERIFIED" in says
+            name = "none" if number == 0 else f"`{old.strip()}` -> `{new.strip()}`".replace("|", "\\|")
+            row = [counts.get(key, "-") for key in ("cases", "false", "refused", "believed")]
+            print(f"| {number}: {name} | {file} | {row[0]} | {row[1]} | {row[2]} | {row[3]} | {says} |", flush=True)
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
