@@ -181,3 +181,69 @@ class Prover:
         return [((a, "pass", f, p, s, r + length), (b, "pass", g, q, r, s + length))
                 for ((a, f, p), s), ((b, g, q), r) in itertools.combinations(exits, 2)
                 if a != b and (f, p) != (g, q) and s - r <= length and r - s <= length]
+
+
+class Liar(Prover):
+    """Proves what may be false, by one kind of lie that makes it easier: a checker that does not see it accepts the rest."""
+
+    LIES = ("wide bar", "late bar", "wide move", "wide pass", "rest", "stop", "lemma", "scope", "later", "joint", "same agent")
+
+    def __init__(self, instance, rng, lie, following=True, rules=("rest", "pass", "stop", "lemma", "later"), most=400):
+        super().__init__(instance, rng, following, set(rules) | ({"joint"} if lie == "joint" else set()), most)
+        self.lie, self.lied = lie, False
+
+    def split(self, agents, demands, one, two):
+        a, b = list(one), list(two)
+        if self.rng.random() < 0.7:
+            if self.lie == "wide bar" and a[1] == "bar":
+                a[4] += 2
+            elif self.lie == "late bar" and a[1] == "bar":
+                a[3:] = [a[3] + 1, a[4] + 1]
+                a[2:], b[2:] = (a[2:], b[2:]) if self.rng.random() < 0.5 else (b[2:], a[2:])
+            elif self.lie == "wide move" and a[1] == "move":
+                a[5] += 2
+            elif self.lie == "wide pass" and a[1] == "pass":
+                a[5] += 3
+            elif self.lie == "rest" and a[1] == "norest":
+                a[3] += 2
+            elif self.lie == "stop" and a[1] == "stop":
+                b[3] = self.rng.choice([j for j in self.instance.stops(a[0]) if j != a[3]])
+            elif self.lie == "same agent" and a[1] in ("bar", "move"):
+                b = [a[0], *b[1:]]
+            self.lied |= tuple(a) != one or tuple(b) != two
+        return super().split(agents, demands, tuple(a), tuple(b))
+
+    def lemma(self, agents, demands, bound=None):
+        number = super().lemma(agents, demands, bound)
+        if number is not None and self.lie in ("lemma", "scope"):
+            own, bound, demands = self.lemmas[number]
+            if self.lie == "lemma" and bound < INF:
+                # A dearer lemma whose proof ends in a leaf that does not show it.
+                self.lines += [" ".join(map(str, ["lemma", bound + 2, *own])), *("demand " + text(d) for d in demands), "leaf"]
+                self.lemmas.append((own, bound + 2, demands))
+                self.lied = True
+            elif self.lie == "scope":
+                self.lemmas[number] = (own, bound, [])
+                self.lied |= bool(demands)
+        return number
+
+    def some_demands(self, agents):
+        # For lemmas that say much, where they hold.
+        if self.lie == "scope":
+            return [(agent, "bar", place, 0, INF) for agent in agents for place in self.rng.sample(range(self.instance.world.count), 2)]
+        return super().some_demands(agents)
+
+    def later(self, agents, demands):
+        found = super().later(agents, demands)
+        if found and self.lie == "later":
+            (line,), sides = found
+            _, a, t, b, u, number = line.split(" ")
+            sides = [[*side[:-1], (*side[-1][:3], side[-1][3] + 2)] for side in sides]
+            self.lied = True
+            return [f"later {a} {int(t) + 2} {b} {int(u) + 2} {number}"], sides
+        return found
+
+    def step(self, agents, bound, demands):
+        found = super().step(agents, bound, demands)
+        self.lied |= self.lie == "joint" and found[0] == ["joint"]
+        return found

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks certificates of classical MAPF that use vertex and edge splits alone: docs/proof.md in a page of Python.
+
+    proof_checker.py INSTANCE.cts.json PROOF
+
+Maps, agents with a start and a goal, no tasks, no turns; in the certificate no lemmas, no rules but `leaf` and `split`, no demands
+but `bar` and `move`. It is here to be read: grove-verify takes all of it, and fast.
+"""
+import heapq
+import json
+import sys
+from pathlib import Path
+
+
+class Refused(Exception):
+    pass
+
+
+def expect(condition, reason):
+    if not condition:
+        raise Refused(reason)
+
+
+def read_instance(path):
+    """(links of each place, starts, goals, checksum)."""
+    instance = json.loads(path.read_text(encoding="utf-8"))
+    expect(not instance["tasks"] and all("goal" in a and "motion" not in a for a in instance["agents"]), "not classical MAPF")
+    rows = (path.parent / instance["map"]).read_text(encoding="utf-8").split("\n")[4:]
+    rows = [["." if letter in ".GSE" else "@" for letter in row.strip()] for row in rows if row.strip()]
+    height, width = len(rows), len(rows[0])
+    places = {y * width + x for y in range(height) for x in range(width) if rows[y][x] == "."}
+    links = {place: [q for q, near in ((place - width, True), (place + 1, place % width < width - 1), (place + width, True),
+                                       (place - 1, place % width > 0)) if near and q in places] for place in places}
+    starts, goals = ([a[key][1] * width + a[key][0] for a in instance["agents"]] for key in ("start", "goal"))
+    text = [f"grid {width} {height}", *map("".join, rows), *(f"agent {s} {g} 0" for s, g in zip(starts, goals))]
+    checksum = 0xcbf29ce484222325
+    for byte in "".join(line + "\n" for line in text).encode():
+        checksum = (checksum ^ byte) * 0x100000001b3 % 2**64
+    return links, starts, goals, f"{checksum:016x}"
+
+
+def distances(links, goal):
+    """Steps to the goal from wherever it can be reached."""
+    found, queue = {goal: 0}, [goal]
+    for place in queue:
+        for near in links[place]:
+            if near not in found:
+                found[near] = found[place] + 1
+                queue.append(near)
+    return found
+
+
+def least_cost(links, to_go, start, goal, demands):
+    """c(A, D) by A* over places and times; None: there is no path."""
+    last = max((d[-1] for d in demands), default=0)  # later, all times are alike
+    bars, moves = ({d[1:] for d in demands if d[0] == kind} for kind in ("bar", "move"))
+    rest_from = 1 + max((time for place, time in bars if place == goal), default=-1)
+    waiting = [(to_go[start], 0, start)] if start in to_go and (start, 0) not in bars else []
+    seen = set()
+    while waiting:
+        _, time, place = heapq.heappop(waiting)
+        if place == goal and time >= rest_from:
+            return time
+        if (place, min(time, last + 1)) not in seen:
+            seen.add((place, min(time, last + 1)))
+            for near in [place, *links[place]]:
+                if near in to_go and (near, time + 1) not in bars and (place, near, time + 1) not in moves:
+                    heapq.heappush(waiting, (time + 1 + to_go[near], time + 1, near))
+    return None
+
+
+def number(word):
+    expect(word.isdigit(), f"expected a number, not {word}")
+    return int(word)
+
+
+def read_demand(words, agents):
+    """(agent, ("bar", P, T)) or (agent, ("move", P, Q, T)): at one time each."""
+    agent, kind, *numbers = words
+    *places, begin, end = map(number, numbers)
+    expect((kind, len(places), len(set(places))) in (("bar", 1, 1), ("move", 2, 2)), "this demand is not among those known here")
+    expect(number(agent) < agents and begin == end, "expected an agent, and one time")
+    return int(agent), (kind, *places, begin)
+
+
+def read_split(line, agents):
+    """The two demands, of which every plan meets one."""
+    words = [side.split(" ") for side in line.removeprefix("split ").split(" | ")]
+    expect(line.startswith("split ") and len(words) == 2, "this rule is not among those known here")
+    (a, (kind, *one)), (b, (other, *two)) = (read_demand(side, agents) for side in words)
+    met = one == two if kind == "bar" else one == [two[1], two[0], two[2]]
+    expect(a != b and kind == other and met, "a plan may meet neither of these demands")
+    return (a, (kind, *one)), (b, (other, *two))
+
+
+def check(instance, lines):
+    """What is proven."""
+    links, starts, goals, instance_sum = read_instance(instance)
+    to_go = [distances(links, goal) for goal in goals]
+    head = [next(lines) for _ in range(4)]
+    expect(head[0] == "grove-proof 1" and head[2] in ("following yes", "following no") and head[3].startswith("theorem "),
+           "this head is not among those known here")
+    expect(head[1] == f"instance {instance_sum}", "it is of another instance")
+    bound = float("inf") if head[3] == "theorem inf" else number(head[3].removeprefix("theorem "))
+    demands = [[] for _ in starts]
+    splits = []  # (agent of the demand in force, the second demand if it is still to come)
+    known = {}
+
+    def cost(agent):
+        key = agent, tuple(demands[agent])
+        if key not in known:
+            known[key] = least_cost(links, to_go[agent], starts[agent], goals[agent], demands[agent])
+        return known[key]
+
+    while True:
+        line = next(lines)
+        if line != "leaf":
+            (agent, first), second = read_split(line, len(starts))
+            demands[agent].append(first)
+            splits.append((agent, second))
+            continue
+        costs = [cost(agent) for agent in range(len(starts))]
+        expect(None in costs or sum(costs) >= bound, f"costs are {costs}, expected {bound} in all")
+        while splits and splits[-1][1] is None:
+            demands[splits.pop()[0]].pop()
+        if not splits:
+            expect(list(lines) == ["end"], "expected 'end'")
+            return bound
+        agent, (other, second) = splits.pop()
+        demands[agent].pop()
+        demands[other].append(second)
+        splits.append((other, None))
+
+
+def main(instance, proof):
+    lines = iter(Path(proof).read_text(encoding="ascii").split("\n")[:-1])
+    try:
+        print(f"verified: no plan costs less than {check(Path(instance), lines)}")
+    except (Refused, ValueError, IndexError, StopIteration) as error:
+        sys.exit(f"refused: {error or 'it is cut off'}")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

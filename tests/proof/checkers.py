@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+"""Runs the checkers on an instance and the text of a certificate."""
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+VERIFY = None
+SMALL = Path(__file__).resolve().parents[2] / "docs/proof_checker.py"
+
+
+def main(suite):
+    """For tests that are called with the program's path."""
+    global VERIFY
+    VERIFY = Path(sys.argv.pop(1)).resolve()
+    suite.main()
+
+
+class Verdict:
+    """code, and what was said; seconds of processor time."""
+
+    def __init__(self, command):
+        with tempfile.TemporaryFile() as out:
+            process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = self.code = os.waitstatus_to_exitcode(status)
+            out.seek(0)
+            self.text = out.read().decode()
+        self.seconds = usage.ru_utime + usage.ru_stime
+
+
+def verify(instance, certificate, *options):
+    """Of grove-verify; instance: an Instance, or the path of its file; the certificate is text or bytes."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        proof = folder / "proof"
+        proof.write_bytes(certificate if isinstance(certificate, bytes) else certificate.encode())
+        path = instance if isinstance(instance, Path) else instance.write(folder)
+        return Verdict([VERIFY, path, proof, *options])
+
+
+def small_checker(instance, certificate):
+    """Of docs/proof_checker.py."""
+    with tempfile.TemporaryDirectory() as name:
+        (Path(name) / "proof").write_text(certificate)
+        return Verdict([sys.executable, SMALL, instance.write(Path(name)), Path(name) / "proof"])

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Certificates of random tiny instances whose least cost is known: what is true and shown is verified, what is false never is.
+
+    generated_test.py GROVE_VERIFY
+    GROVE_FUZZ_FACTOR=20: so many times as many
+"""
+import os
+import random
+import re
+import unittest
+from collections import Counter
+
+import checkers
+from proofs import Liar, Prover, TooLong
+from worlds import INF, optimum, random_instance
+
+FACTOR = float(os.environ.get("GROVE_FUZZ_FACTOR", "1"))
+KINDS = ("plain", "cts", "mg", "turning", "work", "roads")
+RULES = ("rest", "pass", "stop", "lemma", "later", "joint")
+
+
+def instances(count, kinds=KINDS, first=0):
+    """(rng, kind, instance, following, least cost), each kind in turn."""
+    for seed in range(first, first + int(count * FACTOR)):
+        rng = random.Random(seed)
+        kind = kinds[seed % len(kinds)]
+        instance, following = random_instance(rng, kind), rng.random() < 0.75
+        yield rng, kind, instance, following, optimum(instance, following=following)
+
+
+def raised(certificate, by=1):
+    return re.sub(r"^theorem (\d+)$", lambda found: f"theorem {int(found.group(1)) + by}", certificate, flags=re.M)
+
+
+def mutants(rng, certificate, count):
+    """Certificates in which one thing is different, and the theorem says more."""
+    lines = raised(certificate).split("\n")[:-1]
+    for _ in range(count):
+        mutant = list(lines)
+        at = rng.randrange(3, len(mutant))
+        numbers = list(re.finditer(r"\d+", mutant[at]))
+        change = rng.choice(["number", "number", "number", "drop", "twice", "leaf", "swap"])
+        if change == "number" and numbers and not mutant[at].startswith("theorem"):
+            found = rng.choice(numbers)
+            mutant[at] = mutant[at][:found.start()] + str(max(0, int(found.group()) + rng.choice([-2, -1, 1, 2]))) + mutant[at][found.end():]
+        elif change == "drop":
+            del mutant[at]
+        elif change == "twice":
+            mutant.insert(at, mutant[at])
+        elif change == "swap":
+            other = rng.randrange(3, len(mutant))
+            mutant[at], mutant[other] = mutant[other], mutant[at]
+        elif mutant[at].startswith(("split", "later")):
+            mutant[at] = "leaf"
+        yield "\n".join(mutant) + "\n"
+
+
+def claim(certificate):
+    """What a certificate that was accepted says."""
+    bound = re.findall(r"^theorem (\d+|inf)$", certificate, re.M)[-1]
+    return INF if bound == "inf" else int(bound)
+
+
+class Generated(unittest.TestCase):
+    def test_the_least_cost_is_verified_and_no_more(self):
+        seen = Counter()
+        for rng, kind, instance, following, least in instances(60):
+            if least == INF:
+                found = checkers.verify(instance, "\n".join(
+                    ["grove-proof 1", f"instance {instance.checksum()}", f"following {'yes' if following else 'no'}", "theorem inf", "joint", "end\n"]))
+                self.assertEqual(found.text, "verified: there is no plan\n")
+                seen["none"] += 1
+                continue
+            try:
+                certificate = Prover(instance, rng, following, [rule for rule in RULES if rng.random() < 0.6]).certificate(least)
+            except TooLong:
+                seen["too long"] += 1
+                continue
+            found = checkers.verify(instance, certificate)
+            self.assertEqual(found.text, f"verified: no plan costs less than {least}\n", f"{kind}\n{certificate}")
+            self.assertEqual(checkers.verify(instance, raised(certificate)).code, 1, certificate)
+            for mutant in mutants(rng, certificate, 4):
+                found = checkers.verify(instance, mutant)
+                self.assertIn(found.code, (0, 1, 2), mutant)
+                self.assertTrue(found.code or claim(mutant) <= least, f"{kind}, least cost {least}:\n{mutant}")
+                seen[found.code] += 1
+            for line in certificate.split("\n"):
+                seen[" ".join(re.findall("[a-z]+", line)[:2])] += 1
+        for rule in ("split bar", "split move", "split norest", "split pass", "split stop", "leaf", "joint", "later", "lemma", "demand bar"):
+            self.assertTrue(seen[rule], f"{rule} occurs in {seen}")
+        self.assertTrue(seen[1] > 100 * FACTOR and seen["none"] and seen["too long"] < 10 * FACTOR, seen)
+
+    def test_lies_are_seen(self):
+        told = Counter()
+        for number, (rng, kind, instance, following, least) in enumerate(instances(90, first=10**6)):
+            for lie in Liar.LIES if least < INF else ():
+                liar = Liar(instance, rng, lie, following)
+                try:
+                    certificate = liar.certificate(least + 1)
+                except TooLong:
+                    continue
+                self.assertTrue(liar.lied, certificate)
+                found = checkers.verify(instance, certificate)
+                self.assertEqual(found.code, 1, f"{number}: {lie}, {kind}, least cost {least}: {found.text}\n{certificate}")
+                told[lie] += 1
+        for lie in Liar.LIES:
+            self.assertTrue(told[lie], f"{lie}: {told}")
+
+    def test_the_small_checker_agrees(self):
+        verdicts = Counter()
+        for rng, _, instance, following, least in instances(50, ["plain"], first=2 * 10**6):
+            if least == INF or any(agent.goal is None for agent in instance.agents):
+                continue
+            try:
+                certificate = Prover(instance, rng, following, []).certificate(least)
+            except TooLong:
+                continue
+            if not following and not self.simple(certificate):
+                continue
+            for text in [certificate, raised(certificate), *mutants(rng, raised(certificate, -1), 3)]:
+                one, two = checkers.verify(instance, text), checkers.small_checker(instance, text)
+                self.assertEqual((one.code == 0, one.text if one.code == 0 else ""), (two.code == 0, two.text if two.code == 0 else ""), text)
+                verdicts[one.code == 0] += 1
+        self.assertGreater(sum(verdicts.values()), 150 * FACTOR)
+        self.assertGreater(min(verdicts.values()), 40 * FACTOR)
+
+    @staticmethod
+    def simple(certificate):
+        """No split that `following no` alone permits."""
+        return all(len(set(re.findall(r"bar \d+ (\d+)", line))) == 1 for line in certificate.split("\n") if " bar " in line)
+
+
+if __name__ == "__main__":
+    checkers.main(unittest)

@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Each rule of docs/proof.md by hand: what it proves is verified; each condition of it, broken once, is refused with its line.
+
+    rules_test.py GROVE_VERIFY
+"""
+import unittest
+
+import checkers
+from worlds import Agent, Instance, World
+
+
+def grid(*rows):
+    return World(list(rows))
+
+
+# Two cross in the middle of a room, at time 1; one must wait.
+CROSS = Instance(grid("...", "...", "..."), [Agent((3,), 5), Agent((1,), 7)])
+CROSSED = ["split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf", "leaf"]
+# Three straight ways of four steps over one cell, each in the way of each other.
+STAR = Instance(grid(*["....."] * 5), [Agent((10,), 14), Agent((2,), 22), Agent((14,), 10)])
+# One follows the other.
+ROW = Instance(grid("...."), [Agent((1,), 3), Agent((0,), 2)])
+# Two change places; round about it takes three steps.
+SWAP = Instance(grid("..", ".."), [Agent((0,), 1), Agent((1,), 0)])
+STUCK = Instance(grid(".."), [Agent((0,), 1), Agent((1,), 0)])
+# Agent 1 must pass where agent 0 ends.
+PASSER = Instance(grid("....."), [Agent((1,), 2), Agent((0,), 4)])
+# Two rooms, and a corridor of two cells, 8 and 9, between 7 and 10.
+HALL = Instance(grid("..@@..", "......"), [Agent((6,), 11), Agent((11,), 6)])
+ERRANDS = Instance(grid("....."), [Agent((2,), 2), Agent((3,), 3)], [(0, 0, [0]), (4, 0, [0]), (4, 0, [0]), (1, 2, [0])])
+
+
+def certificate(instance, *lines, following="yes"):
+    return "\n".join(["grove-proof 1", f"instance {instance.checksum()}", f"following {following}", *lines, "end"]) + "\n"
+
+
+class Rules(unittest.TestCase):
+    def verified(self, instance, *lines, following="yes"):
+        bound = next(line.split(" ")[1] for line in lines if line.startswith("theorem"))
+        said = "there is no plan" if bound == "inf" else f"no plan costs less than {bound}"
+        found = checkers.verify(instance, certificate(instance, *lines, following=following))
+        self.assertEqual((found.code, found.text), (0, f"verified: {said}\n"), lines)
+
+    def refused(self, line, reason, instance, *lines, following="yes"):
+        """`line` is counted from the first of `lines`."""
+        found = checkers.verify(instance, certificate(instance, *lines, following=following))
+        self.assertEqual(found.code, 1, (lines, found.text))
+        self.assertRegex(found.text, f"^refused: line {line + 3}: .*{reason}", lines)
+
+    def refused_splits(self, instance, *splits, following="yes"):
+        for one in splits:
+            self.refused(2, "may meet neither", instance, "theorem 1", f"split {one}", "leaf", "leaf", following=following)
+
+    def test_leaf(self):
+        self.verified(CROSS, "theorem 4", "leaf")
+        self.refused(2, "costs 4 and 0 by lemmas, expected 5", CROSS, "theorem 5", "leaf")
+        self.refused(2, "expected inf", CROSS, "theorem inf", "leaf")
+
+    def test_bars(self):
+        self.verified(CROSS, "theorem 5", *CROSSED)
+        self.refused(3, "costs 5", CROSS, "theorem 6", *CROSSED)
+        self.refused_splits(CROSS, "0 bar 4 1 1 | 1 bar 5 1 1", "0 bar 4 1 1 | 1 bar 4 2 2", "0 bar 4 1 2 | 1 bar 4 1 2",
+                            "0 bar 4 1 1 | 0 bar 4 1 1", "0 bar 4 1 inf | 1 bar 4 1 inf", "0 bar 4 1 1 | 1 move 4 5 1 1",
+                            "0 bar 4 1 1 | 1 bar 4 0 0")
+        self.refused(2, "agent 2 is not among", CROSS, "theorem 1", "split 0 bar 4 1 1 | 2 bar 4 1 1", "leaf", "leaf")
+        self.refused(2, "no place 9", CROSS, "theorem 1", "split 0 bar 9 1 1 | 1 bar 9 1 1", "leaf", "leaf")
+
+    def test_both_sides_are_asked_for_their_own_demand(self):
+        # Agent 0 barred at its start: no path. Agent 1 is not.
+        self.refused(4, "costs 4 ", CROSS, "theorem 9", "split 0 bar 3 0 0 | 1 bar 3 0 0", "leaf", "leaf")
+        self.refused(3, "costs 4 ", CROSS, "theorem 9", "split 1 bar 3 0 0 | 0 bar 3 0 0", "leaf", "leaf")
+
+    def test_following(self):
+        split = "split 0 bar 1 0 0 | 1 bar 1 1 1"
+        self.verified(ROW, "theorem 5", split, "leaf", "leaf", following="no")
+        self.verified(ROW, "theorem 5", "split 1 bar 1 1 1 | 0 bar 1 0 0", "leaf", "leaf", following="no")
+        self.refused_splits(ROW, split.removeprefix("split "))
+        self.refused_splits(ROW, "0 bar 1 0 0 | 1 bar 1 2 2", following="no")
+        self.refused(2, "joint search finds a plan", ROW, "theorem 5", "joint")
+        self.verified(ROW, "theorem 5", "joint", following="no")
+        self.refused(2, "joint search finds a plan", ROW, "theorem 6", "joint", following="no")
+
+    def test_moves(self):
+        self.verified(SWAP, "theorem 3", "split 0 move 0 1 1 1 | 1 move 1 0 1 1", "leaf", "leaf")
+        self.refused(3, "costs 3", SWAP, "theorem 4", "split 0 move 0 1 1 1 | 1 move 1 0 1 1", "leaf", "leaf")
+        self.refused_splits(SWAP, "0 move 0 1 1 1 | 1 move 0 1 1 1", "0 move 0 1 1 1 | 1 move 1 0 2 2",
+                            "0 move 0 1 1 2 | 1 move 1 0 1 2", "0 move 0 1 1 1 | 0 move 1 0 1 1", "0 move 0 1 1 1 | 1 move 1 3 1 1",
+                            "0 move 0 1 1 inf | 1 move 1 0 1 inf")
+        self.refused(2, "expected two places", SWAP, "theorem 1", "split 0 move 0 0 1 1 | 1 move 0 0 1 1", "leaf", "leaf")
+
+    def test_rests(self):
+        self.verified(PASSER, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf")
+        self.verified(PASSER, "theorem 7", "split 0 rest 2 2 | 0 norest 2 2", "leaf", "leaf")
+        self.refused(3, "costs 7", PASSER, "theorem 8", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf")
+        self.refused_splits(PASSER, "0 norest 2 2 | 1 rest 2 2", "0 norest 2 2 | 0 rest 2 3", "0 norest 2 2 | 0 rest 3 2",
+                            "0 norest 2 2 | 0 norest 2 2", "0 rest 2 2 | 0 rest 2 2")
+
+    def test_who_rests_bars_others(self):
+        lemma = ["lemma inf 1", "demand 1 bar 2 2 inf", "leaf"]
+        self.verified(PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf 0")
+        self.refused(6, "demand 0 of lemma 0 is not in force", PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf 0")
+        # Not in the demands of a lemma that say so, and not later than that side.
+        self.refused(3, "costs 5", PASSER, "lemma 7 0 1", "demand 0 rest 2 2", "leaf")
+        self.refused(4, "costs 7", PASSER, "theorem 8", "split 0 rest 2 2 | 0 norest 2 2", "leaf", "leaf")
+
+    def test_passes(self):
+        good = "0 pass 9 10 4 7 | 1 pass 8 7 4 7"
+        self.verified(HALL, "theorem 14", f"split {good}", "leaf", "leaf")
+        self.refused(3, "costs 14", HALL, "theorem 15", f"split {good}", "leaf", "leaf")
+        self.refused_splits(HALL, "0 pass 9 10 4 8 | 1 pass 8 7 4 7", "0 pass 9 10 4 7 | 1 pass 8 7 3 7", "0 pass 9 10 4 7 | 1 pass 9 10 4 7",
+                            "0 pass 9 10 4 7 | 0 pass 8 7 4 7", "0 pass 9 10 4 inf | 1 pass 8 7 4 inf", "0 pass 9 10 4 inf | 1 pass 8 7 4 7",
+                            "0 pass 9 10 4 7 | 1 pass 1 7 4 7")
+        for wrong in ("8 10", "9 8", "7 8", "9 3", "9 9"):
+            self.refused(2, "the last of a chain", HALL, "theorem 1", f"split 0 pass {wrong} 4 7 | 1 pass 8 7 4 7", "leaf", "leaf")
+
+    def test_who_turns_back_does_not_traverse(self):
+        # Barred from traversing either way it may still go in and out: to task 0 on 8.
+        visitor = Instance(HALL.world, [Agent((7,), 7)], [(8, 0, [0])])
+        demands = ["demand 0 pass 8 7 0 inf", "demand 0 pass 9 10 0 inf"]
+        self.refused(4, "costs 2 ", visitor, "lemma 3 0", *demands, "leaf")
+        self.verified(visitor, "lemma 2 0", *demands, "leaf", "theorem 2", "leaf")
+
+    def test_stops(self):
+        # 1 is worked on for two steps, on the way to 0; 4 is one stop, though two tasks.
+        self.verified(ERRANDS, "theorem 10", "leaf")
+        self.verified(ERRANDS, "theorem 10", "split 0 stop 0 0 | 0 nostop 0 0", "leaf", "leaf")
+        self.verified(ERRANDS, "theorem 10", "split 0 nostop 2 1 | 0 stop 2 1", "leaf", "leaf")
+        self.verified(ERRANDS, "lemma 12 0", "demand 0 stop 0 3", "demand 0 stop 1 1", "leaf", "theorem 1", "leaf")
+        self.refused(4, "costs 12", ERRANDS, "lemma 13 0", "demand 0 stop 0 3", "demand 0 stop 1 1", "leaf")
+        self.verified(ERRANDS, "lemma inf 0", "demand 0 stop 0 3", "demand 0 stop 1 3", "leaf", "theorem 1", "leaf")
+        self.refused_splits(ERRANDS, "0 stop 0 0 | 0 nostop 1 0", "0 stop 0 0 | 0 nostop 0 1", "0 stop 0 0 | 0 stop 0 0",
+                            "0 nostop 0 0 | 0 nostop 0 0")
+        for wrong in ("0 stop 3 0 | 0 nostop 3 0", "0 stop 0 2 | 0 nostop 0 2", "0 stop 0 4 | 0 nostop 0 4", "1 stop 0 0 | 1 nostop 0 0"):
+            self.refused(2, "no such stop", ERRANDS, "theorem 1", f"split {wrong}", "leaf", "leaf")
+
+    def test_lemmas(self):
+        lemma = ["lemma 5 0 1", *CROSSED]
+        self.verified(CROSS, *lemma, "theorem 5", "leaf 0")
+        self.verified(CROSS, *lemma, "lemma 5 0 1", "leaf 0", "theorem 5", "leaf 1 0")
+        self.refused(6, "expected 6", CROSS, *lemma, "theorem 6", "leaf 0")
+        self.refused(6, "no lemma 1", CROSS, *lemma, "theorem 5", "leaf 1")
+        self.refused(2, "no lemma 0", CROSS, "lemma 5 0 1", "leaf 0")
+        self.refused(6, "lemma 0 is of agent 1, too", CROSS, *lemma, "lemma 3 0", "leaf 0")
+        self.refused(1, "do not ascend", CROSS, "lemma 4 1 0", "leaf")
+        self.refused(1, "do not ascend", CROSS, "lemma 4 1 1", "leaf")
+        self.refused(1, "no agent 2", CROSS, "lemma 4 1 2", "leaf")
+        self.refused(2, "agent 1 is not among", CROSS, "lemma 2 0", "demand 1 bar 4 1 1", "leaf")
+        self.refused(2, "agent 1 is not among", CROSS, "lemma 2 0", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf", "leaf")
+
+    def test_demands_of_lemmas_are_literal(self):
+        lemma = ["lemma 5 0 1", "demand 0 bar 4 1 1", "leaf"]
+        self.verified(CROSS, *lemma, "theorem 5", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0", "leaf")
+        self.refused(6, "not in force", CROSS, *lemma, "theorem 5", "split 1 bar 4 1 1 | 0 bar 4 1 1", "leaf 0")
+        self.refused(7, "not in force", CROSS, *lemma, "theorem 5", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0", "leaf 0")
+        for other in ("0 bar 4 0 1", "0 bar 4 1 2", "0 bar 4 1 inf", "1 bar 4 1 1", "0 bar 1 1 1"):
+            self.refused(6, "not in force", CROSS, "lemma 4 0 1", f"demand {other}", "leaf", "theorem 4",
+                         "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0")
+        # What a lemma demands is gone when it is proven.
+        self.refused(5, "costs 4", CROSS, "lemma 5 0 1", "demand 0 bar 4 1 1", "leaf", "theorem 5", "leaf")
+
+    def test_covering(self):
+        lemmas = [line for pair in ("0 1", "0 2", "1 2") for line in (f"lemma 9 {pair}", "joint")]
+        self.verified(STAR, *lemmas, "theorem 14", "leaf 0 1 2")  # by halves it would be 13.5
+        self.refused(8, "costs 12 and 2 by lemmas, expected 15", STAR, *lemmas, "theorem 15", "leaf 0 1 2")
+        self.refused(8, "costs 12 and 1 by lemmas", STAR, *lemmas, "theorem 14", "leaf 0 1")
+        self.refused(8, "costs 12 and 1 by lemmas", STAR, *lemmas, "theorem 14", "leaf 0 0 0 1")
+        self.verified(STAR, "lemma 10 0 2", "joint", "theorem 14", "leaf 0")
+        self.refused(4, "costs 12 and 2 by", STAR, "lemma 10 0 2", "joint", "theorem 15", "leaf 0")
+
+    def test_later(self):
+        lemma = ["lemma 5 0 1", *CROSSED]
+        self.verified(CROSS, *lemma, "theorem 5", "later 0 2 1 2 0", "leaf", "leaf")
+        self.verified(CROSS, *lemma, "theorem 5", "later 1 2 0 2 0", "leaf", "leaf")
+        self.refused(7, "costs 5", CROSS, *lemma, "theorem 6", "later 0 2 1 2 0", "leaf", "leaf")
+        for wrong in ("0 3 1 2", "0 2 1 3", "0 2 0 2"):
+            self.refused(6, "not of these two, or says less", CROSS, *lemma, "theorem 5", f"later {wrong} 0", "leaf", "leaf")
+        self.refused(6, "no lemma", CROSS, *lemma, "theorem 5", "later 0 2 1 2 1", "leaf", "leaf")
+        self.refused(4, "not of these two", STAR, "lemma 9 0 1", "joint", "theorem 13", "later 0 4 2 4 0", "leaf", "leaf")
+        self.refused(5, "not in force", CROSS, "lemma 5 0 1", "demand 0 bar 4 1 1", "leaf", "theorem 5", "later 0 2 1 2 0")
+        self.refused(4, "lemma 0 is of agent 2, too", STAR, "lemma 12 0 1 2", "leaf", "lemma 8 0 1", "later 0 3 1 3 0")
+
+    def test_later_is_for_plain_goals(self):
+        ends = {"without a goal": ([Agent((3,)), Agent((1,), 7)], [(5, 0, [0])]), "who works there": ([Agent((3,), 5), Agent((1,), 7)], [(5, 1, [0])]),
+                "with a heading": ([Agent((3, "E"), 5, 1, "E"), Agent((1,), 7)], [])}
+        for name, (agents, tasks) in ends.items():
+            with self.subTest(name):
+                instance = Instance(CROSS.world, agents, tasks)
+                self.refused(4, "agent 0 has no plain goal", instance, "lemma 1 0 1", "leaf", "theorem 1", "later 0 0 1 0 0", "leaf", "leaf")
+                self.refused(4, "agent 0 has no plain goal", instance, "lemma 1 0 1", "leaf", "theorem 1", "later 1 0 0 0 0", "leaf", "leaf")
+        turner = Instance(CROSS.world, [Agent((3, "E"), 5, 1), Agent((1,), 7)])
+        self.verified(turner, "lemma 5 0 1", "joint", "theorem 5", "later 0 2 1 2 0", "leaf", "leaf")
+
+    def test_joint(self):
+        self.verified(CROSS, "theorem 5", "joint")
+        self.refused(2, "finds a plan that costs less", CROSS, "theorem 6", "joint")
+        self.verified(STUCK, "theorem inf", "joint")
+        self.refused(2, "finds a plan", CROSS, "theorem inf", "joint")
+        self.verified(CROSS, "lemma 6 0 1", "demand 0 bar 4 1 2", "joint", "theorem 4", "leaf")
+        self.refused(3, "finds a plan", CROSS, "lemma 7 0 1", "demand 0 bar 4 1 2", "joint")
+
+    def test_prices(self):
+        place = ["prices", "place 4 1 1024", "end"]
+        self.verified(CROSS, "theorem 5", *place)
+        self.refused(4, "prices prove 5, expected 6", CROSS, "theorem 6", *place)
+        self.refused(4, "prices prove 3", CROSS, "theorem 5", "prices", "place 4 2 1024", "end")
+        self.verified(CROSS, "theorem 5", "prices", "place 4 1 1", "end")  # rounded up
+        self.refused(3, "prices prove 4", CROSS, "theorem 5", "prices", "end")
+        self.verified(CROSS, "theorem 5", "prices", "finish 0 2 1 2 1024", "end")
+        self.refused(3, "may both have finished", CROSS, "theorem 5", "prices", "finish 0 3 1 2 1024", "end")
+        self.refused(3, "", CROSS, "theorem 5", "prices", "finish 1 2 0 2 1024", "end")
+        self.verified(SWAP, "theorem 3", "prices", "edge 0 1 1 1024", "end")
+        self.refused(4, "prices prove 3", SWAP, "theorem 4", "prices", "edge 0 1 1 1024", "end")
+        self.refused(3, "do not ascend", SWAP, "theorem 3", "prices", "edge 1 0 1 1024", "end")
+        self.refused(2, "prices are of all agents", CROSS, "lemma 2 0", *place)
+        self.refused(3, "without demands", CROSS, "lemma 4 0 1", "demand 0 bar 4 1 1", *place)
+        self.refused(3, "without demands", CROSS, "theorem 5", CROSSED[0], *place, "leaf")
+
+    def test_who_stays_on_the_lesser_place_uses_an_edge(self):
+        waiter = Instance(grid(".."), [Agent((0,), 0)], [(1, 0, [0])])
+        rows = [f"edge 0 1 {time} 4096" for time in range(3, 9)]
+        self.verified(waiter, "theorem 2", "prices", "end")
+        self.refused(9, "prices prove 0", waiter, "theorem 2", "prices", *rows, "end")  # who rests on 0 pays for them all
+
+    def test_other_instances(self):
+        text = certificate(CROSS, "theorem 4", "leaf")
+        others = [STAR, Instance(CROSS.world, CROSS.agents, [(0, 0, [0])]), Instance(CROSS.world, [Agent((3,), 5), Agent((1,), 8)]),
+                  Instance(grid("..@", "...", "..."), CROSS.agents), Instance(CROSS.world, [Agent((3, "E"), 5, 1), Agent((1,), 7)])]
+        for other in others:
+            found = checkers.verify(other, text)
+            self.assertEqual((found.code, found.text), (1, "refused: line 2: it is of another instance\n"))
+
+
+if __name__ == "__main__":
+    checkers.main(unittest)
