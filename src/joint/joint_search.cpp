@@ -53,19 +53,18 @@ constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
 
 class JointSearch::Search {
  public:
-  // `tables`: some guide it.
+  // `tables`: some guide it. No plan costs less than `least`.
   Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
-         bool tables)
+         bool tables, Cost least)
       : instance_(instance),
         agents_(std::move(agents)),
         most_bytes_(most_bytes),
         from_on_(static_cast<std::size_t>(instance.world().place_count()), kNobody),
         to_on_(from_on_) {
     if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
-    std::int32_t alone = 0;
-    for (const AgentGraph& agent : agents_) alone += agent.to_go(AgentGraph::start());
+    for (const AgentGraph& agent : agents_) alone_ += agent.to_go(AgentGraph::start());
     if (tables) plan_tables();
-    first_layer_ = lower_bound_ = alone;
+    first_layer_ = lower_bound_ = std::max<Cost>(alone_, least);
     if (tables_to_come_.empty()) begin();
   }
 
@@ -171,7 +170,7 @@ class JointSearch::Search {
   void begin() {
     group();
     const std::vector<Node> start(size(), AgentGraph::start());
-    reach(start.data(), hash_of(start.data()), kNone, 0, static_cast<std::int32_t>(first_layer_));
+    reach(start.data(), hash_of(start.data()), kNone, 0, alone_);
   }
   void group() {
     excess_.assign(tables_.size() + 1, 0);
@@ -328,7 +327,8 @@ class JointSearch::Search {
       __builtin_prefetch(&records_[there]);
       __builtin_prefetch(nodes_of(there));
     }
-    for (std::size_t i = 0; i < next_.size(); ++i)
+    // Those with the least detours come last, to be taken first where a layer has room for more.
+    for (std::size_t i = next_.size(); i-- > 0;)
       reach(next_nodes_.data() + i * size(), next_[i].hash, parent_, next_[i].cost, next_[i].alone);
     next_.clear();
     next_nodes_.clear();
@@ -394,6 +394,7 @@ class JointSearch::Search {
   std::deque<std::vector<std::size_t>> tables_to_come_;  // their members
   std::deque<std::vector<std::size_t>> late_tables_;     // the same of larger ones
   std::int64_t planned_work_ = 0;
+  std::int32_t alone_ = 0;  // the sum of what the agents cost alone
   std::vector<GroupTable> tables_;
   std::vector<Grouping> groupings_;  // all that no group could be added to
   std::vector<int> excess_;          // of the state being made, by table; one more, of none: 0
@@ -440,8 +441,8 @@ std::size_t most_nodes_within(double bits) {
 
 JointSearch::JointSearch(std::unique_ptr<Search> search) : search_(std::move(search)) {}
 JointSearch::JointSearch(const Instance& instance, std::vector<AgentGraph> agents,
-                         std::size_t most_bytes)
-    : search_(std::make_unique<Search>(instance, std::move(agents), most_bytes, false)) {}
+                         std::size_t most_bytes, Cost least)
+    : search_(std::make_unique<Search>(instance, std::move(agents), most_bytes, false, least)) {}
 JointSearch::~JointSearch() = default;
 
 std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double most_bits,
@@ -457,7 +458,7 @@ std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double 
     agents.push_back(std::move(*graph));
   }
   return std::unique_ptr<JointSearch>(
-      new JointSearch(std::make_unique<Search>(instance, std::move(agents), most_bytes, true)));
+      new JointSearch(std::make_unique<Search>(instance, std::move(agents), most_bytes, true, 0)));
 } catch (const std::bad_alloc&) {
   return nullptr;
 }

@@ -53,7 +53,7 @@ TimedGraphs::Outcome TimedGraphs::make(FreeGoals& goals, Time most_cost, std::si
     return Outcome::kStopped;
   goals_ = &goals;
   most_cost_ = most_cost;
-  // One number for every node, and for every state to rest in.
+  // One number for every node, and for every state to rest in, which are no more.
   most_nodes = std::min(most_nodes, kMostNumbers / 2);
   start();
   for (Index node = 0; node < std::ssize(nodes_); ++node, ++looked_at_) {

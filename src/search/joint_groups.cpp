@@ -34,7 +34,7 @@ std::int64_t JointGroups::work() const {
 
 bool JointGroups::settle(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
                          const Limits& limits, Known& known) {
-  if (group.size() > JointSearch::kMostAgents) return true;
+  if (std::ssize(group) > tuning_.joint_group_agents) return true;
   give_up_at_ = work() + tuning_.joint_group_work;
   for (Cost more = 1; !known.exact && known.excess <= slack; more *= 2) {
     const Cost most = std::min(slack, known.excess + more);
@@ -61,7 +61,7 @@ JointGroups::Outcome JointGroups::settle_up_to(Cost most, const NodeView& view,
     if (made == TimedGraphs::Outcome::kStopped) return Outcome::kStopped;
     if (made == TimedGraphs::Outcome::kTooLarge) return Outcome::kGivenUp;
   }
-  JointSearch search(instance_, std::move(graphs), kMostBytes);
+  JointSearch search(instance_, std::move(graphs), kMostBytes, apart + known.excess);
   const Cost cutoff = apart + most + 1;
   const std::int64_t most_work = give_up_at_ - work();
   auto outcome = JointSearch::Outcome::kWorking;

@@ -26,8 +26,10 @@ class JointSearch {
   // `instance` must outlive it. `most_bytes`: that it may hold.
   static std::unique_ptr<JointSearch> make(const Instance& instance, double most_bits,
                                            std::size_t most_bytes);
-  // Of the agents that these graphs are of, at least one and at most kMostAgents.
-  JointSearch(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes);
+  // Of the agents that these graphs are of, at least one and at most kMostAgents. It is known that
+  // they cost `least` or more.
+  JointSearch(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
+              Cost least = 0);
   ~JointSearch();
 
   enum class Outcome : std::uint8_t {

@@ -22,7 +22,7 @@ class TimedGraphs {
  public:
   enum class Outcome : std::uint8_t {
     kMade,
-    kTooLarge,  // more than `most_nodes` nodes looked at
+    kTooLarge,  // more than `most_nodes` nodes looked at, or than can be numbered (32,767)
     kStopped,   // a limit struck
   };
 
