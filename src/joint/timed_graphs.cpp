@@ -32,18 +32,6 @@ TimedGraphs::Outcome TimedGraphs::make(FreeGoals& goals, std::span<const Constra
                                        AgentGraph& graph) {
   intervals_.assign(constraints);
   if (world_.states_are_places()) most_cost = std::min(most_cost, intervals_.latest_rest());
-  return make(goals, most_cost, most_nodes, limits, graph);
-}
-
-TimedGraphs::Outcome TimedGraphs::make(FreeGoals& goals, const Reservations& reservations,
-                                       Time most_cost, std::size_t most_nodes, const Limits& limits,
-                                       AgentGraph& graph) {
-  intervals_.assign(reservations);
-  return make(goals, most_cost, most_nodes, limits, graph);
-}
-
-TimedGraphs::Outcome TimedGraphs::make(FreeGoals& goals, Time most_cost, std::size_t most_nodes,
-                                       const Limits& limits, AgentGraph& graph) {
   graph = AgentGraph();
   graph.agent_ = goals.stops().agent();
   graph.first_move_.push_back(0);
@@ -73,7 +61,6 @@ void TimedGraphs::start() {
   next_.clear();
   first_stages_.clear();
   const State state = goals_->stops().start();
-  intervals_.see(world_.place(state));
   const int slot = intervals_.start_slot(state);
   const StageId first = goals_->first_stage();
   if (slot < 0 || first == FreeGoals::kOutside) return;

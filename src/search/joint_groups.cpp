@@ -10,6 +10,12 @@
 // knows the agents by, and nothing of what the others do goes in.
 //
 // Graphs grow with `most`, and most groups cost little more: so it begins small and doubles.
+//
+// Where it serves: splits settle nearly all pairs of agents that neither turn nor work, and few of
+// those that do. Groups whose pairs must cost more already were looked into in the same way: on
+// room-32-32-4 with 40 agents 6 % fewer nodes, in 1.6 times the time (1 % of nodes and 1.1 times
+// for groups of four at most). Joint search in place of splits: 5 % more nodes in 1.7 times the
+// time.
 #include "grove/detail/search/joint_groups.h"
 
 #include <algorithm>

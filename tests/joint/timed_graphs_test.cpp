@@ -44,14 +44,6 @@ class Fuzzer {
               TimedGraphs::Outcome::kMade);
     return graph;
   }
-  AgentGraph graph(AgentIndex agent, const Reservations& reservations, Time most) {
-    AgentStops stops(instance_, distances_, agent);
-    FreeGoals goals(stops, SequenceClass());
-    AgentGraph graph;
-    EXPECT_EQ(graphs_.make(goals, reservations, most, kPlenty, Limits(), graph),
-              TimedGraphs::Outcome::kMade);
-    return graph;
-  }
 
   // Something that matters to who went this way.
   Constraint demand(const Way& way) {
@@ -175,40 +167,6 @@ TEST(TimedGraphs, LetJointSearchFindTheOptimumUnderDemands) {
   }
   EXPECT_GT(found, 100);
   EXPECT_GT(none, 10);
-}
-
-State some_state_on(const World& world, Place place) {
-  State some = kNoState;
-  world.for_each_state(place, [&](State state) { some = state; });
-  return some;
-}
-
-TEST(TimedGraphs, GoRoundReservedPaths) {
-  int compared = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
-       ++seed) {
-    SCOPED_TRACE(seed);
-    Fuzzer fuzzer(seed);
-    const Instance& instance = fuzzer.instance();
-    if (instance.agent_count() < 2) continue;
-    const auto first = member(fuzzer, 0, 2);
-    const auto second = member(fuzzer, 1, 4);
-    if (!first || first->ways.empty() || !second) continue;
-    const auto all = oracle::ways_within(instance, 1, {}, second->most, kMostWays);
-    if (!all) continue;
-    const Way& way = first->ways[fuzzer.below(static_cast<int>(first->ways.size()))];
-    Path path;
-    for (const Place place : way) path.push_back(some_state_on(instance.world(), place));
-    Reservations reservations(instance.world(), instance.may_follow() ? 0 : 1);
-    reservations.add(0, path);
-    const AgentGraph graph = fuzzer.graph(1, reservations, second->most);
-    const auto least = oracle::least_together(instance, std::vector{{way}, *all});
-    ASSERT_EQ(graph.count() > 0, least.has_value());
-    ++compared;
-    if (!least) continue;
-    ASSERT_EQ(graph.to_go(AgentGraph::start()), *least - std::ssize(way) + 1);
-  }
-  EXPECT_GT(compared, 100);
 }
 
 TEST(TimedGraphs, AreNotMadeTooLarge) {

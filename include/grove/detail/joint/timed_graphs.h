@@ -11,7 +11,6 @@
 #include "grove/detail/joint/agent_graph.h"
 #include "grove/detail/model/limits.h"
 #include "grove/detail/planning/free_goals.h"
-#include "grove/detail/planning/reservations.h"
 #include "grove/detail/planning/safe_intervals.h"
 
 namespace grove::detail {
@@ -34,10 +33,6 @@ class TimedGraphs {
   // completions of `goals` as needed.
   Outcome make(FreeGoals& goals, std::span<const Constraint> constraints, Time most_cost,
                std::size_t most_nodes, const Limits& limits, AgentGraph& graph);
-  // The same around the reserved paths.
-  Outcome make(FreeGoals& goals, const Reservations& reservations, Time most_cost,
-               std::size_t most_nodes, const Limits& limits, AgentGraph& graph);
-
   // Nodes looked at so far.
   std::int64_t nodes() const { return looked_at_; }
 
@@ -53,8 +48,6 @@ class TimedGraphs {
     Time finish = kNever;       // the earliest from here
   };
 
-  Outcome make(FreeGoals& goals, Time most_cost, std::size_t most_nodes, const Limits& limits,
-               AgentGraph& graph);
   void start();
   void expand(Index node);
   void expand(std::int32_t slot, StageId stage, Time time);
