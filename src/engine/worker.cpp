@@ -208,6 +208,7 @@ void Worker::add_counts(Stats& stats) const {
   counts["low_level_expanded"] += tree.low_level_expanded;
   counts["pair_expansions"] += tree.pair_expansions;
   counts["joint_pairs"] += tree.joint_pairs;
+  if (tree.group_states > 0) counts["group_states"] += tree.group_states;
   for (std::uint8_t kind = 0; kind < kConstraintKinds; ++kind)
     if (tree.splits[kind] > 0) counts[count_of_splits(*constraint_kind(kind))] += tree.splits[kind];
   counts["bypasses"] += tree.bypasses;

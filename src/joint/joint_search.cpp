@@ -53,17 +53,18 @@ constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
 
 class JointSearch::Search {
  public:
-  Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes)
+  // `tables`: some guide it. No plan costs less than `least`.
+  Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
+         bool tables, Cost least)
       : instance_(instance),
         agents_(std::move(agents)),
         most_bytes_(most_bytes),
         from_on_(static_cast<std::size_t>(instance.world().place_count()), kNobody),
         to_on_(from_on_) {
     if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
-    std::int32_t alone = 0;
-    for (const AgentGraph& agent : agents_) alone += agent.to_go(AgentGraph::start());
-    plan_tables();
-    first_layer_ = lower_bound_ = alone;
+    for (const AgentGraph& agent : agents_) alone_ += agent.to_go(AgentGraph::start());
+    if (tables) plan_tables();
+    first_layer_ = lower_bound_ = std::max<Cost>(alone_, least);
     if (tables_to_come_.empty()) begin();
   }
 
@@ -72,7 +73,7 @@ class JointSearch::Search {
       return make_table(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     if (late_table_is_due())
       return make_late_table(limits) ? Outcome::kWorking : Outcome::kTooLarge;
-    for (; states > 0 && !plan_; --states) {
+    for (; states > 0 && !paths_; --states) {
       const Index state = pop();
       if (state == kNone) {
         lower_bound_ = kInfiniteCost;
@@ -82,15 +83,24 @@ class JointSearch::Search {
       if (++states_ % kStatesPerPoll == 0 && (limits.stop_requested() || bytes() > most_bytes_))
         return Outcome::kTooLarge;
       if (is_final(state))
-        plan_ = plan_to(state);
+        paths_ = paths_to(state);
       else if (!rises(state, cutoff))
         expand(state, cutoff);
     }
-    return plan_ ? Outcome::kEnded : Outcome::kWorking;
+    return paths_ ? Outcome::kEnded : Outcome::kWorking;
   }
 
   Cost lower_bound() const { return lower_bound_; }
-  const std::optional<Plan>& plan() const { return plan_; }
+  const std::optional<std::vector<Path>>& paths() const { return paths_; }
+  std::optional<Plan> plan() const {
+    if (!paths_) return std::nullopt;
+    Plan plan;
+    for (std::size_t i = 0; i < size(); ++i) {
+      plan.agents.push_back(plan_of_path(instance_, agents_[i].agent(), (*paths_)[i]));
+      plan.cost += plan.agents.back().cost;
+    }
+    return plan;
+  }
   std::int64_t states() const { return states_; }
   std::int64_t work() const { return table_work_ + made_ / kMadePerWork; }
 
@@ -160,7 +170,7 @@ class JointSearch::Search {
   void begin() {
     group();
     const std::vector<Node> start(size(), AgentGraph::start());
-    reach(start.data(), hash_of(start.data()), kNone, 0, static_cast<std::int32_t>(first_layer_));
+    reach(start.data(), hash_of(start.data()), kNone, 0, alone_);
   }
   void group() {
     excess_.assign(tables_.size() + 1, 0);
@@ -317,7 +327,8 @@ class JointSearch::Search {
       __builtin_prefetch(&records_[there]);
       __builtin_prefetch(nodes_of(there));
     }
-    for (std::size_t i = 0; i < next_.size(); ++i)
+    // Those with the least detours come last, to be taken first where a layer has room for more.
+    for (std::size_t i = next_.size(); i-- > 0;)
       reach(next_nodes_.data() + i * size(), next_[i].hash, parent_, next_[i].cost, next_[i].alone);
     next_.clear();
     next_nodes_.clear();
@@ -363,23 +374,18 @@ class JointSearch::Search {
            place(static_cast<std::size_t>(who), to_) == here;
   }
 
-  // --- the plan ---
+  // --- the paths ---
 
-  Plan plan_to(Index last) const {
+  std::vector<Path> paths_to(Index last) const {
     std::vector<Index> way;
     for (Index state = last; state != kNone; state = records_[state].parent) way.push_back(state);
     std::ranges::reverse(way);
-    Plan plan;
-    for (std::size_t agent = 0; agent < size(); ++agent) {
-      Path path;
-      for (const Index state : way) {
-        const Node node = nodes_of(state)[agent];
-        if (!agents_[agent].rests(node)) path.push_back(agents_[agent].state(node));
-      }
-      plan.agents.push_back(plan_of_path(instance_, agents_[agent].agent(), path));
-      plan.cost += plan.agents.back().cost;
-    }
-    return plan;
+    std::vector<Path> paths(size());
+    for (std::size_t agent = 0; agent < size(); ++agent)
+      for (const Index state : way)
+        if (const Node node = nodes_of(state)[agent]; !agents_[agent].rests(node))
+          paths[agent].push_back(agents_[agent].state(node));
+    return paths;
   }
 
   const Instance& instance_;
@@ -388,6 +394,7 @@ class JointSearch::Search {
   std::deque<std::vector<std::size_t>> tables_to_come_;  // their members
   std::deque<std::vector<std::size_t>> late_tables_;     // the same of larger ones
   std::int64_t planned_work_ = 0;
+  std::int32_t alone_ = 0;  // the sum of what the agents cost alone
   std::vector<GroupTable> tables_;
   std::vector<Grouping> groupings_;  // all that no group could be added to
   std::vector<int> excess_;          // of the state being made, by table; one more, of none: 0
@@ -403,7 +410,7 @@ class JointSearch::Search {
   std::int64_t made_ = 0;  // joint states, again and again
   std::int64_t table_work_ = 0;
   std::size_t table_bytes_ = 0;
-  std::optional<Plan> plan_;
+  std::optional<std::vector<Path>> paths_;
   // The expansion under way.
   struct Next {
     std::uint64_t hash;
@@ -433,6 +440,9 @@ std::size_t most_nodes_within(double bits) {
 }  // namespace
 
 JointSearch::JointSearch(std::unique_ptr<Search> search) : search_(std::move(search)) {}
+JointSearch::JointSearch(const Instance& instance, std::vector<AgentGraph> agents,
+                         std::size_t most_bytes, Cost least)
+    : search_(std::make_unique<Search>(instance, std::move(agents), most_bytes, false, least)) {}
 JointSearch::~JointSearch() = default;
 
 std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double most_bits,
@@ -448,7 +458,7 @@ std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double 
     agents.push_back(std::move(*graph));
   }
   return std::unique_ptr<JointSearch>(
-      new JointSearch(std::make_unique<Search>(instance, std::move(agents), most_bytes)));
+      new JointSearch(std::make_unique<Search>(instance, std::move(agents), most_bytes, true, 0)));
 } catch (const std::bad_alloc&) {
   return nullptr;
 }
@@ -461,7 +471,10 @@ JointSearch::Outcome JointSearch::run(std::int64_t states, Cost cutoff, const Li
 Cost JointSearch::lower_bound() const {
   return search_->lower_bound();
 }
-const std::optional<Plan>& JointSearch::plan() const {
+const std::optional<std::vector<Path>>& JointSearch::paths() const {
+  return search_->paths();
+}
+std::optional<Plan> JointSearch::plan() const {
   return search_->plan();
 }
 std::int64_t JointSearch::states() const {

@@ -10,6 +10,13 @@
 //
 // The cutoff of a call is what is left of the old cost, less what the agents still to come need at
 // least: beyond it the neighbourhood is lost anyway.
+//
+// Two or three agents at once, by joint search around the others, where one by one gained nothing:
+// a fifth of those that are not too large gain, but the time is better spent otherwise. Medians of
+// three seeds, 5 s on a busy machine, without and with: random-32-32-20, 150 agents 3,861 and
+// 3,921, 100 agents 2,361 and 2,364; room-32-32-4, 60 agents 1,756 and 1,764, 80 agents 2,415 and
+// 2,432; empty-32-32, 200 agents 4,358 and 4,360. Only where all have been in vain for long, 8 s:
+// room, 60 agents, 1,756 and 1,759, 1,646 and 1,646.
 #include "neighborhood_search.h"
 
 #include <algorithm>

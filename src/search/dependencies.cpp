@@ -39,6 +39,9 @@
 // *Groups.* Where no pair must cost more, three and more agents may still be in each other's way
 // whatever they do; or they are not, and splits move one conflict from pair to pair for ever. The
 // same search over a connected group of such agents tells, and is remembered in the same way.
+//
+// *Joint search.* Where that search ends without a result, for want of expansions, A* over the
+// joint states of the pair or group goes on (joint_groups.cpp).
 #include "grove/detail/search/dependencies.h"
 
 #include <algorithm>
@@ -60,6 +63,7 @@ Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
       pair_view_(problem, options, memory),
       pair_brancher_(problem, options, planner, memory),
       pair_dependency_(problem.instance.world()),
+      joint_groups_(problem.instance, tuning_, planner),
       situation_(static_cast<std::size_t>(agents_)) {}
 
 Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
@@ -70,10 +74,10 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& vi
   look_at(view);
   // What had to be forgotten once may be again: then nothing is left for later.
   give_up_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
-                                                  : planner_.work() + tuning_.bound_work;
-  Outcome outcome = solve_conflicting(node, view, slack, 0, limits);
+                                                  : work() + tuning_.bound_work;
+  Outcome outcome = solve_conflicting(view, slack, 0, limits);
   if (outcome == Outcome::kDone && techniques_.has(Technique::kClusters))
-    outcome = solve_groups(node, view, slack, limits);
+    outcome = solve_groups(view, slack, limits);
   if (outcome != Outcome::kDone) return outcome;
   std::vector<GroupExcess> statements;
   collect(statements);
@@ -93,10 +97,10 @@ bool Dependencies::help(const NodePtr& node, NodeView& view, Cost cutoff, double
   const Cost slack = cutoff - node->cost() - 1;
   if (slack < 0) return false;
   look_at(view);
-  const std::int64_t before = planner_.work();
+  const std::int64_t before = work();
   give_up_at_ = before + tuning_.bound_work;
-  solve_conflicting(node, view, slack, share, limits);
-  return planner_.work() > before;
+  solve_conflicting(view, slack, share, limits);
+  return work() > before;
 }
 
 void Dependencies::look_at(NodeView& view) {
@@ -104,8 +108,7 @@ void Dependencies::look_at(NodeView& view) {
 }
 
 // Looks into every pair that conflicts at the node.
-Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, NodeView& view,
-                                                      Cost slack, double share,
+Dependencies::Outcome Dependencies::solve_conflicting(NodeView& view, Cost slack, double share,
                                                       const Limits& limits) {
   std::vector<std::pair<AgentIndex, AgentIndex>> pairs;
   for (const Conflict& c : view.conflicts()) pairs.emplace_back(c.first, c.second);
@@ -116,7 +119,7 @@ Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, NodeV
   for (const auto& [a, b] : pairs) {
     Known known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
-    if (planner_.work() >= give_up_at_) return Outcome::kUnfinished;
+    if (work() >= give_up_at_) return Outcome::kUnfinished;
     if (techniques_.has(Technique::kJointPaths) && known.excess == 0) {
       const auto dependence = compare(view, a, b, limits);
       if (!dependence) return Outcome::kStopped;
@@ -127,7 +130,7 @@ Dependencies::Outcome Dependencies::solve_conflicting(const NodePtr& node, NodeV
         write_down_lemma(view, std::array{a, b}, 1, kNoProof, {});
     }
     const bool solved =
-        known.exact || solve(node, std::array{a, b}, slack, tuning_.pair_expansions, limits, known);
+        known.exact || solve(view, std::array{a, b}, slack, tuning_.pair_expansions, limits, known);
     if (!solved) return Outcome::kStopped;
     memory_.learn_pair(situation_[a], situation_[b], b, known);
   }
@@ -155,15 +158,14 @@ const OptimalPaths* Dependencies::optimal_paths(NodeView& view, AgentIndex agent
 }
 
 // Looks into every group that conflicts among itself though no pair of it has to cost more.
-Dependencies::Outcome Dependencies::solve_groups(const NodePtr& node, NodeView& view, Cost slack,
-                                                 const Limits& limits) {
+Dependencies::Outcome Dependencies::solve_groups(NodeView& view, Cost slack, const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
     if (group.size() < 3 || std::ssize(group) > tuning_.group_agents) continue;
     const auto situations = key(group);
     Known known = memory_.of_group(situations);
     if (known.exact || known.expansions > 0) continue;
-    if (planner_.work() >= give_up_at_) return Outcome::kUnfinished;
-    if (!solve(node, group, slack, tuning_.group_expansions, limits, known))
+    if (work() >= give_up_at_) return Outcome::kUnfinished;
+    if (!solve(view, group, slack, tuning_.group_expansions, limits, known))
       return Outcome::kStopped;
     memory_.learn_group(group, situations, known);
   }
@@ -192,8 +194,21 @@ std::vector<Situations::Id> Dependencies::key(std::span<const AgentIndex> group)
   return ids;
 }
 
-bool Dependencies::solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
+// False: a limit struck.
+bool Dependencies::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
                          std::int64_t most_expansions, const Limits& limits, Known& known) {
+  if (!solve_by_splits(view.node(), group, slack, most_expansions, limits, known)) return false;
+  if (known.exact || known.excess > slack || !techniques_.has(Technique::kJointGroups)) return true;
+  const Cost by_splits = known.excess;
+  if (!joint_groups_.settle(view, group, slack, limits, known)) return false;
+  if (proof_ != nullptr && known.excess > by_splits)
+    write_down_lemma(view, group, known.excess, kNoProof, {});
+  return true;
+}
+
+bool Dependencies::solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group,
+                                   Cost slack, std::int64_t most_expansions, const Limits& limits,
+                                   Known& known) {
   const Cost base = node->cost();
   // All closed for want of any path: that holds whatever the cutoff.
   const Cost closed = base + slack + 1 >= kInfiniteCost ? kInfiniteCost : slack + 1;

@@ -145,7 +145,7 @@ Plan Expander::plan(const Node& node) {
 
 double Expander::whole_work() const {
   const ExpansionCounts done = counts();
-  return static_cast<double>(planner_.work()) +
+  return static_cast<double>(planner_.work() + done.group_work) +
          work::kPerOptimalNode * static_cast<double>(done.optimal_nodes) +
          work::kPerJointPair * static_cast<double>(done.joint_pairs) +
          work::kPerSituation * static_cast<double>(done.situations) +
@@ -161,6 +161,8 @@ ExpansionCounts Expander::counts() const {
   counts.optimal_nodes =
       planner_.optimal_nodes() + brancher_.optimal_nodes() + dependencies_.optimal_nodes();
   counts.joint_pairs = dependencies_.joint_pairs();
+  counts.group_states = dependencies_.joint_groups().states();
+  counts.group_work = dependencies_.joint_groups().work();
   counts.situations = memory_.asked();
   counts.groups = memory_.groups_asked();
   counts.path_steps = view_.steps() + dependencies_.steps();

@@ -22,6 +22,7 @@ PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops,
       free_(free ? std::move(free)
                  : std::make_unique<FreeLowLevelSearch>(problem.instance.world())),
       optimal_(problem.instance.world()),
+      timed_(problem.instance.world()),
       stops_(stops),
       free_goals_(problem.instance.agent_count()) {}
 
@@ -40,6 +41,14 @@ OptimalPathsBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const 
                                                         const Limits& limits, OptimalPaths& paths) {
   return optimal_.build(free_goals(agent, order, constraints), on_path(constraints), cost,
                         most_nodes, limits, paths);
+}
+
+TimedGraphs::Outcome PathPlanner::timed_graph(AgentIndex agent, const AgentOrder& order,
+                                              std::span<const Constraint> constraints,
+                                              Time most_cost, std::size_t most_nodes,
+                                              const Limits& limits, AgentGraph& graph) {
+  return timed_.make(free_goals(agent, order, constraints), on_path(constraints), most_cost,
+                     most_nodes, limits, graph);
 }
 
 Sequence PathPlanner::sequence(AgentIndex agent, const AgentOrder& order, Constraints constraints,

@@ -82,7 +82,7 @@ TEST(JointSearch, ProvesTheCutoff) {
 }
 
 TEST(JointSearch, GivesUpWhereMemoryEnds) {
-  const Instance instance = fuzz::random_puzzle(39).build();
+  const Instance instance = fuzz::random_puzzle(94).build();
   const auto search = JointSearch::make(instance, 64, 1);
   ASSERT_TRUE(search);
   auto outcome = JointSearch::Outcome::kWorking;
@@ -97,7 +97,8 @@ TEST(JointSearch, IsForFewJointStates) {
   EXPECT_TRUE(JointSearch::make(instance, 40, kMostBytes));
 }
 
-// Long enough for larger tables to be made on the way. The optimum is that of a search without them.
+// Long enough for larger tables to be made on the way. The optimum is that of a search without
+// them.
 TEST(JointSearch, GoesOnWithLargerTables) {
   constexpr Cost kOptimum = 78;
   const Instance instance = fuzz::random_puzzle(94).build();

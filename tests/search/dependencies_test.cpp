@@ -108,6 +108,22 @@ TEST(Dependencies, KnowThatAGroupCostsMoreThoughNoPairDoes) {
   EXPECT_EQ(with.excess(), 2);
 }
 
+// Where a search by splits ends after its first node, joint search goes on.
+TEST(Dependencies, AreSettledByJointSearchWhereSplitsDoNotEnd) {
+  SearchOptions options{Techniques::usual().without({Technique::kTraversal, Technique::kTarget}), 0,
+                        true};
+  options.tuning.pair_expansions = 1;
+  Bounded with(kDoor, kHeadOn, options);
+  Bounded below(kDoor, kHeadOn, options);
+  options.techniques = options.techniques.without(Technique::kJointGroups);
+  Bounded without(kDoor, kHeadOn, options);
+  EXPECT_LT(without.excess(), 3);
+  EXPECT_EQ(without.dependencies.joint_groups().states(), 0);
+  EXPECT_EQ(with.excess(), 3);
+  EXPECT_GT(with.dependencies.joint_groups().states(), 0);
+  EXPECT_EQ(below.excess(below.root->cost() + 2), 2);
+}
+
 TEST(Dependencies, StopAtALimit) {
   Bounded s(kDoor, kHeadOn);
   s.limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grove/detail/search/memory.h"
@@ -17,8 +18,11 @@ namespace grove::detail::testing {
 struct NodeAtHand {
   NodeAtHand(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents,
              const SearchOptions& search_options = {Techniques::usual(), 0, true})
+      : NodeAtHand(instance_of(rows, agents), search_options) {}
+  explicit NodeAtHand(Instance given,
+                      const SearchOptions& search_options = {Techniques::usual(), 0, true})
       : options(search_options),
-        instance(instance_of(rows, agents)),
+        instance(std::move(given)),
         problem(instance, limits),
         stops(instance, problem.distances),
         forest(problem, stops, pool, limits),
@@ -26,7 +30,7 @@ struct NodeAtHand {
         planner(problem, stops),
         memory(planner, std::make_shared<CommonMemory>(), options.tuning.path_set_nodes),
         view(problem, options, memory),
-        all(agents.size()) {
+        all(static_cast<std::size_t>(instance.agent_count())) {
     std::iota(all.begin(), all.end(), 0);
     view.enter(root, all);
   }

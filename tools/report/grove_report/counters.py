@@ -11,6 +11,7 @@ KINDS = {"bar": "place or move", "no_traversal": "corridor", "rest_by": "coming 
 LABELS = {
     "bypasses": "bypasses: another way as short",
     "pair_expansions": "nodes in searches over pairs and groups of agents",
+    "group_states": "states of pairs and groups together",
     "joint_states": "states of all agents together",
     "lagrangian_rounds": "rounds of prices",
     "prices_of_ranks": "prices that other ranks have found",

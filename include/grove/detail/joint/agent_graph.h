@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One agent alone in a small world: all that it can come to, numbered, and what it costs from
-// there.
+// One agent alone: all that it can come to, numbered, and what it costs from there.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,8 @@ namespace grove::detail {
 // Nodes are what an agent can be in: a state of its motion, the stops that are left, and whether it
 // has come to rest for ever. Where it may rest with nothing left, one of its moves is to do so: it
 // stays, and no longer costs anything; all other moves, waits included, cost 1. Nodes from which it
-// cannot come to rest are left out, and so are works that serve nothing. Immutable.
+// cannot come to rest are left out, and so are works that serve nothing. (Under demands that depend
+// on time a node has its time, too: timed_graphs.h.) Immutable.
 class AgentGraph {
  public:
   using Node = std::uint16_t;
@@ -48,6 +48,7 @@ class AgentGraph {
 
  private:
   friend class AgentGraphMaker;
+  friend class TimedGraphs;
   AgentIndex agent_ = 0;
   std::vector<Place> places_;
   std::vector<State> states_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Few agents in a small world, where everybody is in everybody's way: A* over joint states.
+// Few agents, where everybody is in everybody's way: A* over joint states.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,9 @@
 
 namespace grove::detail {
 
-// The whole instance at once. Exact: it ends with an optimal plan, or the proof that there is none;
-// and at every moment it knows a lower bound on all plans. For one thread at a time.
+// The whole instance at once, or some of its agents as their graphs have it. Exact: it ends with
+// paths of least cost, or the proof that there are none; and at every moment it knows a lower bound
+// on all. For one thread at a time.
 class JointSearch {
  public:
   static constexpr int kMostAgents = 16;
@@ -25,11 +26,15 @@ class JointSearch {
   // `instance` must outlive it. `most_bytes`: that it may hold.
   static std::unique_ptr<JointSearch> make(const Instance& instance, double most_bits,
                                            std::size_t most_bytes);
+  // Of the agents that these graphs are of, at least one and at most kMostAgents. It is known that
+  // they cost `least` or more.
+  JointSearch(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
+              Cost least = 0);
   ~JointSearch();
 
   enum class Outcome : std::uint8_t {
     kWorking,   // there is more to do
-    kEnded,     // there is no plan below the cutoff but plan(), if that is there
+    kEnded,     // there is no plan below the cutoff but that of paths(), if they are there
     kTooLarge,  // out of memory or stopped: it is not to be run again
   };
   // Looks at so many joint states, or makes a table that guides it. Plans that cost `cutoff` or
@@ -39,8 +44,9 @@ class JointSearch {
   // Proven: no plan costs less, but those that cost the cutoff or more. kInfiniteCost: there is
   // none.
   Cost lower_bound() const;
-  // An optimal one, if it has been found.
-  const std::optional<Plan>& plan() const;
+  // Those of an optimal plan, if it has been found, by the order of the graphs; and it.
+  const std::optional<std::vector<Path>>& paths() const;
+  std::optional<Plan> plan() const;
   // Joint states looked at; and what all has cost, in the unit of search/work.h.
   std::int64_t states() const;
   std::int64_t work() const;

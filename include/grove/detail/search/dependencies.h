@@ -10,6 +10,7 @@
 #include "grove/detail/planning/pair_dependency.h"
 #include "grove/detail/search/brancher.h"
 #include "grove/detail/search/covering.h"
+#include "grove/detail/search/joint_groups.h"
 #include "grove/detail/search/memory.h"
 #include "grove/detail/search/proof_log.h"
 
@@ -55,6 +56,8 @@ class Dependencies {
   std::int64_t expansions() const { return expansions_; }
   std::int64_t joint_pairs() const { return pair_dependency_.pairs(); }
   std::int64_t steps() const { return pair_view_.steps(); }
+  // By joint search.
+  const JointGroups& joint_groups() const { return joint_groups_; }
   std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }
 
  private:
@@ -69,21 +72,23 @@ class Dependencies {
   Known known(AgentIndex a, AgentIndex b) const {
     return memory_.of_pair(situation_[a], situation_[b]);
   }
-  Outcome solve_conflicting(const NodePtr& node, NodeView& view, Cost slack, double share,
-                            const Limits& limits);
+  Outcome solve_conflicting(NodeView& view, Cost slack, double share, const Limits& limits);
   std::optional<Dependence> compare(NodeView& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
   const OptimalPaths* optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits);
-  Outcome solve_groups(const NodePtr& node, NodeView& view, Cost slack, const Limits& limits);
+  Outcome solve_groups(NodeView& view, Cost slack, const Limits& limits);
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const NodeView& view) const;
   std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;
-  bool solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
+  bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
              std::int64_t most_expansions, const Limits& limits, Known& known);
+  bool solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
+                       std::int64_t most_expansions, const Limits& limits, Known& known);
   void collect(std::vector<GroupExcess>& statements);
   void write_down_splits(const Open& from, Cost base, Cost closed);
   void write_down_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess,
                         ProofKey root, std::span<const ProofSplit> splits);
   void write_down_bound(const NodeView& view, std::span<const GroupExcess> statements, Cost bound);
+  std::int64_t work() const { return planner_.work() + joint_groups_.work(); }
 
   const Instance& instance_;
   const PathPlanner& planner_;
@@ -95,6 +100,7 @@ class Dependencies {
   NodeView pair_view_;  // of a pair or group
   Brancher pair_brancher_;
   PairDependency pair_dependency_;
+  JointGroups joint_groups_;
   std::vector<Situations::Id> situation_;  // by AgentIndex, at the node
   std::vector<Open> open_;                 // a heap: least cost first
   std::vector<NodePtr> children_;
@@ -102,7 +108,7 @@ class Dependencies {
   std::vector<Excesses::Partner> partners_;
   std::vector<std::vector<AgentIndex>> groups_;
   std::int64_t expansions_ = 0;
-  std::int64_t give_up_at_ = 0;  // of the planner's work
+  std::int64_t give_up_at_ = 0;  // of work()
 };
 
 }  // namespace grove::detail

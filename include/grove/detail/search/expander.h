@@ -40,6 +40,8 @@ struct ExpansionCounts {
   std::int64_t pair_expansions = 0;
   std::int64_t optimal_nodes = 0;  // of sets of optimal paths, made or searched for conflicts
   std::int64_t joint_pairs = 0;    // of such nodes, compared
+  std::int64_t group_states = 0;   // looked at by joint search of pairs and groups
+  std::int64_t group_work = 0;     // of it, in the unit of work.h
   std::int64_t situations = 0;     // asked about
   std::int64_t groups = 0;         // asked about
   std::int64_t path_steps = 0;     // looked through for conflicts
@@ -79,7 +81,9 @@ class Expander {
 
   ExpansionCounts counts() const;
   // Work done so far: as it is weighed, and all of it; see work.h.
-  std::int64_t work() const { return planner_.work() + work_on_nodes_; }
+  std::int64_t work() const {
+    return planner_.work() + dependencies_.joint_groups().work() + work_on_nodes_;
+  }
   double whole_work() const;
 
   // What was found out is known to this expander only, until it is published, or handed over for

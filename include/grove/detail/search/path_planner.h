@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "grove/detail/joint/timed_graphs.h"
 #include "grove/detail/planning/agent_planner.h"
 #include "grove/detail/planning/agent_stops_store.h"
 #include "grove/detail/planning/low_level_search.h"
@@ -36,6 +37,11 @@ class PathPlanner {
                                              std::size_t most_nodes, const Limits& limits,
                                              OptimalPaths& paths);
 
+  // As TimedGraphs::make.
+  TimedGraphs::Outcome timed_graph(AgentIndex agent, const AgentOrder& order,
+                                   std::span<const Constraint> constraints, Time most_cost,
+                                   std::size_t most_nodes, const Limits& limits, AgentGraph& graph);
+
   // A sequence that `path`, which must realize one that the order and the constraints leave, visits
   // its stops in.
   Sequence sequence(AgentIndex agent, const AgentOrder& order,
@@ -51,6 +57,8 @@ class PathPlanner {
   std::int64_t expanded() const { return fixed_.expanded() + free_->expanded(); }
   // Nodes of sets of optimal paths, so far.
   std::int64_t optimal_nodes() const { return optimal_.nodes(); }
+  // Nodes of timed graphs, so far.
+  std::int64_t timed_nodes() const { return timed_.nodes(); }
   // Calls and labels; see work.h.
   std::int64_t work() const { return expanded() + work::kPerCall * calls_; }
 
@@ -65,6 +73,7 @@ class PathPlanner {
   LowLevelSearch fixed_;
   std::unique_ptr<AgentPlanner> free_;
   OptimalPathsBuilder optimal_;
+  TimedGraphs timed_;
   AgentStopsStore& stops_;
   std::vector<std::vector<std::unique_ptr<FreeGoals>>>
       free_goals_;  // by AgentIndex: of the classes asked for last, the last of all in front

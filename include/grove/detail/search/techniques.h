@@ -29,6 +29,7 @@ enum class Technique : std::uint8_t {
   kEstimates,       // with w > 0, while there is no plan: every other node by what it promises
   kJointSearch,     // beside the tree A* over joint states, where there are few agents and places
   kLagrangian,      // beside the tree a bound from prices, where there are many agents
+  kJointGroups,     // A* over joint states of pairs and groups that splits do not settle
 };
 
 struct NamedTechnique {
@@ -53,6 +54,7 @@ inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kEstimates, "estimates"},
     NamedTechnique{Technique::kJointSearch, "joint-search"},
     NamedTechnique{Technique::kLagrangian, "lagrangian"},
+    NamedTechnique{Technique::kJointGroups, "joint-groups"},
 };
 
 // A set of techniques; a value.

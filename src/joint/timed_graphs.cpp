@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Layer by layer, forward: a slot of safe_intervals.h, which says the state and all that
+// constraints ask of the past, with a stage of free_goals.h and a time. Who is there may wait while
+// the slot lasts, or move where a move arrives one step later. *Claim: the ways to rest are exactly
+// the paths that cost `most_cost` or less.* What is dropped has a distance to the end that leads
+// beyond; the completions are widened until they know all sequences within the cost, so no stage of
+// such a path is unknown; and whoever counts a stop as early as may be passes all stages that
+// matter (optimal_paths.cpp). To rest is a decision, open wherever a slot permits to rest for ever
+// with nothing left to do; who could and waits pays for it, as in any agent graph. By when it must
+// have come to rest (kRestBy) limits the cost where states are places, and elsewhere is a matter of
+// slots.
+//
+// Backward: the earliest finish from each node, in the order of falling times, since no move leads
+// into its own layer. So what an agent costs alone from a node is exact under its demands.
+#include "grove/detail/joint/timed_graphs.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace grove::detail {
+namespace {
+
+constexpr std::int64_t kExpansionsPerPoll = 512;
+constexpr std::size_t kMostNumbers = std::numeric_limits<AgentGraph::Node>::max();
+
+}  // namespace
+
+TimedGraphs::TimedGraphs(const World& world) : world_(world), intervals_(world) {}
+
+TimedGraphs::Outcome TimedGraphs::make(FreeGoals& goals, std::span<const Constraint> constraints,
+                                       Time most_cost, std::size_t most_nodes, const Limits& limits,
+                                       AgentGraph& graph) {
+  intervals_.assign(constraints);
+  if (world_.states_are_places()) most_cost = std::min(most_cost, intervals_.latest_rest());
+  graph = AgentGraph();
+  graph.agent_ = goals.stops().agent();
+  graph.first_move_.push_back(0);
+  if (most_cost < 0 || !goals.plausible()) return Outcome::kMade;
+  Completions& completions = goals.completions();
+  if (completions.beyond() <= most_cost && !completions.widen(most_cost, limits))
+    return Outcome::kStopped;
+  goals_ = &goals;
+  most_cost_ = most_cost;
+  // One number for every node, and for every state to rest in, which are no more.
+  most_nodes = std::min(most_nodes, kMostNumbers / 2);
+  start();
+  for (Index node = 0; node < std::ssize(nodes_); ++node, ++looked_at_) {
+    if (nodes_.size() > most_nodes) return Outcome::kTooLarge;
+    if (looked_at_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
+    expand(node);
+  }
+  find_finishes();
+  write(graph);
+  return Outcome::kMade;
+}
+
+// Where the start may count for a stop or not, it is of two stages; it is one node nevertheless.
+void TimedGraphs::start() {
+  nodes_.clear();
+  moves_.clear();
+  next_.clear();
+  first_stages_.clear();
+  const State state = goals_->stops().start();
+  const int slot = intervals_.start_slot(state);
+  const StageId first = goals_->first_stage();
+  if (slot < 0 || first == FreeGoals::kOutside) return;
+  goals_->on_arrival(first, state, [&](StageId stage) {
+    if (goals_->distance(stage, state) <= most_cost_) first_stages_.push_back(stage);
+  });
+  if (!first_stages_.empty()) nodes_.push_back({slot, first, 0});
+}
+
+void TimedGraphs::expand(Index node) {
+  const Timed from = nodes_[node];  // nodes_ will grow
+  if (node == 0 || from.time > nodes_[node - 1].time) next_.clear();
+  if (node > 0) {
+    expand(from.slot, from.stage, from.time);
+  } else {
+    for (const StageId stage : first_stages_) expand(from.slot, stage, from.time);
+  }
+  nodes_[node].end_move = static_cast<Index>(moves_.size());
+}
+
+void TimedGraphs::expand(std::int32_t slot, StageId stage, Time time) {
+  if (time < intervals_.end_of(slot)) reach(slot, stage, time + 1);
+  intervals_.for_each_move(slot, time, [&](int next, State state, Time arrival) {
+    if (arrival == time + 1)
+      goals_->on_arrival(stage, state, [&](StageId then) { reach(next, then, arrival); });
+  });
+}
+
+void TimedGraphs::reach(std::int32_t slot, StageId stage, Time time) {
+  const auto key = static_cast<std::uint64_t>(slot) << 32 | static_cast<std::uint32_t>(stage);
+  const auto [at, is_new] = next_.try_emplace(key, -1);
+  if (is_new && goals_->distance(stage, intervals_.state_of(slot)) <= most_cost_ - time) {
+    at->second = static_cast<Index>(nodes_.size());
+    nodes_.push_back({slot, stage, time});
+  }
+  if (at->second >= 0) moves_.push_back(at->second);
+}
+
+bool TimedGraphs::may_rest(Index node) const {
+  const Timed& n = nodes_[node];
+  if (!intervals_.may_rest(n.slot)) return false;
+  const auto rests = [&](StageId stage) {
+    return goals_->is_rest(goals_->stage(stage), intervals_.state_of(n.slot));
+  };
+  return node > 0 ? rests(n.stage) : std::ranges::any_of(first_stages_, rests);
+}
+
+void TimedGraphs::find_finishes() {
+  for (auto node = static_cast<Index>(nodes_.size()); node-- > 0;) {
+    Timed& from = nodes_[node];
+    if (may_rest(node)) from.finish = from.time;
+    for (Index move = first_move(node); move < from.end_move; ++move)
+      from.finish = std::min(from.finish, nodes_[moves_[move]].finish);
+  }
+}
+
+// Without the nodes that lead nowhere. The start, if it stays, stays 0. Those at rest come last.
+void TimedGraphs::write(AgentGraph& graph) const {
+  using Node = AgentGraph::Node;
+  if (nodes_.empty() || nodes_.front().finish == kNever) return;
+  std::vector<Node> number(nodes_.size());
+  Node count = 0;
+  for (std::size_t node = 0; node < nodes_.size(); ++node)
+    if (nodes_[node].finish < kNever) number[node] = count++;
+  std::vector<std::pair<State, Node>> rests;
+  const auto rest_in = [&](State state) {
+    const auto known = std::ranges::find(rests, state, &std::pair<State, Node>::first);
+    if (known != rests.end()) return known->second;
+    return rests.emplace_back(state, count++).second;
+  };
+  const auto add = [&](State state, bool rests_there, Time to_go) {
+    graph.states_.push_back(state);
+    graph.places_.push_back(world_.place(state));
+    graph.rests_.push_back(rests_there ? 1 : 0);
+    graph.to_go_.push_back(to_go);
+  };
+  for (Index node = 0; node < std::ssize(nodes_); ++node) {
+    const Timed& from = nodes_[node];
+    if (from.finish == kNever) continue;
+    const State state = intervals_.state_of(from.slot);
+    add(state, false, from.finish - from.time);
+    const auto first = static_cast<std::ptrdiff_t>(graph.moves_.size());
+    if (may_rest(node)) graph.moves_.push_back({rest_in(state), 0});
+    for (Index move = first_move(node); move < from.end_move; ++move)
+      if (const Timed& to = nodes_[moves_[move]]; to.finish < kNever)
+        graph.moves_.push_back({number[moves_[move]], to.finish - from.finish});
+    std::ranges::sort(graph.moves_.begin() + first, graph.moves_.end(), {},
+                      &AgentGraph::Move::detour);
+    graph.first_move_.push_back(static_cast<std::uint32_t>(graph.moves_.size()));
+  }
+  for (const auto& [state, node] : rests) {
+    add(state, true, 0);
+    graph.moves_.push_back({node, 0});
+    graph.first_move_.push_back(static_cast<std::uint32_t>(graph.moves_.size()));
+  }
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "tests/oracle/group_oracle.h"
+
+#include <algorithm>
+#include <set>
+
+#include "grove/detail/model/omega.h"
+#include "tests/oracle/agent_states.h"
+#include "tests/support/obeys.h"
+
+namespace grove::detail::oracle {
+namespace {
+
+constexpr std::size_t kLookedAtPerWay = 40;
+
+class Lister {
+ public:
+  Lister(const Instance& instance, AgentIndex agent, std::span<const Constraint> demands, Time most,
+         std::size_t cap)
+      : world_(instance.world()),
+        states_(instance, agent),
+        demands_(demands),
+        most_(most),
+        cap_(cap) {}
+
+  std::optional<std::vector<Way>> list() {
+    go_on(states_.start());
+    if (looked_at_ > kLookedAtPerWay * cap_ || ways_.size() > cap_) return std::nullopt;
+    std::vector<Way> ways(ways_.begin(), ways_.end());
+    std::ranges::stable_sort(ways, {}, &Way::size);
+    return ways;
+  }
+
+ private:
+  void go_on(AgentStates::State state) {
+    if (++looked_at_ > kLookedAtPerWay * cap_ || ways_.size() > cap_) return;
+    const auto time = static_cast<Time>(way_.size());
+    if (states_.to_go(state) > most_ - time) return;
+    way_.push_back(states_.cell(state));
+    for (const AgentStates::Move& move : states_.moves(state)) {
+      if (!states_.resting(move.to))
+        go_on(move.to);
+      else if (obeys())
+        ways_.insert(way_);
+    }
+    way_.pop_back();
+  }
+  bool obeys() const {
+    Path path;
+    for (const Place place : way_) path.push_back(some_state_on(place));
+    return std::ranges::all_of(
+        demands_, [&](const Constraint& demand) { return testing::obeys(world_, path, demand); });
+  }
+  State some_state_on(Place place) const {
+    State some = kNoState;
+    world_.for_each_state(place, [&](State state) { some = state; });
+    return some;
+  }
+
+  const World& world_;
+  const AgentStates states_;
+  const std::span<const Constraint> demands_;
+  const Time most_;
+  const std::size_t cap_;
+  std::size_t looked_at_ = 0;
+  Way way_;
+  std::set<Way> ways_;
+};
+
+Place at(const Way& way, std::size_t time) {
+  return time < way.size() ? way[time] : way.back();
+}
+
+bool collide(const Way& a, const Way& b, bool may_follow) {
+  for (std::size_t t = 0; t < std::max(a.size(), b.size()); ++t) {
+    if (at(a, t) == at(b, t)) return true;
+    if (t == 0) continue;
+    const bool a_enters = at(a, t) == at(b, t - 1);
+    const bool b_enters = at(b, t) == at(a, t - 1);
+    if ((a_enters && b_enters) || (!may_follow && (a_enters || b_enters))) return true;
+  }
+  return false;
+}
+
+class Together {
+ public:
+  Together(const Instance& instance, std::span<const std::vector<Way>> ways)
+      : may_follow_(instance.may_follow()), ways_(ways) {}
+  std::optional<Cost> least() {
+    choose(0);
+    return best_ < kInfiniteCost ? std::optional(best_) : std::nullopt;
+  }
+
+ private:
+  void choose(Cost cost) {
+    if (chosen_.size() == ways_.size()) {
+      best_ = std::min(best_, cost);
+      return;
+    }
+    for (const Way& way : ways_[chosen_.size()]) {
+      const Cost more = cost + static_cast<Cost>(way.size()) - 1;
+      if (more + others_at_least() >= best_) return;  // the others cost no less
+      if (std::ranges::any_of(chosen_,
+                              [&](const Way* other) { return collide(*other, way, may_follow_); }))
+        continue;
+      chosen_.push_back(&way);
+      choose(more);
+      chosen_.pop_back();
+    }
+  }
+  Cost others_at_least() const {
+    Cost sum = 0;
+    for (std::size_t i = chosen_.size() + 1; i < ways_.size(); ++i)
+      sum += ways_[i].empty() ? kInfiniteCost : static_cast<Cost>(ways_[i].front().size()) - 1;
+    return sum;
+  }
+
+  const bool may_follow_;
+  const std::span<const std::vector<Way>> ways_;
+  std::vector<const Way*> chosen_;
+  Cost best_ = kInfiniteCost;
+};
+
+}  // namespace
+
+std::optional<std::vector<Way>> ways_within(const Instance& instance, AgentIndex agent,
+                                            std::span<const Constraint> demands, Time most,
+                                            std::size_t cap) try {
+  return Lister(instance, agent, demands, most, cap).list();
+} catch (const AgentStates::TooMany&) {
+  return std::nullopt;
+}
+
+std::optional<Cost> least_together(const Instance& instance,
+                                   std::span<const std::vector<Way>> ways) {
+  return Together(instance, ways).least();
+}
+
+}  // namespace grove::detail::oracle

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "grove/detail/search/joint_groups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "grove/detail/search/brancher.h"
+#include "grove/detail/search/feasibility.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/oracle/group_oracle.h"
+#include "tests/search/node_at_hand.h"
+#include "tests/support/fuzz_factor.h"
+
+namespace grove::detail {
+namespace joint_groups_test {
+
+using Known = JointGroups::Known;
+constexpr std::size_t kMostWays = 1500;
+
+SearchOptions options_of(std::uint64_t seed) {
+  SearchOptions options{Techniques::usual(), seed, true};
+  if (seed % 3 == 0) options.techniques = options.techniques.without(Technique::kStrongBranching);
+  if (seed % 4 == 0) options.techniques = options.techniques.with(Technique::kSequenceSplits);
+  return options;
+}
+
+// A node some splits below the root of a tiny instance of any kind.
+struct Below : testing::NodeAtHand {
+  Below(const fuzz::TinyInstance& tiny, std::uint64_t seed)
+      : NodeAtHand(seed % 5 == 0 ? tiny.build().without_following() : tiny.build(),
+                   options_of(seed)),
+        random(seed) {
+    Brancher brancher(problem, options, planner, memory);
+    for (int depth = below(6); depth > 0 && !view.conflict_free(); --depth) {
+      std::vector<NodePtr> children;
+      const auto outcome = brancher.branch(view, kInfiniteCost, {}, limits, children);
+      if (outcome != Brancher::Outcome::kBranched || children.empty()) return;
+      view.enter(children[below(static_cast<int>(children.size()))], all);
+    }
+  }
+  int below(int bound) { return static_cast<int>(random() % static_cast<unsigned>(bound)); }
+
+  std::mt19937_64 random;
+};
+
+// What the group costs more together, if that is at most `most`; else `most` + 1. None: there is
+// too much to try.
+std::optional<Cost> true_excess(Below& s, const std::vector<AgentIndex>& group, Time most) {
+  std::vector<std::vector<oracle::Way>> ways;
+  Cost apart = 0;
+  for (const AgentIndex agent : group) {
+    const auto demands = s.view.constraints(agent);
+    if (std::ranges::any_of(demands, is_about_sequence)) return std::nullopt;
+    auto all =
+        oracle::ways_within(s.instance, agent, demands, s.view.cost_of(agent) + most, kMostWays);
+    if (!all) return std::nullopt;
+    apart += s.view.cost_of(agent);
+    ways.push_back(std::move(*all));
+  }
+  const auto least = oracle::least_together(s.instance, ways);
+  return least ? std::min<Cost>(*least - apart, most + 1) : most + 1;
+}
+
+// With work enough exactly what trying all ways finds; with little never more.
+TEST(JointGroups, SayWhatTryingAllWaysSays) {
+  int exact = 0, above = 0, interrupted = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(600));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    const auto tiny = seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed);
+    const Instance instance = tiny.build();
+    if (instance.agent_count() < 2) continue;
+    Limits limits;
+    const Problem problem(instance, limits);
+    if (evident_infeasibility(problem)) continue;
+    Below s(tiny, seed);
+    std::vector<AgentIndex> group(s.all.begin(), s.all.end());
+    std::shuffle(group.begin(), group.end(), s.random);
+    group.resize(std::min<std::size_t>(group.size(), 2 + s.random() % 2));
+    std::ranges::sort(group);
+    const Cost slack = 1 + s.below(3);
+    const auto truth = true_excess(s, group, static_cast<Time>(slack));
+    if (!truth) continue;
+    Tuning tuning;
+    JointGroups groups(s.instance, tuning, s.planner);
+    Known known;
+    ASSERT_TRUE(groups.settle(s.view, group, slack, s.limits, known));
+    ASSERT_EQ(known.excess, *truth);
+    ASSERT_EQ(known.exact, *truth <= slack);
+    ++(known.exact ? exact : above);
+    tuning.joint_group_work = s.below(40);
+    Known less;
+    ASSERT_TRUE(groups.settle(s.view, group, slack, s.limits, less));
+    ASSERT_LE(less.excess, *truth);
+    if (less.exact) {
+      ASSERT_EQ(less.excess, *truth);
+    }
+    interrupted += less.excess < *truth ? 1 : 0;
+  }
+  EXPECT_GT(exact, 100);
+  EXPECT_GT(above, 20);
+  EXPECT_GT(interrupted, 10);
+}
+
+}  // namespace joint_groups_test
+}  // namespace grove::detail
