@@ -8,11 +8,15 @@
 // none to be found, and the time is better spent elsewhere. So is one that takes long before any
 // has found a path; the next may take twice as many.
 //
+// Where prices are known, each agent may leave to others what they would pay for: its cheapest path
+// is found first, and gives way to the one that is cheapest with all penalties.
+//
 // The cutoff of a call is what is left of the old cost, less what the agents still to come need at
 // least: beyond it the neighbourhood is lost anyway.
 #include "neighborhood_search.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace grove::detail {
@@ -34,8 +38,8 @@ void NeighborhoodSearch::step(const Limits& limits) {
     old_paths_.push_back(paths_.take(agent));
   }
   const Cost others = paths_.cost();
-  if (!plan_anew(agents, old_cost, way, limits)) restore(agents);
-  const Cost gain = others + old_cost - paths_.cost();
+  if (!plan_anew(agents, old_cost + worse_allowed(others + old_cost), way, limits)) restore(agents);
+  const Cost gain = std::max<Cost>(0, others + old_cost - paths_.cost());
   neighborhoods_.reward(gain);
   const std::int64_t work = router_.work() - work_before;
   way.gain = tuning_.way_memory * way.gain + static_cast<double>(gain);
@@ -43,16 +47,27 @@ void NeighborhoodSearch::step(const Limits& limits) {
 }
 
 NeighborhoodSearch::Way& NeighborhoodSearch::choose_way() {
-  if (random_.below(tuning_.neighborhoods_per_trial) == 0)
-    return ways_[random_.below(ways_.size())];
-  return *std::ranges::max_element(ways_, {},
+  const std::span<Way> ways(ways_.data(), ways_.size() - (router_.prices() == nullptr ? 1 : 0));
+  if (random_.below(tuning_.neighborhoods_per_trial) == 0) return ways[random_.below(ways.size())];
+  return *std::ranges::max_element(ways, {},
                                    [](const Way& way) { return (way.gain + 1) / way.work; });
 }
 
-// False if the agents cannot be planned at `old_cost` or less, at least not in this order.
-bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost old_cost, Way& way,
+// How much more than `cost`, that of the plan as it is, the next one may cost.
+Cost NeighborhoodSearch::worse_allowed(Cost cost) {
+  if (cost < least_) {
+    least_ = cost;
+    in_vain_ = 0;
+  }
+  if (++in_vain_ <= tuning_.neighborhoods_before_worse * std::ssize(paths_.paths())) return 0;
+  const double more = tuning_.worse_plans * static_cast<double>(least_ - own_costs_);
+  return std::max<Cost>(0, least_ + static_cast<Cost>(more + random_.unit()) - cost);
+}
+
+// False if the agents cannot be planned at `most` or less, at least not in this order.
+bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most, Way& way,
                                    const Limits& limits) {
-  Cost left = old_cost;
+  Cost left = most;
   for (AgentIndex agent : agents) left -= router_.own_cost(agent);
   for (AgentIndex agent : agents) {
     const Cost cutoff = left + router_.own_cost(agent);
@@ -78,6 +93,8 @@ bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Lim
     if (way.found <= 0 && way.first_labels < kMostFirstLabels) way.first_labels *= 2;
     return false;
   }
+  if (way.priced)
+    router_.improve(agent, paths_.reservations(), static_cast<Time>(cutoff), limits, path_);
   way.labels = tuning_.way_memory * way.labels + static_cast<double>(router_.expanded() - before);
   way.found = tuning_.way_memory * way.found + 1;
   return true;

@@ -42,6 +42,8 @@ class LagrangianShare {
   // Of one who has a job.
   Pricer pricer(const AgentStopsStore& stops) const;
   int rounds() const { return rounds_; }
+  // For the search for plans; null: none yet, or the bound is another rank's.
+  std::shared_ptr<const PriceList> price_list() const;
 
   // On rank 0, before the search: so many ranks share it.
   void set_ranks(int ranks) {

@@ -29,6 +29,7 @@ enum class Technique : std::uint8_t {
   kEstimates,       // with w > 0, while there is no plan: every other node by what it promises
   kJointSearch,     // beside the tree A* over joint states, where there are few agents and places
   kLagrangian,      // beside the tree a bound from prices, where there are many agents
+  kPricedPlans,     // what is dear by that bound says which paths to plan anew, and where to
 };
 
 struct NamedTechnique {
@@ -53,6 +54,7 @@ inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kEstimates, "estimates"},
     NamedTechnique{Technique::kJointSearch, "joint-search"},
     NamedTechnique{Technique::kLagrangian, "lagrangian"},
+    NamedTechnique{Technique::kPricedPlans, "priced-plans"},
 };
 
 // A set of techniques; a value.
