@@ -11,6 +11,12 @@
 // Where prices are known, each agent may leave to others what they would pay for: its cheapest path
 // is found first, and gives way to the one that is cheapest with all penalties.
 //
+// It ends in a local optimum soon. So when as many neighbourhoods as there are agents were in vain,
+// plans are gone on with that cost a little more than the best one met: a share of what that costs
+// above all agents alone, for where much is lost by crowding it takes more to get out. Until then
+// nothing dearer is taken, else a plan that still improves quickly improves more slowly
+// (random-32-32-20, 200 agents, ten seconds: 5,202 to 5,238 instead of 5,149).
+//
 // The cutoff of a call is what is left of the old cost, less what the agents still to come need at
 // least: beyond it the neighbourhood is lost anyway.
 #include "neighborhood_search.h"

@@ -30,7 +30,7 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   kind_ = choose_kind();
   if (kind_ == kDelayed) add_delayed();
   if (kind_ == kOneSpot) add_around_spot();
-  if (kind_ == kPriced) add_overpaying();
+  if (kind_ == kOverpaying) add_overpaying();
   if (std::ssize(chosen_) < kFew) add_anyone();
   random_.shuffle(chosen_);
   return chosen_;
@@ -120,10 +120,10 @@ void Neighborhoods::add_overpaying() {
 void Neighborhoods::look_at_prices() {
   const PriceList& list = *router_.prices();
   const auto agents = paths_.paths().size();
-  if (&list != seen_prices_) {
+  if (seen_prices_ != router_.price_changes()) {
+    seen_prices_ = router_.price_changes();
     overpaid_.resize(agents);
     seen_editions_.assign(agents, 0);
-    seen_prices_ = &list;
   }
   for (AgentIndex agent = 0; agent < std::ssize(paths_.paths()); ++agent) {
     if (seen_editions_[agent] == paths_.edition(agent)) continue;

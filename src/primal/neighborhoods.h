@@ -29,7 +29,7 @@ class Neighborhoods {
   void reward(Cost gain);
 
  private:
-  enum Kind : std::uint8_t { kDelayed, kAnyone, kOneSpot, kPriced };
+  enum Kind : std::uint8_t { kDelayed, kAnyone, kOneSpot, kOverpaying };
   static constexpr int kKinds = 4;
   static constexpr std::int64_t kFew = 2;  // fewer are filled up with anyone
 
@@ -38,7 +38,7 @@ class Neighborhoods {
   void add(AgentIndex agent);
   bool full() const { return std::ssize(chosen_) >= wanted_; }
   // All of them, or without those that ask for prices where there are none.
-  int kinds() const { return router_.prices() == nullptr ? kPriced : kKinds; }
+  int kinds() const { return router_.prices() == nullptr ? kOverpaying : kKinds; }
   void add_anyone();
   void add_delayed();
   AgentIndex some_delayed_agent();
@@ -60,8 +60,8 @@ class Neighborhoods {
   std::int64_t wanted_ = 0;
   std::int64_t in_vain_ = 0;  // neighbourhoods since one that gained
   std::vector<AgentIndex> chosen_;
-  const PriceList* seen_prices_ = nullptr;
-  std::vector<Price> overpaid_;              // by agent: above its price, by seen_prices_
+  int seen_prices_ = 0;                      // Router::price_changes() then
+  std::vector<Price> overpaid_;              // by agent: above its price
   std::vector<std::int64_t> seen_editions_;  // by agent: of the path of which that is so
   std::vector<Place> queue_;
   std::vector<std::int32_t> seen_at_;  // by place: the search that saw it

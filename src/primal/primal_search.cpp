@@ -4,6 +4,11 @@
 // other ones. So when a round has gone on without success for as long as it took to come where it
 // is, a new round begins with prioritised planning.
 //
+// Prices of the Lagrangian bound, once there are some, help with neighbourhoods alone: a plan by
+// prioritised planning with penalties, or from the paths of these prices, is cheaper than one
+// without (3,976 instead of 4,246 for 150 agents on random-32-32-20), but dearer than what the
+// neighbourhoods have made by then (3,830).
+//
 // Prioritised planning is given a head start: one attempt, of at most so many times the work that
 // meeting the agents took. It ends within 1.5 times that where there is room, with plans much
 // cheaper than the configuration search's (1.1 to 3.5 times the sum of own costs). When the head

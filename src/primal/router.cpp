@@ -50,6 +50,7 @@ PathOutcome Router::find(AgentIndex agent, const PathQuery& query, const Limits&
 void Router::use(std::shared_ptr<const PriceList> prices) {
   if (priced_) labels_before_ += priced_->labels();
   prices_ = std::move(prices);
+  ++price_changes_;
   priced_.emplace(prices_->tariff.penalties());
 }
 

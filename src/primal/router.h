@@ -33,6 +33,8 @@ class Router {
   void use(std::shared_ptr<const PriceList> prices);
   // Null: nothing is known.
   const PriceList* prices() const { return prices_.get(); }
+  // How often that has changed.
+  int price_changes() const { return price_changes_; }
   // Puts in the place of a path around others the one that is cheapest by the prices, if that
   // finishes by `latest`. There must be prices.
   void improve(AgentIndex agent, const Reservations& others, Time latest, const Limits& limits,
@@ -66,6 +68,7 @@ class Router {
   std::vector<Path> own_paths_;                    // by AgentIndex
   std::int64_t calls_ = 0;
   std::shared_ptr<const PriceList> prices_;
+  int price_changes_ = 0;
   std::optional<PenalizedSearch> priced_;  // by them
   std::int64_t labels_before_ = 0;         // by those before
 };
