@@ -88,7 +88,8 @@ class PrimalSearch::Impl {
   std::optional<Plan> step(const Limits& limits);
   void adopt(const Plan& plan);
   void use(std::shared_ptr<const PriceList> prices) {
-    if (prices && prices.get() != router_.prices()) router_.use(std::move(prices));
+    if (prices && prices.get() != router_.prices() && is_near(prices->bound()))
+      router_.use(std::move(prices));
   }
 
   PlanSource source() const { return source_; }
@@ -120,6 +121,11 @@ class PrimalSearch::Impl {
   }
 
  private:
+  // Far from what is proven, prices say little about what will be dear.
+  bool is_near(Price bound) const {
+    return static_cast<double>(best_) * Penalties::kUnit <=
+           (1 + tuning_.priced_gap) * static_cast<double>(bound);
+  }
   void keep_best();
   bool may_tell(const Limits& limits) const;
   void advance(const Limits& limits);

@@ -109,6 +109,7 @@ TEST(Multicore, SoIsOneWithPricesForPlans) {
     options.tuning.lagrangian_begins_work = 0;
     options.tuning.lagrangian_step_work = 20;
     options.tuning.first_price_list = 1;
+    options.tuning.priced_gap = 10;
     options.tuning.most_primal_at_first = 1;
     using Counts = std::pair<std::int64_t, std::int64_t>;
     const auto counts = [&](int threads, Techniques techniques) -> std::optional<Counts> {

@@ -189,9 +189,11 @@ TEST(PrimalSearch, ImprovesItsFirstPlan) {
 // Prices come on the way, and others later.
 TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
   const Instance instance = doors();
+  Tuning tuning;
+  tuning.priced_gap = 1;
   std::vector<std::int64_t> work[2];
   for (auto& counts : work) {
-    Search search(instance, 1);
+    Search search(instance, 1, Techniques::usual(), tuning);
     for (const int rounds : {0, 15, 60}) {
       const auto prices = testing::prices_of(instance, search.stops, rounds);
       EXPECT_EQ(prices == nullptr, rounds == 0);
@@ -204,17 +206,26 @@ TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
   Search without(instance, 1);
   without.plans(300);
   EXPECT_NE(without.primal.work(), work[0].back());
+
+  tuning.priced_gap = 0;  // no plan is so near
+  Search too_far(instance, 1, Techniques::usual(), tuning);
+  too_far.primal.use(testing::prices_of(instance, too_far.stops, 60));
+  too_far.plans(300);
+  EXPECT_EQ(too_far.primal.work(), without.primal.work());
 }
 
 TEST(PrimalSearch, EveryPlanByPricesIsValid) {
   int priced = 0;
+  Tuning tuning;
+  tuning.priced_gap = 1e6;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = fuzz::random_instance(seed).build();
     if (!searchable(instance)) continue;
-    Search search(instance, seed);
+    Search search(instance, seed, Techniques::usual(), tuning);
     const auto prices = testing::prices_of(instance, search.stops, 12);
     priced += prices != nullptr;
+    search.plans(2);
     search.primal.use(prices);
     search.plans(10);
     if (HasFailure()) return;

@@ -49,6 +49,7 @@ class PrimalSearch {
   void adopt(const Plan& plan);
 
   // From now on knows what is dear where and when. Null, or the same as before: nothing new.
+  // Not heeded while the best plan costs much more than those who made them have proven.
   void use(std::shared_ptr<const PriceList> prices);
 
   // The cheapest plan returned or adopted, or about to be returned.
