@@ -238,11 +238,13 @@ TEST(PrimalSearch, GoesOnFromPlansThatAreLittleWorse) {
   const Instance instance = doors();
   int better = 0, worse = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Tuning walk;
+    walk.worse_plans_loss = 10;
     Tuning descent;
     descent.worse_plans = 0;
     const Cost by_descent =
         Search(instance, seed, Techniques::usual(), descent).plans(250).back().cost;
-    const Cost by_walk = Search(instance, seed).plans(250).back().cost;
+    const Cost by_walk = Search(instance, seed, Techniques::usual(), walk).plans(250).back().cost;
     better += by_walk < by_descent;
     worse += by_walk > by_descent;
   }
