@@ -67,6 +67,11 @@ LagrangianBound* LagrangianShare::bound() const {
   return bound_.get();
 }
 
+std::shared_ptr<const PriceList> LagrangianShare::price_list() const {
+  const LagrangianBound* const bound = this->bound();
+  return bound == nullptr ? nullptr : bound->price_list();
+}
+
 bool LagrangianShare::has_jobs() const {
   if (helps_) return help_->has_jobs();
   const LagrangianBound* const bound = is_over_ ? nullptr : this->bound();

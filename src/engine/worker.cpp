@@ -90,7 +90,7 @@ std::optional<Worker::Turn> Worker::choose() {
   return lagrangian();
 }
 
-// The primal search, which knows the incumbent.
+// The primal search, which knows the incumbent and the prices.
 PrimalSearch& Worker::primal() {
   if (!primal_)
     primal_ = std::make_unique<PrimalSearch>(problem_, primal_stops_,
@@ -98,6 +98,8 @@ PrimalSearch& Worker::primal() {
                                              options_.techniques, options_.tuning);
   if (const auto plan = shared_.ledger().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
     primal_->adopt(*plan);
+  if (techniques_of(options_).has(Technique::kPricedPlans))
+    primal_->use(shared_.lagrangian().price_list());
   return *primal_;
 }
 

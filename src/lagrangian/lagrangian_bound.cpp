@@ -36,6 +36,7 @@ constexpr std::size_t kMostMarkBytes = std::size_t{1} << 26;  // of one agent's 
 constexpr std::size_t kBytesOfMark = 16;
 constexpr std::int64_t kFirstLabels = 2000;            // of an agent, until it is known better
 constexpr std::int64_t kStepsPerWork = 32;             // of paths, counted
+constexpr int kRoundsPerList = 4;                      // rounds so far to those until the next list
 constexpr double kLeastWay = 0.02 * Penalties::kUnit;  // nothing comes of a shorter one
 
 }  // namespace
@@ -67,6 +68,7 @@ LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsStore
       paths_(static_cast<std::size_t>(instance.agent_count())),
       prices_(paths_.size()),
       labels_(paths_.size(), kFirstLabels),
+      next_list_(tuning.first_price_list),
       is_priced_(paths_.size()),
       known_(paths_.size()) {
   begin_pricing();
@@ -143,6 +145,7 @@ void LagrangianBound::commit(Job job) {
   if (phase_ == Phase::kEnded) return;
   if (job.first == job.end) {
     work_between_ += job.work;
+    if (new_list_) list_ = std::move(new_list_);
     return;
   }
   for (AgentIndex agent = job.first; agent < job.end; ++agent) {
@@ -285,9 +288,20 @@ void LagrangianBound::look_at_pairs(Job& job, const Limits& limits) {
   job.work += pairs_.work() - begin;
 }
 
+// Better ones come ever more slowly.
+void LagrangianBound::make_list(Price bound) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (rounds_ < next_list_ || bound < best_) return;
+    next_list_ = rounds_ + std::max(1, rounds_ / kRoundsPerList);
+  }
+  new_list_ = std::make_shared<const PriceList>(PriceList{tariff(), prices_, paths_});
+}
+
 void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const Price bound =
       std::accumulate(prices_.begin(), prices_.end(), Price{0}) - tariff().sum_of_charges();
+  make_list(bound);
   const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_memory);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;
   if (squares > 0) rows_.go(ascent_.step(static_cast<double>(bound), most, squares));
@@ -298,6 +312,11 @@ void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const bool is_over = squares <= 0 || ascent_.way() < kLeastWay || is_futile;
   phase_ = is_over ? Phase::kEnded : Phase::kPricing;
   begin_pricing();
+}
+
+std::shared_ptr<const PriceList> LagrangianBound::price_list() const {
+  const std::lock_guard lock(mutex_);
+  return list_;
 }
 
 bool LagrangianBound::ended() const {

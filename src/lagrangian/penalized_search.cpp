@@ -60,6 +60,20 @@ Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finis
   return below_;
 }
 
+bool PenalizedSearch::improve(FreeGoals& goals, std::span<const Amount> on_finish,
+                              const Reservations& others, Time latest, Price price,
+                              std::int64_t most_labels, const Limits& limits, Path& path) {
+  others_ = &others;
+  latest_ = latest;
+  Path cheaper;
+  search(goals, on_finish, price, most_labels, limits, &cheaper);
+  others_ = nullptr;
+  latest_ = kNever;
+  if (cheaper.empty()) return false;
+  path = std::move(cheaper);
+  return true;
+}
+
 // What coming to rest costs beside the steps, at a time or later, each step later being one more.
 // Of who may rest on several places nothing is said of these.
 void PenalizedSearch::look_at_ends() {
@@ -87,11 +101,14 @@ void PenalizedSearch::expand(std::uint32_t at) {
   const Label label = labels_[at];  // labels_ will grow
   // Dropped since, for a cheaper path was found.
   if (label.paid + to_pay(label.distance, time_ - 1) >= below_) return;
-  const Amount staying = layer_[penalties_.staying(world_.place(label.state))];
-  reach(at, label.state, label.stage, label.paid + Penalties::kUnit + staying);
+  const Place place = world_.place(label.state);
+  if (lets_arrive(place, place))
+    reach(at, label.state, label.stage,
+          label.paid + Penalties::kUnit + layer_[penalties_.staying(place)]);
   const std::span<const State> moves = world_.moves(label.state);
   const std::span<const Penalties::Arc> arcs = penalties_.arcs(label.state);
   for (std::size_t move = 0; move < moves.size(); ++move) {
+    if (!lets_arrive(place, world_.place(moves[move]))) continue;
     const Amount paid = label.paid + Penalties::kUnit + layer_[arcs[move]];
     goals_->on_arrival(label.stage, moves[move],
                        [&](StageId then) { arrive(at, moves[move], then, paid); });
@@ -111,7 +128,9 @@ Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amou
   if (plane.empty()) plane.resize(static_cast<std::size_t>(world_.state_count()));
   Mark& mark = plane[state];
   if (mark.stamp != stamp_) mark = {kNone, -1, goals_->distance(stage, state), stamp_};
-  if (mark.distance >= kNever || paid + to_pay(mark.distance, time_) >= below_) return kNever;
+  if (mark.distance >= kNever || time_ > latest_ - mark.distance ||
+      paid + to_pay(mark.distance, time_) >= below_)
+    return kNever;
   if (mark.time != time_) {
     mark.time = time_;
     mark.label = static_cast<std::uint32_t>(labels_.size());
@@ -126,6 +145,7 @@ Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amou
 // If that is the cheapest so far.
 void PenalizedSearch::come_to_rest(const Label& label) {
   if (!goals_->is_rest(goals_->stage(label.stage), label.state)) return;
+  if (others_ != nullptr && !others_->lets_rest(world_.place(label.state), time_)) return;
   Price price = label.paid;
   if (static_cast<std::size_t>(time_) < on_finish_.size()) price += on_finish_[time_];
   if (price >= below_) return;

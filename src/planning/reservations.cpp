@@ -61,4 +61,14 @@ AgentIndex Reservations::agent_at(Place place, Time time) const {
   return std::prev(after)->agent;
 }
 
+bool Reservations::lets_arrive(Place from, Place to, Time arrival) const {
+  const std::vector<Stay>& stays = stays_[to];
+  const auto after = std::ranges::upper_bound(stays, arrival + margin_, {}, &Stay::first);
+  if (after == stays.begin()) return true;
+  const Stay& stay = *std::prev(after);
+  if (stay.last >= arrival - margin_) return false;
+  const bool swaps = stay.last == arrival - 1 && stay.next == from;
+  return !swaps;
+}
+
 }  // namespace grove::detail

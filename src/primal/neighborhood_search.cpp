@@ -8,6 +8,16 @@
 // none to be found, and the time is better spent elsewhere. So is one that takes long before any
 // has found a path; the next may take twice as many.
 //
+// Where prices are known, each agent may leave to others what they would pay for: its cheapest path
+// is found first, and gives way to the one that is cheapest with all penalties.
+//
+// It ends in a local optimum soon. So when as many neighbourhoods as there are agents were in vain,
+// plans are gone on with that cost a little more than the best one met: a share of what that costs
+// above all agents alone, for where much is lost by crowding it takes more to get out. Until then
+// nothing dearer is taken, else a plan that still improves quickly improves more slowly
+// (random-32-32-20, 200 agents, ten seconds: 5,202 to 5,238 instead of 5,149), and where it is so
+// crowded that plans improve for as long as one looks, nothing dearer at all.
+//
 // The cutoff of a call is what is left of the old cost, less what the agents still to come need at
 // least: beyond it the neighbourhood is lost anyway.
 //
@@ -20,6 +30,7 @@
 #include "neighborhood_search.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace grove::detail {
@@ -41,8 +52,8 @@ void NeighborhoodSearch::step(const Limits& limits) {
     old_paths_.push_back(paths_.take(agent));
   }
   const Cost others = paths_.cost();
-  if (!plan_anew(agents, old_cost, way, limits)) restore(agents);
-  const Cost gain = others + old_cost - paths_.cost();
+  if (!plan_anew(agents, old_cost + worse_allowed(others + old_cost), way, limits)) restore(agents);
+  const Cost gain = std::max<Cost>(0, others + old_cost - paths_.cost());
   neighborhoods_.reward(gain);
   const std::int64_t work = router_.work() - work_before;
   way.gain = tuning_.way_memory * way.gain + static_cast<double>(gain);
@@ -50,16 +61,29 @@ void NeighborhoodSearch::step(const Limits& limits) {
 }
 
 NeighborhoodSearch::Way& NeighborhoodSearch::choose_way() {
-  if (random_.below(tuning_.neighborhoods_per_trial) == 0)
-    return ways_[random_.below(ways_.size())];
-  return *std::ranges::max_element(ways_, {},
+  const std::span<Way> ways(ways_.data(), ways_.size() - (router_.prices() == nullptr ? 1 : 0));
+  if (random_.below(tuning_.neighborhoods_per_trial) == 0) return ways[random_.below(ways.size())];
+  return *std::ranges::max_element(ways, {},
                                    [](const Way& way) { return (way.gain + 1) / way.work; });
 }
 
-// False if the agents cannot be planned at `old_cost` or less, at least not in this order.
-bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost old_cost, Way& way,
+// How much more than `cost`, that of the plan as it is, the next one may cost.
+Cost NeighborhoodSearch::worse_allowed(Cost cost) {
+  if (cost < least_) {
+    least_ = cost;
+    in_vain_ = 0;
+  }
+  if (++in_vain_ <= tuning_.neighborhoods_before_worse * std::ssize(paths_.paths())) return 0;
+  const auto loss = static_cast<double>(least_ - own_costs_);
+  if (loss > tuning_.worse_plans_loss * static_cast<double>(own_costs_)) return 0;
+  const double more = tuning_.worse_plans * loss;
+  return std::max<Cost>(0, least_ + static_cast<Cost>(more + random_.unit()) - cost);
+}
+
+// False if the agents cannot be planned at `most` or less, at least not in this order.
+bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most, Way& way,
                                    const Limits& limits) {
-  Cost left = old_cost;
+  Cost left = most;
   for (AgentIndex agent : agents) left -= router_.own_cost(agent);
   for (AgentIndex agent : agents) {
     const Cost cutoff = left + router_.own_cost(agent);
@@ -85,6 +109,8 @@ bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Lim
     if (way.found <= 0 && way.first_labels < kMostFirstLabels) way.first_labels *= 2;
     return false;
   }
+  if (way.priced)
+    router_.improve(agent, paths_.reservations(), static_cast<Time>(cutoff), limits, path_);
   way.labels = tuning_.way_memory * way.labels + static_cast<double>(router_.expanded() - before);
   way.found = tuning_.way_memory * way.found + 1;
   return true;

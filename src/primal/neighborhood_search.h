@@ -2,6 +2,7 @@
 // Large neighbourhood search: from a plan to a cheaper one, a few agents at a time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,8 +15,9 @@
 namespace grove::detail {
 
 // Takes the paths of a few agents away and plans them anew, one after the other, in random order.
-// The new paths stay if they cost no more together. (MAPF-LNS: Li et al., IJCAI 2021; the low level
-// here chooses the order of the tasks too.)
+// The new paths stay if they cost no more together; after many that did not help also if all paths
+// cost little more than the best ones met. (MAPF-LNS: Li et al., IJCAI 2021; the low level here
+// chooses the order of the tasks too. Record-to-record travel: Dueck 1993.)
 class NeighborhoodSearch {
  public:
   // All must outlive this.
@@ -30,12 +32,20 @@ class NeighborhoodSearch {
   // One neighbourhood; all agents must have paths, and have them afterwards whatever happens.
   void step(const Limits& limits);
 
+  // There is another plan to begin with; alone the agents would cost so much.
+  void begin(Cost own_costs) {
+    least_ = kInfiniteCost;
+    own_costs_ = own_costs;
+  }
+
   std::int64_t steps() const { return steps_; }
 
  private:
-  // How the low level searches: exactly or greedily; which does better is found out on the way.
+  // How an agent is planned: exactly, greedily, or so that it pays least where prices are known;
+  // which does better is found out on the way.
   struct Way {
     int greed_percent;
+    bool priced;
     double gain = 0;                     // of late
     double work = 1;                     // of late, in labels
     double labels = 0;                   // of late, of calls that found a path
@@ -44,8 +54,8 @@ class NeighborhoodSearch {
   };
 
   Way& choose_way();
-  bool plan_anew(const std::vector<AgentIndex>& agents, Cost old_cost, Way& way,
-                 const Limits& limits);
+  Cost worse_allowed(Cost cost);
+  bool plan_anew(const std::vector<AgentIndex>& agents, Cost most, Way& way, const Limits& limits);
   bool find(AgentIndex agent, Cost cutoff, Way& way, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);
 
@@ -54,7 +64,10 @@ class NeighborhoodSearch {
   Random& random_;
   const Tuning& tuning_;
   Neighborhoods neighborhoods_;
-  std::vector<Way> ways_{{0}, {30}};
+  std::array<Way, 3> ways_{Way{0, false}, Way{30, false}, Way{0, true}};
+  Cost own_costs_ = 0;
+  Cost least_ = kInfiniteCost;  // of plans met since begin()
+  std::int64_t in_vain_ = 0;    // neighbourhoods since then
   std::vector<Path> old_paths_;
   Path path_;
   std::int64_t steps_ = 0;

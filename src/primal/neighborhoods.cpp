@@ -3,14 +3,23 @@
 // - delayed: an agent that pays more than it would alone, chosen by how much more, and those that
 //   stand in the way of its own best path, or of that path a little later;
 // - anyone: agents drawn from all;
-// - one spot: agents that pass around one place at about one time.
+// - one spot: agents that pass around one place at about one time;
+// - overpaying: where prices are known, an agent that pays more than its price, penalties included,
+//   and those that stand in the way of the path of that price. Who is delayed because all others
+//   would be if it were not does not overpay.
 #include "neighborhoods.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "in_the_way.h"
 
 namespace grove::detail {
+namespace {
+
+constexpr Time kLate = 3;  // steps, fewer than these, that one may be late on a path of its price
+
+}  // namespace
 
 const std::vector<AgentIndex>& Neighborhoods::choose() {
   const int agents = problem_.instance.agent_count();
@@ -21,6 +30,7 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   kind_ = choose_kind();
   if (kind_ == kDelayed) add_delayed();
   if (kind_ == kOneSpot) add_around_spot();
+  if (kind_ == kOverpaying) add_overpaying();
   if (std::ssize(chosen_) < kFew) add_anyone();
   random_.shuffle(chosen_);
   return chosen_;
@@ -35,10 +45,10 @@ std::int64_t Neighborhoods::most_wanted() const {
 }
 
 Neighborhoods::Kind Neighborhoods::choose_kind() {
-  double sum = 0;
-  for (double weight : weights_) sum += weight;
-  double at = random_.unit() * sum * (1 + kKinds * tuning_.least_kind);
-  for (int kind = 0; kind < kKinds; ++kind) {
+  const int kinds = this->kinds();
+  const double sum = std::accumulate(weights_.begin(), weights_.begin() + kinds, 0.0);
+  double at = random_.unit() * sum * (1 + kinds * tuning_.least_kind);
+  for (int kind = 0; kind < kinds; ++kind) {
     at -= weights_[static_cast<std::size_t>(kind)] + sum * tuning_.least_kind;
     if (at < 0) return static_cast<Kind>(kind);
   }
@@ -64,11 +74,11 @@ void Neighborhoods::add_delayed() {
   const AgentIndex agent = some_delayed_agent();
   if (agent == Reservations::kNobody) return;
   add(agent);
-  add_those_in_the_way(agent, 0);
+  add_those_in_the_way(agent, router_.own_path(agent), 0);
   const Time delay = paths_.cost(agent) - router_.own_cost(agent);
   for (int tries = 0; tries < tuning_.delayed_starts && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
-    add_those_in_the_way(member, random_.below(delay + 1));
+    add_those_in_the_way(member, router_.own_path(member), random_.below(delay + 1));
   }
 }
 
@@ -86,13 +96,55 @@ AgentIndex Neighborhoods::some_delayed_agent() {
   return Reservations::kNobody;
 }
 
-// Those that the agent would run into on its own best path, `late` steps late.
-void Neighborhoods::add_those_in_the_way(AgentIndex agent, Time late) {
-  visit_those_in_the_way(problem_.instance.world(), paths_.reservations(), agent,
-                         router_.own_path(agent), late, [&](AgentIndex other) {
+// Those that the agent would run into on a path, `late` steps late.
+void Neighborhoods::add_those_in_the_way(AgentIndex agent, const Path& path, Time late) {
+  visit_those_in_the_way(problem_.instance.world(), paths_.reservations(), agent, path, late,
+                         [&](AgentIndex other) {
                            add(other);
                            return !full();
                          });
+}
+
+void Neighborhoods::add_overpaying() {
+  look_at_prices();
+  const AgentIndex agent = some_overpaying_agent();
+  if (agent == Reservations::kNobody) return;
+  add(agent);
+  add_those_in_the_way(agent, wanted_path(agent), 0);
+  for (int tries = 0; tries < tuning_.delayed_starts && !full(); ++tries) {
+    const AgentIndex member = chosen_[random_.below(chosen_.size())];
+    add_those_in_the_way(member, wanted_path(member), random_.below(kLate));
+  }
+}
+
+void Neighborhoods::look_at_prices() {
+  const PriceList& list = *router_.prices();
+  const auto agents = paths_.paths().size();
+  if (seen_prices_ != router_.price_changes()) {
+    seen_prices_ = router_.price_changes();
+    overpaid_.resize(agents);
+    seen_editions_.assign(agents, 0);
+  }
+  for (AgentIndex agent = 0; agent < std::ssize(paths_.paths()); ++agent) {
+    if (seen_editions_[agent] == paths_.edition(agent)) continue;
+    seen_editions_[agent] = paths_.edition(agent);
+    overpaid_[agent] =
+        std::max<Price>(0, list.tariff.price(agent, paths_.path(agent)) - list.prices[agent]);
+  }
+}
+
+AgentIndex Neighborhoods::some_overpaying_agent() {
+  const Price sum = std::accumulate(overpaid_.begin(), overpaid_.end(), Price{0});
+  if (sum <= 0) return Reservations::kNobody;
+  Price at = random_.below(sum);
+  AgentIndex agent = 0;
+  while ((at -= overpaid_[agent]) >= 0) ++agent;
+  return agent;
+}
+
+const Path& Neighborhoods::wanted_path(AgentIndex agent) const {
+  const Path& path = router_.prices()->paths[agent];
+  return path.empty() ? router_.own_path(agent) : path;
 }
 
 // Breadth first from a place on somebody's path, about the time when it is there.

@@ -14,7 +14,7 @@
 
 namespace grove::detail {
 
-// Chooses neighbourhoods of a few agents, of three kinds, each as often as it did well of late
+// Chooses neighbourhoods of a few agents, of some kinds, each as often as it did well of late
 // (adaptive large neighbourhood search: Ropke and Pisinger 2006; for MAPF: Li et al., IJCAI 2021).
 class Neighborhoods {
  public:
@@ -29,18 +29,24 @@ class Neighborhoods {
   void reward(Cost gain);
 
  private:
-  enum Kind : std::uint8_t { kDelayed, kAnyone, kOneSpot };
-  static constexpr int kKinds = 3;
+  enum Kind : std::uint8_t { kDelayed, kAnyone, kOneSpot, kOverpaying };
+  static constexpr int kKinds = 4;
   static constexpr std::int64_t kFew = 2;  // fewer are filled up with anyone
 
   std::int64_t most_wanted() const;
   Kind choose_kind();
   void add(AgentIndex agent);
   bool full() const { return std::ssize(chosen_) >= wanted_; }
+  // All of them, or without those that ask for prices where there are none.
+  int kinds() const { return router_.prices() == nullptr ? kOverpaying : kKinds; }
   void add_anyone();
   void add_delayed();
   AgentIndex some_delayed_agent();
-  void add_those_in_the_way(AgentIndex agent, Time late);
+  void add_those_in_the_way(AgentIndex agent, const Path& path, Time late);
+  void add_overpaying();
+  AgentIndex some_overpaying_agent();
+  void look_at_prices();
+  const Path& wanted_path(AgentIndex agent) const;
   void add_around_spot();
   void add_visitors(Place place, Time time);
 
@@ -49,11 +55,14 @@ class Neighborhoods {
   const PathSet& paths_;
   Random& random_;
   const Tuning& tuning_;
-  std::array<double, kKinds> weights_{1, 1, 1};
+  std::array<double, kKinds> weights_{1, 1, 1, 1};
   Kind kind_ = kAnyone;
   std::int64_t wanted_ = 0;
   std::int64_t in_vain_ = 0;  // neighbourhoods since one that gained
   std::vector<AgentIndex> chosen_;
+  int seen_prices_ = 0;                      // Router::price_changes() then
+  std::vector<Price> overpaid_;              // by agent: above its price
+  std::vector<std::int64_t> seen_editions_;  // by agent: of the path of which that is so
   std::vector<Place> queue_;
   std::vector<std::int32_t> seen_at_;  // by place: the search that saw it
   std::int32_t search_ = 0;

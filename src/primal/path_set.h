@@ -16,12 +16,15 @@ class PathSet {
  public:
   explicit PathSet(const Instance& instance)
       : reservations_(instance.world(), instance.may_follow() ? 0 : 1),
-        paths_(static_cast<std::size_t>(instance.agent_count())) {}
+        paths_(static_cast<std::size_t>(instance.agent_count())),
+        editions_(paths_.size(), 0) {}
 
   const Reservations& reservations() const { return reservations_; }
   const std::vector<Path>& paths() const { return paths_; }
   const Path& path(AgentIndex agent) const { return paths_[agent]; }
   Time cost(AgentIndex agent) const { return static_cast<Time>(paths_[agent].size()) - 1; }
+  // Another whenever the agent was given a path.
+  std::int64_t edition(AgentIndex agent) const { return editions_[agent]; }
   // Of all paths that are there.
   Cost cost() const { return cost_; }
 
@@ -30,6 +33,7 @@ class PathSet {
     GROVE_ASSERT(paths_[agent].empty() && !path.empty(), "an agent has one path at most");
     reservations_.add(agent, path);
     paths_[agent] = std::move(path);
+    editions_[agent] = ++puts_;
     cost_ += cost(agent);
     steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
   }
@@ -53,6 +57,8 @@ class PathSet {
  private:
   Reservations reservations_;
   std::vector<Path> paths_;
+  std::vector<std::int64_t> editions_;
+  std::int64_t puts_ = 0;
   Cost cost_ = 0;
   std::int64_t steps_moved_ = 0;
 };

@@ -2,10 +2,16 @@
 #include "router.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "grove/detail/search/node.h"
 
 namespace grove::detail {
+namespace {
+
+constexpr std::int64_t kMostPricedLabels = 1 << 18;
+
+}  // namespace
 
 Router::Router(const Problem& problem, AgentStopsStore& stops)
     : problem_(problem),
@@ -39,6 +45,20 @@ PathOutcome Router::find(AgentIndex agent, const PathQuery& query, const Limits&
                          Path& path) {
   ++calls_;
   return low_level_.find(goals(agent), query, limits, path);
+}
+
+void Router::use(std::shared_ptr<const PriceList> prices) {
+  if (priced_) labels_before_ += priced_->labels();
+  prices_ = std::move(prices);
+  ++price_changes_;
+  priced_.emplace(prices_->tariff.penalties());
+}
+
+void Router::improve(AgentIndex agent, const Reservations& others, Time latest,
+                     const Limits& limits, Path& path) {
+  const Tariff& tariff = prices_->tariff;
+  priced_->improve(goals(agent), tariff.on_finish(agent), others, latest, tariff.price(agent, path),
+                   kMostPricedLabels, limits, path);
 }
 
 Plan Router::plan(const std::vector<Path>& paths) {

@@ -4,8 +4,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "grove/detail/lagrangian/price_list.h"
+#include "grove/detail/lagrangian/pricer.h"
 #include "grove/detail/planning/agent_stops_store.h"
 #include "grove/detail/planning/free_low_level_search.h"
 #include "grove/detail/search/problem.h"
@@ -26,6 +29,17 @@ class Router {
   // As FreeLowLevelSearch::find.
   PathOutcome find(AgentIndex agent, const PathQuery& query, const Limits& limits, Path& path);
 
+  // From now on it is known what is dear.
+  void use(std::shared_ptr<const PriceList> prices);
+  // Null: nothing is known.
+  const PriceList* prices() const { return prices_.get(); }
+  // How often that has changed.
+  int price_changes() const { return price_changes_; }
+  // Puts in the place of a path around others the one that is cheapest by the prices, if that
+  // finishes by `latest`. There must be prices.
+  void improve(AgentIndex agent, const Reservations& others, Time latest, const Limits& limits,
+               Path& path);
+
   // The agent's best path when nobody else is there, and its cost.
   const Path& own_path(AgentIndex agent) const { return own_paths_[agent]; }
   Time own_cost(AgentIndex agent) const { return static_cast<Time>(own_paths_[agent].size()) - 1; }
@@ -39,7 +53,10 @@ class Router {
 
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return low_level_.expanded(); }
-  std::int64_t work() const { return expanded() + work::kPerCall * calls_; }
+  std::int64_t work() const {
+    const std::int64_t labels = labels_before_ + (priced_ ? priced_->labels() : 0);
+    return expanded() + labels / kLabelsPerWork + work::kPerCall * calls_;
+  }
 
  private:
   FreeGoals& goals(AgentIndex agent);
@@ -50,6 +67,10 @@ class Router {
   std::vector<std::unique_ptr<FreeGoals>> goals_;  // by AgentIndex
   std::vector<Path> own_paths_;                    // by AgentIndex
   std::int64_t calls_ = 0;
+  std::shared_ptr<const PriceList> prices_;
+  int price_changes_ = 0;
+  std::optional<PenalizedSearch> priced_;  // by them
+  std::int64_t labels_before_ = 0;         // by those before
 };
 
 }  // namespace grove::detail

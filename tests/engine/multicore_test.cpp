@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "grove/detail/engine/run_observer.h"
@@ -93,6 +95,40 @@ TEST(Multicore, ADeterministicRunIsTheSameForAnyNumberOfThreads) {
       EXPECT_EQ(found, paths);
     }
   }
+}
+
+// Prices come to the search for plans while it runs.
+TEST(Multicore, SoIsOneWithPricesForPlans) {
+  bool prices_matter = false;
+  std::vector<Instance> some = instances();
+  some.erase(some.begin() + 5, some.end());
+  for (const Instance& instance : some) {
+    SolveOptions options = plain(1);
+    options.deterministic = true;
+    options.tuning.lagrangian_agents = 1;
+    options.tuning.lagrangian_begins_work = 0;
+    options.tuning.lagrangian_step_work = 20;
+    options.tuning.first_price_list = 1;
+    options.tuning.priced_gap = 10;
+    options.tuning.most_primal_at_first = 1;
+    using Counts = std::pair<std::int64_t, std::int64_t>;
+    const auto counts = [&](int threads, Techniques techniques) -> std::optional<Counts> {
+      options.threads = threads;
+      options.techniques = techniques;
+      Solution solution = solve(instance, options, Within(std::chrono::seconds(10)));
+      if (solution.stats.texts.contains("stopped_by")) return std::nullopt;
+      auto& all = solution.stats.counts;
+      return Counts{all["lagrangian_rounds"], all["primal_low_level_expanded"]};
+    };
+    const Techniques without = options.techniques.with(Technique::kLagrangian);
+    const Techniques with = without.with(Technique::kPricedPlans);
+    const auto one = counts(1, with);
+    const auto three = counts(3, with);
+    if (!one || !three) continue;
+    EXPECT_EQ(three, one);
+    prices_matter |= counts(1, without) != one;
+  }
+  EXPECT_TRUE(prices_matter);
 }
 
 TEST(Multicore, EventsComeOneAtATimeAndTheBoundNeverFalls) {

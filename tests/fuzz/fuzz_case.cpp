@@ -144,6 +144,8 @@ Tuning random_tuning(Random& random) {
     tuning.most_lagrangian = random.pick<double>({0.5, 4, 100});
     tuning.lagrangian_step_work = random.pick<std::int64_t>({1, 100, 4000});
     tuning.lagrangian_level = random.pick<double>({0.03, 0.3});
+    tuning.first_price_list = random.between(1, 3);
+    tuning.priced_gap = random.pick<double>({0.1, 10});
   }
   if (random.below(4) > 0) return tuning;
   const auto all = tunables();

@@ -80,5 +80,37 @@ TEST_F(LagrangianBoundTest, SeesWhoCannotBothBeFirst) {
   EXPECT_GE(bound_of(known, Tuning(), 300, truth.plan->cost), 9);
 }
 
+// Prices are told of a round that had the best bound, and make it up; and not before the commit.
+TEST_F(LagrangianBoundTest, TellsThePricesOfItsBestRounds) {
+  Known known(corridor());
+  Tuning tuning;
+  tuning.first_price_list = 3;
+  const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
+  Pricer pricer(bound->tariff(), known.stops);
+  std::shared_ptr<const PriceList> last;
+  int lists = 0;
+  while (!bound->ended() && bound->rounds() < 100) {
+    auto job = bound->next();
+    ASSERT_TRUE(job);
+    const Cost proven = bound->lower_bound();
+    bound->perform(*job, pricer, 20, 0, {});
+    EXPECT_EQ(bound->price_list(), last);
+    bound->commit(std::move(*job));
+    const auto list = bound->price_list();
+    if (list == last) continue;
+    last = list;
+    ++lists;
+    EXPECT_GE(bound->rounds(), 3);
+    Price sum = -list->tariff.sum_of_charges();
+    for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
+      sum += list->prices[agent];
+      EXPECT_EQ(list->tariff.price(agent, list->paths[agent]), list->prices[agent]);
+    }
+    EXPECT_EQ((sum + Penalties::kUnit - 1) / Penalties::kUnit, proven);
+  }
+  EXPECT_GT(lists, 3);
+  EXPECT_LT(lists, 30);
+}
+
 }  // namespace
 }  // namespace grove::detail::lagrangian_test

@@ -43,23 +43,26 @@ class Reference {
   Reference(const AgentGraph& graph, const Penalties& penalties, const std::vector<Amount>& finish)
       : graph_(graph), penalties_(penalties), finish_(finish) {}
 
-  Price price() const {
+  // With these others there.
+  Price price(const Reservations& others, Time latest = kHorizon) const {
     constexpr Price kNo = PenalizedSearch::kMostPrice;
     std::vector<Price> paid(graph_.count(), kNo);
     std::vector<Price> moved(graph_.count(), kNo);  // of those who arrived by a move
     if (graph_.count() == 0) return kNo;
     paid[AgentGraph::start()] = moved[AgentGraph::start()] = 0;
     Price least = kNo;
-    for (Time time = 0; time < kHorizon; ++time) {
+    for (Time time = 0; time <= latest; ++time) {
       std::vector<Price> next(graph_.count(), kNo);
       std::vector<Price> next_moved(graph_.count(), kNo);
       for (AgentGraph::Node node = 0; node < graph_.count(); ++node) {
         if (paid[node] >= kNo) continue;
         for (const AgentGraph::Move& move : graph_.moves(node)) {
           if (graph_.rests(move.to)) {
-            if (moved[node] < kNo) least = std::min(least, moved[node] + rest(node, time));
+            if (moved[node] < kNo && others.lets_rest(graph_.place(node), time))
+              least = std::min(least, moved[node] + rest(node, time));
             continue;
           }
+          if (!others.lets_arrive(graph_.place(node), graph_.place(move.to), time + 1)) continue;
           const auto arc = penalties_.arc(graph_.place(node), graph_.place(move.to));
           const Price price = paid[node] + Penalties::kUnit + penalties_.of(time + 1, arc);
           next[move.to] = std::min(next[move.to], price);
@@ -114,7 +117,8 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
       ASSERT_LE(least_cost(goals, {}), graph->to_go(AgentGraph::start()));
       goals.completions().widen(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
-      const Price least = Reference(*graph, penalties, on_finish).price();
+      const Price least =
+          Reference(*graph, penalties, on_finish).price(Reservations(known.instance.world()));
       Path path;
       ASSERT_EQ(search.search(goals, on_finish, PenalizedSearch::kMostPrice, 1 << 20, {}, &path),
                 least);
@@ -128,6 +132,47 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
     }
   }
   EXPECT_GT(tried, 500);
+}
+
+// Others are in the way, and there is not much time.
+TEST(PenalizedSearch, ImprovesAPathAroundOthers) {
+  int improved = 0, hopeless = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    SCOPED_TRACE(seed);
+    Known known(tiny_instance(seed));
+    const Instance& instance = known.instance;
+    fuzz::Random random(seed);
+    Penalties penalties(instance.world());
+    PenalizedSearch search(penalties);
+    Reservations others(instance.world(), random.percent(20) ? 1 : 0);
+    for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+      const auto graph = AgentGraph::make(instance, agent);
+      if (!graph || graph->count() == 0) continue;
+      FreeGoals goals(known.stops.of(agent), SequenceClass{});
+      goals.completions().widen(kHorizon, {});
+      const std::vector<Amount> on_finish = random_on_finish(random);
+      const Time latest = random.below(20);
+      const Price least = Reference(*graph, penalties, on_finish).price(others, latest);
+      Path path;
+      const bool found = search.improve(goals, on_finish, others, latest,
+                                        PenalizedSearch::kMostPrice, 1 << 20, {}, path);
+      ASSERT_EQ(found, least < PenalizedSearch::kMostPrice);
+      ++(found ? improved : hopeless);
+      if (found) {
+        ASSERT_EQ(paid_by(path, penalties, on_finish), least);
+        ASSERT_LE(std::ssize(path), latest + 1);
+        ASSERT_TRUE(others.lets_rest(instance.world().place(path.back()),
+                                     static_cast<Time>(path.size()) - 1));
+        Path same = path;
+        EXPECT_FALSE(search.improve(goals, on_finish, others, latest, least, 1 << 20, {}, same));
+        EXPECT_EQ(same, path);
+        others.add(agent, path);
+      }
+      if (agent == 0) penalise(penalties, random);
+    }
+  }
+  EXPECT_GT(improved, 400);
+  EXPECT_GT(hopeless, 50);
 }
 
 // Cut short it never says more than the least price.

@@ -81,6 +81,36 @@ void bar(const Path& path, std::vector<Constraint>& constraints) {
   constraints.push_back({path.back(), kNoCell, static_cast<Time>(path.size()) - 1, kNever});
 }
 
+// Step by step, against all paths.
+TEST(Reservations, LetOthersArriveAndRestWhereNobodyIs) {
+  const Grid grid = testing::grid_of({"...", "..."});
+  const Path paths[] = {{0, 1, 1, 4, 5}, {2, 2, 2, 1, 0, 3}};
+  for (const Time margin : {0, 1}) {
+    Reservations reservations(grid, margin);
+    for (AgentIndex agent = 0; agent < 2; ++agent) reservations.add(agent, paths[agent]);
+    const auto is_taken = [&](Cell cell, Time time) {
+      for (Time t = std::max(0, time - margin); t <= time + margin; ++t)
+        for (const Path& path : paths)
+          if (at(path, t) == cell) return true;
+      return false;
+    };
+    for (Cell to = 0; to < grid.cell_count(); ++to) {
+      for (Time time = 1; time < 10; ++time) {
+        for (const Cell from : {0, 1, 2, 3, 4, 5}) {
+          bool swaps = false;
+          for (const Path& path : paths)
+            swaps |= from != to && at(path, time - 1) == to && at(path, time) == from;
+          EXPECT_EQ(reservations.lets_arrive(from, to, time), !is_taken(to, time) && !swaps)
+              << from << " to " << to << " at " << time << ", margin " << margin;
+        }
+        bool stays_free = true;
+        for (Time t = time; t < 20; ++t) stays_free &= !is_taken(to, t);
+        EXPECT_EQ(reservations.lets_rest(to, time), stays_free) << to << " from " << time;
+      }
+    }
+  }
+}
+
 // One agent with tasks among others that walk about, on a random map.
 class Crowd {
  public:

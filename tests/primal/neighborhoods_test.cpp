@@ -70,6 +70,46 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
   EXPECT_EQ(largest, order.size());
 }
 
+// Nothing is charged for; but one agent pays more than its price.
+TEST(Neighborhoods, PlanThoseAnewWhoOverpay) {
+  const Instance instance = crossing(12);
+  const Problem problem(instance, Limits());
+  AgentStopsStore stops(instance, problem.distances);
+  Router router(problem, stops);
+  PathSet paths(instance);
+  Random random(1);
+  const Tuning tuning;
+  PrioritizedPlanning planning(problem.instance.world(), router, paths, random, tuning);
+  std::vector<AgentIndex> order;
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+    ASSERT_TRUE(router.meet(agent, Limits()));
+    order.push_back(agent);
+  }
+  planning.begin(order);
+  while (planning.step(Limits()) == PrioritizedPlanning::Outcome::kWorking) {
+  }
+
+  Neighborhoods neighborhoods(problem, router, paths, random, tuning);
+  constexpr AgentIndex kOverpays = 5;
+  const auto times_chosen = [&] {
+    int times = 0;
+    for (int round = 0; round < 1000; ++round) {
+      times += static_cast<int>(std::ranges::count(neighborhoods.choose(), kOverpays));
+      neighborhoods.reward(1);
+    }
+    return times;
+  };
+  const int before = times_chosen();
+  PriceList list{Tariff(instance.world(), instance.agent_count()), {}, {}};
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+    list.prices.push_back(list.tariff.price(agent, paths.path(agent)));
+    list.paths.push_back(router.own_path(agent));
+  }
+  list.prices[kOverpays] -= 10 * Penalties::kUnit;
+  router.use(std::make_shared<const PriceList>(std::move(list)));
+  EXPECT_GT(times_chosen(), before + 80);
+}
+
 INSTANTIATE_TEST_SUITE_P(Agents, NeighborhoodsTest, ::testing::Values(2, 3, 12));
 
 }  // namespace neighborhoods_test

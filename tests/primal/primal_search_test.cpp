@@ -11,6 +11,7 @@
 #include "crowd.h"
 #include "first_violation.h"
 #include "grove/detail/search/feasibility.h"
+#include "prices.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/instances.h"
 #include "tests/support/sanitizers.h"
@@ -183,6 +184,71 @@ TEST(PrimalSearch, ImprovesItsFirstPlan) {
   ASSERT_GT(plans.size(), 2u);
   EXPECT_EQ(search.primal.source(), PlanSource::kNeighborhood);
   EXPECT_GT(search.primal.counts().neighborhoods, 100);
+}
+
+// Prices come on the way, and others later.
+TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
+  const Instance instance = doors();
+  Tuning tuning;
+  tuning.priced_gap = 1;
+  std::vector<std::int64_t> work[2];
+  for (auto& counts : work) {
+    Search search(instance, 1, Techniques::usual(), tuning);
+    for (const int rounds : {0, 15, 60}) {
+      const auto prices = testing::prices_of(instance, search.stops, rounds);
+      EXPECT_EQ(prices == nullptr, rounds == 0);
+      search.primal.use(prices);
+      for (const Plan& plan : search.plans(100)) counts.push_back(plan.cost);
+      counts.push_back(search.primal.work());
+    }
+  }
+  EXPECT_EQ(work[0], work[1]);
+  Search without(instance, 1);
+  without.plans(300);
+  EXPECT_NE(without.primal.work(), work[0].back());
+
+  tuning.priced_gap = 0;  // no plan is so near
+  Search too_far(instance, 1, Techniques::usual(), tuning);
+  too_far.primal.use(testing::prices_of(instance, too_far.stops, 60));
+  too_far.plans(300);
+  EXPECT_EQ(too_far.primal.work(), without.primal.work());
+}
+
+TEST(PrimalSearch, EveryPlanByPricesIsValid) {
+  int priced = 0;
+  Tuning tuning;
+  tuning.priced_gap = 1e6;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = fuzz::random_instance(seed).build();
+    if (!searchable(instance)) continue;
+    Search search(instance, seed, Techniques::usual(), tuning);
+    const auto prices = testing::prices_of(instance, search.stops, 12);
+    priced += prices != nullptr;
+    search.plans(2);
+    search.primal.use(prices);
+    search.plans(10);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(priced, 50);
+}
+
+// A walk through worse plans tells none of them, and comes to one that descent alone misses.
+TEST(PrimalSearch, GoesOnFromPlansThatAreLittleWorse) {
+  const Instance instance = doors();
+  int better = 0, worse = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Tuning walk;
+    walk.worse_plans_loss = 10;
+    Tuning descent;
+    descent.worse_plans = 0;
+    const Cost by_descent =
+        Search(instance, seed, Techniques::usual(), descent).plans(250).back().cost;
+    const Cost by_walk = Search(instance, seed, Techniques::usual(), walk).plans(250).back().cost;
+    better += by_walk < by_descent;
+    worse += by_walk > by_descent;
+  }
+  EXPECT_GT(better, worse);
 }
 
 TEST(PrimalSearch, BeginsAnewWhenItStalls) {

@@ -45,6 +45,8 @@ class LagrangianShare {
   int rounds() const { return rounds_; }
   // After the search: why the bound holds.
   void write_down(ProofLog& proof) const;
+  // For the search for plans; null: none yet, or the bound is another rank's.
+  std::shared_ptr<const PriceList> price_list() const;
 
   // On rank 0, before the search: so many ranks share it.
   void set_ranks(int ranks) {

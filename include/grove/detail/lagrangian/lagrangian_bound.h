@@ -11,6 +11,7 @@
 #include "grove/detail/lagrangian/encounters.h"
 #include "grove/detail/lagrangian/finish_pairs.h"
 #include "grove/detail/lagrangian/level_ascent.h"
+#include "grove/detail/lagrangian/price_list.h"
 #include "grove/detail/lagrangian/price_share.h"
 #include "grove/detail/lagrangian/pricer.h"
 #include "grove/detail/lagrangian/relaxed_rows.h"
@@ -70,6 +71,9 @@ class LagrangianBound {
   Cost lower_bound() const;
   int rounds() const;
   const Tariff& tariff() const { return rows_.tariff(); }
+  // Of a round with the best bound so far, a new one now and then; null: none yet. It appears when
+  // a job is committed.
+  std::shared_ptr<const PriceList> price_list() const;
 
  private:
   enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };
@@ -99,6 +103,7 @@ class LagrangianBound {
   void end_round(Job& job, Cost cutoff, Cost known, const Limits& limits);
   void look_at_collisions();
   void look_at_pairs(Job& job, const Limits& limits);
+  void make_list(Price bound);
   void move_multipliers(Cost cutoff, Cost known);
 
   const Instance& instance_;
@@ -113,7 +118,9 @@ class LagrangianBound {
   std::vector<std::int64_t> labels_;   // by agent: that its price took last
   std::vector<FinishPair> colliding_;  // still to be looked at in this round
   bool is_counted_ = false;            // of this round
-  std::vector<Helper> helpers_;        // of the one thread that asks them
+  std::int64_t next_list_;             // in rounds: not before
+  std::shared_ptr<const PriceList> new_list_;
+  std::vector<Helper> helpers_;  // of the one thread that asks them
   bool keeps_reasons_ = false;
 
   mutable std::mutex mutex_;  // guards:
@@ -122,6 +129,7 @@ class LagrangianBound {
   int rounds_ = 0;
   Price best_ = 0;
   std::vector<Reason> reasons_;  // for it, if they are kept
+  std::shared_ptr<const PriceList> list_;
   // Agents are priced here from the first one on, and helpers are asked for the last ones; when
   // there are no others left, also for those not yet answered, from the last one back.
   AgentIndex next_agent_ = 0;

@@ -13,6 +13,7 @@
 #include "grove/detail/lagrangian/penalties.h"
 #include "grove/detail/model/limits.h"
 #include "grove/detail/planning/free_goals.h"
+#include "grove/detail/planning/reservations.h"
 
 namespace grove::detail {
 
@@ -36,6 +37,12 @@ class PenalizedSearch {
   Price search(FreeGoals& goals, std::span<const Penalties::Amount> on_finish, Price below,
                std::int64_t most_labels, const Limits& limits, Path* path);
 
+  // Puts in the place of `path`, whose price is `price`, the cheapest one that goes around others,
+  // as it does, and finishes by `latest`. False: none is cheaper, or it would take more labels.
+  bool improve(FreeGoals& goals, std::span<const Penalties::Amount> on_finish,
+               const Reservations& others, Time latest, Price price, std::int64_t most_labels,
+               const Limits& limits, Path& path);
+
   // Labels met so far.
   std::int64_t labels() const { return labels_met_; }
 
@@ -58,6 +65,9 @@ class PenalizedSearch {
     std::uint32_t stamp;
   };
 
+  bool lets_arrive(Place from, Place to) const {
+    return others_ == nullptr || others_->lets_arrive(from, to, time_);
+  }
   void look_at_ends();
   void start();
   // From so far away, at a time.
@@ -88,6 +98,8 @@ class PenalizedSearch {
   Penalties::Layer layer_;  // then
   Price below_ = 0;
   std::optional<Label> best_;
+  const Reservations* others_ = nullptr;  // null: nobody else is there
+  Time latest_ = kNever;
 };
 
 }  // namespace grove::detail

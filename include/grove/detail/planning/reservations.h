@@ -46,6 +46,13 @@ class Reservations {
   // Who is on the place at this time; kNobody.
   AgentIndex agent_at(Place place, Time time) const;
 
+  // May another one arrive then, from a neighbour or from the place itself, on which it is?
+  bool lets_arrive(Place from, Place to, Time arrival) const;
+  // May it rest there from then on?
+  bool lets_rest(Place place, Time from) const {
+    return stays_[place].empty() || std::int64_t{stays_[place].back().last} + margin_ < from;
+  }
+
  private:
   const World& world_;
   const Time margin_;

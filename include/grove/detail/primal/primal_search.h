@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "grove/detail/lagrangian/price_list.h"
 #include "grove/detail/model/limits.h"
 #include "grove/detail/model/plan.h"
 #include "grove/detail/model/tuning.h"
@@ -19,7 +20,8 @@ namespace grove::detail {
 // Prioritised planning, raced by configuration search where it takes long (LaCAM; only with
 // Technique::kConfigurations), then large neighbourhood search on the plan, from other seeds when
 // that stalls (primal_search.cpp tells how). In small steps, so that one thread can do other things
-// in between. The same seed, steps and adoptions make the same plans, limits aside. For one thread.
+// in between. The same seed, steps, adoptions and prices make the same plans, limits aside. For one
+// thread.
 class PrimalSearch {
  public:
   struct Counts {
@@ -45,6 +47,10 @@ class PrimalSearch {
   // From now on looks for plans cheaper than `plan`, a valid one, beginning in its neighbourhood.
   // Ignored unless it is cheaper than all before.
   void adopt(const Plan& plan);
+
+  // From now on knows what is dear where and when. Null, or the same as before: nothing new.
+  // Not heeded while the best plan costs much more than those who made them have proven.
+  void use(std::shared_ptr<const PriceList> prices);
 
   // The cheapest plan returned or adopted, or about to be returned.
   std::optional<Cost> best_cost() const;

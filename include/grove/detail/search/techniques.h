@@ -30,6 +30,7 @@ enum class Technique : std::uint8_t {
   kJointSearch,     // beside the tree A* over joint states, where there are few agents and places
   kLagrangian,      // beside the tree a bound from prices, where there are many agents
   kJointGroups,     // A* over joint states of pairs and groups that splits do not settle
+  kPricedPlans,     // what is dear by that bound says which paths to plan anew, and where to
 };
 
 struct NamedTechnique {
@@ -55,6 +56,7 @@ inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kJointSearch, "joint-search"},
     NamedTechnique{Technique::kLagrangian, "lagrangian"},
     NamedTechnique{Technique::kJointGroups, "joint-groups"},
+    NamedTechnique{Technique::kPricedPlans, "priced-plans"},
 };
 
 // A set of techniques; a value.

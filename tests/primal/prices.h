@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Prices as the search for plans is told them.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "grove/detail/lagrangian/lagrangian_bound.h"
+
+namespace grove::detail::testing {
+
+// Of a Lagrangian bound after so many rounds at most; null: it came to nothing.
+inline std::shared_ptr<const PriceList> prices_of(const Instance& instance,
+                                                  const AgentStopsStore& stops, int rounds) {
+  constexpr Cost kAnyCost = 1'000'000;
+  const Tuning tuning;
+  const auto bound = LagrangianBound::make(instance, stops, tuning);
+  if (!bound) return nullptr;
+  Pricer pricer(bound->tariff(), stops);
+  while (!bound->ended() && bound->rounds() < rounds) {
+    auto job = bound->next();
+    bound->perform(*job, pricer, kAnyCost, 0, {});
+    bound->commit(std::move(*job));
+  }
+  return bound->price_list();
+}
+
+}  // namespace grove::detail::testing
