@@ -203,6 +203,7 @@ class Trial {
     seed_ = seed;
     case_ = random_case(seed);
     case_.options.audit = false;
+    if (seed % 3 == 0) leave_to_the_tree(seed);
     const Instance instance = case_.instance.build();
     if (!is_of_files(instance)) return;
     const oracle::Answer truth = oracle::solve_jointly(instance, kOracleStates);
@@ -243,6 +244,20 @@ class Trial {
   }
 
  private:
+  // Else plans, or joint search, end most of these runs before the tree has proven much; and prices
+  // are for more agents.
+  void leave_to_the_tree(std::uint64_t seed) {
+    SolveOptions& options = case_.options;
+    options.omega = Omega::from_double(0);
+    options.policy = Policy::kFree;
+    options.techniques =
+        Techniques::usual().without(Technique::kPrimal).without(Technique::kJointSearch);
+    if (seed % 2 != 0) return;
+    options.tuning.lagrangian_agents = 1;
+    options.tuning.lagrangian_begins_work = 0;
+    options.tuning.most_lagrangian = 100;
+  }
+
   // Files know no roads from a place to itself.
   static bool is_of_files(const Instance& instance) {
     const Roadmap* const roadmap = instance.roadmap();
