@@ -26,7 +26,9 @@ def instances(count, kinds=KINDS, first=0):
         rng = random.Random(seed)
         kind = kinds[seed % len(kinds)]
         instance, following = random_instance(rng, kind), rng.random() < 0.75
-        yield rng, kind, instance, following, optimum(instance, following=following)
+        least = optimum(instance, following)
+        if least is not None:
+            yield rng, kind, instance, following, least
 
 
 def raised(certificate, by=1):
@@ -65,7 +67,7 @@ def claim(certificate):
 class Generated(unittest.TestCase):
     def test_the_least_cost_is_verified_and_no_more(self):
         seen = Counter()
-        for rng, kind, instance, following, least in instances(60):
+        for rng, kind, instance, following, least in instances(150):
             if least == INF:
                 found = checkers.verify(instance, "\n".join(
                     ["grove-proof 1", f"instance {instance.checksum()}", f"following {'yes' if following else 'no'}", "theorem inf", "joint", "end\n"]))
@@ -73,7 +75,7 @@ class Generated(unittest.TestCase):
                 seen["none"] += 1
                 continue
             try:
-                certificate = Prover(instance, rng, following, [rule for rule in RULES if rng.random() < 0.6]).certificate(least)
+                certificate = Prover(instance, rng, following, [rule for rule in RULES if rng.random() < 0.6], 150).certificate(least)
             except TooLong:
                 seen["too long"] += 1
                 continue
@@ -89,11 +91,12 @@ class Generated(unittest.TestCase):
                 seen[" ".join(re.findall("[a-z]+", line)[:2])] += 1
         for rule in ("split bar", "split move", "split norest", "split pass", "split stop", "leaf", "joint", "later", "lemma", "demand bar"):
             self.assertTrue(seen[rule], f"{rule} occurs in {seen}")
-        self.assertTrue(seen[1] > 100 * FACTOR and seen["none"] and seen["too long"] < 10 * FACTOR, seen)
+        self.assertTrue(seen[1] > 200 * FACTOR and seen["none"] and seen["too long"] < 10 * FACTOR, seen)
+
 
     def test_lies_are_seen(self):
         told = Counter()
-        for number, (rng, kind, instance, following, least) in enumerate(instances(90, first=10**6)):
+        for number, (rng, kind, instance, following, least) in enumerate(instances(40, first=10**6)):
             for lie in Liar.LIES if least < INF else ():
                 liar = Liar(instance, rng, lie, following)
                 try:
@@ -106,10 +109,11 @@ class Generated(unittest.TestCase):
                 told[lie] += 1
         for lie in Liar.LIES:
             self.assertTrue(told[lie], f"{lie}: {told}")
+        print(told)
 
     def test_the_small_checker_agrees(self):
         verdicts = Counter()
-        for rng, _, instance, following, least in instances(50, ["plain"], first=2 * 10**6):
+        for rng, _, instance, following, least in instances(110, ["plain"], first=2 * 10**6):
             if least == INF or any(agent.goal is None for agent in instance.agents):
                 continue
             try:
@@ -122,6 +126,7 @@ class Generated(unittest.TestCase):
                 one, two = checkers.verify(instance, text), checkers.small_checker(instance, text)
                 self.assertEqual((one.code == 0, one.text if one.code == 0 else ""), (two.code == 0, two.text if two.code == 0 else ""), text)
                 verdicts[one.code == 0] += 1
+
         self.assertGreater(sum(verdicts.values()), 150 * FACTOR)
         self.assertGreater(min(verdicts.values()), 40 * FACTOR)
 

@@ -188,7 +188,7 @@ class Liar(Prover):
 
     LIES = ("wide bar", "late bar", "wide move", "wide pass", "rest", "stop", "lemma", "scope", "later", "joint", "same agent")
 
-    def __init__(self, instance, rng, lie, following=True, rules=("rest", "pass", "stop", "lemma", "later"), most=400):
+    def __init__(self, instance, rng, lie, following=True, rules=("rest", "pass", "stop", "lemma", "later"), most=40):
         super().__init__(instance, rng, following, set(rules) | ({"joint"} if lie == "joint" else set()), most)
         self.lie, self.lied = lie, False
 

@@ -149,7 +149,11 @@ impl Verifier {
     fn line(&mut self) -> Result<String, Fault> {
         crate::LINE.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         let line = self.lines.next()?;
-        line.map_or_else(|| unreadable("expected more"), |line| Ok(line.to_string()))
+        match line {
+            None => unreadable("expected more"),
+            Some(line) if line.ends_with(' ') => unreadable("expected no blank at the end of the line"),
+            Some(line) => Ok(line.to_string()),
+        }
     }
 
     /// What the theorem says: L, or None for `inf`.
