@@ -97,8 +97,9 @@ class Generated(unittest.TestCase):
     def test_lies_are_seen(self):
         told = Counter()
         for number, (rng, kind, instance, following, least) in enumerate(instances(40, first=10**6)):
+            known = {}
             for lie in Liar.LIES if least < INF else ():
-                liar = Liar(instance, rng, lie, following)
+                liar = Liar(instance, rng, lie, following, known)
                 try:
                     certificate = liar.certificate(least + 1)
                 except TooLong:
