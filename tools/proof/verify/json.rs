@@ -41,9 +41,7 @@ struct Parser<'a> {
 impl Parser<'_> {
     fn peek(&self) -> u8 { self.bytes.get(self.at).copied().unwrap_or(0) }
 
-    fn blanks(&mut self) {
-        while matches!(self.peek(), b' ' | b'\t' | b'\n' | b'\r') { self.at += 1; }
-    }
+    fn blanks(&mut self) { while matches!(self.peek(), b' ' | b'\t' | b'\n' | b'\r') { self.at += 1; } }
 
     /// After blanks.
     fn take(&mut self, word: &str) -> bool {
