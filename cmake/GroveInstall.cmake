@@ -80,6 +80,7 @@ if(GROVE_WITH_MPI)
 endif()
 if(GROVE_WITH_VERIFY)
   install(PROGRAMS ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/grove-verify TYPE BIN COMPONENT programs)
+  install(FILES ${PROJECT_SOURCE_DIR}/tools/proof/grove-verify.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bench/solvers
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)

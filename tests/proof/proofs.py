@@ -16,11 +16,11 @@ class TooLong(Exception):
 
 
 class Prover:
-    """rules: which of pass, rest, stop, lemma, later, joint, prices it may use, where it likes."""
+    """rules: which of pass, rest, stop, lemma, later, joint it may use, where it likes; known: costs, from one to the other."""
 
-    def __init__(self, instance, rng, following=True, rules=(), most=3000):
+    def __init__(self, instance, rng, following=True, rules=(), most=3000, known=None):
         self.instance, self.rng, self.following, self.rules, self.most = instance, rng, following, set(rules), most
-        self.lemmas, self.lines, self.known = [], [], {}
+        self.lemmas, self.lines, self.known = [], [], {} if known is None else known
 
     def least(self, agent, demands):
         own = frozenset(d[1:] for d in demands if d[0] == agent)
@@ -63,7 +63,7 @@ class Prover:
             if bound == INF:
                 return INF
             try:
-                Prover(self.instance, self.rng, self.following, (), 40).proof(agents, bound + 1, demands)
+                Prover(self.instance, self.rng, self.following, (), 40, self.known).proof(agents, bound + 1, demands)
             except TooLong:
                 return bound
 
@@ -168,7 +168,8 @@ class Prover:
                 found += self.passes(one, two, at, time)
         if not found:
             raise TooLong  # a plan that costs less
-        return self.rng.choice(found[:6])
+        rare = [pair for pair in found if pair[0][1] in ("norest", "pass")]
+        return self.rng.choice(rare if rare and self.rng.random() < 0.5 else found[:6])
 
     def passes(self, one, two, at, time):
         """The split of two that meet within a chain, if both traverse it: as wide as it may be."""
@@ -186,10 +187,11 @@ class Prover:
 class Liar(Prover):
     """Proves what may be false, by one kind of lie that makes it easier: a checker that does not see it accepts the rest."""
 
-    LIES = ("wide bar", "late bar", "wide move", "wide pass", "rest", "stop", "lemma", "scope", "later", "joint", "same agent")
+    LIES = ("wide bar", "rest", "stop", "lemma", "scope", "later", "joint", "same agent")
 
-    def __init__(self, instance, rng, lie, following=True, rules=("rest", "pass", "stop", "lemma", "later"), most=400):
-        super().__init__(instance, rng, following, set(rules) | ({"joint"} if lie == "joint" else set()), most)
+    def __init__(self, instance, rng, lie, following, known):
+        rules = {"rest", "pass", "stop", "lemma", "later"} | ({"joint"} if lie == "joint" else set())
+        super().__init__(instance, rng, following, rules, 30, known)
         self.lie, self.lied = lie, False
 
     def split(self, agents, demands, one, two):
@@ -197,13 +199,6 @@ class Liar(Prover):
         if self.rng.random() < 0.7:
             if self.lie == "wide bar" and a[1] == "bar":
                 a[4] += 2
-            elif self.lie == "late bar" and a[1] == "bar":
-                a[3:] = [a[3] + 1, a[4] + 1]
-                a[2:], b[2:] = (a[2:], b[2:]) if self.rng.random() < 0.5 else (b[2:], a[2:])
-            elif self.lie == "wide move" and a[1] == "move":
-                a[5] += 2
-            elif self.lie == "wide pass" and a[1] == "pass":
-                a[5] += 3
             elif self.lie == "rest" and a[1] == "norest":
                 a[3] += 2
             elif self.lie == "stop" and a[1] == "stop":

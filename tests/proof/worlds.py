@@ -296,9 +296,9 @@ def collide(befores, afters, following):
     return False
 
 
-def optimum(instance, agents=None, following=True):
-    """The least cost of a valid plan; inf. By Dijkstra's algorithm over states of all."""
-    agents = list(range(len(instance.agents)) if agents is None else agents)
+def optimum(instance, following=True, most=4000):
+    """The least cost of a valid plan; inf. By Dijkstra's algorithm over states of all; None: there are more than so many."""
+    agents = range(len(instance.agents))
     starts = list(itertools.product(*(initial(instance, agent, False) for agent in agents)))
     waiting, known, tie = [(0, number, start) for number, start in enumerate(starts)], {start: 0 for start in starts}, itertools.count(len(starts))
     heapq.heapify(waiting)
@@ -306,6 +306,9 @@ def optimum(instance, agents=None, following=True):
         cost, _, states = heapq.heappop(waiting)
         if cost > known[states]:
             continue
+        most -= 1
+        if most < 0:
+            return None
         if all(state[0] == "rests" for state in states):
             return cost
         choices = []
@@ -328,7 +331,7 @@ def optimum(instance, agents=None, following=True):
 
 
 def random_instance(rng, kind):
-    """kind: plain, cts, mg, turning, work or roads."""
+    """kind: plain, cts, mg, turning, work or roads. Each agent has a path, and none a long one."""
     while True:
         if kind == "roads":
             vertices = rng.randint(3, 4)
@@ -365,5 +368,5 @@ def random_instance(rng, kind):
                     agent.start = (tasks[timed[0]][0], *agent.start[1:])
                     starts[number] = agent.start[0]
                     agent.working = (timed[0], rng.randrange(tasks[timed[0]][1]))
-        if all(least_cost(instance, number, [])[0] < INF for number in range(count)):
+        if sum(least_cost(instance, number, [])[0] for number in range(count)) <= 16:
             return instance

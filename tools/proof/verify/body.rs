@@ -26,9 +26,7 @@ impl Lists {
         Lists { first, items }
     }
 
-    fn at(&self, i: u32) -> &[u32] {
-        &self.items[self.first[i as usize] as usize..self.first[i as usize + 1] as usize]
-    }
+    fn at(&self, i: u32) -> &[u32] { &self.items[self.first[i as usize] as usize..self.first[i as usize + 1] as usize] }
 }
 
 /// The poses of agents that turn alike (`turn` 0: do not), and steps between them.
@@ -45,7 +43,8 @@ impl Poses {
         let each = if turn == 0 { 1 } else { 4 + 8 * (turn - 1) };
         let places = world.links.len() as u32;
         let count = places.checked_mul(each).expect("fewer poses");
-        let mut poses = Poses { turn, each, place: (0..count).map(|pose| pose / each).collect(), ..Poses::empty() };
+        let place = (0..count).map(|pose| pose / each).collect();
+        let mut poses = Poses { turn, each, place, next: Lists::of(0, &[]), back: Lists::of(0, &[]) };
         let mut steps = Vec::new();
         for place in (0..places).filter(|&place| world.passable[place as usize]) {
             if turn == 0 {
@@ -65,32 +64,21 @@ impl Poses {
         poses
     }
 
-    fn empty() -> Poses {
-        let lists = || Lists { first: Vec::new(), items: Vec::new() };
-        Poses { turn: 0, each: 1, place: Vec::new(), next: lists(), back: lists() }
-    }
-
     fn pose(&self, place: Place, (from, to, k): (u32, u32, u32)) -> u32 {
-        place * self.each
-            + match k {
-                _ if self.turn == 0 => 0,
-                0 => from,
-                _ if k == self.turn => to,
-                _ => 4 + (from * 2 + u32::from(to == (from + 1) % 4)) * (self.turn - 1) + k - 1,
-            }
+        let within = match k {
+            _ if self.turn == 0 => 0,
+            0 => from,
+            _ if k == self.turn => to,
+            _ => 4 + (from * 2 + u32::from(to == (from + 1) % 4)) * (self.turn - 1) + k - 1,
+        };
+        place * self.each + within
     }
 
-    pub fn place(&self, pose: u32) -> Place {
-        self.place[pose as usize]
-    }
+    pub fn place(&self, pose: u32) -> Place { self.place[pose as usize] }
 
-    pub fn next(&self, pose: u32) -> &[u32] {
-        self.next.at(pose)
-    }
+    pub fn next(&self, pose: u32) -> &[u32] { self.next.at(pose) }
 
-    fn on(&self, place: Place) -> std::ops::Range<u32> {
-        place * self.each..(place + 1) * self.each
-    }
+    fn on(&self, place: Place) -> std::ops::Range<u32> { place * self.each..(place + 1) * self.each }
 
     /// How much it takes at least from each pose, to go to a source and there as much as it says.
     fn spread(&self, mut sources: Vec<(u32, u32)>) -> Vec<u32> {
@@ -98,12 +86,8 @@ impl Poses {
         let mut found = vec![NEVER; self.place.len()];
         let (mut now, mut wave, mut cost) = (Vec::new(), Vec::new(), 0);
         while !wave.is_empty() || sources.last().map_or(false, |source| source.0 < NEVER) {
-            if wave.is_empty() {
-                cost = sources[sources.len() - 1].0;
-            }
-            while sources.last().map_or(false, |source| source.0 == cost) {
-                wave.extend(sources.pop().map(|source| source.1));
-            }
+            if wave.is_empty() { cost = sources[sources.len() - 1].0; }
+            while sources.last().map_or(false, |source| source.0 == cost) { wave.extend(sources.pop().map(|source| source.1)); }
             std::mem::swap(&mut now, &mut wave);
             for pose in now.drain(..) {
                 if found[pose as usize] == NEVER {
@@ -190,13 +174,9 @@ impl Body {
         (0..self.stops.len()).flat_map(|stop| self.poses.on(self.stops[stop].place).map(move |pose| (stop, pose))).collect()
     }
 
-    pub fn all(&self) -> u64 {
-        (1 << self.stops.len()) - 1
-    }
+    pub fn all(&self) -> u64 { (1 << self.stops.len()) - 1 }
 
-    pub fn stops_at(&self, place: Place) -> u64 {
-        self.stops_at.get(place as usize).copied().unwrap_or(0)
-    }
+    pub fn stops_at(&self, place: Place) -> u64 { self.stops_at.get(place as usize).copied().unwrap_or(0) }
 
     pub fn has_no_duration(&self, stops: u64) -> u64 {
         (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)
@@ -208,7 +188,7 @@ impl Body {
         let mut after = vec![NEVER; posts.len() << self.stops.len()];
         for done in (1..=self.all()).rev() {
             let base = done as usize * posts.len();
-            for (from, &(stop, pose)) in posts.iter().enumerate().filter(|(_, post)| done >> post.0 & 1 == 1) {
+            for (from, &(_, pose)) in posts.iter().enumerate().filter(|(_, post)| done >> post.0 & 1 == 1) {
                 after[base + from] = if done == self.all() { self.ends[pose as usize] } else { NEVER };
                 let open = allowed.get(done.count_ones() as usize).copied().unwrap_or(0) & !done;
                 for (to, &(next, _)) in posts.iter().enumerate().filter(|(_, post)| open >> post.0 & 1 == 1) {
@@ -216,7 +196,6 @@ impl Body {
                     let cost = self.legs[from * posts.len() + to] + self.stops[next].duration + rest;
                     after[base + from] = after[base + from].min(cost);
                 }
-                debug_assert!(done >> stop & 1 == 1);
             }
         }
         after
@@ -224,20 +203,14 @@ impl Body {
 
     /// What remains at least, of each pose, when these stops are done.
     pub fn remaining(&mut self, allowed: &[u64], done: u64) -> Rc<Vec<u32>> {
-        if done == self.all() {
-            return self.ends.clone();
-        }
+        if done == self.all() { return self.ends.clone(); }
         if !self.known.contains_key(allowed) {
-            if self.known.len() >= 64 {
-                self.known.clear();
-            }
-            let remaining = Remaining { after: self.after(allowed), rows: vec![None; 1 << self.stops.len()] };
-            self.known.insert(allowed.to_vec(), remaining);
+            if self.known.len() >= 64 { self.known.clear(); }
+            let rows = vec![None; 1 << self.stops.len()];
+            self.known.insert(allowed.to_vec(), Remaining { after: self.after(allowed), rows });
         }
         let remaining = &self.known[allowed];
-        if let Some(row) = &remaining.rows[done as usize] {
-            return row.clone();
-        }
+        if let Some(row) = &remaining.rows[done as usize] { return row.clone(); }
         let (posts, open) = (self.posts(), allowed[done.count_ones() as usize] & !done);
         let at = |post: usize, stop: usize| (done | 1 << stop) as usize * posts.len() + post;
         let sources = posts.iter().enumerate().filter(|(_, &(stop, _))| open >> stop & 1 == 1);

@@ -32,9 +32,7 @@ pub fn least(mut needs: Vec<Need>) -> u64 {
 fn packing(needs: &[Need]) -> u64 {
     let mut taken: Vec<&Need> = Vec::new();
     for need in needs {
-        if !taken.iter().any(|other| other.0.iter().any(|agent| need.0.contains(agent))) {
-            taken.push(need);
-        }
+        if !taken.iter().any(|other| other.0.iter().any(|agent| need.0.contains(agent))) { taken.push(need); }
     }
     taken.iter().map(|need| need.1).sum()
 }
@@ -47,9 +45,7 @@ struct Search {
 impl Search {
     fn descend(&mut self, needs: &[Need], spent: u64) {
         self.nodes += 1;
-        if self.nodes > MOST_NODES || spent + packing(needs) >= self.best {
-            return;
-        }
+        if self.nodes > MOST_NODES || spent + packing(needs) >= self.best { return; }
         if needs.is_empty() {
             self.best = spent;
             return;
@@ -63,9 +59,7 @@ impl Search {
                 false => need.clone(),
             };
             let rest: Vec<Need> = needs.iter().map(fixed).filter(|need: &Need| need.1 > 0).collect();
-            if rest.iter().all(|need| !need.0.is_empty()) {
-                self.descend(&rest, spent + value);
-            }
+            if rest.iter().all(|need| !need.0.is_empty()) { self.descend(&rest, spent + value); }
         }
     }
 }

@@ -66,15 +66,11 @@ impl Walk<'_> {
         if state.work.is_some() || (self.rules.ordered && self.body.rests_on_last && state.done == self.body.all()) {
             return found;
         }
-        if stays {
-            self.arrive(state, &mut found);
-        }
+        if stays { self.arrive(state, &mut found); }
         let poses = self.body.poses.clone();
         for &pose in poses.next(state.pose) {
             let to = poses.place(pose);
-            if to == from && stays {
-                self.arrive(State { pose, ..state }, &mut found);
-            }
+            if to == from && stays { self.arrive(State { pose, ..state }, &mut found); }
             let (way, exit) = self.rules.passing(self.chains, state.way, from, to);
             let free = self.rules.holding(to, time + 1).is_some() && self.rules.arrival(from, to, exit, time + 1, time + 1).is_some();
             if to != from && free {
@@ -131,9 +127,7 @@ impl Layers {
                     if keep(walk, &step, time + 1) {
                         let (list, known) = if steady { (&mut states, &mut known) } else { (&mut later, &mut found) };
                         next.push(*known.entry(step).or_insert(list.len() as u32));
-                        if list.len() < known.len() {
-                            list.push(step);
-                        }
+                        if list.len() < known.len() { list.push(step); }
                     }
                 }
                 next.sort_unstable();
@@ -142,17 +136,13 @@ impl Layers {
                 points.push(Point { place: walk.body.poses.place(state.pose), next, ends, least: if cap == NEVER { 0 } else { NEVER } });
             }
             layers.push(points);
-            if steady || later.is_empty() {
-                break;
-            }
+            if steady || later.is_empty() { break; }
             states = later;
             known = found;
             time += 1;
         }
         let mut layers = Layers(layers);
-        if cap < NEVER {
-            layers.least_costs();
-        }
+        if cap < NEVER { layers.least_costs(); }
         layers
     }
 
@@ -202,9 +192,7 @@ impl Joint {
                     let costs = if key[agent] < RESTS { self.point(agent, time, key[agent]).least } else { 0 };
                     least[agent] = least[agent + 1] + u64::from(costs);
                 }
-                if self.extend(&Node { key, time, least }, &mut Vec::new(), (spent, 0), &mut later) {
-                    return false;
-                }
+                if self.extend(&Node { key, time, least }, &mut Vec::new(), (spent, 0), &mut later) { return false; }
             }
             if self.limit.is_none() && time == self.settled {
                 later.retain(|key: &Vec<u32>, _| seen.insert(key.clone()));
@@ -216,9 +204,7 @@ impl Joint {
         true
     }
 
-    fn point(&self, agent: usize, time: u32, number: u32) -> &Point {
-        &self.layers[agent].0[time as usize][number as usize]
-    }
+    fn point(&self, agent: usize, time: u32, number: u32) -> &Point { &self.layers[agent].0[time as usize][number as usize] }
 
     /// Adds what the next agent may do to what those before do (point, place before, place after), and at last the set to
     /// `later`. `costs`: of those at rest, and the least of the others. True: all rest, there is a plan.
@@ -226,18 +212,14 @@ impl Joint {
         &self, node: &Node, chosen: &mut Vec<(u32, Place, Place)>, costs: (u64, u64), later: &mut HashMap<Vec<u32>, u64>,
     ) -> bool {
         let agent = chosen.len();
-        if self.limit.map_or(false, |limit| costs.0 + costs.1 + node.least[agent] >= limit) {
-            return false;
-        }
+        if self.limit.map_or(false, |limit| costs.0 + costs.1 + node.least[agent] >= limit) { return false; }
         if agent == node.key.len() {
             let spent = later.entry(chosen.iter().map(|choice| choice.0).collect()).or_insert(costs.0);
             *spent = costs.0.min(*spent);
             return chosen.iter().all(|choice| choice.0 >= RESTS);
         }
         let now = node.key[agent];
-        if now >= RESTS {
-            return self.choose(node, chosen, (now, now - RESTS, now - RESTS), costs, later);
-        }
+        if now >= RESTS { return self.choose(node, chosen, (now, now - RESTS, now - RESTS), costs, later); }
         let point = self.point(agent, node.time, now);
         let to = if self.limit.is_none() { self.settled.min(node.time + 1) } else { node.time + 1 };
         let end = if self.limit.is_none() { 0 } else { u64::from(node.time) };
@@ -263,9 +245,7 @@ impl Joint {
                 || (to == before && after == from)
                 || (!self.following && ((to == before && after != before) || (after == from && to != from)))
         });
-        if collides {
-            return false;
-        }
+        if collides { return false; }
         chosen.push(choice);
         let found = self.extend(node, chosen, costs, later);
         chosen.pop();
@@ -273,6 +253,4 @@ impl Joint {
     }
 }
 
-fn add(key: &[u32], next: u32) -> Vec<u32> {
-    key.iter().copied().chain([next]).collect()
-}
+fn add(key: &[u32], next: u32) -> Vec<u32> { key.iter().copied().chain([next]).collect() }

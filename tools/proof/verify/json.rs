@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! As much of JSON as instances and roadmaps need.
-
-#[derive(Debug)]
 pub enum Json {
-    Null,
+    Other,
     Bool(bool),
     Number(f64),
     Text(String),
@@ -16,41 +14,22 @@ const DEPTH: usize = 64;
 impl Json {
     pub fn parse(bytes: &[u8]) -> Result<Json, String> {
         let mut parser = Parser { bytes, at: 0 };
-        let value = parser.value(0)?;
-        parser.blanks();
-        if parser.at < bytes.len() {
-            return parser.fail("expected the end of the file");
-        }
-        Ok(value)
+        let value = parser.value(0).filter(|_| { parser.blanks(); parser.at == bytes.len() });
+        let line = 1 + bytes.iter().take(parser.at).filter(|&&byte| byte == b'\n').count();
+        value.ok_or_else(|| format!("line {}: this is not JSON, or a key is there twice", line))
     }
 
     pub fn get(&self, key: &str) -> Option<&Json> {
-        match self {
-            Json::Object(members) => members.iter().find(|(name, _)| name == key).map(|(_, value)| value),
-            _ => None,
-        }
+        match self { Json::Object(members) => members.iter().find(|(name, _)| name == key).map(|member| &member.1), _ => None }
     }
 
-    pub fn list(&self) -> Option<&[Json]> {
-        match self {
-            Json::List(values) => Some(values),
-            _ => None,
-        }
-    }
+    pub fn list(&self) -> Option<&[Json]> { match self { Json::List(values) => Some(values), _ => None } }
 
-    pub fn text(&self) -> Option<&str> {
-        match self {
-            Json::Text(text) => Some(text),
-            _ => None,
-        }
-    }
+    pub fn text(&self) -> Option<&str> { match self { Json::Text(text) => Some(text), _ => None } }
 
     /// A whole number from 0 to 2^31 - 1.
     pub fn number(&self) -> Option<u32> {
-        match self {
-            Json::Number(n) if *n >= 0.0 && *n < 2147483648.0 && n.fract() == 0.0 => Some(*n as u32),
-            _ => None,
-        }
+        match self { Json::Number(n) if (0.0..2147483648.0).contains(n) && n.fract() == 0.0 => Some(*n as u32), _ => None }
     }
 }
 
@@ -60,125 +39,96 @@ struct Parser<'a> {
 }
 
 impl Parser<'_> {
-    fn fail<T>(&self, what: &str) -> Result<T, String> {
-        let line = 1 + self.bytes[..self.at.min(self.bytes.len())].iter().filter(|&&b| b == b'\n').count();
-        Err(format!("line {}: {}", line, what))
-    }
+    fn peek(&self) -> u8 { self.bytes.get(self.at).copied().unwrap_or(0) }
 
-    fn peek(&self) -> u8 {
-        self.bytes.get(self.at).copied().unwrap_or(0)
-    }
+    fn blanks(&mut self) { while matches!(self.peek(), b' ' | b'\t' | b'\n' | b'\r') { self.at += 1; } }
 
-    fn blanks(&mut self) {
-        while matches!(self.peek(), b' ' | b'\t' | b'\n' | b'\r') {
-            self.at += 1;
-        }
-    }
-
+    /// After blanks.
     fn take(&mut self, word: &str) -> bool {
+        self.blanks();
         let found = self.bytes.get(self.at..).map_or(false, |rest| rest.starts_with(word.as_bytes()));
         self.at += if found { word.len() } else { 0 };
         found
     }
 
-    fn value(&mut self, depth: usize) -> Result<Json, String> {
+    fn value(&mut self, depth: usize) -> Option<Json> {
         self.blanks();
         match self.peek() {
-            _ if depth > DEPTH => self.fail("nested too deeply"),
-            b'{' => self.object(depth),
-            b'[' => self.array(depth),
-            b'"' => Ok(Json::Text(self.string()?)),
-            b'-' | b'0'..=b'9' => self.number(),
-            _ if self.take("true") => Ok(Json::Bool(true)),
-            _ if self.take("false") => Ok(Json::Bool(false)),
-            _ if self.take("null") => Ok(Json::Null),
-            _ => self.fail("expected a value"),
+            _ if depth > DEPTH => None,
+            b'{' => {
+                let mut members: Vec<(String, Json)> = Vec::new();
+                self.items("}", |parser| {
+                    parser.blanks();
+                    let name = parser.string()?;
+                    let good = parser.take(":") && members.iter().all(|(other, _)| *other != name);
+                    members.push((name, parser.value(depth + 1).filter(|_| good)?));
+                    Some(())
+                })?;
+                Some(Json::Object(members))
+            }
+            b'[' => {
+                let mut values = Vec::new();
+                self.items("]", |parser| parser.value(depth + 1).map(|value| values.push(value)))?;
+                Some(Json::List(values))
+            }
+            b'"' => self.string().map(Json::Text),
+            b'-' | b'0'..=b'9' => {
+                let from = self.at;
+                while matches!(self.peek(), b'-' | b'+' | b'.' | b'e' | b'E' | b'0'..=b'9') { self.at += 1; }
+                std::str::from_utf8(&self.bytes[from..self.at]).ok()?.parse().ok().map(Json::Number)
+            }
+            _ => [("true", Json::Bool(true)), ("false", Json::Bool(false)), ("null", Json::Other)].into_iter()
+                .find(|(word, _)| self.take(word)).map(|(_, value)| value),
         }
     }
 
-    fn number(&mut self) -> Result<Json, String> {
-        let from = self.at;
-        while matches!(self.peek(), b'-' | b'+' | b'.' | b'e' | b'E' | b'0'..=b'9') {
-            self.at += 1;
-        }
-        let text = std::str::from_utf8(&self.bytes[from..self.at]).unwrap_or("");
-        text.parse().map(Json::Number).or_else(|_| self.fail("expected a number"))
-    }
-
-    fn array(&mut self, depth: usize) -> Result<Json, String> {
+    fn items(&mut self, close: &str, mut each: impl FnMut(&mut Self) -> Option<()>) -> Option<()> {
         self.at += 1;
-        let mut values = Vec::new();
-        self.blanks();
-        while !self.take("]") {
-            if !values.is_empty() && !self.take(",") {
-                return self.fail("expected , or ]");
-            }
-            values.push(self.value(depth + 1)?);
-            self.blanks();
+        let mut first = true;
+        while !self.take(close) {
+            if !first && !self.take(",") { return None; }
+            first = false;
+            each(self)?;
         }
-        Ok(Json::List(values))
+        Some(())
     }
 
-    fn object(&mut self, depth: usize) -> Result<Json, String> {
-        self.at += 1;
-        let mut members: Vec<(String, Json)> = Vec::new();
-        self.blanks();
-        while !self.take("}") {
-            if !members.is_empty() && !self.take(",") {
-                return self.fail("expected , or }");
-            }
-            self.blanks();
-            let name = self.string()?;
-            self.blanks();
-            if !self.take(":") || members.iter().any(|(other, _)| *other == name) {
-                return self.fail("expected : and no key twice");
-            }
-            members.push((name, self.value(depth + 1)?));
-            self.blanks();
-        }
-        Ok(Json::Object(members))
-    }
-
-    fn string(&mut self) -> Result<String, String> {
-        if !self.take("\"") {
-            return self.fail("expected \"");
-        }
+    fn string(&mut self) -> Option<String> {
+        if self.peek() != b'"' { return None; }
         let mut text = Vec::new();
-        while !self.take("\"") {
+        loop {
+            self.at += 1;
             match self.peek() {
+                b'"' => break,
                 b'\\' => self.escape(&mut text)?,
-                0..=31 => return self.fail("expected the end of a string"),
-                byte => {
-                    text.push(byte);
-                    self.at += 1;
-                }
+                0..=31 => return None,
+                byte => text.push(byte),
             }
         }
-        String::from_utf8(text).or_else(|_| self.fail("expected UTF-8"))
+        self.at += 1;
+        String::from_utf8(text).ok()
     }
 
-    fn escape(&mut self, text: &mut Vec<u8>) -> Result<(), String> {
-        self.at += 2;
-        let letter = self.bytes.get(self.at - 1).copied().unwrap_or(0);
-        if letter == b'u' {
-            let first = self.unit()?;
-            let pair = (0xd800..0xdc00).contains(&first) && self.take("\\u");
-            let units = if pair { vec![first, self.unit()?] } else { vec![first] };
-            let decoded = String::from_utf16(&units).or_else(|_| self.fail("expected a character"))?;
-            text.extend(decoded.as_bytes());
-            return Ok(());
+    fn escape(&mut self, text: &mut Vec<u8>) -> Option<()> {
+        self.at += 1;
+        if self.peek() != b'u' {
+            let found = b"\"\\/bfnrt".iter().position(|&known| known == self.peek())?;
+            text.push(b"\"\\/\x08\x0c\n\r\t"[found]);
+            return Some(());
         }
-        match b"\"\\/bfnrt".iter().position(|&known| known == letter) {
-            Some(found) => text.push(b"\"\\/\x08\x0c\n\r\t"[found]),
-            None => return self.fail("expected an escape"),
+        let mut units = vec![self.unit()?];
+        if (0xd800..0xdc00).contains(&units[0]) && self.bytes.get(self.at + 1..)?.starts_with(b"\\u") {
+            self.at += 2;
+            units.push(self.unit()?);
         }
-        Ok(())
+        text.extend(String::from_utf16(&units).ok()?.bytes());
+        Some(())
     }
 
-    fn unit(&mut self) -> Result<u16, String> {
-        let digits = self.bytes.get(self.at..self.at + 4).and_then(|four| std::str::from_utf8(four).ok());
-        let unit = digits.and_then(|four| u16::from_str_radix(four, 16).ok());
+    /// The digits behind `u`; ends on the last of them.
+    fn unit(&mut self) -> Option<u16> {
+        let digits = std::str::from_utf8(self.bytes.get(self.at + 1..self.at + 5)?).ok()?;
         self.at += 4;
-        unit.map_or_else(|| self.fail("expected 4 hexadecimal digits"), Ok)
+        u16::from_str_radix(digits, 16).ok()
     }
 }

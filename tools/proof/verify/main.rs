@@ -10,8 +10,8 @@ mod proof;
 mod reader;
 mod rules;
 mod search;
+mod words;
 
-use proof::Fault;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -31,17 +31,13 @@ static SAID: AtomicBool = AtomicBool::new(false);
 
 /// Ends the program with its verdict: whoever is first.
 fn say(code: i32, text: &str) -> ! {
-    if SAID.swap(true, Ordering::SeqCst) {
-        std::thread::sleep(Duration::from_secs(60));
-    }
+    if SAID.swap(true, Ordering::SeqCst) { std::thread::sleep(Duration::from_secs(60)); }
     use std::io::Write;
     let _ = writeln!(std::io::stdout(), "{}", text);
     std::process::exit(code)
 }
 
-fn refuse(reason: &str) -> ! {
-    say(1, &format!("refused: line {}: {}", LINE.load(Ordering::Relaxed), reason))
-}
+fn refuse(reason: &str) -> ! { say(1, &format!("refused: line {}: {}", LINE.load(Ordering::Relaxed), reason)) }
 
 /// Counts what is allocated.
 struct Counting;
@@ -103,15 +99,12 @@ fn verify(arguments: &Arguments) -> (i32, String) {
     };
     let mut verifier = proof::Verifier::new(instance, lines);
     let outcome = verifier.run();
-    if arguments.stats {
-        eprintln!("{}, {:.3} s", verifier.statistics(), begin.elapsed().as_secs_f64());
-    }
+    if arguments.stats { eprintln!("{}, {:.3} s", verifier.statistics(), begin.elapsed().as_secs_f64()); }
     let line = LINE.load(Ordering::Relaxed);
     match outcome {
         Ok(Some(bound)) => (0, format!("verified: no plan costs less than {}", bound)),
         Ok(None) => (0, "verified: there is no plan".to_string()),
-        Err(Fault::Refused(reason)) => (1, format!("refused: line {}: {}", line, reason)),
-        Err(Fault::Unreadable(reason)) => (2, format!("unreadable: line {}: {}", line, reason)),
+        Err((code, reason)) => (code, format!("{}: line {}: {}", if code == 1 { "refused" } else { "unreadable" }, line, reason)),
     }
 }
 

@@ -33,9 +33,7 @@ impl<R: BufRead> Read for Zstd<R> {
             let ended = bytes.is_empty();
             let mut input = Buffer { bytes: bytes.as_ptr() as *mut u8, size: bytes.len(), at: 0 };
             let mut out = Buffer { bytes: target.as_mut_ptr(), size: target.len(), at: 0 };
-            if ended && !self.within {
-                return Ok(0);
-            }
+            if ended && !self.within { return Ok(0); }
             // Sound: both buffers are as long as they say, the input is not written to, and the stream is this one's own.
             let left = unsafe { ZSTD_decompressStream(self.stream, &mut out, &mut input) };
             let failed = unsafe { ZSTD_isError(left) } != 0;
@@ -44,9 +42,7 @@ impl<R: BufRead> Read for Zstd<R> {
             }
             self.within = left != 0;
             self.source.consume(input.at);
-            if out.at > 0 {
-                return Ok(out.at);
-            }
+            if out.at > 0 { return Ok(out.at); }
         }
     }
 }

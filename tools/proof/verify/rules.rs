@@ -4,15 +4,7 @@ use crate::body::{Body, NEVER};
 use crate::instance::{Place, World};
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub enum Kind {
-    Bar,
-    Move,
-    NoRest,
-    Rest,
-    Pass,
-    Stop,
-    NoStop,
-}
+pub enum Kind { Bar, Move, NoRest, Rest, Pass, Stop, NoStop }
 
 /// `p` and `q` are places, or number and task of a stop; `s` and `e` times.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -47,9 +39,7 @@ impl Chains {
         let mut found = Chains { of: vec![NONE; world.links.len()], chains: Vec::new() };
         for end in (0..world.links.len() as u32).filter(|&place| !inner(place)) {
             for &first in near(end).iter().filter(|&&place| inner(place)) {
-                if found.of[first as usize] != NONE {
-                    continue;
-                }
+                if found.of[first as usize] != NONE { continue; }
                 let (mut before, mut last, mut length) = (end, first, 2);
                 loop {
                     found.of[last as usize] = found.chains.len() as u32;
@@ -69,11 +59,8 @@ impl Chains {
     /// By which end (1 or 2) a step between an inner place and one that is not enters or leaves the chain.
     fn side(&self, inner: Place, end: Place) -> u8 {
         let chain = &self.chains[self.of[inner as usize] as usize];
-        match (inner == chain.first, inner == chain.last) {
-            (true, false) => 1,
-            (false, true) => 2,
-            _ => 1 + u8::from(end != chain.ends[0]),
-        }
+        let second = if chain.first == chain.last { end != chain.ends[0] } else { inner == chain.last };
+        1 + u8::from(second)
     }
 
     /// The chain, and the side on which one leaves it from this inner place for this end.
@@ -100,6 +87,7 @@ struct Mark {
 pub type Way = u8;
 pub const EARLY: Way = 1;
 
+#[derive(Default)]
 pub struct Rules {
     stamp: u32,
     marks: Vec<Mark>,
@@ -114,17 +102,11 @@ pub struct Rules {
 }
 
 impl Rules {
-    pub fn new(places: usize) -> Rules {
-        let marks = vec![Mark::default(); places];
-        let (safe, moves, passes) = (Vec::new(), Vec::new(), Vec::new());
-        Rules { stamp: 0, marks, safe, moves, passes, allowed: Vec::new(), ordered: false, settled: 0 }
-    }
+    pub fn new(places: usize) -> Rules { Rules { marks: vec![Mark::default(); places], ..Rules::default() } }
 
     fn mark(&mut self, place: Place) -> &mut Mark {
         let mark = &mut self.marks[place as usize];
-        if mark.stamp != self.stamp {
-            *mark = Mark { stamp: self.stamp, count: 1, ..Mark::default() };
-        }
+        if mark.stamp != self.stamp { *mark = Mark { stamp: self.stamp, count: 1, ..Mark::default() }; }
         mark
     }
 
@@ -185,18 +167,14 @@ impl Rules {
             }
             self.free(free, NEVER, end);
             let count = self.safe.len() as u32 - first;
-            let mark = self.mark(place);
-            mark.first = first;
-            mark.count = count;
+            *self.mark(place) = Mark { first, count, ..*self.mark(place) };
         }
         true
     }
 
     /// From one time to the other a place is free, and at most to an end.
     fn free(&mut self, from: u32, to: u32, end: u32) {
-        if from != u32::MAX && to != u32::MAX && end != u32::MAX && from <= to.min(end) {
-            self.safe.push((from, to.min(end)));
-        }
+        if from != u32::MAX && to != u32::MAX && end != u32::MAX && from <= to.min(end) { self.safe.push((from, to.min(end))); }
     }
 
     /// The intervals of time in which this place is not barred.
@@ -204,9 +182,7 @@ impl Rules {
         self.marked(place).map_or(0..1, |mark| mark.first..mark.first + mark.count)
     }
 
-    pub fn interval(&self, number: u32) -> (u32, u32) {
-        self.safe[number as usize]
-    }
+    pub fn interval(&self, number: u32) -> (u32, u32) { self.safe[number as usize] }
 
     /// The first of a place's intervals that ends at this time or later.
     pub fn ending(&self, place: Place, time: u32) -> u32 {
@@ -221,24 +197,16 @@ impl Rules {
     }
 
     /// Before this time one does not arrive on the place to rest there.
-    pub fn rest_from(&self, place: Place) -> u32 {
-        self.marked(place).map_or(0, |mark| mark.rest)
-    }
+    pub fn rest_from(&self, place: Place) -> u32 { self.marked(place).map_or(0, |mark| mark.rest) }
 
-    pub fn arrived(&self, place: Place, time: u32) -> Way {
-        if time < self.rest_from(place) { EARLY } else { 0 }
-    }
+    pub fn arrived(&self, place: Place, time: u32) -> Way { if time < self.rest_from(place) { EARLY } else { 0 } }
 
     /// How it stands in chains after a step between two places, and the chain and side by which it leaves after a traverse.
     pub fn passing(&self, chains: &Chains, way: Way, from: Place, to: Place) -> (Way, Option<(u32, u8)>) {
         let known = |place: Place| Some(chains.of[place as usize]).filter(|&chain| self.passes.iter().any(|pass| pass.0 == chain));
-        if self.passes.is_empty() {
-            return (0, None);
-        }
+        if self.passes.is_empty() { return (0, None); }
         let (of, into) = (known(from), known(to));
-        if into.is_some() {
-            return (if of == into { way & !EARLY } else { chains.side(to, from) << 2 }, None);
-        }
+        if into.is_some() { return (if of == into { way & !EARLY } else { chains.side(to, from) << 2 }, None); }
         let exit = of.map(|chain| (chain, chains.side(from, to)));
         (0, exit.filter(|&(_, side)| way >> 2 != 0 && way >> 2 != side))
     }

@@ -38,20 +38,14 @@ pub struct Rows(Vec<(u64, Rc<Vec<u32>>)>);
 
 impl Rows {
     pub fn number(&mut self, body: &mut Body, rules: &Rules, done: u64) -> u32 {
-        if let Some(found) = self.0.iter().position(|row| row.0 == done) {
-            return found as u32;
-        }
+        if let Some(found) = self.0.iter().position(|row| row.0 == done) { return found as u32; }
         self.0.push((done, body.remaining(&rules.allowed, done)));
         self.0.len() as u32 - 1
     }
 
-    fn done(&self, row: u32) -> u64 {
-        self.0[row as usize].0
-    }
+    fn done(&self, row: u32) -> u64 { self.0[row as usize].0 }
 
-    pub fn remains(&self, row: u32, pose: u32) -> u32 {
-        self.0[row as usize].1[pose as usize]
-    }
+    pub fn remains(&self, row: u32, pose: u32) -> u32 { self.0[row as usize].1[pose as usize] }
 }
 
 fn hash(label: &Label) -> usize {
@@ -70,17 +64,9 @@ impl Search {
         self.now = 0;
         self.begin(body, rules);
         while self.now < self.waiting.len() {
-            let found = match self.waiting[self.now].pop() {
-                Some(found) => found,
-                None => {
-                    self.now += 1;
-                    continue;
-                }
-            };
+            let found = match self.waiting[self.now].pop() { Some(found) => found, None => { self.now += 1; continue } };
             let label = self.labels[found as usize];
-            if self.table[self.slot(&label)].1 != found {
-                continue;
-            }
+            if self.table[self.slot(&label)].1 != found { continue; }
             let (done, hi) = (self.rows.done(label.row), rules.interval(label.interval).1);
             let full = done == body.all();
             if full && hi == NEVER && label.way & EARLY == 0 && self.rows.remains(label.row, label.pose) == 0 {
@@ -99,11 +85,8 @@ impl Search {
         if let Some(interval) = rules.holding(place, 0) {
             let (mut done, mut time) = (now_done(body, rules, place, 0), 0);
             if let Some((stop, end)) = body.working {
-                if rules.allowed[0] >> stop & 1 == 0 || rules.interval(interval).1 < end {
-                    return;
-                }
-                done |= 1 << stop;
-                time = end;
+                if rules.allowed[0] >> stop & 1 == 0 || rules.interval(interval).1 < end { return; }
+                (done, time) = (done | 1 << stop, end);
             }
             let row = self.rows.number(body, rules, done);
             let way = rules.arrived(place, 0);
@@ -115,9 +98,7 @@ impl Search {
     fn work(&mut self, body: &mut Body, rules: &Rules, before: u32, label: Label, hi: u32) {
         let done = self.rows.done(label.row);
         let mut open = body.stops_at(body.poses.place(label.pose)) & !done;
-        if open != 0 {
-            open &= rules.allowed[done.count_ones() as usize];
-        }
+        if open != 0 { open &= rules.allowed[done.count_ones() as usize]; }
         for stop in (0..body.stops.len()).filter(|stop| open >> stop & 1 == 1) {
             let time = label.time + body.stops[stop].duration;
             if time <= hi {
@@ -134,9 +115,7 @@ impl Search {
         for &pose in poses.next(label.pose) {
             let to = poses.place(pose);
             if to == from {
-                if label.time < hi {
-                    self.add(Label { pose, time: label.time + 1, before, ..label });
-                }
+                if label.time < hi { self.add(Label { pose, time: label.time + 1, before, ..label }); }
                 continue;
             }
             let (way, exit) = rules.passing(chains, label.way, from, to);
@@ -144,9 +123,7 @@ impl Search {
             let row = if now == done { label.row } else { self.rows.number(body, rules, now) };
             for interval in rules.ending(to, label.time + 1)..rules.intervals(to).end {
                 let (first, last) = rules.interval(interval);
-                if first > hi + 1 {
-                    break;
-                }
+                if first > hi + 1 { break; }
                 let (first, last) = (first.max(label.time + 1), last.min(hi + 1));
                 if let Some(time) = rules.arrival(from, to, exit, first, last) {
                     let early = rules.arrived(to, time);
@@ -167,9 +144,7 @@ impl Search {
         while self.table[slot].0 == self.stamp {
             let other = &self.labels[self.table[slot].1 as usize];
             let key = |l: &Label| (l.pose, l.row, l.interval, l.way);
-            if key(other) == key(label) {
-                break;
-            }
+            if key(other) == key(label) { break; }
             slot = (slot + 1) & (self.table.len() - 1);
         }
         slot
@@ -177,28 +152,18 @@ impl Search {
 
     fn add(&mut self, label: Label) {
         let remains = self.rows.remains(label.row, label.pose);
-        if remains >= NEVER {
-            return;
-        }
-        if self.table.len() < 2 * self.labels.len() + 1024 {
-            self.grow();
-        }
+        if remains >= NEVER { return; }
+        if self.table.len() < 2 * self.labels.len() + 1024 { self.grow(); }
         let slot = self.slot(&label);
-        if self.table[slot].0 == self.stamp && self.labels[self.table[slot].1 as usize].time <= label.time {
-            return;
-        }
+        if self.table[slot].0 == self.stamp && self.labels[self.table[slot].1 as usize].time <= label.time { return; }
         let number = self.labels.len() as u32;
         self.table[slot] = (self.stamp, number);
         self.labels.push(label);
         let cost = label.time + remains;
-        if number == 0 {
-            self.least = cost;
-        }
+        if number == 0 { self.least = cost; }
         let bucket = (cost - self.least) as usize;
         assert!(bucket >= self.now, "costs to go that are not consistent");
-        if self.waiting.len() <= bucket {
-            self.waiting.resize(bucket + 1, Vec::new());
-        }
+        if self.waiting.len() <= bucket { self.waiting.resize(bucket + 1, Vec::new()); }
         self.waiting[bucket].push(number);
     }
 
@@ -231,10 +196,7 @@ impl Search {
 /// Without an order of stops those that take no time are done on arrival.
 pub fn now_done(body: &Body, rules: &Rules, place: Place, done: u64) -> u64 {
     let here = body.stops_at(place) & !done;
-    if here == 0 || rules.ordered {
-        return done;
-    }
-    done | body.has_no_duration(here)
+    if here == 0 || rules.ordered { done } else { done | body.has_no_duration(here) }
 }
 
 /// Whether a path, known to meet others, surely meets this demand.
@@ -247,8 +209,7 @@ pub fn surely_meets(path: &Path, demand: &Demand) -> bool {
             let leaves = path.iter().skip(1).map(|step| step.0 - 1).chain([NEVER]);
             !path.iter().zip(leaves).any(|(&(from, place), to)| place == p && from <= e && s <= to)
         }
-        Kind::Move => !path.windows(2).any(|two| two[0].1 == p && two[1].1 == q && within(two[1].0)),
-        Kind::Pass => !path.windows(2).any(|two| two[0].1 == p && two[1].1 == q && within(two[1].0)),
+        Kind::Move | Kind::Pass => !path.windows(2).any(|two| two[0].1 == p && two[1].1 == q && within(two[1].0)),
         Kind::NoRest => last != p || arrival > s,
         Kind::Rest => last == p && arrival <= s,
         Kind::Stop | Kind::NoStop => false,

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Whatever grove-verify is handed: it says so in a line and ends with 1 or 2, at once.
+
+    reader_test.py GROVE_VERIFY
+"""
+import ctypes
+import ctypes.util
+import random
+import tempfile
+import unittest
+from pathlib import Path
+
+import checkers
+from rules_test import CROSS, CROSSED, HALL, certificate
+from worlds import Agent, Instance, World
+
+GOOD = certificate(CROSS, "lemma 5 0 1", *CROSSED, "theorem 5", "leaf 0")
+
+
+def compressed(data):
+    library = ctypes.CDLL(ctypes.util.find_library("zstd") or "libzstd.so.1")
+    library.ZSTD_compressBound.restype = library.ZSTD_compress.restype = ctypes.c_size_t
+    room = library.ZSTD_compressBound(ctypes.c_size_t(len(data)))
+    out = ctypes.create_string_buffer(room)
+    length = library.ZSTD_compress(out, ctypes.c_size_t(room), data, ctypes.c_size_t(len(data)), 1)
+    return out.raw[:length]
+
+
+class Reader(unittest.TestCase):
+    def ends(self, data, codes=(1, 2), says="^(refused|unreadable): ", instance=CROSS, options=(), seconds=2):
+        found = checkers.verify(instance, data, *options)
+        self.assertIn(found.code, codes, (data[:200], found.text))
+        self.assertRegex(found.text, says)
+        self.assertEqual(found.text.count("\n"), 1, found.text)
+        self.assertLess(found.seconds, seconds, data[:200])
+        return found
+
+    def test_compressed(self):
+        whole = compressed(GOOD.encode())
+        for data in (GOOD, whole, compressed(GOOD[:100].encode()) + compressed(GOOD[100:].encode())):
+            self.ends(data, (0,), "^verified: no plan costs less than 5\n")
+        for length in range(4, len(whole)):
+            self.ends(whole[:length], (2,))
+        self.ends(whole + b"x", (2,))
+        rng = random.Random(1)
+        for _ in range(60):
+            broken = bytearray(whole)
+            broken[rng.randrange(len(broken))] ^= 1 << rng.randrange(8)
+            found = checkers.verify(CROSS, bytes(broken))
+            self.assertTrue(found.code in (1, 2) or (found.code, found.text) == (0, "verified: no plan costs less than 5\n"), found.text)
+
+    def test_cut_off(self):
+        for length in range(len(GOOD)):
+            self.ends(GOOD[:length])
+        self.ends("", (2,), "^unreadable: line 1: expected more\n")
+
+    def test_more_than_there_should_be(self):
+        for more in ("\n", "end\n", "leaf\n", " "):
+            self.ends(GOOD + more, (2,))
+
+    def test_what_no_line_may_be(self):
+        lines = GOOD.split("\n")[:-1]
+        for at in range(len(lines)):
+            for other in ("", " ", "leaf ", "leaf  0", "leaf x", "leaf -1", "leaf +0", "joint 0", "prices 1", "lemma", "lemma 5", "split", "split |",
+                          "split 0 bar 4 1 1", "split 0 bar 4 1 1|1 bar 4 1 1", "split 0 bar 4 1 1 | 1 bar 4 1", "split 0 bar 4 1 1 | 1 bar 4 1 1 1",
+                          "demand", "demand 0 jump 4 1 1", "later", "later 0 2 1 2", "later 0 2 1 2 0 0", "theorem", "theorem -1", "theorem 5 5",
+                          "theorem inf ", "following", "instance", "instance 0", "grove-proof 2", "end ", "\t", "\0", "é"):
+                self.ends("\n".join([*lines[:at], other, *lines[at + 1:]]) + "\n")
+
+    def test_random_bytes(self):
+        rng = random.Random(2)
+        for count in (1, 10, 1000, 100000):
+            self.ends(rng.randbytes(count))
+            self.ends(b"\x28\xb5\x2f\xfd" + rng.randbytes(count), (2,))
+            self.ends(GOOD.encode()[:60] + rng.randbytes(count))
+
+    def test_random_changes(self):
+        rng = random.Random(3)
+        words = GOOD.split(" ")
+        for _ in range(300):
+            changed = list(words)
+            for _ in range(rng.randint(1, 3)):
+                changed[rng.randrange(len(words))] = rng.choice(["inf", "0", "1", "4", str(2**30), str(2**32), str(2**64), "x", "bar", "|", "9" * 50])
+            found = checkers.verify(CROSS, " ".join(changed))
+            self.assertTrue(found.code in (1, 2) or found.text == "verified: no plan costs less than 5\n", changed)
+
+    def test_huge_numbers(self):
+        for number in (2**30 - 1, 2**30, 2**31, 2**32 - 1, 2**63, 2**64 - 1, 2**64, 10**100):
+            for lines in (["theorem {}", "leaf"], ["theorem {}", "joint"], ["lemma {} 0", "leaf"], ["lemma 0 {}", "leaf"], ["theorem 5", "leaf {}"],
+                          ["theorem 5", "split 0 bar 4 {0} {0} | 1 bar 4 {0} {0}", "leaf", "leaf"], ["theorem 5", "split 0 bar {0} 1 1 | 1 bar {0} 1 1"],
+                          ["theorem 5", "split 0 norest 5 {0} | 0 rest 5 {0}", "leaf", "leaf"], ["theorem 9", "later {0} {0} {0} {0} {0}"],
+                          ["theorem 5", "split 0 stop {0} {0} | 0 nostop {0} {0}"], ["theorem 5", "prices", "place 4 {} 1024", "end"],
+                          ["theorem 5", "prices", "finish 0 {0} 1 {0} 0", "end"], ["lemma 5 0 1", "demand 0 bar 4 0 {}", "joint"]):
+                self.ends(certificate(CROSS, *(line.format(number) for line in lines)), (1,), "^refused: ", options=["--time-limit", "1"], seconds=3)
+            for rows in (["place 4 1 {}"], ["place 4 1 {}"] * 2, ["edge 4 5 1 {0}", "place 5 2 {0}"]):
+                rows = [row.format(number) for row in rows]
+                self.ends(certificate(CROSS, "theorem 6", "prices", *rows, "end"), (1,), "^refused: ", options=["--time-limit", "1"], seconds=3)
+
+    def test_a_million_splits(self):
+        for split in ("0 bar 4 1 1 | 1 bar 4 1 1", "0 norest 5 2 | 0 rest 5 2", "1 bar 4 1 1 | 0 bar 4 1 1"):
+            text = certificate(CROSS, "theorem 99").removesuffix("end\n") + f"split {split}\n" * 10**6
+            self.ends(text, (2,), "line 1000005: expected more", seconds=5)
+            self.ends(text + "leaf\n", (1, 2), seconds=5)
+        self.ends(compressed(text.encode()), (2,), "line 1000005: expected more", seconds=5)
+
+    def test_long_lines_and_large_files(self):
+        self.ends("leaf " * 10**6 + "\n", (2,))
+        self.ends(certificate(CROSS, "lemma 5 0 1", "leaf " + "0 " * 10**6, "theorem 5", "leaf"))
+        self.ends(compressed(b"x" * 10**8), (2,))
+        self.ends(compressed(b"\n" * 10**8), (2,))
+        self.ends(certificate(HALL, "lemma 0 0", *["demand 0 pass 9 10 1 2"] * 10**5, "leaf"), instance=HALL)
+
+    def test_limits(self):
+        crowd = Instance(World(["." * 8] * 8), [Agent((n,), 63 - n) for n in range(10)])
+        text = certificate(crowd, "theorem inf", "joint")
+        self.ends(text, (1,), "^refused: line 5: the time limit is reached\n", crowd, ["--time-limit", "0.3"])
+        self.ends(text, (1,), "^refused: line 5: the memory limit is reached\n", crowd, ["--memory-limit", "0.02"])
+
+    def test_usage(self):
+        for arguments in ([], ["one"], ["one", "two", "three"], ["one", "two", "--what"], ["one", "two", "--time-limit"],
+                          ["one", "two", "--time-limit", "0"], ["one", "two", "--memory-limit", "nan"]):
+            found = checkers.Verdict([checkers.VERIFY, *arguments])
+            self.assertEqual(found.code, 2)
+            self.assertRegex(found.text, "^grove-verify: error: ")
+        found = checkers.Verdict([checkers.VERIFY, "no/such", "no/such"])
+        self.assertEqual((found.code, found.text), (2, "unreadable: no/such: No such file or directory (os error 2)\n"))
+
+    def test_instances_that_are_none(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            path = CROSS.write(folder)
+            good, good_map = path.read_text(), (folder / "tiny.map").read_text()
+            rng = random.Random(4)
+            for _ in range(150):
+                at, to = sorted(rng.randrange(len(good)) for _ in range(2))
+                path.write_text(rng.choice([good[:at], good[:at] + good[min(to, at + 9):], good[:at] + rng.choice('{}[]",:0-9e.') + good[at:]]))
+                found = checkers.verify(path, GOOD)
+                self.assertTrue(found.code in (1, 2) or found.text == "verified: no plan costs less than 5\n", found.text)
+                self.assertLess(found.seconds, 2)
+            for text in ("[" * 10**5, '{"a":' * 10**5, "", "null", "[]", "{}", '{"map": 1}', '{"map": "none.map", "agents": [], "tasks": []}', '"\\',
+                         '"\\u12', '"\\ud800"', good + "x", good.replace('"goal"', '"start"'), good.replace("[0, 1]", "[9, 1]"), "1" * 10**6):
+                path.write_text(text)
+                self.ends(GOOD, (2,), instance=path)
+            path.write_text(good)
+            for text in ("", "type octile\n", good_map.replace("...", "..", 1), good_map.replace("...", "..x", 1), good_map.replace("height 3", "height 4"),
+                         good_map.replace("width 3", "width 99999999999"), good_map.replace("height 3", "height 4000000000"), good_map.replace("width 3", "width 0")):
+                (folder / "tiny.map").write_text(text)
+                self.ends(GOOD, (2,), instance=path)
+
+
+if __name__ == "__main__":
+    checkers.main(unittest)

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//! The words of a line, and what is wrong with a certificate.
+use crate::body::NEVER;
+
+/// The exit code, 1: refused, or 2: unreadable, and why.
+pub type Fault = (i32, String);
+
+pub fn unreadable(reason: impl Into<String>) -> Fault { (2, reason.into()) }
+
+/// Refuses what does not hold.
+pub fn hold(good: bool, reason: impl Into<String>) -> Result<(), Fault> { if good { Ok(()) } else { Err((1, reason.into())) } }
+
+pub struct Words<'a>(std::str::Split<'a, char>);
+
+impl<'a> Words<'a> {
+    pub fn of(line: &'a str) -> Words<'a> { Words(line.split(' ')) }
+
+    pub fn more(&self) -> bool { self.0.clone().next().is_some() }
+
+    pub fn word(&mut self) -> Result<&'a str, Fault> {
+        self.0.next().filter(|word| !word.is_empty()).ok_or_else(|| unreadable("expected another word"))
+    }
+
+    pub fn whole(&mut self) -> Result<u64, Fault> {
+        let word = self.word()?;
+        let digits = Some(word).filter(|word| word.bytes().all(|byte| byte.is_ascii_digit()));
+        let digits = digits.ok_or_else(|| unreadable(format!("expected a number, not '{:.20}'", word)))?;
+        digits.parse().map_err(|_| (1, "a number that is too large".to_string()))
+    }
+
+    pub fn number(&mut self) -> Result<u32, Fault> {
+        let value = self.whole()?;
+        hold(value < u64::from(NEVER), "a number that is too large").map(|_| value as u32)
+    }
+
+    pub fn index(&mut self, count: usize, what: &str) -> Result<u32, Fault> {
+        let value = self.number()?;
+        hold((value as usize) < count, format!("there is no {} {}", what, value)).map(|_| value)
+    }
+
+    /// A number or `inf`.
+    pub fn or_inf(&mut self) -> Result<Option<u32>, Fault> {
+        if self.0.clone().next() != Some("inf") { return self.number().map(Some); }
+        self.0.next();
+        Ok(None)
+    }
+
+    pub fn end(&mut self) -> Result<(), Fault> {
+        if self.more() { Err(unreadable("expected the end of the line")) } else { Ok(()) }
+    }
+}
