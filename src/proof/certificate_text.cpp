@@ -28,8 +28,13 @@ std::string decompressed(const std::string& file, std::string_view bytes) {
     bytes.remove_prefix(count);
     return count;
   });
-  std::string text(kMostBytes + 1, '\0');
-  text.resize(stream.read(text.data(), text.size()));
+  std::string text;
+  char block[1 << 16];
+  while (text.size() <= kMostBytes) {
+    const std::size_t size = stream.read(block, sizeof block);
+    text.append(block, size);
+    if (size < sizeof block) break;
+  }
   if (stream.broken())
     throw InputError(file, "", "is damaged; expected what grove solve --proof compressed by zstd");
   return text;
@@ -111,8 +116,9 @@ class Reader {
   }
 
   void keyword(std::string_view expected) {
-    const std::string_view found = word(expected);
-    if (found != expected) fail_at(found, fmt::format("'{}'", expected));
+    const std::string quoted = fmt::format("'{}'", expected);
+    const std::string_view found = word(quoted);
+    if (found != expected) fail_at(found, quoted);
   }
   // Its number among them.
   int one_of(std::initializer_list<std::string_view> words) {

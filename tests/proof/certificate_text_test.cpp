@@ -126,10 +126,10 @@ TEST_F(CertificateTexts, HaveTheGrammarToTheLetter) {
   EXPECT_EQ(refusal(head() + "lemma 3 1\nleaf 0\n"),
             "line 5: found '0'; expected the number of an earlier lemma, of which there is none");
   EXPECT_EQ(refusal_of_proof("leaf\n"), "it was read");
-  EXPECT_EQ(refusal_of_proof("leaf "),
+  EXPECT_EQ(refusal_of_proof("leaf \n"),
             "line 5: found ''; expected the number of an earlier lemma, of which there is none");
   EXPECT_EQ(refusal_of_proof("leaf\r\n"),
-            "line 5: found 'leaf\\r'; expected leaf or split or later or joint or prices");
+            "line 5: found 'leaf\\x0d'; expected leaf or split or later or joint or prices");
   EXPECT_EQ(refusal_of_proof("joint 1\n"), "line 5: found '1'; expected the end of the line");
   EXPECT_EQ(refusal_of_proof("leaf\nleaf\n"), "line 6: found 'leaf'; expected 'end'");
   EXPECT_THAT(refusal_of_proof("split 0 bar 0 1 1 | 1 bar 0 1 1\nleaf\n"),

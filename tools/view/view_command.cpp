@@ -199,6 +199,7 @@ void show_proof(const ViewArguments& arguments, const Instance& instance,
                              : "a plan valid without following, as the certificate has it");
   const std::string data = page_data(name_of(arguments.instance.name()), instance, plans);
   const std::string output = page_file(arguments);
+  require_distinct_files(output, arguments.proof, "the certificate");
   write(output, proof_page(name_of(arguments.proof), data, certificate.lines));
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
@@ -217,13 +218,11 @@ void note_what_is_wrong(const Instance& instance, const NamedPlan& plan,
 void run(const ViewArguments& arguments) {
   if (!arguments.run.empty()) return show_run(arguments);
   const LoadedInstance loaded = arguments.instance.load();
-  std::vector<std::string> read = arguments.plans;
-  if (!arguments.proof.empty()) read.push_back(arguments.proof);
   require_own_files({{"--output", page_file(arguments)},
                      {"--svg", arguments.svg},
                      {"--png", arguments.png},
                      {"--gif", arguments.gif}},
-                    arguments.instance, loaded, read);
+                    arguments.instance, loaded, arguments.plans);
   std::vector<std::string> warnings;
   std::vector<NamedPlan> plans;
   for (const std::string& file : arguments.plans)

@@ -130,6 +130,10 @@ test("steps are chosen, folded and unfolded", () => {
   assert.equal(demandsShown(app).length, 1);
   app.choose(2);
   assert.equal(app.chosen, 2);
+  app.unfold(kWhole.theorem.steps[1], false); // elsewhere
+  assert.equal(app.step, kWhole.theorem.steps[5]);
+  app.unfold(kWhole.theorem.steps[2], false); // above what is chosen
+  assert.equal(app.step, kWhole.theorem.steps[2]);
   app.show(kWhole.lemmas[0]);
   assert.deepEqual([app.rows.length, app.chosen], [3, 0]);
   app.unfold(app.step, false);

@@ -69,10 +69,12 @@ export class ProofApp implements Choice {
     this.changed();
   }
 
+  // What is chosen stays in sight.
   unfold(step: Step, isOpen: boolean): void {
     if (isOpen) this.open.add(step);
     else this.open.delete(step);
-    this.changed();
+    if (!isOpen && isBelow(this.step, step)) this.select(step);
+    else this.changed();
   }
 
   unfoldAll(isOpen: boolean): void {
@@ -107,4 +109,9 @@ export class ProofApp implements Choice {
     this.marked = -1;
     this.changed();
   }
+}
+
+function isBelow(step: Step, other: Step): boolean {
+  for (let at = step.above; at; at = at.step.above) if (at.step === other) return true;
+  return false;
 }

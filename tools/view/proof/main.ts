@@ -33,9 +33,10 @@ function show(app: ProofApp): void {
   const stage = new Stage(app, {
     ...instanceScene(app), paths: new Marks(app), label: "Where the step chosen is", heat: () => priceHeat(app),
   });
-  const legend = legendOf([["resting", "an agent's start"],
-    ...entriesOf(app.model, []).filter(([kind]) => kind === "task" || kind === "goal"),
-    ["mark", "what the step speaks of, with its times"]]);
+  const isPriced = app.certificate.theorem.root.kind === "prices";
+  const marks: [string, string][] = isPriced ? [["heat", "prices, of all times together"]]
+    : [["mark", "the place in question, with its times"], ["way", "who is concerned, as the crow flies"]];
+  const legend = legendOf([["resting", "an agent's start"], ...entriesOf(app.model, []).filter(isOpen), ...marks]);
   document.body.replaceChildren(
     strip(app, document.title),
     el("main", { class: "stages" }, stage.element),
@@ -53,6 +54,11 @@ function show(app: ProofApp): void {
   requestAnimationFrame(tick);
   // For whoever asks (tests do).
   Object.assign(window, { grove: { app, stages: [stage] } });
+}
+
+// (Nothing is done yet.)
+function isOpen([kind]: [string, string]): boolean {
+  return kind === "task" || kind === "goal";
 }
 
 begin();

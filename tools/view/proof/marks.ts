@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// On the map: where what the step speaks of is, with its times; and, dashed, the ways there as the
-// crow flies, from the starts and on to the goals of the agents that it is about.
+// On the map: where what the step speaks of is, with its times; and of the agents that it is about
+// starts and goals, with the ways there and on, dashed, as the crow flies.
 
 import type { Camera } from "../page/camera";
 import type { Colors } from "../page/colors";
@@ -12,6 +12,7 @@ import { demandOf, type Demand } from "./certificate";
 
 const kDashes = [[7, 4], [2, 4]]; // of the first agent, and the second
 const kHalf = 0.46; // of the square on a place, in steps
+const kLeastWritten = 24; // pixels of that, from which on times are written in it
 
 // What the map marks: both sides of a split, else what leads to the step.
 export function demandsShown({ step, statement }: ProofApp): Demand[] {
@@ -47,12 +48,8 @@ export class Marks implements PathPainter {
       texts.get(last)!.add(timesText(demand));
     }
     c.font = "700 13px system-ui, sans-serif";
-    c.textAlign = "left";
-    c.textBaseline = "middle";
-    for (const [place, words] of texts) {
-      const { x, y } = this.at(camera, place);
-      outlined(c, [...words].join(", "), x + size + 3, y, colors.chosen, colors.floor);
-    }
+    for (const [place, words] of texts)
+      paintText(c, camera, this.at(camera, place), [...words].join(", "), size, colors);
   }
 
   private at(camera: Camera, place: number): Point {
@@ -77,6 +74,16 @@ export class Marks implements PathPainter {
       else c.lineTo(x, y);
     });
     c.stroke();
+    c.setLineDash([]);
+    const ring = Math.max(7, 0.42 * this.app.model.world.unit * camera.scale);
+    const { x, y } = this.at(camera, start);
+    c.beginPath();
+    c.arc(x, y, ring, 0, 2 * Math.PI);
+    if (goal >= 0) {
+      const end = this.at(camera, goal);
+      c.rect(end.x - ring, end.y - ring, 2 * ring, 2 * ring);
+    }
+    c.stroke();
   }
 
   private paintMove(c: CanvasRenderingContext2D, camera: Camera, places: number[]): void {
@@ -98,6 +105,18 @@ export class Marks implements PathPainter {
     c.lineWidth = 2.5;
     c.strokeRect(x - half, y - half, 2 * half, 2 * half);
   }
+}
+
+// In the square, above who stands there; beside it if that is small, on the side that has room.
+function paintText(
+  c: CanvasRenderingContext2D, camera: Camera, { x, y }: Point, text: string, half: number, colors: Colors,
+): void {
+  const isLarge = half >= kLeastWritten;
+  const isLeft = x + half + 3 + c.measureText(text).width > camera.width;
+  c.textAlign = isLarge ? "center" : isLeft ? "right" : "left";
+  c.textBaseline = "middle";
+  const aside = isLarge ? 0 : isLeft ? -half - 3 : half + 3;
+  outlined(c, text, x + aside, isLarge ? y - half + 1 : y, colors.chosen, colors.floor);
 }
 
 // By place: what the prices there come to, over all times, as a part of the most.

@@ -52,8 +52,12 @@ export function noteText({ kind, lemmas, leaves, rows }: Step): string {
     case "leaf": return lemmas.length === 0 ? "own costs" : lemmasText(lemmas);
     case "joint": return "joint search";
     case "prices": return plural(rows.length, "price");
-    default: return plural(leaves, "leaf").replace("leafs", "leaves");
+    default: return leavesText(leaves);
   }
+}
+
+function leavesText(count: number): string {
+  return count === 1 ? "1 leaf" : `${numberText(count)} leaves`;
 }
 
 export function lemmasText(lemmas: number[]): string {
@@ -75,8 +79,7 @@ export function howText({ theorem, lemmas }: Certificate): string {
   if (root.kind === "joint") return "proven by a search of all agents' joint paths";
   if (root.kind === "prices") return `proven by ${plural(root.rows.length, "price")} of places, moves and finish times`;
   const splits = steps.filter(({ sides }) => sides.length > 0).length;
-  const leaves = plural(root.leaves, "leaf").replace("leafs", "leaves");
-  return `proven by ${plural(splits, "split")}, ${leaves} and ${plural(lemmas.length, "lemma")}`;
+  return `proven by ${plural(splits, "split")}, ${leavesText(root.leaves)} and ${plural(lemmas.length, "lemma")}`;
 }
 
 // Of a plan: what the theorem says of it.

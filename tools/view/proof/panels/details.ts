@@ -4,7 +4,7 @@
 import { el } from "../../page/dom";
 import type { ProofApp } from "../app";
 import { demandsAt, usersOf, type Statement, type Step } from "../certificate";
-import { agentsText, closedText, demandText, lemmaText, stepText, theoremText, whyText } from "../words";
+import { agentsText, closedText, demandText, lemmaText, stepText, whyText } from "../words";
 
 export class Details {
   readonly element = el("section", { class: "details", "aria-label": "The step chosen" });
@@ -23,12 +23,12 @@ export class Details {
 
   private statement(statement: Statement): HTMLElement[] {
     const { app } = this;
-    if (statement.number < 0) return [el("h2", {}, theoremText(app.certificate))];
+    if (statement.number < 0) return [el("h2", {}, "The theorem")];
     const users = usersOf(app.certificate, statement.number).map((user) => this.link(user));
     const meeting = statement.demands.length > 0 ? "In plans that meet its demands" : "In all plans";
     return [
       el("div", { class: "head" }, el("h2", {}, `Lemma ${statement.number}`),
-        this.link(app.certificate.theorem)),
+        el("button", { type: "button", click: () => app.show(app.certificate.theorem) }, "Back to the theorem")),
       el("p", {}, `${meeting} ${lemmaText(app.model, statement)}.`),
       el("p", { class: "faint" }, "Used by ", ...joined(users), "."),
     ];

@@ -13,9 +13,8 @@ export class Lists {
   private readonly lemmas = el("div", { class: "rows" });
   private readonly buttons: HTMLElement[];
   private readonly folds: HTMLElement;
-  private showsLemmas = false;
 
-  constructor(app: ProofApp) {
+  constructor(private readonly app: ProofApp) {
     this.tree = new Tree(app);
     const { lemmas } = app.certificate;
     this.lemmas.append(...lemmas.map((lemma) => rowElement({
@@ -25,7 +24,7 @@ export class Lists {
     const tab = (text: string, shows: boolean) => el("button", {
       type: "button", role: "tab", click: () => this.turn(shows),
     }, text);
-    this.buttons = [tab("Tree", false), tab(`Lemmas (${lemmas.length})`, true)];
+    this.buttons = [tab("Tree", false), ...(lemmas.length > 0 ? [tab(`Lemmas (${lemmas.length})`, true)] : [])];
     const fold = (text: string, isOpen: boolean) => el("button", {
       type: "button", click: () => app.unfoldAll(isOpen),
     }, text);
@@ -42,9 +41,9 @@ export class Lists {
   }
 
   private turn(showsLemmas: boolean): void {
-    this.showsLemmas = showsLemmas;
-    this.buttons.forEach((button, i) => button.setAttribute("aria-selected", String((i === 1) === this.showsLemmas)));
-    this.tree.element.hidden = this.folds.hidden = showsLemmas;
+    this.buttons.forEach((button, i) => button.setAttribute("aria-selected", String((i === 1) === showsLemmas)));
+    this.tree.element.hidden = showsLemmas;
+    this.folds.hidden = showsLemmas || this.app.statement.root.children.length === 0;
     this.lemmas.hidden = !showsLemmas;
   }
 }

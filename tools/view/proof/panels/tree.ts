@@ -18,6 +18,7 @@ export class Tree {
   });
   private rows: Step[] = [];
   private elements: HTMLElement[] = [];
+  private shown: Step | null = null;
 
   constructor(private readonly app: ProofApp) {
     app.onChange(() => this.update());
@@ -29,6 +30,18 @@ export class Tree {
     const isSame = rows.length === this.rows.length && rows.every((step, i) => step === this.rows[i]);
     if (!isSame) this.make(rows);
     this.rows.forEach((step, i) => this.dress(step, this.elements[i]));
+    if (this.app.step === this.shown) return;
+    this.shown = this.app.step;
+    this.bringIntoSight(this.elements[this.rows.indexOf(this.shown)]);
+  }
+
+  // Moves the rows alone, never the page.
+  private bringIntoSight(row: HTMLElement | undefined): void {
+    if (!row) return;
+    const inside = row.getBoundingClientRect();
+    const outside = this.element.getBoundingClientRect();
+    if (inside.top < outside.top) this.element.scrollTop += inside.top - outside.top;
+    if (inside.bottom > outside.bottom) this.element.scrollTop += inside.bottom - outside.bottom;
   }
 
   private make(rows: Step[]): void {
@@ -65,11 +78,10 @@ export class Tree {
     row.setAttribute("aria-selected", String(isChosen));
     row.tabIndex = isChosen ? 0 : -1;
     row.classList.toggle("of", app.marked >= 0 && demandOf(step)?.agent === app.marked);
-    if (isChosen) row.scrollIntoView({ block: "nearest" });
   }
 
   private focus(): void {
-    this.elements[this.rows.indexOf(this.app.step)]?.focus();
+    this.elements[this.rows.indexOf(this.app.step)]?.focus({ preventScroll: true });
   }
 
   // As outlines are gone through: up and down the rows, to the right into a step, to the left out.
