@@ -129,9 +129,8 @@ class Reader {
     return static_cast<int>(at - words.begin());
   }
   std::uint64_t number(std::string_view what, std::uint64_t below) {
-    const std::string expected =
-        below == 0 ? fmt::format("{}, of which there is none", what)
-                   : fmt::format("{}, from 0 to {}", what, below - 1);
+    const std::string expected = below == 0 ? fmt::format("{}, of which there is none", what)
+                                            : fmt::format("{}, from 0 to {}", what, below - 1);
     const std::string_view found = word(expected);
     const auto value = parse_number<std::uint64_t>(found);
     if (!value || *value >= below) fail_at(found, expected);

@@ -104,10 +104,11 @@ TEST_F(CertificateTexts, ThatEndTooEarlySayWhere) {
 }
 
 TEST_F(CertificateTexts, OfAnotherInstanceAreRefused) {
-  EXPECT_EQ(refusal("grove-proof 1\ninstance 0123456789abcdef\nfollowing yes\ntheorem 4\nleaf\nend\n"),
-            fmt::format("line 2: found '0123456789abcdef'; expected {:016x}, the checksum of this "
-                        "instance",
-                        certificate_checksum(instance_)));
+  EXPECT_EQ(
+      refusal("grove-proof 1\ninstance 0123456789abcdef\nfollowing yes\ntheorem 4\nleaf\nend\n"),
+      fmt::format("line 2: found '0123456789abcdef'; expected {:016x}, the checksum of this "
+                  "instance",
+                  certificate_checksum(instance_)));
 }
 
 TEST_F(CertificateTexts, HaveTheGrammarToTheLetter) {

@@ -194,9 +194,9 @@ void show_proof(const ViewArguments& arguments, const Instance& instance,
   const bool may_follow = certificate.may_follow;
   const Instance spoken_of = may_follow ? instance : instance.without_following();
   for (const NamedPlan& plan : plans)
-    require_valid(spoken_of, plan,
-                  may_follow ? "a valid plan"
-                             : "a plan valid without following, as the certificate has it");
+    require_valid(
+        spoken_of, plan,
+        may_follow ? "a valid plan" : "a plan valid without following, as the certificate has it");
   const std::string data = page_data(name_of(arguments.instance.name()), instance, plans);
   const std::string output = page_file(arguments);
   require_distinct_files(output, arguments.proof, "the certificate");
@@ -246,8 +246,7 @@ void add_log_options(CLI::App& command, ViewArguments& arguments) {
       .add_option("--drive", arguments.drive,
                   "log of a drive of the plan, to show robots as they drive")
       ->type_name("LOG.jsonl");
-  command
-      .add_option("--proof", arguments.proof, "certificate of a lower bound to show, as a tree")
+  command.add_option("--proof", arguments.proof, "certificate of a lower bound to show, as a tree")
       ->type_name("CERTIFICATE");
   command.add_option("--run", arguments.run, "log of a run to show, in place of an instance")
       ->type_name("LOG.jsonl");

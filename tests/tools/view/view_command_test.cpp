@@ -261,12 +261,10 @@ TEST_F(ViewCommand, ShowsACertificateWithAndWithoutAPlan) {
   const ProcessResult solved = run_grove({"solve", instance, "--omega", "0", "--quiet", "--output",
                                           plan, "--proof", directory_ / "first.proof"});
   ASSERT_EQ(solved.exit_code, 0) << solved.err;
-  const ProcessResult done =
-      run_grove({"view", instance, plan, "--proof", "first.proof"}, options);
+  const ProcessResult done = run_grove({"view", instance, plan, "--proof", "first.proof"}, options);
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_EQ(data_of("first.proof.html")["plans"][0]["claims"]["cost"], 33);
-  EXPECT_THAT(read("first.proof.html"),
-              HasSubstr("id=\"grove-proof\">grove-proof 1\ninstance "));
+  EXPECT_THAT(read("first.proof.html"), HasSubstr("id=\"grove-proof\">grove-proof 1\ninstance "));
   EXPECT_THAT(read("first.proof.html"), HasSubstr("\ntheorem 33\n"));
   const ProcessResult alone = run_grove(
       {"view", instance, "--proof", "first.proof", "-o", directory_ / "alone.html"}, options);
