@@ -158,6 +158,13 @@ class Reader {
     time();
     if (!take_inf()) number("a time or inf", kTimes);
   }
+  // An agent with a goal, and a time.
+  void late() {
+    const int whose = agent();
+    if (!instance_.agent(whose).goal)
+      fail_at(fmt::to_string(whose), "the number of an agent with a goal");
+    time();
+  }
   // Two agents, each with a time.
   void pair() {
     agent();
@@ -256,7 +263,8 @@ class Reader {
         ++splits_;
         return 1;
       case 2:
-        pair();
+        late();
+        late();
         lemma();
         end_line();
         ++splits_;

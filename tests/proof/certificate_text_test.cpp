@@ -21,11 +21,12 @@ namespace certificate_text_test {
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-// Two agents and a task on two by two cells.
-Instance two_agents() {
+// Two agents with goals, one without, and a task on two by two cells.
+Instance three_agents() {
   InstanceBuilder builder{Map(Grid(2, 2, std::vector<bool>(4, true)))};
   builder.add_agent("a", Position{0, 0}, Position{1, 0});
   builder.add_agent("b", Position{1, 0}, Position{0, 0});
+  builder.add_agent("c", Position{1, 1}, std::nullopt);
   builder.add_task("t", Position{1, 1}, std::vector<std::string>{"a"});
   return std::move(builder).build();
 }
@@ -57,7 +58,7 @@ class CertificateTexts : public ::testing::Test {
   }
 
   const TemporaryDirectory folder_;
-  const Instance instance_ = two_agents();
+  const Instance instance_ = three_agents();
 };
 
 // All that the grammar has.
@@ -135,8 +136,8 @@ TEST_F(CertificateTexts, HaveTheGrammarToTheLetter) {
   EXPECT_EQ(refusal_of_proof("leaf\nleaf\n"), "line 6: found 'leaf'; expected 'end'");
   EXPECT_THAT(refusal_of_proof("split 0 bar 0 1 1 | 1 bar 0 1 1\nleaf\n"),
               EndsWith("line 7: found 'end'; expected leaf or split or later or joint or prices"));
-  EXPECT_EQ(refusal_of_proof("split 2 bar 0 1 1 | 1 bar 0 1 1\n"),
-            "line 5: found '2'; expected the number of an agent, from 0 to 1");
+  EXPECT_EQ(refusal_of_proof("split 3 bar 0 1 1 | 1 bar 0 1 1\n"),
+            "line 5: found '3'; expected the number of an agent, from 0 to 2");
   EXPECT_EQ(refusal_of_proof("split 0 bar 4 1 1 | 1 bar 0 1 1\n"),
             "line 5: found '4'; expected the number of a place, from 0 to 3");
   EXPECT_EQ(refusal_of_proof("split 0 bar 0  1 1 | 1 bar 0 1 1\n"),
@@ -147,6 +148,8 @@ TEST_F(CertificateTexts, HaveTheGrammarToTheLetter) {
             "nostop");
   EXPECT_EQ(refusal_of_proof("split 0 stop 0 1 | 0 nostop 0 1\n"),
             "line 5: found '1'; expected the number of a task, from 0 to 0");
+  EXPECT_EQ(refusal_of_proof("later 0 1 2 1 0\n"),
+            "line 5: found '2'; expected the number of an agent with a goal");
   EXPECT_EQ(refusal_of_proof("prices\nplace 0 1\nend\n"),
             "line 6: the line ends; expected a price, from 0 to 1152921504606846975");
   EXPECT_EQ(refusal_of_proof("prices\nswap 0 1\nend\n"),
@@ -163,6 +166,23 @@ TEST_F(CertificateTexts, ThatAreTooLargeToBeLookedAtAreRefused) {
     EXPECT_EQ(refusal(large),
               "is too large to be looked at; expected a certificate of at most 16777216 bytes, "
               "uncompressed");
+}
+
+// A byte of it is another one: that is read as it is, or refused.
+TEST_F(CertificateTexts, WithAnyByteChangedAreReadOrRefused) {
+  const std::string text = head() + std::string(kAll);
+  std::size_t refused = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    std::string changed = text;
+    changed[at] = "0 9\n|x\xFF\0"[at % 8];
+    try {
+      EXPECT_EQ(read(changed).lines, changed);
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("c.proof: line "));
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, text.size() / 2);
 }
 
 // As deep as it is long.

@@ -284,8 +284,9 @@ void add_view_command(CLI::App& app) {
   command->add_option("PLAN", arguments->plans, "plan files, or other solvers' paths")
       ->type_name("");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "page to write, whole or not at all; by default named after plan or log")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "page to write, whole or not at all; by default named after plan, log or certificate")
       ->type_name("FILE.html");
   command->add_flag("--open", arguments->open, "show the page in the browser");
   command->add_option("--svg", arguments->svg, "vector picture to write")->type_name("FILE.svg");

@@ -100,8 +100,8 @@ test("what is left where nothing is split", () => {
   assert.deepEqual(theorem.steps.map(noteText),
     ["4 leaves", "lemma 0", "3 leaves", "own costs", "2 leaves", "own costs", "lemma 0"]);
   assert.equal(closedText(kModel, theorem, theorem.steps[1]),
-    "By the agents' own costs, and what lemma 0 adds to them: it is 12 or more.");
-  assert.equal(closedText(kModel, theorem, theorem.steps[3]), "By the agents' own costs together: it is 12 or more.");
+    "By the agents' own costs, and what lemma 0 adds to them: together 12 or more.");
+  assert.equal(closedText(kModel, theorem, theorem.steps[3]), "By the agents' own costs: together 12 or more.");
   assert.equal(lemmaText(kModel, lemmas[0]), "a and b cost together 9 or more");
   assert.equal(stepText(kModel, lemmas[0], lemmas[0].root), "All plans that meet its demands");
   assert.equal(stepText(kModel, theorem, theorem.steps[3]), "a costs more than 4");

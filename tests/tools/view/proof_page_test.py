@@ -123,7 +123,7 @@ class ProofPages(pages.PageTest):
     def test_a_lemma_opens_and_closes(self):
         instance = self.corridor()
         self.browser.open(self.proof_page(instance, self.written(instance, LEMMAS + "theorem 8\nleaf 0\n")))
-        self.assertIn("what lemma 0 adds to them: it is 8 or more", self.text(".details"))
+        self.assertIn("what lemma 0 adds to them: together 8 or more", self.text(".details"))
         self.press("lemma 0")
         self.assertIn("In plans that meet its demands a and b cost together 9 or more.", self.text(".details"))
         self.assertIn("a is not on [1, 0] from 2 on", self.text(".details"))

@@ -132,7 +132,7 @@ export function whyText(model: Model, following: boolean, step: Step): string {
 
 // Why a step that is no split has what its statement says.
 export function closedText(model: Model, { agents, bound }: Statement, step: Step): string {
-  const much = bound === Infinity ? "there is no way" : `it is ${numberText(bound)} or more`;
+  const much = bound === Infinity ? "there is no way" : `together ${numberText(bound)} or more`;
   switch (step.kind) {
     case "joint":
       return `By a search of all joint paths of ${agentsText(model, agents)} that meet the demands: ` +
@@ -144,7 +144,8 @@ export function closedText(model: Model, { agents, bound }: Statement, step: Ste
       if (step.lemmas.length > 0)
         return `By the agents' own costs, and what ${lemmasText(step.lemmas)} ` +
           `${step.lemmas.length === 1 ? "adds" : "add"} to them: ${much}.`;
-      return bound === Infinity ? "By the agents' own costs: one of them has no way."
-        : `By ${agents.length === 1 ? "the agent's own cost" : "the agents' own costs together"}: ${much}.`;
+      if (bound === Infinity) return "By the agents' own costs: one of them has no way.";
+      return agents.length === 1 ? `By the agent's own cost: ${numberText(bound)} or more.`
+        : `By the agents' own costs: ${much}.`;
   }
 }

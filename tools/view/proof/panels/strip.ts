@@ -3,12 +3,13 @@
 
 import { el } from "../../page/dom";
 import { planFacts } from "../../page/facts";
+import { nameOf } from "../../page/names";
 import type { ProofApp } from "../app";
 import { howText, numberText, planText, theoremText } from "../words";
 
 export function strip({ model, certificate }: ProofApp, file: string): HTMLElement {
   const [plan] = model.plans.filter(({ agents }) => agents.length > 0);
-  const command = `grove-verify ${model.instance} ${file}`;
+  const command = `grove-verify ${model.instance} ${nameOf(file)}`;
   return el("header", { class: "strip" },
     el("h1", {}, theoremText(certificate)),
     el("span", {}, howText(certificate)),
