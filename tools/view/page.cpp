@@ -104,4 +104,9 @@ std::string following_drive_page(std::string_view title, std::string_view data,
               Asks::kItsServer);
 }
 
+std::string proof_page(std::string_view title, std::string_view data,
+                       std::string_view certificate) {
+  return html(title, proof_page_parts(), {{"grove-data", data}, {"grove-proof", certificate}});
+}
+
 }  // namespace grove::detail

@@ -22,4 +22,8 @@ std::string drive_page(std::string_view title, std::string_view data, std::strin
 std::string following_drive_page(std::string_view title, std::string_view data,
                                  std::string_view order);
 
+// Shows a certificate. `data`: of page_data.h, with one plan at most; `certificate`: its lines, of
+// certificate_text.h.
+std::string proof_page(std::string_view title, std::string_view data, std::string_view certificate);
+
 }  // namespace grove::detail

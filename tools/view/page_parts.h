@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Style and program of the pages, as the build makes them of page/, run/ and drive/.
+// Style and program of the pages, as the build makes them of page/, run/, drive/ and proof/.
 #pragma once
 
 #include <string_view>
@@ -15,5 +15,6 @@ struct PageParts {
 PageParts plan_page_parts();
 PageParts run_page_parts();
 PageParts drive_page_parts();
+PageParts proof_page_parts();
 
 }  // namespace grove::detail

@@ -16,6 +16,7 @@
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/io/plan_import.h"
 #include "grove/detail/model/check.h"
+#include "grove/detail/proof/certificate_text.h"
 #include "tools/common/commands.h"
 #include "tools/common/companion.h"
 #include "tools/common/instance_arguments.h"
@@ -47,6 +48,10 @@ are, what each does, how far it is and for whom it waits. With --follow while th
 each came from, splits, memory, ranks, and with --log-tree the trees. With --follow it is shown while
 the run goes on, to browsers on this machine.
 
+--proof shows a certificate of a lower bound (docs/proof.md), as grove solve --proof writes it: what it
+splits plans by, why none is lost, what each part of it relies on, and where on the map that is; with
+PLAN, how near its cost is to that bound. grove-verify is what checks a certificate.
+
 --svg, --png and --gif write pictures of the first plan instead, without a browser: SVG and PNG of the
 moments --at, side by side; GIF plays all of it.
 
@@ -56,11 +61,14 @@ Examples:
   grove view my.cts.json ours.plan.json theirs.txt -o both.html
   grove solve my.cts.json --quiet --log run.jsonl --log-format jsonl --log-tree 1000
   grove view --run run.jsonl
-  grove view hall.cts.json hall.plan.json --drive drive.jsonl --follow --open)";
+  grove view hall.cts.json hall.plan.json --drive drive.jsonl --follow --open
+  grove solve hall.cts.json --omega 0 --proof hall.proof
+  grove view hall.cts.json hall.plan.json --proof hall.proof)";
 
 constexpr IntegerRange kWidths{16, 10'000};
 constexpr std::size_t kMostPlans = 2;  // on a page
 constexpr IntegerRange kPorts{0, 65'535};
+constexpr std::int64_t kMostSplits = 5000;  // of a certificate
 
 struct ViewArguments {
   InstanceArguments instance;
@@ -69,6 +77,7 @@ struct ViewArguments {
   bool open = false;
   std::string run;    // a log, in place of an instance
   std::string drive;  // a log, of the first plan
+  std::string proof;  // a certificate
   bool follow = false;
   std::int64_t port = 0;
   std::string svg;
@@ -87,8 +96,13 @@ std::string size_text(std::size_t bytes) {
                           : fmt::format("{:.1f} MB", kilobytes / 1e3);
 }
 
+std::string name_of(const std::string& file) {
+  return fs::path(file).filename().string();
+}
+
 // (The page of a plan is mostly called like the instance.)
 std::string default_output(const ViewArguments& arguments) {
+  if (!arguments.proof.empty()) return name_of(arguments.proof) + ".html";
   if (arguments.plans.empty()) return arguments.instance.stem() + ".instance.html";
   const std::string name = fs::path(arguments.plans.front()).filename().string();
   return name.substr(0, name.find('.')) + ".html";
@@ -98,10 +112,6 @@ std::string default_output(const ViewArguments& arguments) {
 std::string page_file(const ViewArguments& arguments) {
   if (!arguments.output.empty() || arguments.wants_pictures()) return arguments.output;
   return default_output(arguments);
-}
-
-std::string name_of(const std::string& file) {
-  return fs::path(file).filename().string();
 }
 
 void write(const std::string& file, const std::string& bytes) {
@@ -156,22 +166,42 @@ void show_run(const ViewArguments& arguments) {
   write_log_page(arguments, log, run_page(name_of(log), read_run_log(log)));
 }
 
-void show_drive(const ViewArguments& arguments, const Instance& instance, const NamedPlan& plan) {
+void require_valid(const Instance& instance, const NamedPlan& plan, std::string_view expected) {
   const Solution& solution = plan.claimed.solution;
   const auto wrong = check(instance, solution, 1);
-  if (!solution.plan || !wrong.empty())
-    throw InputError(plan.name, wrong.empty() ? "" : wrong.front().place,
-                     (wrong.empty() ? "holds no plan" : wrong.front().message) +
-                         "; expected the valid plan that is driven");
+  if (solution.plan && wrong.empty()) return;
+  throw InputError(plan.name, wrong.empty() ? "" : wrong.front().place,
+                   fmt::format("{}; expected {}",
+                               wrong.empty() ? "holds no plan" : wrong.front().message, expected));
+}
+
+void show_drive(const ViewArguments& arguments, const Instance& instance, const NamedPlan& plan) {
+  require_valid(instance, plan, "the valid plan that is driven");
   const std::string name = name_of(arguments.instance.name());
   const std::string data = page_data(name, instance, std::span(&plan, 1));
-  const PassingOrder order(instance, *solution.plan);
+  const PassingOrder order(instance, *plan.claimed.solution.plan);
   const std::string order_text = order_data(instance, order);
   const std::string& log = arguments.drive;
   if (arguments.follow)
     follow(arguments, log, following_drive_page(name_of(log), data, order_text));
   const DriveLog drive = read_drive_file(log, instance, order);
   write_log_page(arguments, log, drive_page(name_of(log), data, order_text, drive_data(drive)));
+}
+
+void show_proof(const ViewArguments& arguments, const Instance& instance,
+                const std::vector<NamedPlan>& plans) {
+  const CertificateText certificate = read_certificate(arguments.proof, instance, kMostSplits);
+  const bool may_follow = certificate.may_follow;
+  const Instance spoken_of = may_follow ? instance : instance.without_following();
+  for (const NamedPlan& plan : plans)
+    require_valid(
+        spoken_of, plan,
+        may_follow ? "a valid plan" : "a plan valid without following, as the certificate has it");
+  const std::string data = page_data(name_of(arguments.instance.name()), instance, plans);
+  const std::string output = page_file(arguments);
+  require_distinct_files(output, arguments.proof, "the certificate");
+  write(output, proof_page(name_of(arguments.proof), data, certificate.lines));
+  if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
 
 // It is shown all the same: the page says what is wrong, a picture shows it red.
@@ -199,6 +229,7 @@ void run(const ViewArguments& arguments) {
     plans.push_back({fs::path(file).filename().string(),
                      read_plan_of_any_tool(file, loaded.instance, &warnings)});
   if (!arguments.drive.empty()) return show_drive(arguments, loaded.instance, plans.front());
+  if (!arguments.proof.empty()) return show_proof(arguments, loaded.instance, plans);
   for (const NamedPlan& plan : plans) note_what_is_wrong(loaded.instance, plan, warnings);
   if (arguments.wants_pictures() && plans.size() > 1)
     warnings.push_back("pictures show the first plan alone");
@@ -215,6 +246,8 @@ void add_log_options(CLI::App& command, ViewArguments& arguments) {
       .add_option("--drive", arguments.drive,
                   "log of a drive of the plan, to show robots as they drive")
       ->type_name("LOG.jsonl");
+  command.add_option("--proof", arguments.proof, "certificate of a lower bound to show, as a tree")
+      ->type_name("CERTIFICATE");
   command.add_option("--run", arguments.run, "log of a run to show, in place of an instance")
       ->type_name("LOG.jsonl");
   command.add_flag("--follow", arguments.follow, "with --run or --drive: show it while it grows");
@@ -229,11 +262,14 @@ void require_fit(const CLI::App& command) {
   if (!given("INSTANCE") && !given("--run"))
     throw CLI::RequiredError("INSTANCE, or --run LOG.jsonl");
   if (given("--port") && !given("--follow")) throw CLI::RequiresError("--port", "--follow");
-  for (const char* other :
-       {"INSTANCE", "PLAN", "--drive", "--svg", "--png", "--gif", "--at", "--width", "--speed"})
+  for (const char* other : {"INSTANCE", "PLAN", "--drive", "--proof"})
     if (given("--run") && given(other)) throw CLI::ExcludesError("--run", other);
-  for (const char* other : {"--svg", "--png", "--gif", "--at", "--width", "--speed"})
-    if (given("--drive") && given(other)) throw CLI::ExcludesError("--drive", other);
+  if (given("--proof") && given("--drive")) throw CLI::ExcludesError("--proof", "--drive");
+  for (const char* page : {"--run", "--drive", "--proof"})
+    for (const char* other : {"--svg", "--png", "--gif", "--at", "--width", "--speed"})
+      if (given(page) && given(other)) throw CLI::ExcludesError(page, other);
+  if (given("--proof") && command.get_option("PLAN")->count() > 1)
+    throw CLI::ValidationError("--proof", "expected one PLAN at most with it");
   if (given("--drive") && command.get_option("PLAN")->count() != 1)
     throw CLI::RequiresError("--drive", "PLAN, the one that is driven");
 }
@@ -248,8 +284,9 @@ void add_view_command(CLI::App& app) {
   command->add_option("PLAN", arguments->plans, "plan files, or other solvers' paths")
       ->type_name("");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "page to write, whole or not at all; by default named after plan or log")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "page to write, whole or not at all; by default named after plan, log or certificate")
       ->type_name("FILE.html");
   command->add_flag("--open", arguments->open, "show the page in the browser");
   command->add_option("--svg", arguments->svg, "vector picture to write")->type_name("FILE.svg");

@@ -253,6 +253,62 @@ TEST_F(ViewCommand, RefusesWhatIsNoDriveOfThePlan) {
               HasSubstr("bad.plan.json"));
 }
 
+TEST_F(ViewCommand, ShowsACertificateWithAndWithoutAPlan) {
+  const std::string instance = data("first.cts.json");
+  const std::string plan = directory_ / "first.plan.json";
+  ProcessOptions options;
+  options.directory = directory_.path();
+  const ProcessResult solved = run_grove({"solve", instance, "--omega", "0", "--quiet", "--output",
+                                          plan, "--proof", directory_ / "first.proof"});
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  const ProcessResult done = run_grove({"view", instance, plan, "--proof", "first.proof"}, options);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(data_of("first.proof.html")["plans"][0]["claims"]["cost"], 33);
+  EXPECT_THAT(read("first.proof.html"), HasSubstr("id=\"grove-proof\">grove-proof 1\ninstance "));
+  EXPECT_THAT(read("first.proof.html"), HasSubstr("\ntheorem 33\n"));
+  const ProcessResult alone = run_grove(
+      {"view", instance, "--proof", "first.proof", "-o", directory_ / "alone.html"}, options);
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_EQ(data_of("alone.html")["plans"].size(), 0u);
+}
+
+TEST_F(ViewCommand, RefusesWhatIsNoCertificateOfTheInstance) {
+  const std::string instance = data("first.cts.json");
+  const std::string plan = plan_of("first");
+  const std::string proof = directory_ / "c.proof";
+  ASSERT_EQ(run_grove({"solve", instance, "--omega", "0", "--no-following", "--quiet", "--output",
+                       directory_ / "apart.plan.json", "--proof", proof})
+                .exit_code,
+            0);
+  const auto complaint_of = [](const std::vector<std::string>& words) {
+    return complaint(run_grove(words));
+  };
+  const std::string certificate = read("c.proof");
+  EXPECT_THAT(complaint_of({"view", data("shop.cts.json"), "--proof", proof}),
+              HasSubstr("c.proof: line 2: found '"));
+  EXPECT_THAT(complaint_of({"view", instance, "--proof", instance}),
+              HasSubstr("first.cts.json: line 1: found '{'; expected 'grove-proof'"));
+  EXPECT_THAT(complaint_of({"view", instance, "--proof", directory_ / "none.proof"}),
+              HasSubstr("none.proof: cannot be read"));
+  EXPECT_THAT(complaint_of({"view", instance, "--proof", proof, "-o", proof}),
+              HasSubstr("c.proof: is the certificate; expected another file to write to"));
+  EXPECT_EQ(read("c.proof"), certificate);
+  EXPECT_THAT(complaint_of({"view", instance, plan, plan, "--proof", proof}),
+              HasSubstr("--proof: expected one PLAN at most with it"));
+  EXPECT_THAT(complaint_of({"view", instance, "--proof", proof, "--svg", "x.svg"}),
+              HasSubstr("--proof excludes --svg"));
+  EXPECT_THAT(complaint_of({"view", "--run", "x", "--proof", proof}),
+              HasSubstr("--run excludes --proof"));
+  EXPECT_THAT(complaint_of({"view", instance, plan, "--proof", proof, "--drive", "x"}),
+              HasSubstr("--proof excludes --drive"));
+  directory_.write("bad.plan.json", R"({"status": "bounded", "cost": 0, "agents": []})");
+  EXPECT_THAT(complaint_of({"view", instance, directory_ / "bad.plan.json", "--proof", proof}),
+              HasSubstr("bad.plan.json"));
+  // The plan of a run with following, in which somebody does.
+  EXPECT_THAT(complaint_of({"view", instance, plan, "--proof", proof}),
+              HasSubstr("expected a plan valid without following, as the certificate has it"));
+}
+
 TEST_F(ViewCommand, RefusesWhatItDoesNotUnderstand) {
   const auto complaint = [](const ProcessResult& result) {
     EXPECT_EQ(result.exit_code, 2) << result.out;

@@ -31,7 +31,7 @@ export function planScene(app: App, viewed: Viewed): Scene {
   };
 }
 
-export function instanceScene({ model }: App): Scene {
+export function instanceScene({ model }: Pick<App, "model">): Scene {
   const plan = standing(model);
   return {
     frame: new Frame(model, plan, planFacts(model, plan)),

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// What the page shows now: a statement of the certificate, a step of its proof, and which steps are
+// unfolded.
+
+import type { Model } from "../page/model";
+import type { Choice } from "../page/stage";
+import { demandOf, type Certificate, type Statement, type Step } from "./certificate";
+
+const kFirstRows = 60; // about so many steps are unfolded at first
+
+export class ProofApp implements Choice {
+  readonly player = { time: 0 }; // (everybody stands at the start)
+  readonly labels = true;
+  following = false;
+  chosenTask = -1;
+  statement: Statement;
+  step: Step;
+  readonly open = new Set<Step>();
+  marked = -1; // a robot chosen on the map
+  private readonly listeners: (() => void)[] = [];
+
+  constructor(readonly model: Model, readonly certificate: Certificate) {
+    this.statement = certificate.theorem;
+    this.step = this.statement.root;
+    for (const statement of [...certificate.lemmas, certificate.theorem]) this.openFirst(statement);
+  }
+
+  // Level by level.
+  private openFirst({ root }: Statement): void {
+    const level = [root];
+    for (let i = 0; i < level.length && level.length < kFirstRows; ++i) {
+      if (level[i].children.length > 0) this.open.add(level[i]);
+      level.push(...level[i].children);
+    }
+  }
+
+  get chosen(): number {
+    return this.marked >= 0 ? this.marked : this.agents[0] ?? -1;
+  }
+
+  // Of whom the step speaks.
+  get agents(): number[] {
+    const { step, statement, certificate } = this;
+    const demand = demandOf(step);
+    const all = step.sides.length > 0 ? step.sides.map(({ agent }) => agent)
+      : step.lemmas.length > 0 ? step.lemmas.flatMap((lemma) => certificate.lemmas[lemma].agents)
+        : demand ? [demand.agent] : statement.number >= 0 ? statement.agents : [];
+    return [...new Set(all)];
+  }
+
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  changed(): void {
+    for (const listener of this.listeners) listener();
+  }
+
+  show(statement: Statement): void {
+    this.statement = statement;
+    this.select(statement.root);
+  }
+
+  // And all above it is unfolded.
+  select(step: Step): void {
+    this.step = step;
+    this.marked = this.chosenTask = -1;
+    for (let at = step.above; at; at = at.step.above) this.open.add(at.step);
+    this.changed();
+  }
+
+  // What is chosen stays in sight.
+  unfold(step: Step, isOpen: boolean): void {
+    if (isOpen) this.open.add(step);
+    else this.open.delete(step);
+    if (!isOpen && isBelow(this.step, step)) this.select(step);
+    else this.changed();
+  }
+
+  unfoldAll(isOpen: boolean): void {
+    for (const step of this.statement.steps) {
+      if (isOpen && step.children.length > 0) this.open.add(step);
+      else this.open.delete(step);
+    }
+    if (!isOpen) this.step = this.statement.root;
+    this.changed();
+  }
+
+  // In the order in which they are seen.
+  get rows(): Step[] {
+    const rows: Step[] = [];
+    const left = [this.statement.root];
+    while (left.length > 0) {
+      const step = left.pop()!;
+      rows.push(step);
+      if (this.open.has(step)) left.push(...[...step.children].reverse());
+    }
+    return rows;
+  }
+
+  choose(agent: number): void {
+    this.marked = agent;
+    this.chosenTask = -1;
+    this.changed();
+  }
+
+  chooseTask(task: number): void {
+    this.chosenTask = task;
+    this.marked = -1;
+    this.changed();
+  }
+}
+
+function isBelow(step: Step, other: Step): boolean {
+  for (let at = step.above; at; at = at.step.above) if (at.step === other) return true;
+  return false;
+}
