@@ -99,6 +99,7 @@ class Run {
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
     finish_run(a_, loaded_->instance, solution, *log_);
+    proof_->report_failure();
   }
 
   // All search or none does: rank 0 then says what there is to say.

@@ -5,6 +5,7 @@
 
 #include <CLI/Error.hpp>
 #include <algorithm>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,18 @@ void ProofOutput::close() {
 
 void ProofOutput::write(const Instance& instance, Solution& solution) {
   if (!recorder_) return;
+  try {
+    make(instance, solution);
+  } catch (const InputError&) {
+    failure_ = std::current_exception();
+  } catch (const std::bad_alloc&) {
+    failure_ = std::make_exception_ptr(InputError(
+        file_.string(), "", "there is no memory to make the certificate in; its parts stay"));
+  }
+  if (failure_) solution.stats.texts["proof"] = "none was written";
+}
+
+void ProofOutput::make(const Instance& instance, Solution& solution) const {
   const std::vector<fs::path> parts = parts_of(file_);
   const Cost claimed =
       solution.status == Status::kInfeasible ? kInfiniteCost : solution.lower_bound;
@@ -78,6 +91,10 @@ void ProofOutput::write(const Instance& instance, Solution& solution) {
   solution.stats.texts["proof"] = text_of(made, claimed);
   if (goes_on_) return;
   for (const fs::path& part : parts) fs::remove(part);
+}
+
+void ProofOutput::report_failure() const {
+  if (failure_) std::rethrow_exception(failure_);
 }
 
 }  // namespace grove::detail

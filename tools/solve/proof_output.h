@@ -2,6 +2,7 @@
 // The certificate that a run leaves (docs/proof.md).
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <memory>
 
@@ -28,13 +29,19 @@ class ProofOutput {
   // All that this rank has written down is in its file; it writes no more.
   void close();
   // Once all ranks have closed theirs: makes the certificate, and notes in the solution's
-  // statistics what it proves.
+  // statistics what it proves. What fails is told by report_failure(), for the plan is to be
+  // written first.
   void write(const Instance& instance, Solution& solution);
+  // Throws InputError.
+  void report_failure() const;
 
  private:
+  void make(const Instance& instance, Solution& solution) const;
+
   const std::filesystem::path file_;
   const bool goes_on_;  // a later run may
   std::unique_ptr<ProofRecorder> recorder_;
+  std::exception_ptr failure_;
 };
 
 }  // namespace grove::detail

@@ -69,6 +69,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   proof.write(loaded.instance, solution);
   add_run_facts(solution, app, a, start);
   finish_run(a, loaded.instance, solution, *log);
+  proof.report_failure();
   if (a.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);
 }
 
