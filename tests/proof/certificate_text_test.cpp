@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
