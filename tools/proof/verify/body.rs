@@ -186,7 +186,13 @@ impl Body {
     fn after(&self, allowed: &[u64]) -> Vec<u32> {
         let posts = self.posts();
         let mut after = vec![NEVER; posts.len() << self.stops.len()];
-        for done in (1..=self.all()).rev() {
+        let mut occurs = vec![false; 1 << self.stops.len()];
+        occurs[0] = true;
+        for done in 0..self.all() {
+            let next = if occurs[done as usize] { allowed[done.count_ones() as usize] & !done } else { 0 };
+            (0..self.stops.len()).filter(|j| next >> j & 1 == 1).for_each(|j| occurs[(done | 1 << j) as usize] = true);
+        }
+        for done in (1..=self.all()).rev().filter(|&done| occurs[done as usize]) {
             let base = done as usize * posts.len();
             for (from, &(_, pose)) in posts.iter().enumerate().filter(|(_, post)| done >> post.0 & 1 == 1) {
                 after[base + from] = if done == self.all() { self.ends[pose as usize] } else { NEVER };
@@ -205,7 +211,7 @@ impl Body {
     pub fn remaining(&mut self, allowed: &[u64], done: u64) -> Rc<Vec<u32>> {
         if done == self.all() { return self.ends.clone(); }
         if !self.known.contains_key(allowed) {
-            if self.known.len() >= 64 { self.known.clear(); }
+            if self.known.len() >= 64.min(1 + (1 << 20 >> self.stops.len())) { self.known.clear(); }
             let rows = vec![None; 1 << self.stops.len()];
             self.known.insert(allowed.to_vec(), Remaining { after: self.after(allowed), rows });
         }

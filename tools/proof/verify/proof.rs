@@ -305,7 +305,7 @@ impl Verifier {
         hold(none, "joint search finds a plan that costs less")
     }
 
-    fn walk(&mut self, agent: u32) -> (bool, Walk) {
+    fn walk(&mut self, agent: u32) -> (bool, Walk<'_>) {
         self.body(agent);
         let body = self.bodies[agent as usize].as_mut().expect("made above");
         let met = self.rules.set(body, &self.chains, &self.demands[agent as usize]);
