@@ -108,7 +108,8 @@ class Rules(unittest.TestCase):
         good = "0 pass 9 10 4 7 | 1 pass 8 7 4 7"
         self.verified(HALL, "theorem 14", f"split {good}", "leaf", "leaf")
         self.refused(3, "costs 14", HALL, "theorem 15", f"split {good}", "leaf", "leaf")
-        self.refused_splits(HALL, "0 pass 9 10 4 8 | 1 pass 8 7 4 7", "0 pass 9 10 4 7 | 1 pass 8 7 3 7", "0 pass 9 10 4 7 | 1 pass 9 10 4 7",
+        self.refused_splits(HALL, "0 pass 9 10 4 8 | 1 pass 8 7 4 7", "0 pass 9 10 4 7 | 1 pass 8 7 3 7",
+                            "0 pass 9 10 4 7 | 1 pass 8 7 4 8", "0 pass 9 10 3 7 | 1 pass 8 7 4 7", "0 pass 9 10 4 7 | 1 pass 9 10 4 7",
                             "0 pass 9 10 4 7 | 0 pass 8 7 4 7", "0 pass 9 10 4 inf | 1 pass 8 7 4 inf", "0 pass 9 10 4 inf | 1 pass 8 7 4 7",
                             "0 pass 9 10 4 7 | 1 pass 1 7 4 7")
         for wrong in ("8 10", "9 8", "7 8", "9 3", "9 9"):
@@ -206,6 +207,7 @@ class Rules(unittest.TestCase):
         self.refused(4, "prices prove 3", CROSS, "theorem 5", "prices", "place 4 2 1024", "end")
         self.verified(CROSS, "theorem 5", "prices", "place 4 1 1", "end")  # rounded up
         self.refused(3, "prices prove 4", CROSS, "theorem 5", "prices", "end")
+        self.refused(4, "prices prove 4", CROSS, "theorem 5", "prices", "place 5 2 600", "end")  # used once, on arrival
         self.verified(CROSS, "theorem 5", "prices", "finish 0 2 1 2 1024", "end")
         self.refused(3, "may both have finished", CROSS, "theorem 5", "prices", "finish 0 3 1 2 1024", "end")
         self.refused(3, "", CROSS, "theorem 5", "prices", "finish 1 2 0 2 1024", "end")
