@@ -219,10 +219,12 @@ class Rules(unittest.TestCase):
         self.refused(3, "without demands", CROSS, "theorem 5", CROSSED[0], *place, "leaf")
 
     def test_who_stays_on_the_lesser_place_uses_an_edge(self):
-        waiter = Instance(grid(".."), [Agent((0,), 0)], [(1, 0, [0])])
-        rows = [f"edge 0 1 {time} 4096" for time in range(3, 9)]
-        self.verified(waiter, "theorem 2", "prices", "end")
-        self.refused(9, "prices prove 0", waiter, "theorem 2", "prices", *rows, "end")  # who rests on 0 pays for them all
+        # To 1 and back, and somebody far away, for seven steps.
+        instance = Instance(grid("............"), [Agent((0,), 0), Agent((4,), 11)], [(1, 0, [0])])
+        self.verified(instance, "theorem 9", "prices", "end")
+        # Back on 0 at 2 it would use the row at 3; so it comes back at 4.
+        self.verified(instance, "theorem 9", "prices", "edge 0 1 3 2048", "end")
+        self.refused(4, "prices prove 8", instance, "theorem 9", "prices", "edge 0 1 3 3072", "end")
 
     def test_other_instances(self):
         text = certificate(CROSS, "theorem 4", "leaf")
