@@ -12,8 +12,8 @@ import unittest
 from collections import Counter
 
 import checkers
-from proofs import Liar, Prover, TooLong
-from worlds import INF, optimum, random_instance
+from proofs import Liar, Prover, TooLong, text
+from worlds import INF, Agent, Instance, World, least_cost, optimum, random_instance
 
 FACTOR = float(os.environ.get("GROVE_FUZZ_FACTOR", "1"))
 KINDS = ("plain", "cts", "mg", "turning", "work", "roads")
@@ -94,6 +94,29 @@ class Generated(unittest.TestCase):
         self.assertTrue(seen[1] > 80 * FACTOR and seen["none"] and seen["too long"] < 10 * FACTOR, seen)
 
 
+    def test_many_stops(self):
+        """So many that not all sets of them are looked at."""
+        for seed in range(int(4 * FACTOR)):
+            rng = random.Random(3 * 10**6 + seed)
+            world = World(rng.choice([["............."], ["......", ".@@@@.", "......"], [".......", "@.@.@.@", "@.@.@.@"]]))
+            cells = [place for place in range(world.count) if world.passable(place)]
+            turn = seed % 3 == 2
+            agent = Agent((rng.choice(cells), *("N" if turn else "")), rng.choice([None, rng.choice(cells)]), int(turn))
+            places = rng.sample(cells, 12)
+            instance = Instance(world, [agent], [(place, int(seed % 2 and place == places[0]), [0]) for place in places])
+            bars = [(0, "bar", rng.choice(cells), *[rng.randint(1, 20)] * 2) for _ in range(3)]
+            bars += [(0, "bar", place, begin, begin + rng.randint(5, 20)) for place in rng.sample(cells, 2) for begin in [rng.randint(1, 30)]]
+            bars += [(0, "norest", place, rng.randint(10, 40)) for place in cells] * rng.randint(0, 1)
+            order = rng.sample(range(12), 12)
+            for demands in (bars[:3], bars, [*bars, *((0, "stop", number, task) for number, task in enumerate(order))]):
+                cost = least_cost(instance, 0, [demand[1:] for demand in demands])[0]
+                lemma = "\n".join([f"lemma {cost} 0".replace(f"{INF}", "inf"), *("demand " + text(demand) for demand in demands), "leaf"])
+                certificate = f"grove-proof 1\ninstance {instance.checksum()}\nfollowing yes\n{lemma}\ntheorem 0\nleaf\nend\n"
+                self.assertEqual(checkers.verify(instance, certificate).text, "verified: no plan costs less than 0\n", certificate)
+                if cost < INF:
+                    certificate = certificate.replace(f"lemma {cost}", f"lemma {cost + 1}")
+                    self.assertRegex(checkers.verify(instance, certificate).text, f"costs {cost} and 0 by lemmas", certificate)
+
     def test_lies_are_seen(self):
         told = Counter()
         for number, (rng, kind, instance, following, least) in enumerate(instances(24, first=10**6)):
@@ -122,9 +145,9 @@ class Generated(unittest.TestCase):
                 continue
             if not following and not self.simple(certificate):
                 continue
-            for text in [certificate, raised(certificate), *mutants(rng, raised(certificate, -1), 3)]:
-                one, two = checkers.verify(instance, text), checkers.small_checker(instance, text)
-                self.assertEqual((one.code == 0, one.text if one.code == 0 else ""), (two.code == 0, two.text if two.code == 0 else ""), text)
+            for proof in [certificate, raised(certificate), *mutants(rng, raised(certificate, -1), 3)]:
+                one, two = checkers.verify(instance, proof), checkers.small_checker(instance, proof)
+                self.assertEqual((one.code == 0, one.text if one.code == 0 else ""), (two.code == 0, two.text if two.code == 0 else ""), proof)
                 verdicts[one.code == 0] += 1
 
         self.assertGreater(sum(verdicts.values()), 200 * FACTOR)

@@ -108,7 +108,8 @@ class Rules(unittest.TestCase):
         good = "0 pass 9 10 4 7 | 1 pass 8 7 4 7"
         self.verified(HALL, "theorem 14", f"split {good}", "leaf", "leaf")
         self.refused(3, "costs 14", HALL, "theorem 15", f"split {good}", "leaf", "leaf")
-        self.refused_splits(HALL, "0 pass 9 10 4 8 | 1 pass 8 7 4 7", "0 pass 9 10 4 7 | 1 pass 8 7 3 7", "0 pass 9 10 4 7 | 1 pass 9 10 4 7",
+        self.refused_splits(HALL, "0 pass 9 10 4 8 | 1 pass 8 7 4 7", "0 pass 9 10 4 7 | 1 pass 8 7 3 7",
+                            "0 pass 9 10 4 7 | 1 pass 8 7 4 8", "0 pass 9 10 3 7 | 1 pass 8 7 4 7", "0 pass 9 10 4 7 | 1 pass 9 10 4 7",
                             "0 pass 9 10 4 7 | 0 pass 8 7 4 7", "0 pass 9 10 4 inf | 1 pass 8 7 4 inf", "0 pass 9 10 4 inf | 1 pass 8 7 4 7",
                             "0 pass 9 10 4 7 | 1 pass 1 7 4 7")
         for wrong in ("8 10", "9 8", "7 8", "9 3", "9 9"):
@@ -206,6 +207,7 @@ class Rules(unittest.TestCase):
         self.refused(4, "prices prove 3", CROSS, "theorem 5", "prices", "place 4 2 1024", "end")
         self.verified(CROSS, "theorem 5", "prices", "place 4 1 1", "end")  # rounded up
         self.refused(3, "prices prove 4", CROSS, "theorem 5", "prices", "end")
+        self.refused(4, "prices prove 4", CROSS, "theorem 5", "prices", "place 5 2 600", "end")  # used once, on arrival
         self.verified(CROSS, "theorem 5", "prices", "finish 0 2 1 2 1024", "end")
         self.refused(3, "may both have finished", CROSS, "theorem 5", "prices", "finish 0 3 1 2 1024", "end")
         self.refused(3, "", CROSS, "theorem 5", "prices", "finish 1 2 0 2 1024", "end")
@@ -217,10 +219,12 @@ class Rules(unittest.TestCase):
         self.refused(3, "without demands", CROSS, "theorem 5", CROSSED[0], *place, "leaf")
 
     def test_who_stays_on_the_lesser_place_uses_an_edge(self):
-        waiter = Instance(grid(".."), [Agent((0,), 0)], [(1, 0, [0])])
-        rows = [f"edge 0 1 {time} 4096" for time in range(3, 9)]
-        self.verified(waiter, "theorem 2", "prices", "end")
-        self.refused(9, "prices prove 0", waiter, "theorem 2", "prices", *rows, "end")  # who rests on 0 pays for them all
+        # To 1 and back, and somebody far away, for seven steps.
+        instance = Instance(grid("............"), [Agent((0,), 0), Agent((4,), 11)], [(1, 0, [0])])
+        self.verified(instance, "theorem 9", "prices", "end")
+        # Back on 0 at 2 it would use the row at 3; so it comes back at 4.
+        self.verified(instance, "theorem 9", "prices", "edge 0 1 3 2048", "end")
+        self.refused(4, "prices prove 8", instance, "theorem 9", "prices", "edge 0 1 3 3072", "end")
 
     def test_other_instances(self):
         text = certificate(CROSS, "theorem 4", "leaf")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! One agent as searches see it: its poses, its stops, and what remains at least, were there no demands but on the order of stops.
 use crate::instance::{Agent, Instance, Place, World};
+use crate::orders::{After, Orders};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -107,10 +108,11 @@ pub struct Stop {
     pub duration: u32,
 }
 
-/// What remains, for one choice of which stops may have which number.
-pub struct Remaining {
-    after: Vec<u32>,
-    rows: Vec<Option<Rc<Vec<u32>>>>,
+/// What remains, for one choice of which stops may have which number, in paths up to a limit.
+struct Remaining {
+    after: After,
+    limit: u32,
+    rows: HashMap<u64, Rc<Vec<u32>>>,
 }
 
 pub struct Body {
@@ -125,8 +127,10 @@ pub struct Body {
     pub rests_on_last: bool,
     pub plain_goal: Option<Place>,
     ends: Rc<Vec<u32>>,
+    first: Vec<u32>,
     legs: Vec<u32>,
     known: HashMap<Vec<u64>, Remaining>,
+    slack: u32,
 }
 
 impl Body {
@@ -137,7 +141,7 @@ impl Body {
         for &task in &agent.tasks {
             let (place, duration) = (instance.tasks[task as usize].place, instance.tasks[task as usize].duration);
             if duration > 0 || (!timed(place) && stops_at[place as usize] == 0) {
-                assert!(stops.len() < 28, "more tasks of one agent than this program takes");
+                assert!(stops.len() < 63, "more tasks of one agent than this program takes");
                 stops_at[place as usize] |= 1 << stops.len();
                 stops.push(Stop { task, place, duration });
             }
@@ -157,14 +161,17 @@ impl Body {
             rests_on_last: agent.goal.is_none() && stops.iter().all(|stop| stop.duration == 0),
             plain_goal: agent.goal.filter(plain),
             ends: Rc::new(poses.spread(ends)),
+            first: Vec::new(),
             legs: Vec::new(),
             known: HashMap::new(),
+            slack: 6,
             poses,
             stops,
             stops_at,
         };
         let posts = body.posts();
         let to: Vec<Vec<u32>> = posts.iter().map(|&(_, pose)| body.poses.spread(vec![(0, pose)])).collect();
+        body.first = to.iter().map(|row| row[body.start as usize]).collect();
         body.legs = posts.iter().flat_map(|&(_, from)| to.iter().map(move |row| row[from as usize])).collect();
         body
     }
@@ -182,41 +189,54 @@ impl Body {
         (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)
     }
 
-    /// For each set of stops done, and each post of the last of them.
-    fn after(&self, allowed: &[u64]) -> Vec<u32> {
-        let posts = self.posts();
-        let mut after = vec![NEVER; posts.len() << self.stops.len()];
-        for done in (1..=self.all()).rev() {
-            let base = done as usize * posts.len();
-            for (from, &(_, pose)) in posts.iter().enumerate().filter(|(_, post)| done >> post.0 & 1 == 1) {
-                after[base + from] = if done == self.all() { self.ends[pose as usize] } else { NEVER };
-                let open = allowed.get(done.count_ones() as usize).copied().unwrap_or(0) & !done;
-                for (to, &(next, _)) in posts.iter().enumerate().filter(|(_, post)| open >> post.0 & 1 == 1) {
-                    let rest = after[(done | 1 << next) as usize * posts.len() + to];
-                    let cost = self.legs[from * posts.len() + to] + self.stops[next].duration + rest;
-                    after[base + from] = after[base + from].min(cost);
-                }
-            }
+    /// What is known of one choice of orders.
+    fn known(&mut self, allowed: &[u64]) -> &mut Remaining {
+        if !self.known.contains_key(allowed) {
+            if self.known.values().map(|known| 10_000 + known.after.len() + 50 * known.rows.len()).sum::<usize>() > 4_000_000 { self.known.clear(); }
+            let posts = self.posts();
+            let last = posts.iter().map(|&(_, pose)| self.ends[pose as usize]).collect();
+            let durations = self.stops.iter().map(|stop| stop.duration).collect();
+            let working = self.working.map(|(stop, end)| (stop as usize, self.post(stop as usize, self.start), end));
+            let orders = Orders { posts: &posts, first: &self.first, legs: &self.legs, last, durations, working, allowed, slack: self.slack };
+            let (after, limit) = orders.after();
+            self.known.insert(allowed.to_vec(), Remaining { after, limit, rows: HashMap::new() });
         }
-        after
+        self.known.get_mut(allowed).expect("just made")
+    }
+
+    fn post(&self, stop: usize, pose: u32) -> u32 { stop as u32 * self.poses.each + pose % self.poses.each }
+
+    /// Paths that cost more may not be found.
+    pub fn limit(&mut self, allowed: &[u64]) -> u32 { if self.stops.is_empty() { NEVER } else { self.known(allowed).limit } }
+
+    /// Raises the limit to a cost, if that is not too much.
+    pub fn reach(&mut self, allowed: &[u64], cost: u32) -> bool {
+        while self.limit(allowed) < cost && self.slack < 100 {
+            self.slack *= 2;
+            self.known.clear();
+        }
+        self.limit(allowed) >= cost
+    }
+
+    /// Whether a path within the limit may have done these stops, with one of `last` in this pose.
+    pub fn may_be(&mut self, allowed: &[u64], done: u64, last: u64, pose: u32) -> bool {
+        let post = self.post(last.trailing_zeros() as usize, pose);
+        last == 0 || self.known(allowed).after.contains_key(&(done, post))
     }
 
     /// What remains at least, of each pose, when these stops are done.
     pub fn remaining(&mut self, allowed: &[u64], done: u64) -> Rc<Vec<u32>> {
         if done == self.all() { return self.ends.clone(); }
-        if !self.known.contains_key(allowed) {
-            if self.known.len() >= 64 { self.known.clear(); }
-            let rows = vec![None; 1 << self.stops.len()];
-            self.known.insert(allowed.to_vec(), Remaining { after: self.after(allowed), rows });
-        }
-        let remaining = &self.known[allowed];
-        if let Some(row) = &remaining.rows[done as usize] { return row.clone(); }
-        let (posts, open) = (self.posts(), allowed[done.count_ones() as usize] & !done);
-        let at = |post: usize, stop: usize| (done | 1 << stop) as usize * posts.len() + post;
-        let sources = posts.iter().enumerate().filter(|(_, &(stop, _))| open >> stop & 1 == 1);
-        let sources = sources.map(|(post, &(stop, pose))| (remaining.after[at(post, stop)] + self.stops[stop].duration, pose));
-        let row = Rc::new(self.poses.spread(sources.collect()));
-        self.known.get_mut(allowed).expect("known").rows[done as usize] = Some(row.clone());
-        row
+        let (posts, poses) = (self.posts(), self.poses.clone());
+        let durations: Vec<u32> = self.stops.iter().map(|stop| stop.duration).collect();
+        let Remaining { after, rows, .. } = self.known(allowed);
+        let row = rows.entry(done).or_insert_with(|| {
+            let open = posts.iter().enumerate().filter(|(_, &(stop, _))| done >> stop & 1 == 0);
+            let rest = |(post, &(stop, pose)): (usize, &(usize, u32))| {
+                after.get(&(done | 1 << stop, post as u32)).map(|rest| (rest + durations[stop], pose))
+            };
+            Rc::new(poses.spread(open.filter_map(rest).collect()))
+        });
+        row.clone()
     }
 }

@@ -110,6 +110,7 @@ pub struct Layers(Vec<Vec<Point>>);
 
 impl Layers {
     pub fn of(walk: &mut Walk, cap: u32, settled: u32) -> Layers {
+        assert!(walk.body.reach(&walk.rules.allowed, cap), "orders of many tasks, too far from the best one");
         let (mut layers, mut time) = (Vec::new(), 0);
         let keep = |walk: &mut Walk, state: &State, time: u32| {
             let remains = walk.remains(state);

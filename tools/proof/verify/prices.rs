@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 //! Prices (docs/proof.md, 4): what a path costs with the rows that it uses.
+use crate::body::NEVER;
 use crate::instance::Place;
 use crate::joint::{State, Walk};
 use std::cmp::Reverse;
@@ -67,6 +68,8 @@ impl Prices {
 
     /// The price of an agent; None: there is no path.
     pub fn of(&self, agent: u32, walk: &mut Walk) -> Option<u64> {
+        let limit = walk.body.limit(&walk.rules.allowed);
+        let beyond = UNIT * (u64::from(limit) + 1);
         let mut waiting = BinaryHeap::new();
         let mut known: HashMap<(State, u32), u64> = HashMap::new();
         let place = walk.body.poses.place(walk.body.start);
@@ -74,7 +77,7 @@ impl Prices {
         let mut push = |walk: &mut Walk, waiting: &mut BinaryHeap<_>, state: State, time: u32, used: u64| {
             let best = known.entry((state, time)).or_insert(u64::MAX);
             let remains = walk.remains(&state);
-            if used < *best && remains < crate::body::NEVER {
+            if used < *best && remains < NEVER {
                 *best = used;
                 waiting.push(Reverse((UNIT * u64::from(time + remains) + used, u32::MAX - time, used, Some(state))));
             }
@@ -83,7 +86,7 @@ impl Prices {
         while let Some(Reverse((total, late, used, state))) = waiting.pop() {
             let (time, state) = match state {
                 Some(state) => (u32::MAX - late, state),
-                None => return Some(total),
+                None => return Some(total.min(beyond)),
             };
             let place = walk.body.poses.place(state.pose);
             if walk.may_end(&state, time) {
@@ -94,6 +97,6 @@ impl Prices {
                 push(walk, &mut waiting, step, time + 1, used);
             }
         }
-        None
+        Some(beyond).filter(|_| limit < NEVER)
     }
 }

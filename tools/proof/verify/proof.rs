@@ -258,15 +258,27 @@ impl Verifier {
         let number = agent as usize;
         let (demands, known) = (&self.demands[number], &mut self.known[number]);
         if let Some(last) = known.last() {
-            let holds = !exact || last.cost == NEVER || demands[last.demands..].iter().all(|demand| surely_meets(&last.path, demand));
+            let holds = !exact || last.path.is_empty() || demands[last.demands..].iter().all(|demand| surely_meets(&last.path, demand));
             if holds { return last.cost; }
         }
         let body = self.bodies[number].as_mut().expect("made above");
         let met = self.rules.set(body, &self.chains, demands);
         let found = if met { self.search.least(body, &self.chains, &self.rules) } else { None };
-        let (cost, path) = found.unwrap_or((NEVER, Vec::new()));
+        let limit = if met { body.limit(&self.rules.allowed) } else { NEVER };
+        // Beyond the limit of orders it is not known how much, but that it is more.
+        let beyond = if limit < NEVER { limit + 1 } else { NEVER };
+        let (cost, path) = found.filter(|found| found.0 <= limit).unwrap_or((beyond, Vec::new()));
         known.push(Known { demands: demands.len(), cost, path });
         cost
+    }
+
+    /// If it is not known what an agent costs, but that it is more than a limit: raises that.
+    fn look_further(&mut self, agent: u32) -> bool {
+        let last = self.known[agent as usize].last().map_or(NEVER, |last| if last.path.is_empty() { last.cost } else { NEVER });
+        if last == NEVER { return false; }
+        self.known[agent as usize].retain(|known| !known.path.is_empty());
+        let walk = self.walk(agent).1;
+        walk.body.reach(&walk.rules.allowed, last)
     }
 
     fn leaf(&mut self, names: &str, of: &Lemma) -> Result<(), Fault> {
@@ -291,6 +303,7 @@ impl Verifier {
         };
         let more = crate::cover::least(named.into_iter().map(more_than_costs).collect());
         let proven = costs.contains(&NEVER) || sum + more >= of.bound;
+        if !proven && of.agents.iter().filter(|&&agent| self.look_further(agent)).count() > 0 { return self.leaf(names, of); }
         hold(proven, format!("costs {} and {} by lemmas, expected {}", sum, more, text(of.bound)))
     }
 
@@ -305,7 +318,7 @@ impl Verifier {
         hold(none, "joint search finds a plan that costs less")
     }
 
-    fn walk(&mut self, agent: u32) -> (bool, Walk) {
+    fn walk(&mut self, agent: u32) -> (bool, Walk<'_>) {
         self.body(agent);
         let body = self.bodies[agent as usize].as_mut().expect("made above");
         let met = self.rules.set(body, &self.chains, &self.demands[agent as usize]);

@@ -88,6 +88,7 @@ impl Search {
                 if rules.allowed[0] >> stop & 1 == 0 || rules.interval(interval).1 < end { return; }
                 (done, time) = (done | 1 << stop, end);
             }
+            if body.working.is_none() && !body.may_be(&rules.allowed, done, done, body.start) { return; }
             let row = self.rows.number(body, rules, done);
             let way = rules.arrived(place, 0);
             self.add(Label { pose: body.start, row, interval, time, before: u32::MAX, way });
@@ -101,7 +102,7 @@ impl Search {
         if open != 0 { open &= rules.allowed[done.count_ones() as usize]; }
         for stop in (0..body.stops.len()).filter(|stop| open >> stop & 1 == 1) {
             let time = label.time + body.stops[stop].duration;
-            if time <= hi {
+            if time <= hi && body.may_be(&rules.allowed, done | 1 << stop, 1 << stop, label.pose) {
                 let row = self.rows.number(body, rules, done | 1 << stop);
                 self.add(Label { row, time, before, ..label });
             }
@@ -120,6 +121,7 @@ impl Search {
             }
             let (way, exit) = rules.passing(chains, label.way, from, to);
             let now = now_done(body, rules, to, done);
+            if now != done && !body.may_be(&rules.allowed, now, now & !done, pose) { continue; }
             let row = if now == done { label.row } else { self.rows.number(body, rules, now) };
             for interval in rules.ending(to, label.time + 1)..rules.intervals(to).end {
                 let (first, last) = rules.interval(interval);
