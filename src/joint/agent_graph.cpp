@@ -14,7 +14,7 @@
 namespace grove::detail {
 namespace {
 
-using StopSet = std::uint64_t;
+using Visited = std::uint64_t;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ class AgentGraphMaker {
 
   std::optional<AgentGraph> make(std::size_t most_nodes) {
     const std::vector<TaskIndex>& stops = instance_.agent(agent_).stops;
-    const StopSet all = stops.empty() ? 0 : ~StopSet{0} >> (64 - stops.size());
+    const Visited all = stops.empty() ? 0 : ~Visited{0} >> (64 - stops.size());
     const State start = instance_.agent(agent_).start;
     number({start, without_visited(start, all), false});
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
@@ -39,7 +39,7 @@ class AgentGraphMaker {
  private:
   struct Node {
     State state;
-    StopSet left;
+    Visited left;
     bool rests;
     auto operator<=>(const Node&) const = default;
   };
@@ -50,18 +50,18 @@ class AgentGraphMaker {
     return at->second;
   }
 
-  StopSet without_visited(State state, StopSet left) const {
-    for (StopSet stops = left; stops != 0; stops &= stops - 1) {
+  Visited without_visited(State state, Visited left) const {
+    for (Visited stops = left; stops != 0; stops &= stops - 1) {
       const int stop = std::countr_zero(stops);
       if (instance_.is_visited(instance_.agent(agent_).stops[static_cast<std::size_t>(stop)],
                                state))
-        left &= ~(StopSet{1} << stop);
+        left &= ~(Visited{1} << stop);
     }
     return left;
   }
 
   // At work it is on a stop that is left, or has just done it.
-  bool serves(State state, StopSet left) const {
+  bool serves(State state, Visited left) const {
     if (!world_.is_working(state)) return true;
     const std::vector<TaskIndex>& stops = instance_.agent(agent_).stops;
     const auto at = std::ranges::find(stops, world_.work(state).task);

@@ -119,15 +119,15 @@ void TimedGraphs::find_finishes() {
 
 // Without the nodes that lead nowhere. The start, if it stays, stays 0. Those at rest come last.
 void TimedGraphs::write(AgentGraph& graph) const {
-  using Node = AgentGraph::Node;
+  using NodeId = AgentGraph::Node;
   if (nodes_.empty() || nodes_.front().finish == kNever) return;
-  std::vector<Node> number(nodes_.size());
-  Node count = 0;
+  std::vector<NodeId> number(nodes_.size());
+  NodeId count = 0;
   for (std::size_t node = 0; node < nodes_.size(); ++node)
     if (nodes_[node].finish < kNever) number[node] = count++;
-  std::vector<std::pair<State, Node>> rests;
+  std::vector<std::pair<State, NodeId>> rests;
   const auto rest_in = [&](State state) {
-    const auto known = std::ranges::find(rests, state, &std::pair<State, Node>::first);
+    const auto known = std::ranges::find(rests, state, &std::pair<State, NodeId>::first);
     if (known != rests.end()) return known->second;
     return rests.emplace_back(state, count++).second;
   };

@@ -25,7 +25,7 @@ VALUES = {
     "--omega": "0.5", "--time-limit": "20", "--memory-limit": "1", "--threads": "1",
     "--method": "auto", "--policy": "fixed", "--rtsp": "dp", "--seed": "3", "--checkpoint": "other",
     "--checkpoint-interval": "60", "--resume": "never", "--start": "start.json",
-    "--incumbents": "best", "--output": "other.json", "--require-plan": None, "--log": "run.log",
+    "--incumbents": "best", "--proof": "bound.proof", "--output": "other.json", "--require-plan": None, "--log": "run.log",
     "--log-format": "jsonl", "--verbose": None, "--quiet": None,
 }
 TECHNIQUES = {"--without": "bypass", "--with": "sequence-splits"}  # of the policy free
