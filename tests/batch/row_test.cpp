@@ -134,8 +134,9 @@ TEST(Rows, TellClaims) {
   }
 }
 
-constexpr std::array<std::string_view, 7> kLater{
-    "counts", "solver", "claimed_cost", "claimed_lower_bound", "claimed_s", "anytime", "trace"};
+constexpr std::array<std::string_view, 10> kLater{
+    "counts", "solver",    "claimed_cost", "claimed_lower_bound", "claimed_s", "anytime",
+    "trace",  "certified", "verify_s",     "proof_bytes"};
 
 // Tables from before there were these are gone on with.
 TEST(Rows, NeedNoLaterColumns) {
