@@ -18,7 +18,11 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kPatienceWithoutPlan = 10;  // times as much work of others
-constexpr double kMostHere = 4;                    // of its own work to other work of rank 0
+// Rows are written down by the numbers of their kinds.
+static_assert(static_cast<int>(ProofRow::Kind::kEdge) == static_cast<int>(RelaxedRow::Kind::kEdge));
+static_assert(static_cast<int>(ProofRow::Kind::kFinish) ==
+              static_cast<int>(RelaxedRow::Kind::kFinish));
+constexpr double kMostHere = 4;  // of its own work to other work of rank 0
 
 }  // namespace
 

@@ -21,42 +21,51 @@ Instance crossing(int count) {
   return testing::instance_of(std::vector<std::string>(12, std::string(12, '.')), agents);
 }
 
+// All of them, with a path each.
+struct Planned {
+  explicit Planned(int count) : instance(crossing(count)) {
+    PrioritizedPlanning planning(instance.world(), router, paths, random, tuning);
+    std::vector<AgentIndex> order;
+    for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+      EXPECT_TRUE(router.meet(agent, Limits()));
+      order.push_back(agent);
+    }
+    planning.begin(order);
+    while (planning.step(Limits()) == PrioritizedPlanning::Outcome::kWorking) {
+    }
+  }
+  Neighborhoods neighborhoods() { return {problem, router, paths, random, tuning}; }
+
+  const Instance instance;
+  const Problem problem{instance, Limits()};
+  AgentStopsStore stops{instance, problem.distances};
+  Router router{problem, stops};
+  PathSet paths{instance};
+  Random random{1};
+  const Tuning tuning;
+};
+
 class NeighborhoodsTest : public ::testing::TestWithParam<int> {};
 
 TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
-  const Instance instance = crossing(GetParam());
-  const Problem problem(instance, Limits());
-  AgentStopsStore stops(instance, problem.distances);
-  Router router(problem, stops);
-  PathSet paths(instance);
-  Random random(1);
-  const Tuning tuning;
-  PrioritizedPlanning planning(problem.instance.world(), router, paths, random, tuning);
-  std::vector<AgentIndex> order;
-  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    ASSERT_TRUE(router.meet(agent, Limits()));
-    order.push_back(agent);
-  }
-  planning.begin(order);
-  while (planning.step(Limits()) == PrioritizedPlanning::Outcome::kWorking) {
-  }
-
-  Neighborhoods neighborhoods(problem, router, paths, random, tuning);
+  Planned planned(GetParam());
+  Neighborhoods neighborhoods = planned.neighborhoods();
+  const auto agents = static_cast<std::size_t>(GetParam());
   std::set<std::size_t> sizes;
   std::set<AgentIndex> seen;
   for (int round = 0; round < 500; ++round) {
     const std::vector<AgentIndex> chosen = neighborhoods.choose();
     const std::set<AgentIndex> distinct(chosen.begin(), chosen.end());
     EXPECT_EQ(distinct.size(), chosen.size());
-    EXPECT_GE(chosen.size(), std::min<std::size_t>(2, order.size()));
+    EXPECT_GE(chosen.size(), std::min<std::size_t>(2, agents));
     EXPECT_LE(chosen.size(), 8u);
     sizes.insert(chosen.size());
     seen.insert(chosen.begin(), chosen.end());
     neighborhoods.reward(round % 3);
   }
-  EXPECT_EQ(seen.size(), order.size());
-  EXPECT_EQ(*sizes.rbegin(), std::min<std::size_t>(8, order.size()));
-  EXPECT_EQ(sizes.contains(6), order.size() >= 6);
+  EXPECT_EQ(seen.size(), agents);
+  EXPECT_EQ(*sizes.rbegin(), std::min<std::size_t>(8, agents));
+  EXPECT_EQ(sizes.contains(6), agents >= 6);
 
   for (int round = 0; round < 500; ++round) {
     neighborhoods.choose();
@@ -67,29 +76,14 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
     largest = std::max(largest, neighborhoods.choose().size());
     neighborhoods.reward(0);
   }
-  EXPECT_EQ(largest, order.size());
+  EXPECT_EQ(largest, agents);
 }
 
 // Nothing is charged for; but one agent pays more than its price.
 TEST(Neighborhoods, PlanThoseAnewWhoOverpay) {
-  const Instance instance = crossing(12);
-  const Problem problem(instance, Limits());
-  AgentStopsStore stops(instance, problem.distances);
-  Router router(problem, stops);
-  PathSet paths(instance);
-  Random random(1);
-  const Tuning tuning;
-  PrioritizedPlanning planning(problem.instance.world(), router, paths, random, tuning);
-  std::vector<AgentIndex> order;
-  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    ASSERT_TRUE(router.meet(agent, Limits()));
-    order.push_back(agent);
-  }
-  planning.begin(order);
-  while (planning.step(Limits()) == PrioritizedPlanning::Outcome::kWorking) {
-  }
-
-  Neighborhoods neighborhoods(problem, router, paths, random, tuning);
+  Planned planned(12);
+  Neighborhoods neighborhoods = planned.neighborhoods();
+  const Instance& instance = planned.instance;
   constexpr AgentIndex kOverpays = 5;
   const auto times_chosen = [&] {
     int times = 0;
@@ -102,11 +96,11 @@ TEST(Neighborhoods, PlanThoseAnewWhoOverpay) {
   const int before = times_chosen();
   PriceList list{Tariff(instance.world(), instance.agent_count()), {}, {}};
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    list.prices.push_back(list.tariff.price(agent, paths.path(agent)));
-    list.paths.push_back(router.own_path(agent));
+    list.prices.push_back(list.tariff.price(agent, planned.paths.path(agent)));
+    list.paths.push_back(planned.router.own_path(agent));
   }
   list.prices[kOverpays] -= 10 * Penalties::kUnit;
-  router.use(std::make_shared<const PriceList>(std::move(list)));
+  planned.router.use(std::make_shared<const PriceList>(std::move(list)));
   EXPECT_GT(times_chosen(), before + 80);
 }
 

@@ -7,7 +7,7 @@
 Copies the sources to FOLDER, plants the bugs of mutants.txt there, builds that once, and runs grove-proofs for each
 of them, chosen by the environment variable GROVE_MUTANT as it starts: N tiny instances of all kinds, searched, with
 a certificate each that grove-verify checks. A table says of each bug how often what was claimed was false (the oracle
-knows), how often the certificate was refused or fell short of the claim, and how often a false claim was verified: never.
+knows), how often the certificate was refused or fell short of the claim, and how often a false claim was verified, which must be never: else it ends with 1.
 """
 import argparse
 import concurrent.futures

@@ -18,10 +18,11 @@ namespace grove::detail {
 // follow make one certificate in the end.
 class ProofOutput {
  public:
-  // Nothing is done if none is asked for. Removes what earlier runs left, unless this one goes on
-  // from a checkpoint; of several ranks one does, before the others make theirs. Throws InputError,
-  // and CLI::ValidationError for runs that cannot write one.
+  // Nothing is done if none is asked for. Throws InputError, and CLI::ValidationError for runs that
+  // cannot write one.
   explicit ProofOutput(const SolveArguments& arguments, int rank = 0);
+  // What earlier runs left goes, unless this one is to go on from a checkpoint; of several ranks
+  // one does it, before any makes its own. Throws InputError where no certificate can be written.
   static void remove_old(const SolveArguments& arguments);
 
   // For SolveOptions; null if none is asked for.
