@@ -19,7 +19,8 @@
 // neighbourhood search takes its plan and its half of the work. Prioritised planning keeps the
 // other: where it has a plan in the end, that is mostly the cheaper one by far (room-64-64-8, 100
 // agents, 300 tasks: 28,118 after a work of 330,000; the configuration search 30,979 after 40,000,
-// which large neighbourhood search had brought down to 30,964 by then), and taken if so. In
+// which large neighbourhood search had brought down to 30,964 by then), and taken if so. A plan of
+// another search, which comes meanwhile, ends that as little as one of its own. In
 // later rounds it shares with the large neighbourhood search of the round before in the same way,
 // so no round waits for a plan that never comes.
 //
@@ -251,10 +252,8 @@ void PrimalSearch::Impl::meet(const Limits& limits) {
   if (!met) return;
   own_costs_ += router_.own_cost(met_++);
   if (met_ < agents_) return;
-  if (adopted_)
-    put_all(*std::exchange(adopted_, std::nullopt), PlanSource::kStart);
-  else
-    begin_round(true);
+  begin_round(true);
+  if (adopted_) put_all(*std::exchange(adopted_, std::nullopt), PlanSource::kStart);
 }
 
 void PrimalSearch::Impl::begin_round(bool first) {
@@ -390,9 +389,11 @@ void PrimalSearch::Impl::adopt(const Plan& plan) {
     adopted_ = plan;
     return;
   }
-  planning_now_ = false;
   configurations_.reset();
-  round_began_ = work();
+  if (!first_round_) {
+    planning_now_ = false;
+    round_began_ = work();
+  }
   put_all(plan, PlanSource::kStart);
 }
 

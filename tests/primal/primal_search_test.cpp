@@ -354,7 +354,35 @@ TEST(PrimalSearch, ShortMemoryEndsTheConfigurationsAlone) {
   EXPECT_FALSE(search.primal.expects_plan());
 }
 
-TEST(PrimalSearch, APlanThatComesDuringTheRaceEndsIt) {
+// Those of configurations are dear: prioritised planning goes on, and its plan is taken.
+TEST(PrimalSearch, APlanOfAnotherSearchDoesNotEndPrioritisedPlanning) {
+  int by_priorities = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Instance instance = testing::random_crowd({.size = 16, .agents = 50}, seed);
+    const Plan dear = [&] {
+      Tuning tuning;
+      tuning.planning_head_start = 1;
+      Search donor(instance, seed, Techniques::usual(), tuning);
+      std::vector<Plan> plans;
+      while (plans.empty()) plans = donor.plans(1);
+      EXPECT_NE(donor.primal.source(), PlanSource::kNeighborhood);
+      return plans[0];
+    }();
+    for (int steps : {0, 1, 2}) {
+      Search search(instance, seed + 1);
+      search.plans(steps);
+      search.primal.adopt(dear);
+      for (int step = 0; step < 40; ++step)
+        if (!search.plans(1).empty() && search.primal.source() == PlanSource::kPriorities) {
+          ++by_priorities;
+          break;
+        }
+    }
+  }
+  EXPECT_GT(by_priorities, 15);
+}
+
+TEST(PrimalSearch, APlanThatComesDuringTheRaceIsGoneOnWith) {
   const Instance instance = crowd(3);
   Search donor(instance, 8);
   std::vector<Plan> plans;
