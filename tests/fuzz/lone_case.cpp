@@ -29,8 +29,8 @@ std::vector<std::string> open_board(Random& random) {
 std::vector<std::string> corridor_board(Random& random) {
   const auto length = static_cast<std::size_t>(random.between(1, 5));
   const auto room = static_cast<std::size_t>(random.between(1, 2));
-  std::vector<std::string> rows(3, std::string(room, '.') + std::string(length, '@') +
-                                       std::string(room, '.'));
+  std::vector<std::string> rows(
+      3, std::string(room, '.') + std::string(length, '@') + std::string(room, '.'));
   rows[1].assign(rows[1].size(), '.');
   if (random.percent(30)) rows[2].assign(rows[2].size(), '.');
   return rows;

@@ -25,9 +25,12 @@ struct NamedPart {
   std::string_view name;
 };
 inline constexpr std::array kParts = {
-    NamedPart{Part::kAny, "any"},       NamedPart{Part::kTree, "tree"},
-    NamedPart{Part::kPairs, "pairs"},   NamedPart{Part::kGroups, "groups"},
-    NamedPart{Part::kJoint, "joint"},   NamedPart{Part::kPrices, "prices"},
+    NamedPart{Part::kAny, "any"},
+    NamedPart{Part::kTree, "tree"},
+    NamedPart{Part::kPairs, "pairs"},
+    NamedPart{Part::kGroups, "groups"},
+    NamedPart{Part::kJoint, "joint"},
+    NamedPart{Part::kPrices, "prices"},
     NamedPart{Part::kSequences, "sequences"},
 };
 

@@ -179,8 +179,8 @@ def main():
     folder = arguments.folder.resolve()
     copy_sources(folder, mutants)
     build(folder)
-    every = sorted({part for m in mutants for part in m[5]})
-    chosen = [(0, "", "", "", "", every)] + [m for m in mutants if not arguments.only or m[0] in arguments.only]
+    chosen = [m for m in mutants if not arguments.only or m[0] in arguments.only]
+    chosen.insert(0, (0, "", "", "", "", sorted({part for m in chosen for part in m[5]})))
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         runs = [pool.submit(trial, folder, m[0], m[5], arguments.count, arguments.seconds) for m in chosen]
         usual = runs[0].result()
