@@ -135,8 +135,8 @@ TEST(PrimalShare, WhileThePlanIsFarFromWhatIsProvenAShortTreeLeavesItTheMost) {
 TEST(PrimalShare, WhileThePlanIsFarWorkInVainLeavesItAsMuchAsTheTree) {
   Setting s(crowd());
   while (!s.primal.best_cost()) s.primal.step(s.limits);
-  const std::int64_t found = s.primal.work_at_last_plan();
-  while (s.primal.work() < 20 * found && !s.primal.optimal()) s.primal.step(s.limits);
+  while (s.primal.work() < 4 * s.primal.work_at_last_plan() && !s.primal.optimal())
+    s.primal.step(s.limits);
   ASSERT_FALSE(s.primal.optimal());
   PrimalShare share = settled(s.primal, 12);
   PrimalShare far = share;
@@ -144,7 +144,6 @@ TEST(PrimalShare, WhileThePlanIsFarWorkInVainLeavesItAsMuchAsTheTree) {
   far.tree_worked(1'000'000, {.plan_is_far = true});
   for (PrimalShare* each : {&share, &far}) each->primal_worked(s.primal, 999'999);
   EXPECT_TRUE(far.due(s.primal));
-  ASSERT_LT(3 * s.primal.work_at_last_plan(), s.primal.work()) << "it worked in vain";
   EXPECT_FALSE(share.due(s.primal));
 }
 
