@@ -11,6 +11,7 @@ mod proof;
 mod reader;
 mod rules;
 mod search;
+mod walk;
 mod words;
 
 use std::alloc::{GlobalAlloc, Layout, System};
