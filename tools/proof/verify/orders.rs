@@ -6,6 +6,9 @@ use crate::words::Map;
 /// How much more than the best order, at first.
 const SLACK: u32 = 2;
 
+/// With more of them known it begins anew.
+const MOST_TREES: usize = 4_000_000;
+
 /// Stops may be done in several poses each: these are posts, (stop, pose).
 pub struct Orders<'a> {
     pub posts: &'a [(usize, u32)],
@@ -27,6 +30,7 @@ impl Orders<'_> {
     pub fn after(&self, bound: &mut Option<Bound>, wanted: u32) -> (After, u32, u32) {
         if wanted == NEVER { return (self.within(NEVER, None).0, NEVER, 0); }
         let bound = bound.get_or_insert_with(|| Bound::of(self));
+        if bound.trees.len() > MOST_TREES { bound.trees = Map::default(); }
         let mut limit = wanted.max(bound.root + SLACK);
         loop {
             let (after, least, dropped) = self.within(limit, Some(bound));
@@ -100,6 +104,9 @@ pub struct Bound {
 /// There is no way; sums of what there is stay below.
 const NO_WAY: i64 = 1 << 50;
 
+/// Whole steps, of 64ths.
+fn whole(value: i64) -> u32 { ((value.max(0) + 63) / 64).min(i64::from(NEVER) - 1) as u32 }
+
 /// The stops of a set.
 fn stops(mut set: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -137,7 +144,7 @@ impl Bound {
         }
         bound.prices = best.1;
         bound.set_costs(&plain);
-        bound.root = if best.0 < NO_WAY / 2 { (best.0 + 63) as u32 / 64 + orders.durations.iter().sum::<u32>() } else { 0 };
+        bound.root = if best.0 < NO_WAY / 2 { whole(best.0) + orders.durations.iter().sum::<u32>() } else { 0 };
         bound
     }
 
@@ -194,6 +201,6 @@ impl Bound {
             });
         }
         value += edge - self.prices[last];
-        if value < NO_WAY / 2 { (value.max(0) + 63) as u32 / 64 } else { NEVER }
+        if value < NO_WAY / 2 { whole(value) } else { NEVER }
     }
 }
