@@ -68,7 +68,7 @@ class Padder(Prover):
                 extra = [(b, "bar", side[2], side[3], INF) for b in self.everybody if b != side[0]]
                 demands.append(self.rng.choice(extra) if side[1] == "rest" and self.rng.random() < 0.5 else side)
             self.pads = self.rng.choice([0, 2])
-            if self.lemma(self.everybody, demands, self.rng.choice([bound, bound, bound, bound - 1])) is not None:
+            if self.lemma(self.everybody, demands, self.rng.choice([bound, bound, bound, max(0, bound - 1)])) is not None:
                 self.pool += demands
         self.pads = 5
         return super().certificate(bound)
