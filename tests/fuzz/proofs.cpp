@@ -262,7 +262,7 @@ class Trial {
 int main(int argc, char** argv) {
   grove::detail::fuzz::Arguments a;
   CLI::App app("Certificates of tiny instances, checked and tampered with", "grove-proofs");
-  app.footer(kFooter);
+  app.footer(grove::detail::fuzz::kFooter);
   app.add_option("--verify", a.verify, "the checker")->required()->check(CLI::ExistingFile);
   app.add_option("--folder", a.folder, "for its files")->check(CLI::ExistingDirectory);
   app.add_option("--count", a.count)->check(CLI::PositiveNumber)->capture_default_str();
