@@ -18,7 +18,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kPatienceWithoutPlan = 10;  // times as much work of others
-constexpr double kMostHere = 4;  // of its own work to other work of rank 0
+constexpr double kMostHere = 4;                    // of its own work to other work of rank 0
 
 }  // namespace
 
