@@ -264,7 +264,7 @@ int main(int argc, char** argv) {
   CLI::App app("Certificates of tiny instances, checked and tampered with", "grove-proofs");
   app.footer(grove::detail::fuzz::kFooter);
   app.add_option("--verify", a.verify, "the checker")->required()->check(CLI::ExistingFile);
-  app.add_option("--folder", a.folder, "for its files")->check(CLI::ExistingDirectory);
+  app.add_option("--folder", a.folder, "for its files; made if missing");
   app.add_option("--count", a.count)->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--mutations", a.mutations, "of each certificate")->capture_default_str();
   app.add_option("--seed", a.seed, "of the first; each other one's is one more")
@@ -278,6 +278,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  std::filesystem::create_directories(a.folder);
   grove::detail::fuzz::Trial trial(a);
   for (int i = 0; i < a.count; ++i) trial.look_at(a.seed + static_cast<std::uint64_t>(i));
   fmt::print("{}\n", a.json ? trial.json() : trial.summary());
