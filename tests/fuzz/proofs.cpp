@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "grove/detail/engine/run_observer.h"
 #include "grove/detail/io/instance_file.h"
 #include "grove/detail/io/map_file.h"
 #include "grove/detail/io/roadmap_file.h"
@@ -22,6 +24,7 @@
 #include "grove/detail/proof/proof_parts.h"
 #include "tests/fuzz/certificate_lines.h"
 #include "tests/fuzz/fuzz_case.h"
+#include "tests/fuzz/lone_case.h"
 #include "tests/fuzz/tampering.h"
 #include "tests/oracle/joint_oracle.h"
 
@@ -39,6 +42,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   double seconds = 0.5;  // for each case
   bool json = false;
+  std::string part = "any";
 };
 
 constexpr std::size_t kOracleStates = 300'000;
@@ -85,10 +89,23 @@ Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path&
   return verdict;
 }
 
+// Stops a run at its second node: by then its prices are what they will ever be.
+class StopsSoon : public RunObserver {
+ public:
+  explicit StopsSoon(Limits& limits) { limits.watch_interrupt(&interrupt_); }
+  void on_event(RunEvent /*event*/, const Progress& progress) override {
+    if (progress.nodes_expanded >= 2) interrupt_ = true;
+  }
+
+ private:
+  std::atomic<bool> interrupt_ = false;
+};
+
 class Trial {
  public:
   explicit Trial(const Arguments& a)
       : a_(a),
+        part_of_search_(std::ranges::find(kParts, a.part, &NamedPart::name)->part),
         map_(a.folder / "proofs.map"),
         roadmap_(a.folder / "proofs.roadmap.json"),
         instance_file_(a.folder / "proofs.cts.json"),
@@ -98,15 +115,17 @@ class Trial {
 
   void look_at(std::uint64_t seed) {
     seed_ = seed;
-    case_ = random_case(seed);
+    case_ = lone_case(part_of_search_, seed);
     case_.options.audit = false;
-    if (seed % 3 == 0) leave_to_the_tree(seed);
+    if (part_of_search_ == Part::kAny && seed % 3 == 0) leave_to_the_tree(seed);
     const Instance instance = case_.instance.build();
     if (!is_of_files(instance)) return;
     const oracle::Answer truth = oracle::solve_jointly(instance, kOracleStates);
     if (truth.verdict == oracle::Verdict::kTooLarge) return;
     optimum_ = truth.plan ? truth.plan->cost : kInfiniteCost;
     write(instance);
+    if (part_of_search_ != Part::kAny && truth.plan && seed % 4 < 2)
+      case_.options.start = dearer(instance, *truth.plan);
     Solution solution;
     try {
       solution = solve(instance);
@@ -183,7 +202,9 @@ class Trial {
     Limits limits;
     limits.set_deadline(Limits::Clock::now() +
                         std::chrono::microseconds(static_cast<std::int64_t>(a_.seconds * 1e6)));
-    const Solution solution = detail::solve(instance, options, limits, nullptr);
+    StopsSoon stops_soon(limits);
+    RunObserver* const observer = part_of_search_ == Part::kPrices ? &stops_soon : nullptr;
+    const Solution solution = detail::solve(instance, options, limits, observer);
     recorder.flush();
     return solution;
   }
@@ -246,6 +267,7 @@ class Trial {
   }
 
   const Arguments& a_;
+  const Part part_of_search_;
   const fs::path map_, roadmap_, instance_file_, part_, proof_, mutant_;
   std::uint64_t seed_ = 0;
   FuzzCase case_;
@@ -271,6 +293,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seconds", a.seconds, "for each")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  std::vector<std::string> parts;
+  for (const auto& named : grove::detail::fuzz::kParts) parts.emplace_back(named.name);
+  app.add_option("--part", a.part, "of the search, which has to prove all by itself")
+      ->check(CLI::IsMember(parts))
       ->capture_default_str();
   app.add_flag("--json", a.json, "counts alone, for programs");
   try {

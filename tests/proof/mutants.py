@@ -5,11 +5,13 @@
     mutants.py FOLDER [--count N] [--only K,K] [--jobs J]
 
 Copies the sources to FOLDER, plants the bugs of mutants.txt there, builds that once, and runs grove-proofs for each
-of them, chosen by the environment variable GROVE_MUTANT as it starts: N tiny instances of all kinds, searched, with
-a certificate each that grove-verify checks. A table says of each bug how often what was claimed was false (the oracle
-knows), how often the certificate was refused or fell short of the claim, and how often a false claim was verified, which must be never: else it ends with 1.
+of them, chosen by the environment variable GROVE_MUTANT as it starts: for each part of the search that the bug is tried
+on, N tiny instances, searched, with a certificate each that grove-verify checks. Tables, one for each way in which bugs
+come out, say of each bug how often what was claimed was false (the oracle knows), how often the certificate was refused
+or fell short of the claim, and how often a false claim was verified, which must be never: else it ends with 1.
 """
 import argparse
+import collections
 import concurrent.futures
 import json
 import os
@@ -33,17 +35,18 @@ inline bool grove_mutant(int number) {
 
 
 def read_list():
-    """[(number, file, before, old, new)]"""
-    mutants, file = [], None
+    """[(number, file, before, old, new, parts)]"""
+    mutants, file, parts = [], None, ()
     for line in LIST.read_text(encoding="utf-8").splitlines():
         if not line or line.startswith("#"):
             continue
         if " => " not in line:
-            file = line
+            file, parts = line.split(": ")
+            parts = parts.split()
             continue
         place, new = line.rsplit(" => ", 1)
         before, old = place.split("@", 1)
-        mutants.append((len(mutants) + 1, file, before, old, new))
+        mutants.append((len(mutants) + 1, file, before, old, new, parts))
     return mutants
 
 
@@ -64,25 +67,28 @@ def plant(text, number, before, old, new):
     return text[:match.start(2)] + planted + text[match.end(2):]
 
 
+def write_if_new(file, text):
+    """What is as it was is not built again."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    if not file.exists() or file.read_text(encoding="utf-8") != text:
+        file.write_text(text, encoding="utf-8")
+
+
 def copy_sources(folder, mutants):
-    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout.decode()
-    for name in filter(None, names.split("\0")):
-        target = folder / name
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(ROOT / name, target)
-    (folder / "include/grove_mutant.h").write_text(HELPER, encoding="utf-8")
     texts = {}
-    for number, file, before, old, new in mutants:
+    for number, file, before, old, new, _ in mutants:
         text = texts.get(file) or (ROOT / file).read_text(encoding="utf-8")
         texts[file] = plant(text, number, before, old, new)
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout.decode()
+    for name in set(filter(None, names.split("\0"))) - set(texts):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, folder / name)
+    write_if_new(folder / "include/grove_mutant.h", HELPER)
     for file, text in texts.items():
         include = '#include "grove_mutant.h"\n'
         # Behind what a header has to begin with.
-        text = (text.replace("#pragma once\n", "#pragma once\n" + include, 1) if file.endswith(".h")
-                else include + text)
-        target = folder / file
-        if target.read_text(encoding="utf-8") != text:
-            target.write_text(text, encoding="utf-8")
+        write_if_new(folder / file, text.replace("#pragma once\n", "#pragma once\n" + include, 1)
+                     if file.endswith(".h") else include + text)
 
 
 def build(folder):
@@ -92,42 +98,80 @@ def build(folder):
                    cwd=folder, check=True)
 
 
-def trial(folder, number, count, seconds):
+def trial(folder, number, parts, count, seconds):
     place = folder / f"run-{number}"
     place.mkdir(exist_ok=True)
-    bin_folder = folder / "build/release/bin"
-    program = next(path for path in (folder / "build/release").rglob("grove-proofs") if path.is_file())
-    command = [program, "--verify", bin_folder / "grove-verify", "--folder", place, "--count", str(count), "--json"]
     try:
-        result = subprocess.run(command, env=os.environ | {"GROVE_MUTANT": str(number)}, capture_output=True,
-                                text=True, timeout=seconds)
-        lines = [line for line in result.stdout.splitlines() if line.startswith("{")]
-        return json.loads(lines[-1]) if lines else {"died": result.returncode}
-    except subprocess.TimeoutExpired:
-        return {"died": "time"}
+        return {part: trial_of_part(folder, place, number, part, count, seconds) for part in parts}
     finally:
         shutil.rmtree(place, ignore_errors=True)
 
 
-def verdict(counts):
-    if "died" in counts:
-        return "the program ends: it noticed itself"
-    if counts["believed"]:
-        return "A FALSE CLAIM WAS VERIFIED"
-    if counts["false"] and counts["refused_false"] == counts["false"]:
-        return "caught, each time"
+def summed(of_parts, usual):
+    """Over all parts, without what is refused or ends in an error though no bug is planted."""
+    sums = collections.Counter()
+    for part, counts in of_parts.items():
+        sums.update(counts)
+        for key in ("refused", "threw", "died"):
+            sums[key] -= min(counts.get(key, 0), usual.get(part, {}).get(key, 0))
+    return sums
+
+
+def trial_of_part(folder, place, number, part, count, seconds):
+    bin_folder = folder / "build/release/bin"
+    program = next(path for path in (folder / "build/release").rglob("grove-proofs") if path.is_file())
+    command = [program, "--verify", bin_folder / "grove-verify", "--folder", place, "--count", str(count),
+               "--part", part, "--json"]
+    try:
+        result = subprocess.run(command, env=os.environ | {"GROVE_MUTANT": str(number)}, capture_output=True,
+                                text=True, timeout=seconds)
+        lines = [line for line in result.stdout.splitlines() if line.startswith("{")]
+        return json.loads(lines[-1]) if lines else {"died": 1}
+    except subprocess.TimeoutExpired:
+        return {"died": 1}
+
+
+BELIEVED = "A FALSE CLAIM WAS VERIFIED"
+GROUPS = (BELIEVED, "Caught where what was claimed is false", "Caught before anything false was claimed",
+          "Noticed by the search itself: it ends with an error, or not at all",
+          "Nothing false was claimed, nothing caught")
+
+
+def group_of(counts):
+    if counts["believed"] or counts["false"] > counts["refused_false"]:
+        return BELIEVED
+    if counts["false"]:
+        return GROUPS[1]
     if counts["refused"]:
-        return "caught"
-    if counts["threw"]:
-        return "noticed by the search itself"
-    return "nothing false was said, nothing caught"
+        return GROUPS[2]
+    return GROUPS[3] if counts["threw"] or counts["died"] else GROUPS[4]
+
+
+def row(mutant, counts):
+    number, file, _, old, new, parts = mutant
+    what = f"`{old.strip()}` -> `{new.strip()}`".replace("|", "\\|") if number else "none"
+    numbers = " | ".join(str(counts[key]) for key in ("cases", "false", "refused", "believed"))
+    return f"| {number} | {file} | {what} | {' '.join(parts)} | {numbers} |"
+
+
+HEAD = ("| | where | bug | tried on | claims | false | refused or short | false and verified |\n"
+        "|---|---|---|---|---|---|---|---|")
+
+
+def show(mutants, counts):
+    """Tables by group."""
+    for group in GROUPS:
+        rows = [row(m, c) for m, c in zip(mutants, counts) if group_of(c) == group]
+        if rows:
+            bugs = sum(m[0] > 0 and group_of(c) == group for m, c in zip(mutants, counts))
+            print(f"\n## {group}: {bugs}\n\n{HEAD}", *rows, sep="\n")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--count", type=int, default=300)
-    parser.add_argument("--seconds", type=float, default=900, help="for each bug")
+    parser.add_argument("--count", type=int, default=100, help="instances for each part")
+    parser.add_argument("--seconds", type=float, default=900, help="for each part and bug")
     parser.add_argument("--only", type=lambda text: {int(k) for k in text.split(",")})
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
@@ -135,18 +179,17 @@ def main():
     folder = arguments.folder.resolve()
     copy_sources(folder, mutants)
     build(folder)
-    chosen = [(0, "", "", "none", "")] + [m for m in mutants if not arguments.only or m[0] in arguments.only]
+    chosen = [m for m in mutants if not arguments.only or m[0] in arguments.only]
+    chosen.insert(0, (0, "", "", "", "", sorted({part for m in chosen for part in m[5]})))
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        runs = [pool.submit(trial, folder, m[0], arguments.count, arguments.seconds) for m in chosen]
-        print("| bug | where | claims | false | refused or short | false and verified | verdict |\n|---|---|---|---|---|---|---|")
-        failed = False
-        for (number, file, _, old, new), run in zip(chosen, runs):
-            counts = run.result()
-            says = verdict(counts)
-            failed |= "VERIFIED" in says
-            name = "none" if number == 0 else f"`{old.strip()}` -> `{new.strip()}`".replace("|", "\\|")
-            row = [counts.get(key, "-") for key in ("cases", "false", "refused", "believed")]
-            print(f"| {number}: {name} | {file} | {row[0]} | {row[1]} | {row[2]} | {row[3]} | {says} |", flush=True)
+        runs = [pool.submit(trial, folder, m[0], m[5], arguments.count, arguments.seconds) for m in chosen]
+        usual = runs[0].result()
+        counts = [summed(usual, {})]
+        for mutant, run in zip(chosen[1:], runs[1:]):
+            counts.append(summed(run.result(), usual))
+            print(row(mutant, counts[-1]), group_of(counts[-1]), file=sys.stderr, flush=True)
+    show(chosen, counts)
+    failed = any(group_of(c) == BELIEVED for c in counts)
     sys.exit(1 if failed else 0)
 
 
