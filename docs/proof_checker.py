@@ -9,6 +9,7 @@ but `bar` and `move`. It is here to be read: grove-verify takes all of it, and f
 """
 import heapq
 import json
+import subprocess
 import sys
 from pathlib import Path
 
@@ -134,7 +135,10 @@ def check(instance, lines):
 
 
 def main(instance, proof):
-    lines = iter(Path(proof).read_text(encoding="ascii").split("\n")[:-1])
+    text = Path(proof).read_bytes()
+    if text.startswith(b"\x28\xb5\x2f\xfd"):  # compressed
+        text = subprocess.run(["zstd", "-dc"], input=text, capture_output=True, check=True).stdout
+    lines = iter(text.decode("ascii").split("\n")[:-1])
     try:
         print(f"verified: no plan costs less than {check(Path(instance), lines)}")
     except (Refused, ValueError, IndexError, StopIteration) as error:

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   add_execute_command(app);
   add_replan_command(app);
   add_view_command(app);
+  add_proof_command(app);
   add_generate_command(app);
   add_convert_command(app);
   add_bench_command(app);

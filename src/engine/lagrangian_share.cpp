@@ -18,11 +18,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kPatienceWithoutPlan = 10;  // times as much work of others
-// Rows are written down by the numbers of their kinds.
-static_assert(static_cast<int>(ProofRow::Kind::kEdge) == static_cast<int>(RelaxedRow::Kind::kEdge));
-static_assert(static_cast<int>(ProofRow::Kind::kFinish) ==
-              static_cast<int>(RelaxedRow::Kind::kFinish));
-constexpr double kMostHere = 4;  // of its own work to other work of rank 0
+constexpr double kMostHere = 4;                    // of its own work to other work of rank 0
 
 }  // namespace
 
@@ -107,12 +103,8 @@ Cost LagrangianShare::commit(LagrangianBound::Job job) {
 
 void LagrangianShare::write_down(ProofLog& proof) const {
   const LagrangianBound* const bound = this->bound();
-  if (bound == nullptr || bound->reasons().empty()) return;
-  std::vector<ProofRow> rows;
-  for (const auto& [row, charge] : bound->reasons())
-    rows.push_back({static_cast<ProofRow::Kind>(row.kind), row.a, row.b, row.time,
-                    row.kind == RelaxedRow::Kind::kFinish ? row.time_b : 0, charge});
-  proof.prices(bound->lower_bound(), rows);
+  if (bound != nullptr && !bound->reasons().empty())
+    proof.prices(bound->lower_bound(), bound->reasons());
 }
 
 Cost LagrangianShare::heard_of_bound() {

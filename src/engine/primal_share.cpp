@@ -10,8 +10,10 @@
 // 1/4; and never less than 1/32. But the tree closes most small instances within its first tenths
 // of a second, whatever plan there is, so it grows into that freedom: it may not have more than 1/4
 // until the tree has done a thirty-second of tree_is_long_work, and 8 when it has done all. While
-// more is proven beside the tree than by it, what it does raises no bound: then the primal search
-// has as much as it at least. None of this knows how large the instance is or how fast the machine.
+// more is proven beside the tree than by it, what it does raises no bound; while the plan costs
+// much more than what is proven, no tree closes the gap soon: then the primal search has as much as
+// it at least, for neighbourhoods may be in vain a hundred times before the first of many gains.
+// None of this knows how large the instance is or how fast the machine.
 #include "primal_share.h"
 
 #include <algorithm>
@@ -20,10 +22,11 @@ namespace grove::detail {
 PrimalShare::PrimalShare(int agents, const Tuning& tuning)
     : agents_(agents), tuning_(tuning), ratio_(tuning.most_primal) {}
 
-void PrimalShare::tree_worked(std::int64_t work, bool is_behind) {
+void PrimalShare::tree_worked(std::int64_t work, TreeOutlook outlook) {
   tree_ += work;
-  const double ratio = is_behind ? std::max(ratio_, tuning_.least_primal_beside) : ratio_;
-  credit_ += std::min(ratio, most_ratio_now()) * static_cast<double>(work);
+  const bool beside = outlook.is_behind || outlook.plan_is_far;
+  const double ratio = beside ? std::max(ratio_, tuning_.least_primal_beside) : ratio_;
+  credit_ += std::min(ratio, most_ratio(outlook.plan_is_far)) * static_cast<double>(work);
 }
 
 bool PrimalShare::may_begin() const {
@@ -52,7 +55,8 @@ double PrimalShare::ratio_with_plan(const PrimalSearch& primal) const {
   return std::clamp(tuning_.most_primal * x * x * x, tuning_.least_primal, tuning_.most_primal);
 }
 
-double PrimalShare::most_ratio_now() const {
+double PrimalShare::most_ratio(bool plan_is_far) const {
+  if (plan_is_far) return tuning_.most_primal;
   const double part = static_cast<double>(tree_) / static_cast<double>(tuning_.tree_is_long_work);
   return std::clamp(tuning_.most_primal * part, tuning_.most_primal_at_first, tuning_.most_primal);
 }

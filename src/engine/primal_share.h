@@ -8,14 +8,18 @@
 
 namespace grove::detail {
 
+struct TreeOutlook {
+  bool is_behind = false;    // more is proven beside the tree than by it
+  bool plan_is_far = false;  // the best plan costs much more than what is proven
+};
+
 // Counts work, not seconds, so that a run can be repeated. The rule is at the head of the .cpp.
 class PrimalShare {
  public:
   PrimalShare(int agents, const Tuning& tuning);
 
-  // The tree has done so much more work, in the units of PrimalSearch::work(). `is_behind`: more is
-  // proven beside it.
-  void tree_worked(std::int64_t work, bool is_behind = false);
+  // The tree has done so much more work, in the units of PrimalSearch::work().
+  void tree_worked(std::int64_t work, TreeOutlook outlook = {});
   // Has the tree done enough for the primal search to begin?
   bool may_begin() const;
   // Is it the turn of the primal search?
@@ -24,7 +28,7 @@ class PrimalShare {
 
  private:
   double ratio_with_plan(const PrimalSearch& primal) const;
-  double most_ratio_now() const;
+  double most_ratio(bool plan_is_far) const;
 
   const std::int64_t agents_;
   const Tuning tuning_;

@@ -31,6 +31,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
     : omega_(options.omega),
       uses_estimates_(techniques_of(options).has(Technique::kEstimates)),
       cost_per_conflict_(options.tuning.cost_per_conflict),
+      far_plan_(options.tuning.far_plan),
       nodes_(nodes),
       pool_(nodes.pool),
       frontier_(nodes.frontier),
@@ -56,6 +57,12 @@ NodePtr SharedSearch::take_open() {
   if (plan_is_wanted())
     node = frontier_.take_promising(omega_, ledger_.lower_bound(), cost_per_conflict_);
   return node ? node : frontier_.take();
+}
+
+bool SharedSearch::plan_is_far() const {
+  const Cost cost = ledger_.cutoff();
+  return cost<kInfiniteCost&& static_cast<double>(cost)>(1 + far_plan_) *
+         static_cast<double>(ledger_.lower_bound());
 }
 
 // Is it the turn of a node that may lead to a plan soon?

@@ -181,7 +181,7 @@ void Worker::commit(Turn& turn) {
     turn.memory->trim();
     if (turn.job == Turn::Job::kExpand)
       shared_.finish(turn.node, std::move(turn.expansion), number_);
-    share_->tree_worked(turn.work, shared_.tree_is_behind());
+    share_->tree_worked(turn.work, {shared_.tree_is_behind(), shared_.plan_is_far()});
     others_worked(turn.work);
   }
   shared_.observer().worked();

@@ -95,17 +95,16 @@ class Taking {
     }
     return tree;
   }
-  ProofRow row() {
-    ProofRow row;
+  ChargedRow row() {
+    RelaxedRow row;
     const std::int64_t kind = number();
-    if (kind < 0 || kind > static_cast<std::int64_t>(ProofRow::Kind::kFinish)) refuse();
-    row.kind = static_cast<ProofRow::Kind>(kind);
+    if (kind < 0 || kind > static_cast<std::int64_t>(RelaxedRow::Kind::kFinish)) refuse();
+    row.kind = static_cast<RelaxedRow::Kind>(kind);
     row.a = small();
     row.b = small();
     row.time = small();
     row.time_b = small();
-    row.charge = number();
-    return row;
+    return {row, small()};
   }
 
  private:
@@ -134,7 +133,7 @@ void tell(std::int64_t kind, Taking taking, ProofLog& log) {
   if (kind == kTree) return log.tree(taking.tree());
   if (kind == kPrices) {
     const Cost bound = taking.number();
-    std::vector<ProofRow> rows;
+    std::vector<ChargedRow> rows;
     while (!taking.is_over()) rows.push_back(taking.row());
     return log.prices(bound, rows);
   }
@@ -223,11 +222,11 @@ void ProofRecorder::lemma(const ProofLemma& lemma, ProofKey root,
   stream_->add(kLemma, numbers);
 }
 
-void ProofRecorder::prices(Cost bound, std::span<const ProofRow> rows) {
+void ProofRecorder::prices(Cost bound, std::span<const ChargedRow> rows) {
   Numbers numbers{bound};
-  for (const ProofRow& row : rows)
+  for (const auto& [row, charge] : rows)
     numbers.insert(numbers.end(), {static_cast<std::int64_t>(row.kind), row.a, row.b, row.time,
-                                   row.time_b, row.charge});
+                                   row.time_b, charge});
   stream_->add(kPrices, numbers);
 }
 

@@ -45,14 +45,15 @@ std::string proof_text(const Split& split, const Instance& instance) {
                      proof_text(split[1], instance));
 }
 
-std::string proof_text(const ProofRow& row) {
+std::string proof_text(const ChargedRow& charged) {
+  const auto& [row, charge] = charged;
   switch (row.kind) {
-    case ProofRow::Kind::kPlace:
-      return fmt::format("place {} {} {}", row.a, row.time, row.charge);
-    case ProofRow::Kind::kEdge:
-      return fmt::format("edge {} {} {} {}", row.a, row.b, row.time, row.charge);
-    case ProofRow::Kind::kFinish:
-      return fmt::format("finish {} {} {} {} {}", row.a, row.time, row.b, row.time_b, row.charge);
+    case RelaxedRow::Kind::kPlace:
+      return fmt::format("place {} {} {}", row.a, row.time, charge);
+    case RelaxedRow::Kind::kEdge:
+      return fmt::format("edge {} {} {} {}", row.a, row.b, row.time, charge);
+    case RelaxedRow::Kind::kFinish:
+      return fmt::format("finish {} {} {} {} {}", row.a, row.time, row.b, row.time_b, charge);
   }
   return {};
 }

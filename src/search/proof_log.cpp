@@ -3,15 +3,10 @@
 
 #include <ranges>
 
+#include "grove/detail/model/hash.h"
+
 namespace grove::detail {
 namespace {
-
-ProofKey mixed_in(ProofKey key, std::int64_t value) {
-  key = (key ^ static_cast<ProofKey>(value)) * 0x9E3779B97F4A7C15u;
-  key ^= key >> 32;
-  key *= 0xD6E8FEB86659FD93u;
-  return key ^ key >> 29;
-}
 
 // What a tree fixes of an agent's order, as demands.
 void add_order(AgentIndex agent, const AgentOrder& order, std::vector<AgentConstraint>& demands) {
@@ -33,9 +28,9 @@ ProofKey proof_key(const Tree& tree) {
   ProofKey key = 1;
   for (std::size_t agent = 0; agent < tree.orders.size(); ++agent) {
     const SequenceClass& sequences = tree.orders[agent]->sequences;
-    key = mixed_in(key, static_cast<std::int64_t>(agent));
+    key = mixed_in(key, agent);
     for (const Stop stop : sequences.prefix) key = mixed_in(key, stop);
-    key = mixed_in(key, static_cast<std::int64_t>(sequences.forbidden_next));
+    key = mixed_in(key, sequences.forbidden_next);
   }
   return key;
 }
@@ -52,13 +47,13 @@ ProofKey proof_key(const Node& node) {
 ProofKey proof_key(ProofKey parent, const AgentConstraint& added) {
   const Constraint& c = added.constraint;
   for (const std::int64_t value : {added.agent, c.cell, c.from, c.begin, c.end})
-    parent = mixed_in(parent, value);
-  return mixed_in(parent, static_cast<std::int64_t>(c.kind));
+    parent = mixed_in(parent, static_cast<std::uint64_t>(value));
+  return mixed_in(parent, static_cast<std::uint64_t>(c.kind));
 }
 
 ProofKey ProofLemma::key() const {
-  ProofKey key = mixed_in(2, bound);
-  for (const AgentIndex agent : agents) key = mixed_in(key, agent);
+  ProofKey key = mixed_in(2, static_cast<std::uint64_t>(bound));
+  for (const AgentIndex agent : agents) key = mixed_in(key, static_cast<std::uint64_t>(agent));
   for (const AgentConstraint& demand : demands) key = proof_key(key, demand);
   return key;
 }

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "grove/detail/model/assert.h"
+#include "grove/detail/model/hash.h"
 
 namespace grove::detail {
 namespace {
@@ -16,11 +17,6 @@ std::size_t place_of(Situations::Id id) {
   return static_cast<std::size_t>(id) / Sharded<int>::kParts;
 }
 
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
-  hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
-  return hash ^ hash >> 29;
-}
-
 // Of values, not of addresses: the same in every run, so that tables are of the same size.
 std::uint64_t hash_of(AgentIndex agent, const AgentOrder& order,
                       std::span<const Constraint> constraints) {
@@ -28,12 +24,12 @@ std::uint64_t hash_of(AgentIndex agent, const AgentOrder& order,
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 |
            static_cast<std::uint32_t>(b);
   };
-  std::uint64_t hash = mixed(static_cast<std::uint64_t>(agent), order.sequences.forbidden_next);
-  for (const Stop stop : order.sequences.prefix) hash = mixed(hash, stop);
+  std::uint64_t hash = mixed_in(static_cast<std::uint64_t>(agent), order.sequences.forbidden_next);
+  for (const Stop stop : order.sequences.prefix) hash = mixed_in(hash, stop);
   for (const Constraint& c : constraints)
-    hash = mixed(mixed(mixed(hash, both(c.cell, c.from)), both(c.begin, c.end)),
-                 static_cast<std::uint64_t>(c.kind));
-  return mixed(hash, 0);
+    hash = mixed_in(mixed_in(mixed_in(hash, both(c.cell, c.from)), both(c.begin, c.end)),
+                    static_cast<std::uint64_t>(c.kind));
+  return hash;
 }
 
 auto key_of(const Constraint& c) {

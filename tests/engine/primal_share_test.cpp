@@ -110,11 +110,40 @@ TEST(PrimalShare, WhileMoreIsProvenBesideTheTreeItHasAsMuchAtLeast) {
   share.tree_worked(kLong);
   share.primal_worked(s.primal, 8 * kLong);
   PrimalShare beside = share;
-  beside.tree_worked(1'000'000, true);
+  beside.tree_worked(1'000'000, {.is_behind = true});
   beside.primal_worked(s.primal, 999'999);
   EXPECT_TRUE(beside.due(s.primal));
   share.tree_worked(1'000'000);
   share.primal_worked(s.primal, 999'999);
+  EXPECT_FALSE(share.due(s.primal));
+}
+
+TEST(PrimalShare, WhileThePlanIsFarFromWhatIsProvenAShortTreeLeavesItTheMost) {
+  Setting s(crowd());
+  while (!s.primal.best_cost()) s.primal.step(s.limits);
+  PrimalShare share(12, Tuning());
+  share.primal_worked(s.primal, 0);  // it has just found a plan
+  PrimalShare far = share;
+  share.tree_worked(2000);
+  share.primal_worked(s.primal, 1000);
+  EXPECT_FALSE(share.due(s.primal));
+  far.tree_worked(2000, {.plan_is_far = true});
+  far.primal_worked(s.primal, 15'000);
+  EXPECT_TRUE(far.due(s.primal));
+}
+
+TEST(PrimalShare, WhileThePlanIsFarWorkInVainLeavesItAsMuchAsTheTree) {
+  Setting s(crowd());
+  while (!s.primal.best_cost()) s.primal.step(s.limits);
+  while (s.primal.work() < 4 * s.primal.work_at_last_plan() && !s.primal.optimal())
+    s.primal.step(s.limits);
+  ASSERT_FALSE(s.primal.optimal());
+  PrimalShare share = settled(s.primal, 12);
+  PrimalShare far = share;
+  share.tree_worked(1'000'000);
+  far.tree_worked(1'000'000, {.plan_is_far = true});
+  for (PrimalShare* each : {&share, &far}) each->primal_worked(s.primal, 999'999);
+  EXPECT_TRUE(far.due(s.primal));
   EXPECT_FALSE(share.due(s.primal));
 }
 

@@ -126,6 +126,38 @@ class Reader(unittest.TestCase):
         found = checkers.Verdict([checkers.VERIFY, "no/such", "no/such"])
         self.assertEqual((found.code, found.text), (2, "unreadable: no/such: No such file or directory (os error 2)\n"))
 
+    def test_scenarios(self):
+        good = certificate(CROSS, "theorem 5", "joint")
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            CROSS.write(folder)
+            cells = [[place % 3 if axis == 0 else place // 3 for place in (agent.start[0], agent.goal) for axis in (0, 1)] for agent in CROSS.agents]
+            rows = ["\t".join(map(str, [0, "maps/tiny.map", 3, 3, *cell, 2.5])) for cell in cells]
+            path = folder / "tiny.scen"
+            path.write_text("\n".join(["version 1", *rows, "what is not asked for"]) + "\n")
+            self.ends(good, (0,), "^verified: no plan costs less than 5\n", path, ["--agents", "2"])
+            self.ends(good, (1,), "^refused: line 2: it is of another instance\n", path, ["--agents", "1"])
+            self.ends(good, (2,), "line 4: expected bucket, map, size, start, goal and length\n", path, ["--agents", "3"])
+            for options in ([], ["--agents"], ["--agents", "0"], ["--agents", "1.5"], ["--agents", "2", "--map"]):
+                self.assertRegex(checkers.verify(path, good, *options).text, "^grove-verify: error: ")
+            self.assertRegex(checkers.verify(CROSS, good, "--agents", "2").text, "^grove-verify: error: ")
+            (folder / "far").mkdir()
+            (folder / "tiny.map").rename(folder / "far/tiny.map")
+            self.ends(good, (2,), "tiny.map: No such file", path, ["--agents", "2"])
+            self.ends(good, (0,), "^verified: ", path, ["--agents", "2", "--map", str(folder / "far/tiny.map")])
+            (folder / "far/tiny.map").rename(folder / "tiny.map")
+            (folder / "other.map").write_text((folder / "tiny.map").read_text())
+            self.ends(good, (2,), "line 2: expected the name and size of the map\n", path, ["--agents", "2", "--map", str(folder / "other.map")])
+            text = path.read_text()
+            for old, new, says in (("version 1", "version 2", "line 1: expected version 1"), ("\t3\t3\t", "\t3\t4\t", "expected the name and size"),
+                                   ("tiny.map\t3", "tiny.map\t-3", "expected the name and size"), ("\t2.5\n", "\n", "line 2: expected bucket"),
+                                   (rows[1], rows[1].replace("tiny", "other"), "line 3: expected the map of the rows before"),
+                                   (rows[0], rows[0].replace("\t2.5", "\tx"), "line 2: expected bucket"), (rows[1], rows[1].replace("\t3\t3\t1\t", "\t3\t3\t9\t"), "agents 1: expected a passable cell")):
+                path.write_text(text.replace("\n" + old, "\n" + new) if old in rows else text.replace(old, new))
+                self.ends(good, (2,), says, path, ["--agents", "2"])
+            path.write_text("\n".join(["version 1", rows[0]]))
+            self.ends(good, (2,), "its end: expected a row for each agent\n", path, ["--agents", "2"])
+
     def test_instances_that_are_none(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)

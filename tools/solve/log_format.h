@@ -40,6 +40,7 @@ struct LogRow {
 struct LogEnd {
   const Solution& solution;
   std::string plan_file;
+  std::string proof_file;    // empty: none was asked for
   std::optional<Cost> kept;  // the plan file was left alone, with a plan of that cost
 };
 

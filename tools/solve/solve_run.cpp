@@ -102,7 +102,8 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
 void finish_run(const SolveArguments& a, const Instance& instance, const Solution& solution,
                 LogFormat& log) {
   const std::optional<Cost> kept = write_plan(a.output, instance, solution, a.keeps_cheaper);
-  log.end({solution, a.output == kStandardOutput ? "standard output" : a.output.string(), kept});
+  log.end({solution, a.output == kStandardOutput ? "standard output" : a.output.string(),
+           a.proof.string(), kept});
   tell_without_plan(solution, a.output, kept);
 }
 

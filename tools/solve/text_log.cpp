@@ -210,7 +210,8 @@ void TextLog::end(const LogEnd& end) {
                                : fmt::format("at most {:g} %", 100 * solution.omega.value())));
   if (const std::string remark = text("remark"); !remark.empty())
     sink_.line("Remark        " + remark);
-  if (const std::string proof = text("proof"); !proof.empty()) sink_.line("Proof         " + proof);
+  if (const std::string proof = text("proof"); !proof.empty())
+    sink_.line(fmt::format("Proof file    {}: {}", end.proof_file, proof));
   sink_.line(fmt::format("Time          {:.2f} s", solution.stats.measures.at("wall_s")));
   const auto node_bytes = solution.stats.measures.find("node_bytes");
   if (node_bytes != solution.stats.measures.end())

@@ -16,6 +16,8 @@ TEST(Usage, HelpIsWorthReading) {
                                      {"check", "--help"},
                                      {"convert", "--help"},
                                      {"view", "--help"},
+                                     {"proof", "--help"},
+                                     {"proof", "trim", "--help"},
                                      {"generate", "--help"},
                                      {"generate", "map", "--help"},
                                      {"generate", "map", "rooms", "--help"},

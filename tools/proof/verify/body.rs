@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //! One agent as searches see it: its poses, its stops, and what remains at least, were there no demands but on the order of stops.
 use crate::instance::{Agent, Instance, Place, World};
-use crate::orders::{After, Orders};
-use std::collections::HashMap;
+use crate::orders::{After, Bound, Orders};
+use crate::words::Map;
 use std::rc::Rc;
 
 /// Later than all times of a certificate: `inf`.
@@ -108,12 +108,26 @@ pub struct Stop {
     pub duration: u32,
 }
 
-/// What remains, for one choice of which stops may have which number, in paths up to a limit.
-struct Remaining {
+/// Stops done, and what remains then from the posts that may be next, the least first.
+struct Done {
+    stops: u64,
+    rest: Vec<(u32, u32)>,
+}
+
+/// For one choice of which stops may have which number: what remains, in paths up to a limit.
+struct Choice {
+    allowed: Vec<u64>,
     after: After,
     limit: u32,
-    rows: HashMap<u64, Rc<Vec<u32>>>,
+    least: u32,
+    numbers: Map<u64, u32>,
+    done: Vec<Done>,
 }
+
+/// Of up to so many stops all sets are looked at, at once or when need be; of more, only what costs not much more than the best order.
+const FEWER: usize = 5;
+const FEW: usize = 11;
+const MOST_BEYOND: u32 = 200;
 
 pub struct Body {
     pub poses: Rc<Poses>,
@@ -126,11 +140,14 @@ pub struct Body {
     /// In any order of stops the last is where it rests.
     pub rests_on_last: bool,
     pub plain_goal: Option<Place>,
-    ends: Rc<Vec<u32>>,
-    first: Vec<u32>,
-    legs: Vec<u32>,
-    known: HashMap<Vec<u64>, Remaining>,
-    slack: u32,
+    ends: Vec<u32>,
+    /// Stops with the poses in which they may be done; from each pose, the way to each of these.
+    posts: Vec<(usize, u32)>,
+    ways: Vec<u32>,
+    bound: Option<Bound>,
+    /// Choices that were looked at, and the one that holds.
+    choices: Vec<Choice>,
+    now: usize,
 }
 
 impl Body {
@@ -160,26 +177,24 @@ impl Body {
             working,
             rests_on_last: agent.goal.is_none() && stops.iter().all(|stop| stop.duration == 0),
             plain_goal: agent.goal.filter(plain),
-            ends: Rc::new(poses.spread(ends)),
-            first: Vec::new(),
-            legs: Vec::new(),
-            known: HashMap::new(),
-            slack: 6,
+            ends: poses.spread(ends),
+            posts: Vec::new(),
+            ways: Vec::new(),
+            bound: None,
+            choices: Vec::new(),
+            now: 0,
             poses,
             stops,
             stops_at,
         };
-        let posts = body.posts();
-        let to: Vec<Vec<u32>> = posts.iter().map(|&(_, pose)| body.poses.spread(vec![(0, pose)])).collect();
-        body.first = to.iter().map(|row| row[body.start as usize]).collect();
-        body.legs = posts.iter().flat_map(|&(_, from)| to.iter().map(move |row| row[from as usize])).collect();
+        let on = |(stop, at): (usize, &Stop)| body.poses.on(at.place).map(move |pose| (stop, pose));
+        body.posts = body.stops.iter().enumerate().flat_map(on).collect();
+        let to: Vec<Vec<u32>> = body.posts.iter().map(|&(_, pose)| body.poses.spread(vec![(0, pose)])).collect();
+        body.ways = (0..body.poses.place.len()).flat_map(|pose| to.iter().map(move |row| row[pose])).collect();
         body
     }
 
-    /// Stops with the poses in which they may be done.
-    fn posts(&self) -> Vec<(usize, u32)> {
-        (0..self.stops.len()).flat_map(|stop| self.poses.on(self.stops[stop].place).map(move |pose| (stop, pose))).collect()
-    }
+    fn ways(&self, pose: u32) -> &[u32] { &self.ways[pose as usize * self.posts.len()..][..self.posts.len()] }
 
     pub fn all(&self) -> u64 { (1 << self.stops.len()) - 1 }
 
@@ -189,54 +204,73 @@ impl Body {
         (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)
     }
 
-    /// What is known of one choice of orders.
-    fn known(&mut self, allowed: &[u64]) -> &mut Remaining {
-        if !self.known.contains_key(allowed) {
-            if self.known.values().map(|known| 10_000 + known.after.len() + 50 * known.rows.len()).sum::<usize>() > 4_000_000 { self.known.clear(); }
-            let posts = self.posts();
-            let last = posts.iter().map(|&(_, pose)| self.ends[pose as usize]).collect();
-            let durations = self.stops.iter().map(|stop| stop.duration).collect();
-            let working = self.working.map(|(stop, end)| (stop as usize, self.post(stop as usize, self.start), end));
-            let orders = Orders { posts: &posts, first: &self.first, legs: &self.legs, last, durations, working, allowed, slack: self.slack };
-            let (after, limit) = orders.after();
-            self.known.insert(allowed.to_vec(), Remaining { after, limit, rows: HashMap::new() });
+    /// From now on this says which stops may have which number.
+    pub fn choose(&mut self, allowed: &[u64]) {
+        match self.choices.iter().position(|choice| choice.allowed == allowed) {
+            Some(known) => self.now = known,
+            None => self.look(allowed.to_vec(), if self.stops.len() <= FEWER { NEVER } else { 0 }),
         }
-        self.known.get_mut(allowed).expect("just made")
     }
 
-    fn post(&self, stop: usize, pose: u32) -> u32 { stop as u32 * self.poses.each + pose % self.poses.each }
+    /// What remains with this choice, in paths up to a limit at least.
+    fn look(&mut self, allowed: Vec<u64>, wanted: u32) {
+        let size = |choice: &Choice| 10_000 + choice.after.len() + 5 * choice.done.len();
+        if self.choices.iter().map(size).sum::<usize>() > 4_000_000 { self.choices.clear(); }
+        let mut bound = self.bound.take();
+        let orders = Orders {
+            first: self.ways(self.start),
+            legs: self.posts.iter().flat_map(|&(_, pose)| self.ways(pose)).copied().collect(),
+            last: self.posts.iter().map(|&(_, pose)| self.ends[pose as usize]).collect(),
+            durations: self.stops.iter().map(|stop| stop.duration).collect(),
+            working: self.working.map(|(stop, end)| (stop as usize, stop * self.poses.each + self.start % self.poses.each, end)),
+            posts: &self.posts,
+            allowed: &allowed,
+        };
+        let (after, limit, least) = orders.after(&mut bound, wanted);
+        self.bound = bound;
+        self.now = self.choices.len();
+        self.choices.push(Choice { allowed, after, limit, least, numbers: Map::default(), done: Vec::new() });
+    }
 
     /// Paths that cost more may not be found.
-    pub fn limit(&mut self, allowed: &[u64]) -> u32 { if self.stops.is_empty() { NEVER } else { self.known(allowed).limit } }
+    pub fn limit(&self) -> u32 { self.choices[self.now].limit }
 
     /// Raises the limit to a cost, if that is not too much.
-    pub fn reach(&mut self, allowed: &[u64], cost: u32) -> bool {
-        while self.limit(allowed) < cost && self.slack < 100 {
-            self.slack *= 2;
-            self.known.clear();
+    pub fn reach(&mut self, cost: u32) -> bool {
+        let few = self.stops.len() <= FEW;
+        if self.limit() < cost && (few || cost < self.choices[self.now].least + MOST_BEYOND) {
+            let Choice { allowed, limit, least, .. } = self.choices.swap_remove(self.now);
+            self.look(allowed, if few { NEVER } else { cost.max(limit + ((limit - least) / 4).max(2)) });
         }
-        self.limit(allowed) >= cost
+        self.limit() >= cost
     }
 
-    /// Whether a path within the limit may have done these stops, with one of `last` in this pose.
-    pub fn may_be(&mut self, allowed: &[u64], done: u64, last: u64, pose: u32) -> bool {
-        let post = self.post(last.trailing_zeros() as usize, pose);
-        last == 0 || self.known(allowed).after.contains_key(&(done, post))
+    /// The number of a set of stops done.
+    pub fn number(&mut self, stops: u64) -> u32 {
+        let Choice { after, numbers, done, .. } = &mut self.choices[self.now];
+        if let Some(&found) = numbers.get(&stops) { return found; }
+        let next = |(post, &(stop, _)): (usize, &(usize, u32))| {
+            let rest = after.get(&(stops | 1 << stop, post as u32)).filter(|_| stops >> stop & 1 == 0);
+            rest.map(|rest| (rest + self.stops[stop].duration, post as u32))
+        };
+        let mut rest: Vec<(u32, u32)> = self.posts.iter().enumerate().filter_map(next).collect();
+        rest.sort_unstable();
+        numbers.insert(stops, done.len() as u32);
+        done.push(Done { stops, rest });
+        done.len() as u32 - 1
     }
 
-    /// What remains at least, of each pose, when these stops are done.
-    pub fn remaining(&mut self, allowed: &[u64], done: u64) -> Rc<Vec<u32>> {
-        if done == self.all() { return self.ends.clone(); }
-        let (posts, poses) = (self.posts(), self.poses.clone());
-        let durations: Vec<u32> = self.stops.iter().map(|stop| stop.duration).collect();
-        let Remaining { after, rows, .. } = self.known(allowed);
-        let row = rows.entry(done).or_insert_with(|| {
-            let open = posts.iter().enumerate().filter(|(_, &(stop, _))| done >> stop & 1 == 0);
-            let rest = |(post, &(stop, pose)): (usize, &(usize, u32))| {
-                after.get(&(done | 1 << stop, post as u32)).map(|rest| (rest + durations[stop], pose))
-            };
-            Rc::new(poses.spread(open.filter_map(rest).collect()))
-        });
-        row.clone()
+    pub fn done(&self, number: u32) -> u64 { self.choices[self.now].done[number as usize].stops }
+
+    /// What remains at least, in a pose with these stops done. More than that, or NEVER, if it is beyond the limit.
+    pub fn remains(&self, number: u32, pose: u32) -> u32 {
+        let Done { stops, rest } = &self.choices[self.now].done[number as usize];
+        if *stops == self.all() { return self.ends[pose as usize]; }
+        let (ways, mut least) = (self.ways(pose), NEVER);
+        for &(rest, post) in rest.iter().take_while(|rest| rest.0 < NEVER) {
+            if rest >= least { break; }
+            least = least.min(rest + ways[post as usize]);
+        }
+        least
     }
 }

@@ -202,20 +202,56 @@ impl Names {
     }
 }
 
+/// The first rows of a scenario, all of one map, as an instance.
+fn scenario(text: &str, count: u32) -> Result<Json, String> {
+    let (mut lines, mut agents, mut same) = (text.lines().zip(1..), Vec::new(), None);
+    let mut row = |what: &str| -> Result<(Vec<&str>, String), String> {
+        let (line, number) = need(lines.next(), "its end", what)?;
+        Ok((line.split_whitespace().collect(), format!("line {}", number)))
+    };
+    let (version, at) = row("version 1")?;
+    need(Some(()).filter(|_| matches!(version[..], ["version", "1" | "1.0"])), &at, "version 1")?;
+    let object = |members: Vec<(&str, Json)>| Json::Object(members.into_iter().map(|(key, value)| (key.to_string(), value)).collect());
+    let cell = |x: f64, y: f64| Json::List(vec![Json::Number(x), Json::Number(y)]);
+    for number in 0..count {
+        let (words, at) = row("a row for each agent")?;
+        let numbers: Option<Vec<f64>> = words.iter().skip(2).map(|word| word.parse().ok()).collect();
+        let numbers = need(numbers.filter(|found| found.len() == 7), &at, "bucket, map, size, start, goal and length")?;
+        let map = (words[1].rsplit('/').next().unwrap_or(""), numbers[0], numbers[1]);
+        need(Some(()).filter(|_| *same.get_or_insert(map) == map), &at, "the map of the rows before")?;
+        let (start, goal) = (cell(numbers[2], numbers[3]), cell(numbers[4], numbers[5]));
+        agents.push(object(vec![("id", Json::Text(number.to_string())), ("start", start), ("goal", goal)]));
+    }
+    let (name, width, height) = need(same, "its end", "rows")?;
+    let map = vec![("map", Json::Text(name.to_string())), ("width", Json::Number(width)), ("height", Json::Number(height))];
+    Ok(object(map.into_iter().chain([("agents", Json::List(agents)), ("tasks", Json::List(Vec::new()))]).collect()))
+}
+
 impl Instance {
-    pub fn read(path: &Path) -> Result<Instance, String> {
+    /// Of a file; a scenario's first rows are so many agents, on this map or that which they name.
+    pub fn read(path: &Path, agents: Option<u32>, map: Option<&Path>) -> Result<Instance, String> {
         let read = |path: &Path| std::fs::read(path).map_err(|error| format!("{}: {}", path.display(), error));
         let within = |path: &Path, error: String| format!("{}: {}", path.display(), error);
-        let json = Json::parse(&read(path)?).map_err(|error| within(path, error))?;
-        let (map, roads) = (json.get("map").and_then(Json::text), json.get("roadmap").and_then(Json::text));
-        let place = path.parent().unwrap_or_else(|| Path::new(""));
-        let name = place.join(need(map.or(roads), &path.display().to_string(), "a map or a roadmap")?);
+        let text = read(path)?;
+        let json = match agents {
+            Some(count) => scenario(&String::from_utf8_lossy(&text), count),
+            None => Json::parse(&text),
+        };
+        let json = json.map_err(|error| within(path, error))?;
+        let (named, roads) = (json.get("map").and_then(Json::text), json.get("roadmap").and_then(Json::text));
+        let name = need(named.or(roads), &path.display().to_string(), "a map or a roadmap")?;
+        let name = map.map_or_else(|| path.with_file_name(name), Path::to_path_buf);
         let (text, mut sum) = (read(&name)?, String::new());
-        let found = match map {
+        let found = match named {
             Some(_) => World::map(&String::from_utf8_lossy(&text), &mut sum).map(|world| (world, Names::default())),
             None => Json::parse(&text).and_then(|json| Names::roadmap(&json, &mut sum)),
         };
         let (world, names) = found.map_err(|error| within(&name, error))?;
+        if agents.is_some() {
+            let size = |key| json.get(key).and_then(Json::number).unwrap_or(0);
+            let same = (size("width"), size("height")) == world.size && name.file_name().map_or(false, |file| named == file.to_str());
+            need(Some(()).filter(|_| same), &within(path, "line 2".to_string()), "the name and size of the map")?;
+        }
         Instance::of(&json, world, names, sum).map_err(|error| within(path, error))
     }
 

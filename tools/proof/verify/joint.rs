@@ -1,101 +1,9 @@
 // SPDX-License-Identifier: MIT
 //! Joint search: for each agent what it may be in at each time, in layers; then sets of such, one for each agent, from time to time.
-use crate::body::{Body, NEVER};
+use crate::body::NEVER;
 use crate::instance::Place;
-use crate::rules::{Chains, Rules, Way, EARLY};
-use crate::search::{now_done, Rows};
-use std::collections::{HashMap, HashSet};
-
-/// What an agent is in at a time, that of a stop at which it is at work, with the steps left, included.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct State {
-    pub pose: u32,
-    done: u64,
-    way: Way,
-    work: Option<(u32, u32)>,
-}
-
-/// One agent, step by step.
-pub struct Walk<'a> {
-    pub body: &'a mut Body,
-    pub chains: &'a Chains,
-    pub rules: &'a Rules,
-    pub rows: Rows,
-}
-
-impl Walk<'_> {
-    pub fn starts(&mut self) -> Vec<State> {
-        let (mut found, place) = (Vec::new(), self.body.poses.place(self.body.start));
-        if self.rules.holding(place, 0).is_some() {
-            let done = now_done(self.body, self.rules, place, 0);
-            let state = State { pose: self.body.start, done, way: self.rules.arrived(place, 0), work: self.body.working };
-            match self.body.working {
-                Some((stop, _)) if self.rules.allowed[0] >> stop & 1 == 0 => (),
-                Some(_) => found.push(state),
-                None => self.arrive(state, &mut found),
-            }
-        }
-        found
-    }
-
-    /// A state, or what else begins, or is chosen, with it.
-    fn arrive(&self, state: State, found: &mut Vec<State>) {
-        found.push(state);
-        let open = self.body.stops_at(self.body.poses.place(state.pose)) & !state.done;
-        for stop in (0..self.body.stops.len()).filter(|stop| open >> stop & 1 == 1) {
-            if self.rules.allowed[state.done.count_ones() as usize] >> stop & 1 == 1 {
-                found.push(match self.body.stops[stop].duration {
-                    0 => State { done: state.done | 1 << stop, ..state },
-                    duration => State { work: Some((stop as u32, duration)), ..state },
-                });
-            }
-        }
-    }
-
-    /// The states of the next time.
-    pub fn steps(&mut self, state: State, time: u32) -> Vec<State> {
-        let mut found = Vec::new();
-        let from = self.body.poses.place(state.pose);
-        let stays = self.rules.holding(from, time + 1).is_some();
-        if let Some((stop, left)) = state.work.filter(|_| stays) {
-            match left {
-                1 => self.arrive(State { done: state.done | 1 << stop, work: None, ..state }, &mut found),
-                _ => found.push(State { work: Some((stop, left - 1)), ..state }),
-            }
-        }
-        if state.work.is_some() || (self.rules.ordered && self.body.rests_on_last && state.done == self.body.all()) {
-            return found;
-        }
-        if stays { self.arrive(state, &mut found); }
-        let poses = self.body.poses.clone();
-        for &pose in poses.next(state.pose) {
-            let to = poses.place(pose);
-            if to == from && stays { self.arrive(State { pose, ..state }, &mut found); }
-            let (way, exit) = self.rules.passing(self.chains, state.way, from, to);
-            let free = self.rules.holding(to, time + 1).is_some() && self.rules.arrival(from, to, exit, time + 1, time + 1).is_some();
-            if to != from && free {
-                let done = now_done(self.body, self.rules, to, state.done);
-                let way = way | self.rules.arrived(to, time + 1);
-                self.arrive(State { pose, done, way, work: None }, &mut found);
-            }
-        }
-        found
-    }
-
-    /// What remains at least.
-    pub fn remains(&mut self, state: &State) -> u32 {
-        let (stop, left) = state.work.unwrap_or((0, 0));
-        let done = if left > 0 { state.done | 1 << stop } else { state.done };
-        let row = self.rows.number(self.body, self.rules, done);
-        left + self.rows.remains(row, state.pose)
-    }
-
-    pub fn may_end(&mut self, state: &State, time: u32) -> bool {
-        let place = self.body.poses.place(state.pose);
-        let free = self.rules.holding(place, time).map_or(false, |number| self.rules.interval(number).1 == NEVER);
-        free && state.way & EARLY == 0 && state.done == self.body.all() && self.remains(state) == 0
-    }
-}
+use crate::walk::{State, Walk};
+use crate::words::{Map, Set};
 
 struct Point {
     place: Place,
@@ -110,17 +18,17 @@ pub struct Layers(Vec<Vec<Point>>);
 
 impl Layers {
     pub fn of(walk: &mut Walk, cap: u32, settled: u32) -> Layers {
-        assert!(walk.body.reach(&walk.rules.allowed, cap), "orders of many tasks, too far from the best one");
+        assert!(walk.body.reach(cap), "orders of many tasks, too far from the best one");
         let (mut layers, mut time) = (Vec::new(), 0);
-        let keep = |walk: &mut Walk, state: &State, time: u32| {
+        let keep = |walk: &Walk, state: &State, time: u32| {
             let remains = walk.remains(state);
             remains < NEVER && (cap == NEVER || time + remains <= cap)
         };
         let mut states: Vec<State> = walk.starts().into_iter().filter(|state| keep(walk, state, 0)).collect();
-        let mut known: HashMap<State, u32> = states.iter().copied().zip(0..).collect();
+        let mut known: Map<State, u32> = states.iter().copied().zip(0..).collect();
         loop {
             let steady = cap == NEVER && time == settled;
-            let (mut points, mut later, mut found) = (Vec::new(), Vec::new(), HashMap::new());
+            let (mut points, mut later, mut found) = (Vec::new(), Vec::new(), Map::default());
             while points.len() < states.len() {
                 let state = states[points.len()];
                 let mut next = Vec::new();
@@ -134,7 +42,7 @@ impl Layers {
                 next.sort_unstable();
                 next.dedup();
                 let ends = walk.may_end(&state, time);
-                points.push(Point { place: walk.body.poses.place(state.pose), next, ends, least: if cap == NEVER { 0 } else { NEVER } });
+                points.push(Point { place: walk.place(&state), next, ends, least: if cap == NEVER { 0 } else { NEVER } });
             }
             layers.push(points);
             if steady || later.is_empty() { break; }
@@ -179,14 +87,14 @@ struct Node<'a> {
 
 impl Joint {
     pub fn finds_none(&self) -> bool {
-        let mut nodes: HashMap<Vec<u32>, u64> = HashMap::from([(Vec::new(), 0)]);
+        let mut nodes: Map<Vec<u32>, u64> = Map::from_iter([(Vec::new(), 0)]);
         for layers in &self.layers {
             let longer = |key: &Vec<u32>| (0..layers.0[0].len() as u32).map(|next| (add(key, next), 0)).collect::<Vec<_>>();
             nodes = nodes.keys().flat_map(longer).collect();
         }
-        let (mut seen, mut time) = (HashSet::new(), 0);
+        let (mut seen, mut time) = (Set::default(), 0);
         while !nodes.is_empty() {
-            let mut later = HashMap::new();
+            let mut later = Map::default();
             for (key, &spent) in &nodes {
                 let mut least = vec![0; key.len() + 1];
                 for agent in (0..key.len()).rev() {
@@ -210,7 +118,7 @@ impl Joint {
     /// Adds what the next agent may do to what those before do (point, place before, place after), and at last the set to
     /// `later`. `costs`: of those at rest, and the least of the others. True: all rest, there is a plan.
     fn extend(
-        &self, node: &Node, chosen: &mut Vec<(u32, Place, Place)>, costs: (u64, u64), later: &mut HashMap<Vec<u32>, u64>,
+        &self, node: &Node, chosen: &mut Vec<(u32, Place, Place)>, costs: (u64, u64), later: &mut Map<Vec<u32>, u64>,
     ) -> bool {
         let agent = chosen.len();
         if self.limit.map_or(false, |limit| costs.0 + costs.1 + node.least[agent] >= limit) { return false; }
@@ -238,7 +146,7 @@ impl Joint {
 
     fn choose(
         &self, node: &Node, chosen: &mut Vec<(u32, Place, Place)>, choice: (u32, Place, Place), costs: (u64, u64),
-        later: &mut HashMap<Vec<u32>, u64>,
+        later: &mut Map<Vec<u32>, u64>,
     ) -> bool {
         let (from, to) = (choice.1, choice.2);
         let collides = chosen.iter().any(|&(_, before, after)| {

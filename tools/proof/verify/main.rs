@@ -11,6 +11,7 @@ mod proof;
 mod reader;
 mod rules;
 mod search;
+mod walk;
 mod words;
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -19,10 +20,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 const USAGE: &str = "Usage: grove-verify INSTANCE PROOF [--time-limit SECONDS] [--memory-limit GB] [--stats]
+       grove-verify FILE.scen PROOF --agents N [--map FILE.map] ...
 
 Exit code 0, 'verified: ...': no valid plan of the instance costs less than the certificate says;
 1, 'refused: ...': it does not prove that, or not within the limits; 2, 'unreadable: ...': what is no certificate or instance.
-Without options: no limit of time, 4 GB. --stats says on standard error what it took.";
+Without options: no limit of time, 4 GB; the map of a scenario is the one beside it that its rows name. --stats says on standard error what it took.";
 
 /// The line that is read, for who refuses from outside.
 static LINE: AtomicU64 = AtomicU64::new(0);
@@ -63,12 +65,14 @@ static ALLOCATOR: Counting = Counting;
 
 struct Arguments {
     files: Vec<String>,
+    agents: Option<u32>,
+    map: Option<String>,
     seconds: Option<f64>,
     stats: bool,
 }
 
 fn arguments() -> Result<Arguments, String> {
-    let mut found = Arguments { files: Vec::new(), seconds: None, stats: false };
+    let mut found = Arguments { files: Vec::new(), agents: None, map: None, seconds: None, stats: false };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut number = |most: f64| {
@@ -78,6 +82,8 @@ fn arguments() -> Result<Arguments, String> {
         match word.as_str() {
             "--time-limit" => found.seconds = Some(number(1e9)?),
             "--memory-limit" => LIMIT.store((number(1e6)? * 1e9) as u64, Ordering::Relaxed),
+            "--agents" => found.agents = Some(number(1e9)?).filter(|n| n.fract() == 0.0).map(|n| n as u32),
+            "--map" => found.map = Some(words.next().ok_or("--map: expected a file")?),
             "--stats" => found.stats = true,
             "--help" => {
                 println!("{}", USAGE);
@@ -87,12 +93,16 @@ fn arguments() -> Result<Arguments, String> {
             _ => found.files.push(word),
         }
     }
-    if found.files.len() == 2 { Ok(found) } else { Err("expected INSTANCE and PROOF".to_string()) }
+    if found.files.len() != 2 { return Err("expected INSTANCE and PROOF".to_string()); }
+    let scenario = found.files[0].ends_with(".scen");
+    if scenario && found.agents.is_none() { return Err("a .scen file: expected --agents, a whole number".to_string()); }
+    if !scenario && (found.agents.is_some() || found.map.is_some()) { return Err("--agents and --map are for a .scen file".to_string()); }
+    Ok(found)
 }
 
 fn verify(arguments: &Arguments) -> (i32, String) {
     let begin = Instant::now();
-    let instance = instance::Instance::read(Path::new(&arguments.files[0]));
+    let instance = instance::Instance::read(Path::new(&arguments.files[0]), arguments.agents, arguments.map.as_deref().map(Path::new));
     let lines = reader::Lines::open(Path::new(&arguments.files[1])).map_err(|error| format!("{}: {}", arguments.files[1], error));
     let (instance, lines) = match instance.and_then(|instance| Ok((instance, lines?))) {
         Ok(found) => found,

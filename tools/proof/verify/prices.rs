@@ -2,9 +2,10 @@
 //! Prices (docs/proof.md, 4): what a path costs with the rows that it uses.
 use crate::body::NEVER;
 use crate::instance::Place;
-use crate::joint::{State, Walk};
+use crate::walk::{State, Walk};
+use crate::words::Map;
 use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::BinaryHeap;
 
 /// Units of rows in a step.
 pub const UNIT: u64 = 1024;
@@ -12,14 +13,14 @@ pub const UNIT: u64 = 1024;
 #[derive(Default)]
 pub struct Prices {
     /// On a place at a time; on it there and one before; between two places.
-    at: HashMap<(Place, u32), u64>,
-    stay: HashMap<(Place, u32), u64>,
-    go: HashMap<(Place, Place, u32), u64>,
+    at: Map<(Place, u32), u64>,
+    stay: Map<(Place, u32), u64>,
+    go: Map<(Place, Place, u32), u64>,
     /// Of each agent: who costs this or less.
-    finish: HashMap<u32, Vec<(u32, u64)>>,
+    finish: Map<u32, Vec<(u32, u64)>>,
     pub sum: u64,
     /// For who rests on a place: times, in order, with the sum from each on.
-    rests: HashMap<Place, Vec<(u32, u64)>>,
+    rests: Map<Place, Vec<(u32, u64)>>,
 }
 
 impl Prices {
@@ -68,13 +69,13 @@ impl Prices {
 
     /// The price of an agent; None: there is no path.
     pub fn of(&self, agent: u32, walk: &mut Walk) -> Option<u64> {
-        let limit = walk.body.limit(&walk.rules.allowed);
+        let limit = walk.body.limit();
         let beyond = UNIT * (u64::from(limit) + 1);
         let mut waiting = BinaryHeap::new();
-        let mut known: HashMap<(State, u32), u64> = HashMap::new();
+        let mut known: Map<(State, u32), u64> = Map::default();
         let place = walk.body.poses.place(walk.body.start);
         let steps: Vec<(State, u64)> = walk.starts().into_iter().map(|state| (state, *self.at.get(&(place, 0)).unwrap_or(&0))).collect();
-        let mut push = |walk: &mut Walk, waiting: &mut BinaryHeap<_>, state: State, time: u32, used: u64| {
+        let mut push = |walk: &Walk, waiting: &mut BinaryHeap<_>, state: State, time: u32, used: u64| {
             let best = known.entry((state, time)).or_insert(u64::MAX);
             let remains = walk.remains(&state);
             if used < *best && remains < NEVER {
@@ -88,12 +89,12 @@ impl Prices {
                 Some(state) => (u32::MAX - late, state),
                 None => return Some(total.min(beyond)),
             };
-            let place = walk.body.poses.place(state.pose);
+            let place = walk.place(&state);
             if walk.may_end(&state, time) {
                 waiting.push(Reverse((UNIT * u64::from(time) + used + self.end(agent, place, time), late, used, None)));
             }
             for step in walk.steps(state, time) {
-                let used = used + self.step(place, walk.body.poses.place(step.pose), time + 1);
+                let used = used + self.step(place, walk.place(&step), time + 1);
                 push(walk, &mut waiting, step, time + 1, used);
             }
         }

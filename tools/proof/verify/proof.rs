@@ -2,11 +2,12 @@
 //! The certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, 3 and 4).
 use crate::body::{Body, Poses, NEVER};
 use crate::instance::Instance;
-use crate::joint::{Joint, Layers, Walk};
+use crate::joint::{Joint, Layers};
 use crate::prices::{Prices, UNIT};
 use crate::reader::Lines;
 use crate::rules::{Chains, Demand, Kind, Rules};
-use crate::search::{surely_meets, Path, Rows, Search};
+use crate::search::{surely_meets, Path, Search};
+use crate::walk::Walk;
 use crate::words::{hold, unreadable, Fault, Words};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -263,8 +264,9 @@ impl Verifier {
         }
         let body = self.bodies[number].as_mut().expect("made above");
         let met = self.rules.set(body, &self.chains, demands);
-        let found = if met { self.search.least(body, &self.chains, &self.rules) } else { None };
-        let limit = if met { body.limit(&self.rules.allowed) } else { NEVER };
+        let limit = if met { body.limit() } else { NEVER };
+        let mut walk = Walk { body, chains: &self.chains, rules: &self.rules };
+        let found = if met { self.search.least(&mut walk) } else { None };
         // Beyond the limit of orders it is not known how much, but that it is more.
         let beyond = if limit < NEVER { limit + 1 } else { NEVER };
         let (cost, path) = found.filter(|found| found.0 <= limit).unwrap_or((beyond, Vec::new()));
@@ -277,8 +279,7 @@ impl Verifier {
         let last = self.known[agent as usize].last().map_or(NEVER, |last| if last.path.is_empty() { last.cost } else { NEVER });
         if last == NEVER { return false; }
         self.known[agent as usize].retain(|known| !known.path.is_empty());
-        let walk = self.walk(agent).1;
-        walk.body.reach(&walk.rules.allowed, last)
+        self.walk(agent).1.body.reach(last)
     }
 
     fn leaf(&mut self, names: &str, of: &Lemma) -> Result<(), Fault> {
@@ -322,7 +323,7 @@ impl Verifier {
         self.body(agent);
         let body = self.bodies[agent as usize].as_mut().expect("made above");
         let met = self.rules.set(body, &self.chains, &self.demands[agent as usize]);
-        (met, Walk { body, chains: &self.chains, rules: &self.rules, rows: Rows::default() })
+        (met, Walk { body, chains: &self.chains, rules: &self.rules })
     }
 
     /// No joint paths of these agents cost up to so much each, and less than a limit together.

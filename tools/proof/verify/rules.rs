@@ -115,7 +115,7 @@ impl Rules {
     }
 
     /// False: nobody meets these demands.
-    pub fn set(&mut self, body: &Body, chains: &Chains, demands: &[Demand]) -> bool {
+    pub fn set(&mut self, body: &mut Body, chains: &Chains, demands: &[Demand]) -> bool {
         self.stamp += 1;
         self.moves.clear();
         self.passes.clear();
@@ -169,6 +169,7 @@ impl Rules {
             let count = self.safe.len() as u32 - first;
             *self.mark(place) = Mark { first, count, ..*self.mark(place) };
         }
+        body.choose(&self.allowed);
         true
     }
 

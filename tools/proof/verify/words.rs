@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //! The words of a line, and what is wrong with a certificate.
 use crate::body::NEVER;
+use std::collections::{HashMap, HashSet};
+use std::hash::{BuildHasherDefault, Hasher};
 
 /// The exit code, 1: refused, or 2: unreadable, and why.
 pub type Fault = (i32, String);
@@ -9,6 +11,20 @@ pub fn unreadable(reason: impl Into<String>) -> Fault { (2, reason.into()) }
 
 /// Refuses what does not hold.
 pub fn hold(good: bool, reason: impl Into<String>) -> Result<(), Fault> { if good { Ok(()) } else { Err((1, reason.into())) } }
+
+/// A hash that is quick: for what searches make, not for what a file says.
+#[derive(Default)]
+pub struct Quick(u64);
+
+impl Hasher for Quick {
+    fn write(&mut self, bytes: &[u8]) { bytes.iter().for_each(|&byte| self.write_u64(u64::from(byte))); }
+    fn write_u32(&mut self, value: u32) { self.write_u64(u64::from(value)); }
+    fn write_u64(&mut self, value: u64) { self.0 = (self.0.rotate_left(5) ^ value).wrapping_mul(0x9e3779b97f4a7c15); }
+    fn finish(&self) -> u64 { self.0 ^ self.0 >> 32 }
+}
+
+pub type Map<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
+pub type Set<K> = HashSet<K, BuildHasherDefault<Quick>>;
 
 pub struct Words<'a>(std::str::Split<'a, char>);
 

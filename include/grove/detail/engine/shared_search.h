@@ -52,6 +52,9 @@ class SharedSearch {
   // Is more proven beside the tree than by its nodes?
   bool tree_is_behind() const { return frontier_.bound() < ledger_.lower_bound(); }
 
+  // Does the best plan cost much more than what is proven?
+  bool plan_is_far() const;
+
   // Gives up nodes, and what was found out, as memory demands.
   void keep_within_memory();
   // What was found out, for expanders to go on with.
@@ -70,6 +73,7 @@ class SharedSearch {
   const Omega omega_;
   const bool uses_estimates_;
   const double cost_per_conflict_;
+  const double far_plan_;
   LocalNodes& nodes_;
   NodePool& pool_;
   Frontier& frontier_;

@@ -58,12 +58,8 @@ class LagrangianBound {
 
   // From now on, remembers by which charges it has the bound that it has.
   void keep_reasons() { keeps_reasons_ = true; }
-  struct Reason {
-    RelaxedRow row;
-    Tariff::Amount charge;
-  };
   // Once no job is in hand.
-  const std::vector<Reason>& reasons() const { return reasons_; }
+  const std::vector<ChargedRow>& reasons() const { return reasons_; }
 
   // Nothing is to be gained any more.
   bool ended() const;
@@ -128,7 +124,7 @@ class LagrangianBound {
   int in_hand_ = 0;  // jobs
   int rounds_ = 0;
   Price best_ = 0;
-  std::vector<Reason> reasons_;  // for it, if they are kept
+  std::vector<ChargedRow> reasons_;  // for it, if they are kept
   std::shared_ptr<const PriceList> list_;
   // Agents are priced here from the first one on, and helpers are asked for the last ones; when
   // there are no others left, also for those not yet answered, from the last one back.

@@ -10,21 +10,9 @@
 
 #include "grove/detail/lagrangian/penalized_search.h"
 #include "grove/detail/lagrangian/penalties.h"
+#include "grove/detail/lagrangian/relaxed_row.h"
 
 namespace grove::detail {
-
-// What many use and pay for. `a`, `b`: of kPlace a place, of kEdge two neighbours, the lesser one
-// first, of kFinish two agents.
-struct RelaxedRow {
-  enum class Kind : std::uint8_t { kPlace, kEdge, kFinish };
-  Kind kind = Kind::kPlace;
-  std::int32_t a = 0;
-  std::int32_t b = 0;
-  Time time = 0;    // of kFinish: by which a finishes
-  Time time_b = 0;  // only of kFinish
-
-  friend bool operator==(const RelaxedRow&, const RelaxedRow&) = default;
-};
 
 // What a tariff has that another, an earlier state of it, has not. A value.
 struct TariffNews {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grove/detail/conflicts/conflict.h"
+#include "grove/detail/lagrangian/relaxed_row.h"
 #include "grove/detail/search/node_view.h"
 
 namespace grove::detail {
@@ -64,18 +65,6 @@ struct ProofExcess {
   Cost excess = 0;  // these cost together so much more than each of them alone
 };
 
-// What a Lagrangian bound charges for (docs/proof.md, "prices"): of 1024, that make a step. `a`,
-// `b`: a place, two places or two agents; `time_b`: only with two agents.
-struct ProofRow {
-  enum class Kind : std::uint8_t { kPlace, kEdge, kFinish };
-  Kind kind = Kind::kPlace;
-  std::int32_t a = 0;
-  std::int32_t b = 0;
-  Time time = 0;
-  Time time_b = 0;
-  std::int64_t charge = 0;
-};
-
 // Methods may be called from any thread. What is written down need not be of use in the end, and
 // may be written down again.
 class ProofLog {
@@ -96,8 +85,8 @@ class ProofLog {
   // is none, by looking at all joint paths. The costs in them are those of the lemma's agents.
   virtual void lemma(const ProofLemma& lemma, ProofKey root,
                      std::span<const ProofSplit> splits) = 0;
-  // With these rows the prices of all agents say that no plan costs less.
-  virtual void prices(Cost bound, std::span<const ProofRow> rows) = 0;
+  // With these rows the prices of all agents say that no plan costs less (docs/proof.md, "prices").
+  virtual void prices(Cost bound, std::span<const ChargedRow> rows) = 0;
   // Joint search of all agents says so.
   virtual void joint(Cost bound) = 0;
 };

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "certificate_bytes.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "grove/detail/io/input_error.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::string_view kZstd = "\x28\xB5\x2F\xFD";  // what is compressed begins with it
+
+}  // namespace
+
+CertificateBytes::CertificateBytes(const std::filesystem::path& path)
+    : path_(path), file_(path, O_RDONLY) {
+  if (!file_.is_open()) fail_to_read(path_);
+  while (first_.size() < kZstd.size()) {
+    char byte = 0;
+    if (read_file(&byte, 1) == 0) break;
+    first_.push_back(byte);
+  }
+  if (first_ != kZstd) return;
+  stream_.emplace([this](char* buffer, std::size_t size) {
+    const std::size_t count = first_.copy(buffer, size);
+    first_.erase(0, count);
+    return count > 0 ? count : read_file(buffer, size);
+  });
+}
+
+std::size_t CertificateBytes::read(char* buffer, std::size_t size) {
+  if (stream_) {
+    const std::size_t count = stream_->read(buffer, size);
+    if (stream_->broken())
+      throw InputError(path_.string(), "",
+                       "is damaged; expected what grove solve --proof compressed by zstd");
+    return count;
+  }
+  const std::size_t count = first_.copy(buffer, size);
+  first_.erase(0, count);
+  return count > 0 ? count : read_file(buffer, size);
+}
+
+std::size_t CertificateBytes::read_file(char* buffer, std::size_t size) {
+  const ssize_t count = ::read(file_.get(), buffer, size);
+  if (count < 0) fail_to_read(path_);
+  return static_cast<std::size_t>(count);
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The file of a certificate, decompressed if need be.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "grove/detail/io/descriptor.h"
+#include "zstd_stream.h"
+
+namespace grove::detail {
+
+class CertificateBytes {
+ public:
+  // Throws InputError, as read() does.
+  explicit CertificateBytes(const std::filesystem::path& path);
+
+  // Up to so many bytes; none at the end.
+  std::size_t read(char* buffer, std::size_t size);
+  bool compressed() const { return stream_.has_value(); }
+
+ private:
+  std::size_t read_file(char* buffer, std::size_t size);
+
+  const std::filesystem::path path_;
+  const Descriptor file_;
+  std::string first_;  // bytes of the file, of which these are not told yet
+  std::optional<ZstdDecompressor> stream_;
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+#include "certificate_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/model/parse_number.h"
+#include "grove/detail/proof/certificate.h"
+#include "line_stream.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::uint64_t kTimes = std::uint64_t{1} << 31;
+constexpr std::uint64_t kMostAgents = std::uint64_t{1} << 20;  // of an instance that is not known
+constexpr std::string_view kDigits = "0123456789abcdef";
+constexpr std::size_t kSumDigits = 16;
+
+class Reader {
+ public:
+  Reader(std::string file, ByteSource bytes, const Instance* instance, CertificateVisitor& visitor)
+      : file_(std::move(file)),
+        lines_(std::move(bytes)),
+        instance_(instance),
+        visitor_(visitor),
+        agents_(instance ? static_cast<std::uint64_t>(instance->agent_count()) : kMostAgents),
+        places_(instance ? static_cast<std::uint64_t>(instance->world().place_count()) : kTimes),
+        tasks_(instance ? static_cast<std::uint64_t>(instance->task_count()) : kTimes) {}
+
+  void read() {
+    take_head();
+    take_line();
+    while (one_of({"lemma", "theorem"}) == 0) take_lemma();
+    const Cost proven = bound();
+    end_line();
+    visitor_.theorem(proven);
+    take_line();
+    take_proof_from_here();
+    take_line();
+    keyword("end");
+    end_line();
+    visitor_.end();
+    if (lines_.next() != LineStream::Next::kNone)
+      fail("found more behind it", "nothing after 'end'");
+  }
+
+ private:
+  // --- lines and words ---
+
+  void take_line() {
+    ++line_;
+    switch (lines_.next()) {
+      case LineStream::Next::kLine:
+        break;
+      case LineStream::Next::kNone:
+        fail("the file ends", "a line, ended by LF");
+      case LineStream::Next::kEndless:
+        fail("the file ends within it", "a line, ended by LF");
+      case LineStream::Next::kTooLong:
+        fail("it is too long", fmt::format("at most {} bytes", LineStream::kLongest));
+    }
+    words_ = lines_.line();
+    visitor_.line(lines_.line());
+  }
+  // Parted by one blank: two of them have an empty word between them, and what is behind the last
+  // word is no word.
+  std::optional<std::string_view> next_word() {
+    if (!words_) return std::nullopt;
+    const std::string_view all = *words_;
+    const std::size_t end = all.find(' ');
+    if (end == std::string_view::npos)
+      words_.reset();
+    else
+      words_ = all.substr(end + 1);
+    return all.substr(0, end);
+  }
+  [[noreturn]] void fail_at(std::optional<std::string_view> found,
+                            std::string_view expected) const {
+    fail(found ? fmt::format("found '{}'", one_line(*found)) : "the line ends", expected);
+  }
+  void end_line() {
+    if (words_) fail_at(*words_, "the end of the line");
+  }
+  [[noreturn]] void fail(std::string_view found, std::string_view expected) const {
+    throw InputError(file_, fmt::format("line {}", line_),
+                     fmt::format("{}; expected {}", found, expected));
+  }
+
+  void keyword(std::string_view expected) {
+    const auto found = next_word();
+    if (found != expected) fail_at(found, fmt::format("'{}'", expected));
+  }
+  // Its number among them.
+  int one_of(std::initializer_list<std::string_view> words) {
+    const auto found = next_word();
+    const auto at = found ? std::ranges::find(words, *found) : words.end();
+    if (at == words.end()) fail_at(found, fmt::format("{}", fmt::join(words, " or ")));
+    return static_cast<int>(at - words.begin());
+  }
+  std::uint64_t number(std::string_view what, std::uint64_t below) {
+    const auto found = next_word();
+    const auto value = found ? parse_number<std::uint64_t>(*found) : std::nullopt;
+    if (value && *value < below) return *value;
+    fail_at(found, below == 0 ? fmt::format("{}, of which there is none", what)
+                              : fmt::format("{}, from 0 to {}", what, below - 1));
+  }
+  bool take_inf() {
+    if (!words_ || words_->substr(0, words_->find(' ')) != "inf") return false;
+    next_word();
+    return true;
+  }
+
+  // --- numbers of things ---
+
+  std::int32_t small(std::string_view what, std::uint64_t below) {
+    return static_cast<std::int32_t>(number(what, below));
+  }
+  AgentIndex agent() { return small("the number of an agent", agents_); }
+  std::int32_t place() { return small("the number of a place", places_); }
+  std::int32_t task() { return small("the number of a task", tasks_); }
+  LemmaNumber lemma() {
+    return static_cast<LemmaNumber>(number("the number of an earlier lemma", lemmas_));
+  }
+  std::int32_t time() { return small("a time", kTimes); }
+  // From when until when.
+  void span(CertificateDemand& demand) {
+    demand.begin = time();
+    demand.end = take_inf() ? CertificateDemand::kForEver : small("a time or inf", kTimes);
+  }
+  // An agent with a goal, and a time.
+  CertificateLate late() {
+    const AgentIndex whose = agent();
+    if (instance_ != nullptr && !instance_->agent(whose).goal)
+      fail_at(fmt::to_string(whose), "the number of an agent with a goal");
+    return {whose, time()};
+  }
+  // Two agents, each with a time.
+  void pair() {
+    agent();
+    time();
+    agent();
+    time();
+  }
+  Cost bound() {
+    if (take_inf()) return kInfiniteCost;
+    return static_cast<Cost>(number("a cost or inf", static_cast<std::uint64_t>(kInfiniteCost)));
+  }
+  std::int64_t charge() {
+    return static_cast<std::int64_t>(number("a price", static_cast<std::uint64_t>(kInfiniteCost)));
+  }
+
+  // --- what lines say ---
+
+  void take_head() {
+    take_line();
+    keyword("grove-proof");
+    keyword("1");
+    end_line();
+    visitor_.head();
+    take_line();
+    keyword("instance");
+    take_checksum();
+    end_line();
+    visitor_.head();
+    take_line();
+    keyword("following");
+    const bool may_follow = one_of({"yes", "no"}) == 0;
+    end_line();
+    visitor_.head();
+    visitor_.following(may_follow);
+  }
+
+  void take_checksum() {
+    const auto found = next_word();
+    if (instance_ == nullptr) {
+      const auto is_digit = [](char c) {
+        return std::string_view(kDigits).find(c) < kDigits.size();
+      };
+      if (!found || found->size() != kSumDigits || !std::ranges::all_of(*found, is_digit))
+        fail_at(found, fmt::format("a checksum, {} digits of 0 to f", kSumDigits));
+      return;
+    }
+    const std::string expected = fmt::format("{:016x}", certificate_checksum(*instance_));
+    if (found != expected) fail_at(found, expected + ", the checksum of this instance");
+  }
+
+  CertificateDemand demand() {
+    using Kind = CertificateDemand::Kind;
+    CertificateDemand demand;
+    demand.agent = agent();
+    demand.kind =
+        static_cast<Kind>(one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
+    switch (demand.kind) {
+      case Kind::kBar:
+        demand.p = place();
+        span(demand);
+        break;
+      case Kind::kMove:
+      case Kind::kPass:
+        demand.p = place();
+        demand.q = place();
+        span(demand);
+        break;
+      case Kind::kNoRest:
+      case Kind::kRest:
+        demand.p = place();
+        demand.begin = demand.end = time();
+        break;
+      case Kind::kStop:
+      case Kind::kNoStop:
+        demand.p = small("the number of a stop", tasks_);
+        demand.q = task();
+    }
+    return demand;
+  }
+
+  // Behind the word "lemma"; and the first word of what comes after it.
+  void take_lemma() {
+    const Cost proven = bound();
+    std::vector<AgentIndex> whose{agent()};
+    while (words_) {
+      const std::string_view rest = *words_;
+      whose.push_back(agent());
+      if (whose.back() <= whose[whose.size() - 2]) fail_at(rest, "agents in ascending order");
+    }
+    visitor_.lemma(proven, whose);
+    take_line();
+    while (words_->starts_with("demand ")) {
+      keyword("demand");
+      const std::string_view rest = *words_;
+      const CertificateDemand found = demand();
+      if (!std::ranges::binary_search(whose, found.agent))
+        fail_at(rest, "a demand on an agent of the lemma");
+      end_line();
+      visitor_.demand(found);
+      take_line();
+    }
+    take_proof_from_here();
+    ++lemmas_;
+    take_line();
+  }
+
+  // Its first line is taken. As deep as it is long, so without recursion.
+  void take_proof_from_here() {
+    for (std::int64_t open = 1 + step(); open > 0; open += step()) take_line();
+    visitor_.proven();
+  }
+
+  // By how much it changes the number of proofs that are still to come.
+  int step() {
+    switch (one_of({"leaf", "split", "later", "joint", "prices"})) {
+      case 0:
+        named_.clear();
+        while (words_) named_.push_back(lemma());
+        visitor_.leaf(named_);
+        return -1;
+      case 1:
+        take_split();
+        return 1;
+      case 2:
+        take_later();
+        return 1;
+      case 3:
+        end_line();
+        visitor_.joint();
+        return -1;
+      default:
+        end_line();
+        visitor_.prices();
+        take_rows();
+        return -1;
+    }
+  }
+
+  void take_split() {
+    const CertificateDemand one = demand();
+    keyword("|");
+    const CertificateDemand other = demand();
+    end_line();
+    visitor_.split(one, other);
+  }
+  void take_later() {
+    const CertificateLate one = late();
+    const CertificateLate other = late();
+    const LemmaNumber why = lemma();
+    end_line();
+    visitor_.later(one, other, why);
+  }
+
+  void take_rows() {
+    for (;;) {
+      take_line();
+      switch (one_of({"place", "edge", "finish", "end"})) {
+        case 0:
+          place();
+          time();
+          break;
+        case 1:
+          place();
+          place();
+          time();
+          break;
+        case 2:
+          pair();
+          break;
+        default:
+          end_line();
+          return visitor_.rows_end();
+      }
+      const std::int64_t paid = charge();
+      end_line();
+      visitor_.row(paid);
+    }
+  }
+
+  const std::string file_;
+  LineStream lines_;
+  const Instance* const instance_;
+  CertificateVisitor& visitor_;
+  const std::uint64_t agents_, places_, tasks_;  // how many there are, or could be
+  std::optional<std::string_view> words_;        // what is left of the line; none: it has ended
+  std::vector<LemmaNumber> named_;
+  std::int64_t line_ = 0;
+  std::uint64_t lemmas_ = 0;  // so far
+};
+
+}  // namespace
+
+void read_certificate_lines(const std::string& file, ByteSource bytes, const Instance* instance,
+                            CertificateVisitor& visitor) {
+  Reader(file, std::move(bytes), instance, visitor).read();
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Certificates line by line: the grammar of docs/proof.md, section 3, checked strictly; not that
+// anything is proven.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "grove/detail/model/instance.h"
+#include "grove/detail/model/omega.h"
+#include "line_stream.h"
+
+namespace grove::detail {
+
+struct CertificateDemand {
+  enum class Kind : std::uint8_t { kBar, kMove, kNoRest, kRest, kPass, kStop, kNoStop };
+  static constexpr std::int32_t kForEver = -1;
+
+  AgentIndex agent = 0;
+  Kind kind = Kind::kBar;
+  std::int32_t p = 0;  // in the order of the line: places, or number and task of a stop
+  std::int32_t q = 0;
+  std::int32_t begin = 0;
+  std::int32_t end = 0;
+
+  friend auto operator<=>(const CertificateDemand&, const CertificateDemand&) = default;
+};
+
+// "later": one of its sides.
+struct CertificateLate {
+  AgentIndex agent = 0;
+  std::int32_t time = 0;
+};
+
+using LemmaNumber = std::uint32_t;
+
+// Is told of each line, and then of what it says.
+class CertificateVisitor {
+ public:
+  virtual ~CertificateVisitor() = default;
+
+  virtual void line(std::string_view /*text*/) {}
+  virtual void head() {}  // one of the first three lines
+  virtual void following(bool /*may_follow*/) {}
+  // What comes up to proven() is its own.
+  virtual void lemma(Cost /*bound*/, std::span<const AgentIndex> /*agents*/) {}
+  virtual void demand(const CertificateDemand& /*of_lemma*/) {}
+  virtual void theorem(Cost /*bound*/) {}
+  virtual void split(const CertificateDemand& /*one*/, const CertificateDemand& /*other*/) {}
+  virtual void later(const CertificateLate& /*one*/, const CertificateLate& /*other*/,
+                     LemmaNumber /*lemma*/) {}
+  virtual void leaf(std::span<const LemmaNumber> /*lemmas*/) {}
+  virtual void joint() {}
+  virtual void prices() {}
+  virtual void row(std::int64_t /*charge*/) {}
+  virtual void rows_end() {}
+  virtual void proven() {}
+  virtual void end() {}
+};
+
+// Of this instance, by its checksum and the numbers that occur; or of any, if there is none. Holds
+// no more than a line or two. Throws InputError, which names `file`.
+void read_certificate_lines(const std::string& file, ByteSource bytes, const Instance* instance,
+                            CertificateVisitor& visitor);
+
+}  // namespace grove::detail

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT
+// What of a certificate can be left out without knowing what agents cost under any demands, so
+// without the instance. The proofs that then are left are those of docs/proof.md again, and need
+// only what was there before:
+//
+// A split one of whose sides demands what is in force already: what is below that side proves the
+// node as it stands, for its demands are the same.
+//
+// A split one of whose sides nobody below it needs. A leaf whose costs count may need all that is
+// demanded there, and so may a joint search. But one that lemmas prove, whatever agents cost
+// (lemma_table.cpp), needs no more than that what these lemmas demand be in force, and "later" that
+// its lemma be; a proof that has no others needs what these need and none of its splits in between
+// provides. If all of that is in force without the side (with "rest" comes more than its own
+// demand, demands_in_force.cpp), what is below it proves the node. Where something else demands
+// the same, it is that which is needed, and what it belongs to stays: needs are added up from below
+// after what was left out there.
+//
+// A demand of a lemma whose proof, by the same token, does not need it: the lemma then says more.
+// And a lemma that says no more than an earlier one of the same agents and demands; names of lemmas
+// that a leaf does without; rows of prices that charge nothing; and in the end each lemma that
+// nothing that is left names.
+//
+// Three walks: the first decides what of each split stays, the second notes which lemmas are named
+// by what stays, the third writes.
+#include "grove/detail/proof/certificate_trim.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "certificate_bytes.h"
+#include "certificate_output.h"
+#include "certificate_reader.h"
+#include "demands_in_force.h"
+#include "grove/detail/io/input_error.h"
+#include "kept_parts.h"
+#include "lemma_table.h"
+
+namespace grove::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Demands = std::vector<CertificateDemand>;  // ascending
+using Needs = std::optional<Demands>;            // none: perhaps all
+
+Demands united(const Demands& a, const Demands& b) {
+  Demands all;
+  std::ranges::set_union(a, b, std::back_inserter(all));
+  return all;
+}
+
+class Deciding : public KeptParts {
+ public:
+  explicit Deciding(LemmaTable& lemmas) : lemmas_(lemmas) {}
+  std::vector<Keep> keeps;  // by split
+  std::int64_t lines = 0;
+
+  void line(std::string_view /*text*/) override { ++lines; }
+  void lemma(Cost bound, std::span<const AgentIndex> agents) override {
+    statement_ = {{agents.begin(), agents.end()}, bound, {}, 0};
+  }
+  void demand(const CertificateDemand& of_lemma) override {
+    statement_.demands.push_back(of_lemma);
+    in_force_.add(of_lemma);
+  }
+  void theorem(Cost bound) override {
+    statement_ = {{}, bound, {}, 0};
+    is_theorem_ = true;
+  }
+  void proven() override {
+    if (is_theorem_) return;
+    Demands& all = statement_.demands;
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    if (needs_ && std::ranges::includes(all, *needs_)) all = std::move(*needs_);
+    lemmas_.add(std::move(statement_));
+    in_force_.clear();
+  }
+
+ private:
+  struct Level {
+    Fork fork;
+    Needs first;  // of its first side
+  };
+
+  Keep opened(std::size_t number, const Fork& fork) override {
+    const Keep keep = in_force_.has_side(fork.sides[0])   ? Keep::kFirst
+                      : in_force_.has_side(fork.sides[1]) ? Keep::kSecond
+                                                          : Keep::kBoth;
+    keeps.resize(number + 1, Keep::kBoth);
+    keeps[number] = keep;
+    levels_.push_back({fork, std::nullopt});
+    return keep;
+  }
+  void begin_side(int which) override { in_force_.assume(levels_.back().fork.sides[which]); }
+
+  Keep first_done(std::size_t number) override {
+    Level& level = levels_.back();
+    if (keeps[number] != Keep::kSecond) in_force_.undo(level.fork.sides[0]);
+    if (keeps[number] != Keep::kBoth) return keeps[number];
+    if (proves_the_node()) return keeps[number] = Keep::kFirst;
+    level.first = std::move(needs_);
+    return Keep::kBoth;
+  }
+  void second_done(std::size_t number) override {
+    const Level& level = levels_.back();
+    if (keeps[number] != Keep::kFirst) in_force_.undo(level.fork.sides[1]);
+    if (keeps[number] == Keep::kBoth) {
+      if (proves_the_node())
+        keeps[number] = Keep::kSecond;
+      else
+        needs_ = needs_of(level);
+    }
+    levels_.pop_back();
+  }
+  // What is below a side, now that this is not demanded.
+  bool proves_the_node() const {
+    return needs_ && std::ranges::all_of(*needs_, [&](const CertificateDemand& demand) {
+             return in_force_.has(demand);
+           });
+  }
+  // Of a split both of whose sides stay, the second one's being at hand.
+  Needs needs_of(const Level& level) const {
+    if (!level.first || !needs_) return std::nullopt;
+    Demands all =
+        united(without(*level.first, level.fork.sides[0]), without(*needs_, level.fork.sides[1]));
+    if (!level.fork.why) return all;
+    return united(all, lemmas_[lemmas_[*level.fork.why].same_as].demands);
+  }
+  Demands without(const Demands& demands, const CertificateDemand& side) const {
+    Demands rest;
+    std::ranges::copy_if(demands, std::back_inserter(rest), [&](const CertificateDemand& demand) {
+      return !in_force_.is_of(demand, side);
+    });
+    return rest;
+  }
+
+  void kept_leaf(std::span<const LemmaNumber> named) override {
+    const LemmaTable::Leaf leaf = lemmas_.leaf(named, statement_.bound);
+    needs_.reset();
+    if (!leaf.by_lemmas) return;
+    needs_.emplace();
+    for (const LemmaNumber name : leaf.names) needs_ = united(*needs_, lemmas_[name].demands);
+  }
+  void kept_joint() override { needs_.reset(); }
+  void kept_prices() override { needs_.reset(); }
+
+  LemmaTable& lemmas_;
+  TableLemma statement_;
+  bool is_theorem_ = false;
+  DemandsInForce in_force_;
+  std::vector<Level> levels_;
+  Needs needs_;  // of the proof that ended last
+};
+
+// What was decided, once more.
+class Decided : public KeptParts {
+ public:
+  Decided(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
+      : lemmas_(lemmas), keeps_(keeps) {}
+
+  void lemma(Cost bound, std::span<const AgentIndex> /*agents*/) override {
+    bound_ = bound;
+    begin_lemma(number_);
+  }
+  void theorem(Cost bound) override {
+    bound_ = bound;
+    begin_theorem();
+  }
+  void proven() override { ++number_; }
+
+ protected:
+  virtual void begin_lemma(LemmaNumber number) = 0;
+  virtual void begin_theorem() = 0;
+  virtual void stays(const Fork& fork) = 0;
+  virtual void leaf_of(const std::vector<LemmaNumber>& names) = 0;
+
+  LemmaNumber named(LemmaNumber lemma) const { return lemmas_[lemma].same_as; }
+  const LemmaTable& lemmas_;
+
+ private:
+  Keep opened(std::size_t number, const Fork& fork) final {
+    if (keeps_.at(number) == Keep::kBoth) stays(fork);
+    return keeps_[number];
+  }
+  Keep first_done(std::size_t number) final { return keeps_[number]; }
+  void kept_leaf(std::span<const LemmaNumber> all) final {
+    leaf_of(lemmas_.leaf(all, bound_).names);
+  }
+
+  const std::vector<Keep>& keeps_;
+  Cost bound_ = 0;
+  LemmaNumber number_ = 0;
+};
+
+class Naming : public Decided {
+ public:
+  Naming(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
+      : Decided(lemmas, keeps), names_(lemmas.size()), needed_(lemmas.size()) {}
+
+  // By lemma, once all was read.
+  std::vector<bool> needed() && {
+    for (std::size_t lemma = needed_.size(); lemma-- > 0;)
+      if (needed_[lemma])
+        for (const LemmaNumber name : names_[lemma]) needed_[name] = true;
+    return std::move(needed_);
+  }
+
+ private:
+  void begin_lemma(LemmaNumber number) override { of_lemma_ = &names_.at(number); }
+  void begin_theorem() override { of_lemma_ = nullptr; }
+  void stays(const Fork& fork) override {
+    if (fork.why) name(named(*fork.why));
+  }
+  void leaf_of(const std::vector<LemmaNumber>& names) override {
+    for (const LemmaNumber lemma : names) name(lemma);
+  }
+  void name(LemmaNumber lemma) {
+    if (of_lemma_ == nullptr)
+      needed_[lemma] = true;
+    else
+      of_lemma_->push_back(lemma);
+  }
+  void proven() override {
+    Decided::proven();
+    if (of_lemma_ == nullptr) return;
+    std::ranges::sort(*of_lemma_);
+    of_lemma_->erase(std::unique(of_lemma_->begin(), of_lemma_->end()), of_lemma_->end());
+    of_lemma_->shrink_to_fit();
+  }
+
+  std::vector<std::vector<LemmaNumber>> names_;  // by lemma: what its proof names
+  std::vector<bool> needed_;                     // by the theorem
+  std::vector<LemmaNumber>* of_lemma_ = nullptr;
+};
+
+class Writing : public Decided {
+ public:
+  Writing(const LemmaTable& lemmas, const std::vector<Keep>& keeps, const std::vector<bool>& needed,
+          CertificateOutput& output)
+      : Decided(lemmas, keeps), needed_(needed), numbers_(needed.size()), output_(output) {
+    LemmaNumber next = 0;
+    for (std::size_t lemma = 0; lemma < needed.size(); ++lemma)
+      if (needed[lemma]) numbers_[lemma] = next++;
+  }
+  std::int64_t lines = 0;
+
+  void line(std::string_view text) override { text_ = text; }
+  void head() override { put(text_); }
+  void demand(const CertificateDemand& of_lemma) override {
+    if (std::erase(demands_, of_lemma) > 0) put(text_);
+  }
+  void end() override { put(text_); }
+
+ private:
+  void begin_lemma(LemmaNumber number) override {
+    is_needed_ = needed_.at(number);
+    demands_ = lemmas_[number].demands;
+    put(text_);
+  }
+  void begin_theorem() override {
+    is_needed_ = true;
+    put(text_);
+  }
+  void stays(const Fork& fork) override {
+    if (!fork.why) return put(text_);
+    const auto& [one, other] = fork.sides;
+    put(fmt::format("later {} {} {} {} {}", one.agent, one.end, other.agent, other.end,
+                    numbers_[named(*fork.why)]));
+  }
+  void leaf_of(const std::vector<LemmaNumber>& names) override {
+    std::string line = "leaf";
+    for (const LemmaNumber name : names) line += fmt::format(" {}", numbers_[name]);
+    put(line);
+  }
+  void kept_joint() override { put(text_); }
+  void kept_prices() override { put(text_); }
+  void kept_row(std::int64_t charge) override {
+    if (charge > 0) put(text_);
+  }
+  void kept_rows_end() override { put(text_); }
+
+  void put(std::string_view line) {
+    if (!is_needed_) return;
+    output_.line(line);
+    ++lines;
+  }
+
+  const std::vector<bool>& needed_;
+  std::vector<LemmaNumber> numbers_;  // by lemma, if it is needed
+  CertificateOutput& output_;
+  std::string_view text_;  // of the line that is told of
+  bool is_needed_ = true;  // what it is a part of
+  Demands demands_;        // of the lemma, that are still to come
+};
+
+// Whether it is compressed.
+bool walk(const fs::path& file, CertificateVisitor& visitor) {
+  CertificateBytes bytes(file);
+  const ByteSource source = [&](char* buffer, std::size_t size) {
+    return bytes.read(buffer, size);
+  };
+  read_certificate_lines(file.string(), source, nullptr, visitor);
+  return bytes.compressed();
+}
+
+}  // namespace
+
+TrimmedCertificate trim_certificate(const fs::path& from, const fs::path& to) {
+  if (fs::exists(from) && !fs::is_regular_file(from))
+    throw InputError(from.string(), "", "expected a file, which can be read more than once");
+  TrimmedCertificate trimmed;
+  LemmaTable lemmas;
+  Deciding deciding(lemmas);
+  const bool is_compressed = walk(from, deciding);
+  trimmed.before = {deciding.lines, static_cast<std::int64_t>(fs::file_size(from))};
+  Naming naming(lemmas, deciding.keeps);
+  walk(from, naming);
+  const std::vector<bool> needed = std::move(naming).needed();
+  CertificateOutput output(to, is_compressed);
+  Writing writing(lemmas, deciding.keeps, needed, output);
+  walk(from, writing);
+  trimmed.after.lines = writing.lines;
+  trimmed.after.bytes = output.commit();
+  return trimmed;
+}
+
+}  // namespace grove::detail

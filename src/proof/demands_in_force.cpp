@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// "A rest P T" brings "B bar P T inf" for each other agent. They are not counted one by one: by
+// `others`, how often anybody rests so, and `own`, how often the agent itself does. (For agents of
+// whom the proof is not, too: of those no lemma that it may name demands anything.)
+#include "demands_in_force.h"
+
+#include "grove/detail/model/hash.h"
+
+namespace grove::detail {
+namespace {
+
+using Kind = CertificateDemand::Kind;
+constexpr AgentIndex kAnybody = -1;
+
+CertificateDemand own(AgentIndex agent, std::int32_t place, std::int32_t time) {
+  return {agent, Kind::kRest, place, 1, time, time};
+}
+
+CertificateDemand others(std::int32_t place, std::int32_t time) {
+  return own(kAnybody, place, time);
+}
+
+bool is_for_ever(const CertificateDemand& demand) {
+  return demand.kind == Kind::kBar && demand.end == CertificateDemand::kForEver;
+}
+
+}  // namespace
+
+CertificateDemand demand_of(const CertificateLate& side) {
+  return {side.agent, Kind::kNoRest, kSomeGoal, 0, side.time, side.time};
+}
+
+bool DemandsInForce::has(const CertificateDemand& demand) const {
+  if (times(demand) > 0) return true;
+  return is_for_ever(demand) &&
+         times(others(demand.p, demand.begin)) > times(own(demand.agent, demand.p, demand.begin));
+}
+
+bool DemandsInForce::has_side(const CertificateDemand& side) const {
+  // One of a lemma has brought nothing for others.
+  if (side.kind == Kind::kRest) return times(own(side.agent, side.p, side.begin)) > 0;
+  return has(side);
+}
+
+bool DemandsInForce::is_of(const CertificateDemand& demand, const CertificateDemand& side) const {
+  if (side.kind == Kind::kRest && is_for_ever(demand))
+    return demand.p == side.p && demand.begin == side.begin && demand.agent != side.agent;
+  if (side.p != kSomeGoal) return demand == side;
+  // What nothing else demands must be of the goal.
+  return demand.kind == Kind::kNoRest && demand.agent == side.agent && demand.end == side.end &&
+         !has(demand);
+}
+
+std::size_t DemandsInForce::Hash::operator()(const CertificateDemand& demand) const {
+  std::uint64_t hash = static_cast<std::uint64_t>(demand.kind);
+  for (const std::int32_t value : {demand.agent, demand.p, demand.q, demand.begin, demand.end})
+    hash = mixed_in(hash, static_cast<std::uint64_t>(value));
+  return hash;
+}
+
+void DemandsInForce::count(const CertificateDemand& side, int more) {
+  count_one(side, more);
+  if (side.kind != Kind::kRest) return;
+  count_one(own(side.agent, side.p, side.begin), more);
+  count_one(others(side.p, side.begin), more);
+}
+
+void DemandsInForce::count_one(const CertificateDemand& demand, int more) {
+  const auto found = counts_.try_emplace(demand, 0).first;
+  if ((found->second += more) == 0) counts_.erase(found);
+}
+
+int DemandsInForce::times(const CertificateDemand& demand) const {
+  const auto found = counts_.find(demand);
+  return found == counts_.end() ? 0 : found->second;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "kept_parts.h"
+
+#include "demands_in_force.h"
+
+namespace grove::detail {
+
+void KeptParts::split(const CertificateDemand& one, const CertificateDemand& other) {
+  open({{one, other}, std::nullopt});
+}
+
+void KeptParts::later(const CertificateLate& one, const CertificateLate& other, LemmaNumber lemma) {
+  open({{demand_of(one), demand_of(other)}, lemma});
+}
+
+void KeptParts::leaf(std::span<const LemmaNumber> lemmas) {
+  if (!passes_over()) kept_leaf(lemmas);
+  close();
+}
+
+void KeptParts::joint() {
+  if (!passes_over()) kept_joint();
+  close();
+}
+
+void KeptParts::prices() {
+  if (!passes_over()) kept_prices();
+}
+
+void KeptParts::row(std::int64_t charge) {
+  if (!passes_over()) kept_row(charge);
+}
+
+void KeptParts::rows_end() {
+  if (!passes_over()) kept_rows_end();
+  close();
+}
+
+void KeptParts::open(const Fork& fork) {
+  const std::size_t number = splits_++;
+  if (passes_over()) {
+    ++passed_over_;
+    return;
+  }
+  levels_.push_back({number, opened(number, fork), false});
+  begin(0);
+}
+
+void KeptParts::begin(int which) {
+  if (levels_.back().keep == (which == 0 ? Keep::kSecond : Keep::kFirst))
+    passed_over_ = 1;
+  else
+    begin_side(which);
+}
+
+// A proof has ended, and with it perhaps some that it is a part of.
+void KeptParts::close() {
+  if (passes_over() && --passed_over_ > 0) return;
+  while (!levels_.empty()) {
+    Level& level = levels_.back();
+    if (!level.has_first) {
+      level.has_first = true;
+      level.keep = first_done(level.number);
+      return begin(1);
+    }
+    second_done(level.number);
+    levels_.pop_back();
+  }
+}
+
+}  // namespace grove::detail

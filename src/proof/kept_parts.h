@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Goes through proofs and passes over those sides of splits that are left out.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "certificate_reader.h"
+
+namespace grove::detail {
+
+// Of a split: all of it, or what is below one of its sides in its stead.
+enum class Keep : std::uint8_t { kBoth, kFirst, kSecond };
+
+struct Fork {
+  std::array<CertificateDemand, 2> sides;
+  std::optional<LemmaNumber> why;  // of "later"
+};
+
+class KeptParts : public CertificateVisitor {
+ public:
+  void split(const CertificateDemand& one, const CertificateDemand& other) final;
+  void later(const CertificateLate& one, const CertificateLate& other, LemmaNumber lemma) final;
+  void leaf(std::span<const LemmaNumber> lemmas) final;
+  void joint() final;
+  void prices() final;
+  void row(std::int64_t charge) final;
+  void rows_end() final;
+
+ protected:
+  // Of splits that are not passed over. Their numbers count all.
+  virtual Keep opened(std::size_t number, const Fork& fork) = 0;
+  virtual void begin_side(int /*which*/) {}
+  virtual Keep first_done(std::size_t number) = 0;
+  virtual void second_done(std::size_t /*number*/) {}
+  virtual void kept_leaf(std::span<const LemmaNumber> lemmas) = 0;
+  virtual void kept_joint() {}
+  virtual void kept_prices() {}
+  virtual void kept_row(std::int64_t /*charge*/) {}
+  virtual void kept_rows_end() {}
+
+ private:
+  struct Level {
+    std::size_t number;
+    Keep keep;
+    bool has_first;
+  };
+
+  void open(const Fork& fork);
+  void begin(int which);
+  void close();
+  bool passes_over() const { return passed_over_ > 0; }
+
+  std::size_t splits_ = 0;
+  std::vector<Level> levels_;
+  std::int64_t passed_over_ = 0;  // proofs that are still to come of what is left out here
+};
+
+}  // namespace grove::detail

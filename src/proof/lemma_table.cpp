@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// A leaf is proven by lemmas alone if agents that cost no less than 0, and in groups no less than
+// the lemmas say, cost enough together: that is a covering, as where a search chooses what to name
+// (lemma_choice.h), with nothing but 0 known of each agent. Only lemmas without a common agent are
+// added up here, for that every checker finds.
+//
+// Where what agents cost is needed too, a leaf can do without a lemma that another one implies: one
+// of some of its agents with a bound that is no less. For what the others cost is not less than 0;
+// and c + x of the smaller group being enough, that of the larger one is.
+#include "lemma_table.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "lemma_choice.h"
+
+namespace grove::detail {
+namespace {
+
+// Of a leaf that names more all are taken to be needed: each is compared with each.
+constexpr std::size_t kMostNames = 1000;
+constexpr std::int64_t kNoSteps = 0;
+
+}  // namespace
+
+bool LemmaTable::Before::operator()(LemmaNumber a, LemmaNumber b) const {
+  const auto key = [&](LemmaNumber lemma) {
+    return std::tie(table.lemmas_[lemma].agents, table.lemmas_[lemma].demands);
+  };
+  return key(a) < key(b);
+}
+
+void LemmaTable::add(TableLemma lemma) {
+  const auto number = static_cast<LemmaNumber>(lemmas_.size());
+  lemma.same_as = number;
+  lemmas_.push_back(std::move(lemma));
+  const auto [same, is_new] = distinct_.insert(number);
+  if (is_new) return;
+  if (lemmas_[*same].bound >= lemmas_[number].bound) {
+    lemmas_[number].same_as = *same;
+  } else {
+    distinct_.erase(same);
+    distinct_.insert(number);
+  }
+}
+
+LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound) const {
+  Leaf leaf{worth_naming(named), false};
+  if (leaf.names.size() > kMostNames) return leaf;
+  // Those that demand most are left out first.
+  std::ranges::stable_sort(leaf.names, {},
+                           [&](LemmaNumber name) { return lemmas_[name].demands.size(); });
+  std::vector<ProofExcess> excesses;
+  Cost sum = 0;
+  for (const LemmaNumber name : leaf.names) {
+    excesses.push_back({name, lemmas_[name].agents, lemmas_[name].bound});
+    sum = std::min(kInfiniteCost, sum + lemmas_[name].bound);
+  }
+  if (sum >= bound && covered(excesses, kNoSteps) >= bound) {
+    leave_out(excesses, bound, kNoSteps);
+    leaf.by_lemmas = true;
+    leaf.names.clear();
+    for (const ProofExcess& excess : excesses)
+      leaf.names.push_back(static_cast<LemmaNumber>(excess.lemma));
+  }
+  std::ranges::sort(leaf.names);
+  if (leaf.by_lemmas) return leaf;
+  const std::vector<LemmaNumber> all = leaf.names;
+  std::erase_if(leaf.names, [&](LemmaNumber weaker) {
+    return std::ranges::any_of(all, [&](LemmaNumber one) { return implies(one, weaker); });
+  });
+  return leaf;
+}
+
+// Once each, and none that says nothing.
+std::vector<LemmaNumber> LemmaTable::worth_naming(std::span<const LemmaNumber> named) const {
+  std::vector<LemmaNumber> names;
+  for (const LemmaNumber name : named)
+    if (lemmas_[name].bound > 0) names.push_back(lemmas_[name].same_as);
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+// Of two that imply each other, the earlier one does.
+bool LemmaTable::implies(LemmaNumber stronger, LemmaNumber weaker) const {
+  const TableLemma& one = lemmas_[stronger];
+  const TableLemma& other = lemmas_[weaker];
+  if (stronger == weaker || one.bound < other.bound) return false;
+  if (!std::ranges::includes(other.agents, one.agents)) return false;
+  return one.bound > other.bound || one.agents != other.agents || stronger < weaker;
+}
+
+}  // namespace grove::detail

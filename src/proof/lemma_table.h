@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The lemmas of a certificate, but for their proofs, and what its leaves need of them.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "certificate_reader.h"
+
+namespace grove::detail {
+
+struct TableLemma {
+  std::vector<AgentIndex> agents;
+  Cost bound = 0;
+  std::vector<CertificateDemand> demands;  // that its proof needs, ascending
+  LemmaNumber same_as = 0;                 // an earlier one that says as much, or itself
+};
+
+class LemmaTable {
+ public:
+  LemmaTable() = default;
+  LemmaTable(const LemmaTable&) = delete;
+  LemmaTable& operator=(const LemmaTable&) = delete;
+
+  // As the next one.
+  void add(TableLemma lemma);
+  const TableLemma& operator[](LemmaNumber number) const { return lemmas_[number]; }
+  std::size_t size() const { return lemmas_.size(); }
+
+  // What a leaf must name, ascending; and whether that proves its bound whatever agents cost.
+  struct Leaf {
+    std::vector<LemmaNumber> names;
+    bool by_lemmas = false;
+  };
+  Leaf leaf(std::span<const LemmaNumber> named, Cost bound) const;
+
+ private:
+  struct Before {
+    const LemmaTable& table;
+    bool operator()(LemmaNumber a, LemmaNumber b) const;
+  };
+
+  std::vector<LemmaNumber> worth_naming(std::span<const LemmaNumber> named) const;
+  bool implies(LemmaNumber stronger, LemmaNumber weaker) const;
+
+  std::vector<TableLemma> lemmas_;
+  std::set<LemmaNumber, Before> distinct_{Before{*this}};  // by agents and demands
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "proof_forest.h"
+
+#include <algorithm>
+
+namespace grove::detail {
+
+Cost ProofForest::value(Cost claimed) {
+  Cost value = claimed;
+  for (const ProofTree& tree : written_.trees)
+    value = std::min(value, tree_.value(tree.root, tree.cost));
+  return value;
+}
+
+void ProofForest::visit(Cost bound, ForestVisitor& visitor) {
+  bound_ = bound;
+  Trees all;
+  for (const ProofTree& tree : written_.trees) all.push_back(&tree);
+  visit(all, 0, 0, visitor);
+}
+
+// These trees have the first stops of the first agents in common: down to tree after tree, stop
+// after stop, by "it is the next one of the first of these trees, or it is not". Where there are
+// none of them the agents' own costs are enough, for so it is in all sequences without a tree.
+void ProofForest::visit(const Trees& trees, std::size_t agent, std::size_t number,
+                        ForestVisitor& visitor) {
+  if (trees.empty()) return visitor.leaf(nullptr);
+  const std::vector<Sequence>& sequences = trees.front()->sequences;
+  while (agent < sequences.size() && number == sequences[agent].size()) {
+    ++agent;
+    number = 0;
+  }
+  if (agent == sequences.size()) return visit(*trees.front(), visitor);
+  const Stop stop = sequences[agent][number];
+  const auto demand = [&](ConstraintKind kind) {
+    const auto at = static_cast<Time>(number);
+    return AgentConstraint{static_cast<AgentIndex>(agent), {kNoPlace, stop, at, at, kind}};
+  };
+  visitor.split({demand(ConstraintKind::kStopIs), demand(ConstraintKind::kStopIsNot)});
+  Trees of_it;
+  Trees others;
+  for (const ProofTree* tree : trees)
+    (tree->sequences[agent][number] == stop ? of_it : others).push_back(tree);
+  visit(of_it, agent, number + 1, visitor);
+  visit(others, agent, number, visitor);
+}
+
+void ProofForest::visit(const ProofTree& tree, ForestVisitor& visitor) {
+  tree_.walk(
+      tree.root, tree.cost, bound_, [&](ProofEntry* entry) { visitor.leaf(entry); },
+      [&](const ProofEntry& entry) { visitor.split(entry); });
+}
+
+}  // namespace grove::detail

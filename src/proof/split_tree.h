@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// A tree of splits that was written down, from its root down to where nothing more is asked for.
+// Without recursion: it may be as deep as it has nodes.
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "written_down.h"
+
+namespace grove::detail {
+
+class SplitTree {
+ public:
+  // `entries` must outlive this, which notes in them what nodes prove.
+  explicit SplitTree(ProofEntries& entries) : entries_(entries) {}
+
+  // What the node proves if its agents cost so much.
+  Cost value(ProofKey root, Cost cost);
+
+  // Calls leaf(entry or null) and split(entry) in the order of the certificate. Null: the agents'
+  // own costs are enough.
+  template <class Leaf, class Split>
+  void walk(ProofKey root, Cost cost, Cost bound, Leaf leaf, Split split) {
+    std::vector<std::pair<ProofKey, Cost>> left{{root, cost}};
+    while (!left.empty()) {
+      const auto [node, cost_there] = left.back();
+      left.pop_back();
+      const auto found = entries_.find(node);
+      ProofEntry* const entry = found == entries_.end() ? nullptr : &found->second;
+      if (entry == nullptr || std::max(entry->cost, cost_there) >= bound) {
+        leaf(nullptr);
+      } else if (entry->bound >= bound) {
+        leaf(entry);
+      } else if (entry->split && of_sides(*entry) >= bound) {
+        split(*entry);
+        const auto sides = sides_of(*entry->split);
+        for (const int i : {1, 0}) left.emplace_back(sides[i], entry->split->costs[i]);
+      } else {
+        leaf(entry);
+      }
+    }
+  }
+
+ private:
+  static std::array<ProofKey, 2> sides_of(const ProofSplit& split);
+  Cost of_sides(const ProofEntry& entry) const;
+  Cost value_of(ProofKey node, Cost cost) const;
+
+  ProofEntries& entries_;
+};
+
+}  // namespace grove::detail

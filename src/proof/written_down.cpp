@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "written_down.h"
+
+#include <algorithm>
+
+#include "lemma_choice.h"
+
+namespace grove::detail {
+
+void WrittenDown::tree(const ProofTree& tree) {
+  if (std::ranges::count(trees, tree.root, &ProofTree::root) == 0) trees.push_back(tree);
+}
+
+void WrittenDown::split(const ProofSplit& split) {
+  entries[split.node].split = split;
+}
+
+void WrittenDown::bound(ProofKey node, Cost cost, Cost bound,
+                        std::span<const ProofExcess> excesses) {
+  ProofEntry& entry = entries[node];
+  entry.cost = std::max(entry.cost, cost);
+  if (bound <= entry.bound) return;
+  entry.bound = bound;
+  entry.excesses.assign(excesses.begin(), excesses.end());
+}
+
+void WrittenDown::lemma(const ProofLemma& lemma, ProofKey /*root*/,
+                        std::span<const ProofSplit> /*splits*/) {
+  lemmas.insert(lemma.key());
+}
+
+void WrittenDown::prices(Cost bound, std::span<const ChargedRow> rows) {
+  if (bound <= priced) return;
+  priced = bound;
+  priced_rows.assign(rows.begin(), rows.end());
+}
+
+void WrittenDown::joint(Cost bound) {
+  joined = std::max(joined, bound);
+}
+
+void WrittenDown::drop_what_lacks_lemmas() {
+  const auto is_lost = [&](ProofKey lemma) { return !lemmas.contains(lemma); };
+  for (auto& [node, entry] : entries) {
+    if (entry.split && entry.split->lemma != kNoProof && is_lost(entry.split->lemma))
+      entry.split.reset();
+    const auto lost = [&](const ProofExcess& excess) { return is_lost(excess.lemma); };
+    if (std::erase_if(entry.excesses, lost) > 0) entry.bound = entry.cost + covered(entry.excesses);
+  }
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// grove proof trim FILE
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "grove/detail/io/input_error.h"
+#include "grove/detail/proof/certificate_trim.h"
+#include "tools/common/commands.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr const char* kProofFooter =
+    R"(Certificates are what 'grove solve --proof' writes: why no plan costs less. grove-verify checks
+them; 'grove view --proof' shows them.
+
+Examples:
+  grove solve my.cts.json --proof my.proof
+  grove proof trim my.proof
+  grove-verify my.cts.json my.proof)";
+
+constexpr const char* kTrimFooter =
+    R"(Leaves out what the theorem does not need: lemmas that nothing names, lemmas said twice, splits
+of which what is below one side does without that side, demands of lemmas that their proofs do
+without. Certificates of other programs are read as well as Grove's, compressed or not, and stay as
+they are in that. The instance is not needed, for nothing is solved: what agents cost under the
+demands of a leaf is taken to need all of these. What is proven stays so, and is checked as ever,
+by grove-verify.
+
+The file is read three times, piece by piece; in memory are its lemmas, without their proofs, and a
+byte for each split.
+
+Prints one line, and exits with 0; or with 2 where FILE is no certificate, and leaves all as it was.
+
+Examples:
+  grove proof trim my.proof
+  grove proof trim their.proof -o short.proof)";
+
+struct TrimArguments {
+  std::string file;
+  std::string output;
+};
+
+void run(const TrimArguments& arguments) {
+  const std::string& to = arguments.output.empty() ? arguments.file : arguments.output;
+  const auto [before, after] = trim_certificate(arguments.file, to);
+  fmt::print("wrote {}: {} lines, {} bytes; before: {} lines, {} bytes\n", one_line(to),
+             after.lines, after.bytes, before.lines, before.bytes);
+}
+
+void add_trim_command(CLI::App& app) {
+  const auto arguments = std::make_shared<TrimArguments>();
+  CLI::App* command =
+      app.add_subcommand("trim", "Leave out of a certificate what its theorem does not need");
+  command->footer(kTrimFooter);
+  command->add_option("FILE", arguments->file, "the certificate")->required()->type_name("");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "file to write, whole or not at all; by default FILE itself")
+      ->type_name("FILE");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace
+
+void add_proof_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("proof", "Work on certificates of lower bounds");
+  command->footer(kProofFooter)->require_subcommand(1);
+  add_trim_command(*command);
+}
+
+}  // namespace grove::detail

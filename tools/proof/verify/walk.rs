@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+//! One agent under demands: what it may be in, and its steps.
+use crate::body::{Body, NEVER};
+use crate::instance::Place;
+use crate::rules::{Chains, Rules, Way, EARLY};
+
+/// A pose, the number of the set of stops done, how it stands, and for how long it is still at work on the last of these.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct State {
+    pub pose: u32,
+    pub done: u32,
+    pub left: u32,
+    pub way: Way,
+}
+
+/// A state at a time, with the interval of time in which its place is free.
+pub type Arrival = (State, u32, u32);
+
+pub struct Walk<'a> {
+    pub body: &'a mut Body,
+    pub chains: &'a Chains,
+    pub rules: &'a Rules,
+}
+
+impl Walk<'_> {
+    pub fn place(&self, state: &State) -> Place { self.body.poses.place(state.pose) }
+
+    fn full(&self, state: &State) -> bool { self.body.done(state.done) == self.body.all() }
+
+    pub fn starts(&mut self) -> Vec<State> {
+        let (pose, place, mut found) = (self.body.start, self.body.poses.place(self.body.start), Vec::new());
+        let (stop, left) = self.body.working.map_or((0, 0), |(stop, end)| (1 << stop, end));
+        let works = stop == 0 || self.rules.allowed[0] & stop != 0;
+        if works && self.rules.holding(place, 0).is_some() {
+            let done = self.done_on(place, 0) | stop;
+            let state = State { pose, done: self.body.number(done), left, way: self.rules.arrived(place, 0) };
+            self.arrive(state, &mut found);
+        }
+        found
+    }
+
+    /// Without an order of stops those that take no time are done on arrival.
+    fn done_on(&self, place: Place, done: u64) -> u64 {
+        let here = self.body.stops_at(place) & !done;
+        if here == 0 || self.rules.ordered { done } else { done | self.body.has_no_duration(here) }
+    }
+
+    /// What it may do next where it is: in an order, or work.
+    pub fn choices(&mut self, state: State) -> Vec<State> {
+        let done = self.body.done(state.done);
+        let mut open = self.body.stops_at(self.place(&state)) & !done;
+        if open == 0 || state.left > 0 { return Vec::new(); }
+        open &= self.rules.allowed[done.count_ones() as usize];
+        let begin = |stop: usize| State { done: self.body.number(done | 1 << stop), left: self.body.stops[stop].duration, ..state };
+        (0..64).filter(|stop| open >> stop & 1 == 1).map(begin).collect()
+    }
+
+    fn arrive(&mut self, state: State, found: &mut Vec<State>) {
+        found.push(state);
+        found.extend(self.choices(state));
+    }
+
+    /// Nothing may follow: where the last stop in an order was done it rests.
+    pub fn over(&self, state: &State) -> bool { self.rules.ordered && self.body.rests_on_last && self.full(state) }
+
+    /// The states of the next time.
+    pub fn steps(&mut self, state: State, time: u32) -> Vec<State> {
+        let (mut found, mut gone) = (Vec::new(), Vec::new());
+        let stays = self.rules.holding(self.place(&state), time + 1);
+        if state.left == 0 && self.over(&state) { return found; }
+        if stays.is_some() { self.arrive(State { left: state.left.saturating_sub(1), ..state }, &mut found); }
+        if state.left == 0 {
+            self.go((state, stays.unwrap_or(0), time), (time + u32::from(stays.is_some()), time), &mut gone);
+            gone.into_iter().for_each(|(state, _, _)| self.arrive(state, &mut found));
+        }
+        found
+    }
+
+    /// The first arrivals in other poses of who may stay to one time, and go on to another place up to one.
+    pub fn go(&mut self, (state, interval, time): Arrival, (stays, leaves): (u32, u32), found: &mut Vec<Arrival>) {
+        let (from, poses) = (self.place(&state), self.body.poses.clone());
+        for &pose in poses.next(state.pose) {
+            let to = poses.place(pose);
+            if to == from {
+                if time < stays { found.push((State { pose, ..state }, interval, time + 1)); }
+                continue;
+            }
+            let (way, exit) = self.rules.passing(self.chains, state.way, from, to);
+            let mut after = State { pose, way, ..state };
+            if self.body.stops_at(to) != 0 {
+                let done = self.done_on(to, self.body.done(state.done));
+                after.done = self.body.number(done);
+            }
+            for interval in self.rules.ending(to, time + 1)..self.rules.intervals(to).end {
+                let (first, last) = self.rules.interval(interval);
+                if first > leaves + 1 { break; }
+                let (first, last) = (first.max(time + 1), last.min(leaves + 1));
+                if let Some(time) = self.rules.arrival(from, to, exit, first, last) {
+                    let early = self.rules.arrived(to, time);
+                    found.push((State { way: way | early, ..after }, interval, time));
+                    if early != 0 {
+                        let time = self.rules.arrival(from, to, exit, self.rules.rest_from(to).max(first), last);
+                        found.extend(time.map(|time| (after, interval, time)));
+                    }
+                }
+            }
+        }
+    }
+
+    /// What remains at least.
+    pub fn remains(&self, state: &State) -> u32 { state.left + self.body.remains(state.done, state.pose) }
+
+    /// Whether it may rest with this state, on a place that is free from then on.
+    pub fn rests(&self, state: &State) -> bool { state.way & EARLY == 0 && self.full(state) && self.remains(state) == 0 }
+
+    pub fn may_end(&self, state: &State, time: u32) -> bool {
+        let holding = self.rules.holding(self.place(state), time);
+        holding.map_or(false, |number| self.rules.interval(number).1 == NEVER) && self.rests(state)
+    }
+}
