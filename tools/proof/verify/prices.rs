@@ -83,18 +83,24 @@ impl Prices {
                 waiting.push(Reverse((UNIT * u64::from(time + remains) + used, u32::MAX - time, used, Some(state))));
             }
         };
-        steps.into_iter().for_each(|(state, used)| push(walk, &mut waiting, state, 0, used));
+        let end = |walk: &Walk, waiting: &mut BinaryHeap<_>, state: &State, time: u32, used: u64| {
+            if !walk.may_end(state, time) { return; }
+            waiting.push(Reverse((UNIT * u64::from(time) + used + self.end(agent, walk.place(state), time), u32::MAX - time, used, None)));
+        };
+        for (state, used) in steps {
+            end(walk, &mut waiting, &state, 0, used);
+            push(walk, &mut waiting, state, 0, used);
+        }
         while let Some(Reverse((total, late, used, state))) = waiting.pop() {
             let (time, state) = match state {
                 Some(state) => (u32::MAX - late, state),
                 None => return Some(total.min(beyond)),
             };
             let place = walk.place(&state);
-            if walk.may_end(&state, time) {
-                waiting.push(Reverse((UNIT * u64::from(time) + used + self.end(agent, place, time), late, used, None)));
-            }
             for step in walk.steps(state, time) {
                 let used = used + self.step(place, walk.place(&step), time + 1);
+                // Who stays as it is has come to its end before: that is what its path costs.
+                if step != state { end(walk, &mut waiting, &step, time + 1, used); }
                 push(walk, &mut waiting, step, time + 1, used);
             }
         }
