@@ -11,9 +11,10 @@
 // of a second, whatever plan there is, so it grows into that freedom: it may not have more than 1/4
 // until the tree has done a thirty-second of tree_is_long_work, and 8 when it has done all. While
 // more is proven beside the tree than by it, what it does raises no bound; while the plan costs
-// much more than what is proven, no tree closes the gap soon: then the primal search has as much as
-// it at least, for neighbourhoods may be in vain a hundred times before the first of many gains.
-// None of this knows how large the instance is or how fast the machine.
+// much more than what is proven (far_plan), no tree closes the gap soon. Then the primal search has
+// as much as it at least, for neighbourhoods may be in vain a hundred times before the first of
+// many gains; and while the plan is that far, 8 at most from the beginning. None of this knows how
+// large the instance is or how fast the machine.
 #include "primal_share.h"
 
 #include <algorithm>

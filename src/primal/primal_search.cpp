@@ -20,9 +20,9 @@
 // other: where it has a plan in the end, that is mostly the cheaper one by far (room-64-64-8, 100
 // agents, 300 tasks: 28,118 after a work of 330,000; the configuration search 30,979 after 40,000,
 // which large neighbourhood search had brought down to 30,964 by then), and taken if so. A plan of
-// another search, which comes meanwhile, ends that as little as one of its own. In
-// later rounds it shares with the large neighbourhood search of the round before in the same way,
-// so no round waits for a plan that never comes.
+// another search, which comes meanwhile, ends that as little as one of its own. In later rounds it
+// shares with the large neighbourhood search of the round before in the same way, so no round waits
+// for a plan that never comes.
 //
 // Where it is so crowded that the configuration search's plan costs much more than the agents
 // alone, guided search (guided_search.cpp) goes on from it, round by round, as long as that makes
@@ -390,7 +390,7 @@ void PrimalSearch::Impl::adopt(const Plan& plan) {
     return;
   }
   configurations_.reset();
-  if (!first_round_) {
+  if (!planning_now_ || !first_round_) {
     planning_now_ = false;
     round_began_ = work();
   }
