@@ -4,7 +4,7 @@
 
     proof_checker.py INSTANCE.cts.json PROOF
 
-Maps, agents with a start and a goal, no tasks, no turns; in the certificate no lemmas, no rules but `leaf` and `split`, no demands
+Maps, agents with a start and a goal, no tasks, no turns; in the certificate (if compressed, zstd has to be installed) no lemmas, no rules but `leaf` and `split`, no demands
 but `bar` and `move`. It is here to be read: grove-verify takes all of it, and fast.
 """
 import heapq

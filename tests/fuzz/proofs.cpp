@@ -51,7 +51,7 @@ constexpr const char* kFooter =
     R"(Searches tiny instances whose optimum is known, certifies their bounds, and has the checker verify
 them and what they become when they are tampered with. Exit codes: 0 all is well, 1 not, 2 bad usage.
 
-The long campaign, some 100,000 tampered certificates, takes about six minutes of one core, most of
+The long campaign, some 100,000 tampered certificates, takes about ten minutes of one core, most of
 them calls of the checker:
   grove-proofs --verify build/release/bin/grove-verify --folder FOLDER --count 2600 --mutations 50
 On several cores, each with a folder and seeds of its own:
