@@ -4,68 +4,107 @@
 // what another has plenty of is helped too, so that all work near the lower bound; with w = 0 all
 // nodes below the optimum must be expanded in any case, so that is worth little, and few nodes are
 // not worth a message.
+//
+// Ranks of one child are matched below it. What is left there of wishes and of nodes to spare is
+// matched here, or above.
 #include "mpi/broker.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace grove::detail {
 namespace {
 
-// What a rank with these open nodes can spare of its best bound; see Frontier::take_spare().
-std::optional<Frontier::Level> spare(const std::vector<Frontier::Level>& levels) {
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const std::int64_t half = (levels[i].open + (i > 0 ? 1 : 0)) / 2;
-    if (half > 0) return Frontier::Level{levels[i].bound, half};
+constexpr std::size_t kWishesPassedOn = 16;
+
+}  // namespace
+
+Broker::Broker(const std::vector<std::vector<int>>& children, const Tuning& tuning)
+    : tuning_(tuning), children_(children.size()) {
+  for (std::size_t child = 0; child < children.size(); ++child) {
+    message::Status idle;
+    for (const int rank : children[child] | std::views::take(kWishesPassedOn))
+      idle.wants.push_back({rank, true, kInfiniteCost});
+    heard(static_cast<int>(child), idle);
+  }
+}
+
+void Broker::heard(int child, const message::Status& status) {
+  View& at = view(child);
+  for (const Wish& wish : at.wishes) wishes_.erase(wish);
+  at.wishes.clear();
+  for (const message::Want& want : status.wants) {
+    const Wish& wish = at.wishes.emplace_back(!want.idle, -want.best, want.rank);
+    wishes_[wish] = child;
+  }
+  offer(child, status.spare);
+}
+
+void Broker::arrived(int rank) {
+  awaiting_.erase(rank);
+}
+
+void Broker::offer(int child, const message::Spare& spare) {
+  View& at = view(child);
+  offers_.erase({at.spare.bound, -at.spare.nodes, child});
+  at.spare = spare;
+  if (spare.nodes > 0) offers_.insert({spare.bound, -spare.nodes, child});
+}
+
+void Broker::take(int child, std::int64_t nodes) {
+  message::Spare left = view(child).spare;
+  left.nodes = std::max<std::int64_t>(0, left.nodes - nodes);
+  offer(child, left);
+}
+
+// Wishes come in order of need: where nothing helps one, nothing helps those after it.
+std::optional<Broker::Gift> Broker::next() {
+  for (const auto& [wish, child] : wishes_) {
+    const auto& [busy, minus_best, to] = wish;
+    if (awaiting_.contains(to)) continue;
+    auto best = offers_.begin();
+    if (best != offers_.end() && std::get<int>(*best) == child) ++best;
+    if (best == offers_.end()) {
+      if (offers_.empty()) break;
+      continue;
+    }
+    const auto [bound, minus_nodes, from] = *best;
+    const bool helps = -minus_best == kInfiniteCost ||
+                       (-minus_best > bound && -minus_nodes >= tuning_.plenty_nodes);
+    if (!helps) break;
+    const Gift gift{from, to, std::min(-minus_nodes, tuning_.gift_nodes)};
+    take(from, gift.nodes);
+    awaiting_.insert(to);
+    return gift;
   }
   return std::nullopt;
 }
 
-}  // namespace
-
-Broker::Broker(int ranks, const Tuning& tuning)
-    : tuning_(tuning), ranks_(static_cast<std::size_t>(ranks)) {
-  for (int rank = 0; rank < ranks; ++rank) place(rank);
+int Broker::giver(std::int64_t nodes) {
+  if (offers_.empty()) return 0;
+  const int child = std::get<int>(*offers_.begin());
+  take(child, nodes);
+  return child;
 }
 
-void Broker::heard(int rank, const message::Status& status) {
-  view(rank).levels = status.levels;
-  view(rank).idle = status.idle;
-  place(rank);
+message::Spare Broker::spare() const {
+  message::Spare all;
+  for (const auto& [bound, minus_nodes, child] : offers_) {
+    if (all.nodes > 0 && bound != all.bound) break;
+    all.bound = bound;
+    all.nodes -= minus_nodes;
+  }
+  return all;
 }
 
-void Broker::arrived(int rank) {
-  view(rank).awaits = false;
-  place(rank);
-}
-
-// Among the offers and the wants as it is now.
-void Broker::place(int rank) {
-  View& at = view(rank);
-  if (at.offer) offers_.erase(*at.offer);
-  if (at.want) wants_.erase(*at.want);
-  at.offer.reset();
-  at.want.reset();
-  if (const auto level = spare(at.levels))
-    offers_.insert(at.offer.emplace(level->bound, -level->open, rank));
-  const Cost best = at.levels.empty() ? kInfiniteCost : at.levels.front().bound;
-  if (!at.awaits) wants_.insert(at.want.emplace(!at.idle, -best, rank));
-}
-
-std::optional<Broker::Gift> Broker::next() {
-  if (offers_.empty() || wants_.empty()) return std::nullopt;
-  const auto [bound, minus_nodes, from] = *offers_.begin();
-  const auto [busy, minus_best, to] = *wants_.begin();
-  const Cost best = -minus_best;
-  const bool helps =
-      best == kInfiniteCost || (best > bound && -minus_nodes >= tuning_.plenty_nodes);
-  if (from == to || !helps) return std::nullopt;
-  const Gift gift{from, to, std::min(-minus_nodes, tuning_.gift_nodes)};
-  for (Frontier::Level& level : view(from).levels)
-    if (level.bound == bound) level.open -= gift.nodes;
-  view(to).awaits = true;
-  place(from);
-  place(to);
-  return gift;
+std::vector<message::Want> Broker::wants() const {
+  std::vector<message::Want> wants;
+  for (const auto& [wish, child] : wishes_) {
+    const auto& [busy, minus_best, rank] = wish;
+    if (wants.size() == kWishesPassedOn) break;
+    if (!awaiting_.contains(rank)) wants.push_back({rank, !busy, -minus_best});
+  }
+  return wants;
 }
 
 }  // namespace grove::detail

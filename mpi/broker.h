@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -13,45 +14,52 @@
 
 namespace grove::detail {
 
-// Matches ranks that have nothing to expand, or nothing as good as others, with those that have
-// most to spare. Decides nothing that an answer depends on. Of one thread.
+// Matches ranks that have nothing to expand, or nothing as good as others, with children of a
+// coordinator that have most to spare. Decides nothing that an answer depends on. Of one thread.
 class Broker {
  public:
   struct Gift {
-    int from = 0;
-    int to = 0;
+    int from = 0;            // the child
+    int to = 0;              // the rank, which is not there
     std::int64_t nodes = 0;  // at most
   };
 
-  // Nobody has nodes yet.
-  explicit Broker(int ranks, const Tuning& tuning = {});
+  // The ranks that each child is, or that are below it; nobody has nodes yet.
+  explicit Broker(const std::vector<std::vector<int>>& children, const Tuning& tuning = {});
 
-  // A rank's new status.
-  void heard(int rank, const message::Status& status);
+  // A child's new status.
+  void heard(int child, const message::Status& status);
   // A gift to this rank has arrived.
   void arrived(int rank);
   // What to order next. Until it has arrived the receiver is given nothing else.
   std::optional<Gift> next();
 
+  // The child that is to give so many nodes to somebody elsewhere: the one with most to spare, or
+  // any.
+  int giver(std::int64_t nodes);
+  // What all children together can spare of their best bound, and who of them needs nodes most: for
+  // a superior, to match with those of others.
+  message::Spare spare() const;
+  std::vector<message::Want> wants() const;
+
  private:
-  using Offer = std::tuple<Cost, std::int64_t, int>;  // bound, minus nodes, rank
-  using Want = std::tuple<bool, Cost, int>;           // has nodes in hand, minus bound, rank
+  using Offer = std::tuple<Cost, std::int64_t, int>;  // bound, minus nodes, child
+  using Wish = std::tuple<bool, Cost, int>;           // has nodes in hand, minus best bound, rank
 
   struct View {
-    std::vector<Frontier::Level> levels;
-    bool idle = true;
-    bool awaits = false;  // a gift
-    std::optional<Offer> offer;
-    std::optional<Want> want;
+    message::Spare spare;
+    std::vector<Wish> wishes;
   };
 
-  View& view(int rank) { return ranks_[static_cast<std::size_t>(rank)]; }
-  void place(int rank);
+  View& view(int child) { return children_[static_cast<std::size_t>(child)]; }
+  void offer(int child, const message::Spare& spare);
+  void take(int child, std::int64_t nodes);
 
   const Tuning tuning_;
-  std::vector<View> ranks_;
+  std::vector<View> children_;
   std::set<Offer> offers_;
-  std::set<Want> wants_;
+  std::map<Wish, int> wishes_;  // whose child they are
+  std::set<int> awaiting_;      // ranks, a gift
 };
 
 }  // namespace grove::detail

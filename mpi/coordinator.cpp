@@ -1,30 +1,52 @@
 // SPDX-License-Identifier: MIT
 // Ranks hold the nodes of one search and pass them to each other; the coordinator holds the ledger.
-// Messages between two ranks arrive in the order in which they were sent, others in any order.
+// Where there are many ranks it hears them by way of sub-coordinators (hierarchy.h), which merge
+// what is said on the way up and spread what is said on the way down. Messages between two ranks
+// arrive in the order in which they were sent, others in any order.
 //
 // *The bound.* Every node that may still lead to a plan is covered, at every moment, by the latest
-// status that the coordinator has of some rank, by a root that it has sent and not yet seen
-// covered, or by a tree not yet instantiated:
-// - A rank covers the nodes in its frontier, open or taken. A worker settles a node after what
-//   it led to was pushed, and after a plan that it led to was posted; and a rank sends the plans
-//   posted before a status made no later. So the coordinator knows of the plan when it hears that
-//   the node is gone.
+// status that the coordinator has of some child, by nodes that it has entrusted to one and not yet
+// seen covered, or by a tree not yet instantiated. For a rank that is a child:
+// - It covers the nodes in its frontier, open or taken. A worker settles a node after what it led
+//   to was pushed, and after a plan that it led to was posted; and a rank sends the plans posted
+//   before a status made no later. So the coordinator knows of the plan when it hears that the node
+//   is gone.
 // - A rank that gives nodes away keeps them taken: in custody. The receiver pushes them and then
 //   says so in a status; when the coordinator has processed that one, which covers them, it
 //   releases the sender, whose later statuses do without. (The minimum of the ranks' own bounds,
 //   sampled while nodes travel, would miss those that travel.)
-// - A root is covered by the coordinator until the status that says it has been pushed.
+// - What is entrusted to it is covered by the coordinator until the status that says it has been
+//   pushed.
 // - What is not pushed is pruned by an incumbent that the gate has checked.
-// So min(latest statuses, roots under way, next tree) bounds all plans but those pruned, whatever
-// the delays, and a rank that says nothing for long only keeps the bound low.
+// So min(latest statuses, entrusted, next tree) bounds all plans but those pruned, whatever the
+// delays, and a rank that says nothing for long only keeps the bound low.
 //
-// *The end.* By the same argument no node is live if no latest status knows a live one and no root
-// is under way. There is no other test for it, and no batch can be under way then.
+// *Sub-coordinators.* Call what is below one coordinator its group. Claim: at every moment the least
+// bound of the latest statuses and of what is entrusted, as one coordinator has them, covers every
+// node of its group, and every one that somebody of its group has in custody. For level 1 this is
+// the argument above, for what comes from elsewhere and goes there is in the custody of somebody or
+// covered by a status already processed. Above it:
+// - A status of a sub-coordinator is that minimum of its own at one moment, so it covers what its
+//   group then held. What its group holds later comes from nodes covered then, from what was
+//   entrusted to it since, which is covered above until a status says that it has arrived, or from
+//   another group, in whose member's custody it still is.
+// - A batch is released by the coordinator nearest above both sides, when it has processed a status
+//   of the receiver's group that says that the batch was taken over: and covers it, for each
+//   coordinator on the way up passes that on in the status that covers it, or a later one. The
+//   release goes down to the giver, so what the giver's group says without the batch is processed
+//   by that coordinator, and above it, after what covers it on the other side. What is said above
+//   in between has both.
+// - Plans go up by the same way, each passed on at once, and one is dropped only where an incumbent
+//   that the gate has checked is as good. So a plan still comes before the status without the node
+//   that led to it.
+//
+// *The end.* By the same argument no node is live if no latest status knows a live one and nothing
+// entrusted is under way. There is no other test for it, and no batch can be under way then.
 //
 // *A new beginning*, after nodes were given up for want of memory: nothing is live, all forget what
 // they gave up, and the roots are pushed again. A rank may be given nodes by one that has begun
 // anew before it hears of that itself: batches carry their era, and wait. Until a rank's status is
-// of the new era it is not known what it holds.
+// of the new era it is not known what it holds; a group is of the era of its last.
 //
 // *Prices.* The Lagrangian bound is rank 0's, beside its nodes. It asks other ranks for prices
 // under its multipliers, each for one share of the agents at a time: the next when it has answered.
@@ -33,14 +55,19 @@
 // order in which they come. What rank 0 proves by them goes to the coordinator in its statuses.
 //
 // *Leaving.* After End, and what it was ordered before, a rank says farewell and sends nothing
-// more; the coordinator then tells each how many batches were sent to it, so that nothing is left
-// under way. The last question for prices arrives before that, for it was sent before by the same
-// rank, and the last answer before the farewell of who gave it.
+// more; a sub-coordinator does when all its children have. The coordinator then tells each rank how
+// many messages were sent to it directly by others (batches, questions for prices, answers), so
+// that nothing is left under way. What went up came before the farewells, what goes down before
+// that last word, by the same ways.
 #include "mpi/coordinator.h"
 
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
+
+#include "mpi/overloaded.h"
 
 namespace grove::detail {
 namespace {
@@ -55,13 +82,13 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       options_(options),
       limits_(limits),
       transport_(transport),
-      announcer_(observer, transport),
-      nodes_(transport),
+      hierarchy_(transport.ranks(), options.tuning.coordinator_children),
+      children_(transport, hierarchy_, hierarchy_.levels()),
+      announcer_(observer, children_),
+      nodes_(children_),
       run_(problem, options, limits, announcer_, pool_, nodes_),
-      broker_(transport.ranks(), options.tuning),
-      timer_(options.checkpoints),
-      batches_to_(static_cast<std::size_t>(transport.ranks())),
-      accounts_(static_cast<std::size_t>(transport.ranks())) {
+      broker_(children_.ranks(), options.tuning),
+      timer_(options.checkpoints) {
   run_.announcements().survey_by([this] { return survey(); });
 }
 
@@ -69,7 +96,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
 void Coordinator::Announcer::on_incumbent(const Plan& plan, PlanSource source,
                                           const Progress& progress) {
   ForwardingObserver::on_incumbent(plan, source, progress);
-  tell_all(transport_, message::Incumbent{plan});
+  children_.tell_all(message::Incumbent{plan});
 }
 
 void Coordinator::begin() {
@@ -79,18 +106,14 @@ void Coordinator::begin() {
     run_.begin();
 }
 
-// Spread over the ranks as they come.
+// Spread over those below as they come.
 void Coordinator::restore(CheckpointReader& checkpoint) {
   const auto roots = run_.restore(checkpoint.header());
   restored_ = roots.has_value();
   if (!roots) return;
-  nodes_.entrust(0, {}, checkpoint.header().evicted_bound);
+  nodes_.entrust({{}, checkpoint.header().evicted_bound});
   std::vector<NodeRecord> nodes;
-  int rank = 0;
-  const auto send = [&] {
-    nodes_.entrust(rank, std::exchange(nodes, {}));
-    rank = (rank + 1) % transport_.ranks();
-  };
+  const auto send = [&] { nodes_.entrust({std::exchange(nodes, {}), kInfiniteCost}); };
   while (auto next = checkpoint.next()) {
     const NodePtr& root = roots->at(next->tree);
     check(*next, *root, instance_);
@@ -102,47 +125,41 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
   run_.restored();
 }
 
-bool Coordinator::is_for_coordinator(const message::Message& message) {
-  return std::holds_alternative<message::Status>(message) ||
-         std::holds_alternative<message::Found>(message) ||
-         std::holds_alternative<message::Gathered>(message) ||
-         std::holds_alternative<message::Part>(message) ||
-         std::holds_alternative<message::Account>(message) ||
-         std::holds_alternative<message::Farewell>(message);
-}
-
 void Coordinator::handle(int from, message::Message&& message) {
-  if (auto* status = std::get_if<message::Status>(&message))
-    heard(from, std::move(*status));
-  else if (auto* found = std::get_if<message::Found>(&message))
-    run_.ledger().post(std::move(found->plan), found->source);
-  else if (const auto* gathered = std::get_if<message::Gathered>(&message))
-    gathering_.value().handle(*gathered);
-  else if (auto* part = std::get_if<message::Part>(&message))
-    gathering_.value().handle(std::move(*part));
-  else if (auto* account = std::get_if<message::Account>(&message))
-    accounts_.at(static_cast<std::size_t>(from)) = std::move(account->account);
-  else if (auto* farewell = std::get_if<message::Farewell>(&message))
-    leave(from, std::move(*farewell));
-  else
+  const auto unexpected = [](const auto&) {
     throw std::invalid_argument("a message for a rank came to the coordinator");
+  };
+  std::visit(
+      Overloaded{[&](message::Status& status) { heard(children_.with(from), std::move(status)); },
+                 [&](message::Found& found) {
+                   run_.ledger().post(std::move(found.plan), found.source);
+                 },
+                 [&](message::Gathered& gathered) { gathering_.value().handle(gathered); },
+                 [&](message::Part& part) { gathering_.value().handle(std::move(part)); },
+                 [&](message::Account& account) {
+                   for (const auto& [rank, survey] : account.survey.ranks)
+                     surveys_[rank] = account.survey;
+                 },
+                 [&](message::Farewell& farewell) { leave(std::move(farewell)); }, unexpected},
+      message);
 }
 
-void Coordinator::heard(int from, message::Status status) {
-  broker_.heard(from, status);
-  for (const auto& [giver, batches] : status.batches) {
-    broker_.arrived(from);
-    transport_.send(giver, bytes_of(message::Release{from, batches}));
+void Coordinator::heard(int child, message::Status status) {
+  broker_.heard(child, status);
+  for (const message::Taken& taken : status.taken) {
+    broker_.arrived(taken.by);
+    children_.tell(children_.with(taken.from),
+                   message::Release{taken.from, taken.by, taken.batches});
   }
   if (status.stopped != StopReason::kNone) limits_.stop(status.stopped);
   if (status.proven > 0) run_.ledger().prove(status.proven, status.proven_by);
-  nodes_.update(from, std::move(status));
+  nodes_.update(child, std::move(status));
   run_.ledger().nodes_changed();
   run_.announcements().worked();
   if (ending_) return;  // a batch sent after a farewell would be left under way
   run_.trees().bring_due_tree();
   while (const auto gift = broker_.next())
-    transport_.send(gift->from, bytes_of(message::Order{gift->to, gift->nodes}));
+    children_.tell(gift->from, message::Order{gift->to, gift->nodes});
 }
 
 // One at a time; the last one when the search is over, before the ranks are told.
@@ -152,7 +169,7 @@ void Coordinator::look_after_checkpoints() {
   const bool is_last = run_.ledger().over() && !gathered_at_end_;
   if (!is_last && (run_.ledger().over() || !timer_.due())) return;
   gathered_at_end_ = is_last;
-  gathering_.emplace(options_.checkpoints, run_, transport_);
+  gathering_.emplace(options_.checkpoints, run_, transport_, children_);
 }
 
 void Coordinator::step() {
@@ -161,7 +178,7 @@ void Coordinator::step() {
   if (gathering_) return;
   if (run_.ledger().over()) {
     ending_ = true;
-    tell_all(transport_, message::End{});
+    children_.tell_all(message::End{});
   } else if (!nodes_.any()) {
     run_.trees().bring_nodes();  // a tree may bring none: then nobody has anything to say
   } else if (run_.trees().claim_preparation()) {
@@ -169,36 +186,38 @@ void Coordinator::step() {
   }
 }
 
-void Coordinator::leave(int from, message::Farewell&& farewell) {
-  for (const auto& [to, batches] : farewell.batches)
-    batches_to_.at(static_cast<std::size_t>(to)) += batches;
-  accounts_.at(static_cast<std::size_t>(from)) = std::move(farewell.account);
-  if (++farewells_ < transport_.ranks()) return;
-  for (int rank = 0; rank < transport_.ranks(); ++rank)
-    transport_.send(rank, bytes_of(message::Goodbye{batches_to_[static_cast<std::size_t>(rank)]}));
+void Coordinator::leave(message::Farewell&& farewell) {
+  for (const auto& [rank, messages] : farewell.messages) messages_to_[rank] += messages;
+  add(farewell.survey, final_);
+  if (++farewells_ < children_.count()) return;
+  std::vector<message::Goodbye> parts(static_cast<std::size_t>(children_.count()));
+  for (const auto& [rank, messages] : messages_to_)
+    parts.at(static_cast<std::size_t>(children_.with(rank))).messages[rank] = messages;
+  for (int child = 0; child < children_.count(); ++child)
+    children_.tell(child, parts[static_cast<std::size_t>(child)]);
 }
 
 Solution Coordinator::conclude() {
   run_.end();
   Solution solution = run_.conclude();
-  for (const auto& account : accounts_) {
-    if (!account) continue;  // a simulated run ends without farewells
-    for (const auto& [key, count] : account->counts) solution.stats.counts[key] += count;
-  }
+  for (const auto& [key, count] : told().whole.counts) solution.stats.counts[key] += count;
   return solution;
 }
 
+// A simulated run ends without farewells.
+Survey Coordinator::told() const {
+  Survey all = final_;
+  for (const auto& [rank, survey] : surveys_)
+    if (!all.ranks.contains(rank)) add(survey, all);
+  return all;
+}
+
 Survey Coordinator::survey() const {
-  Survey survey;
+  Survey survey = told();
   Stats of_plans;
   run_.ledger().add_counts(of_plans);
-  survey.whole.counts = std::move(of_plans.counts);
-  for (int rank = 0; rank < transport_.ranks(); ++rank) {
-    survey.ranks.push_back(nodes_.survey(rank));
-    auto& account = survey.ranks.back().account;
-    account = accounts_[static_cast<std::size_t>(rank)];
-    if (account) add(*account, survey.whole);
-  }
+  for (const auto& [key, count] : of_plans.counts) survey.whole.counts[key] += count;
+  survey.rank_count = transport_.ranks();
   return survey;
 }
 

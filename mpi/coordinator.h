@@ -3,13 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
-#include <vector>
 
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/engine/run_state.h"
 #include "grove/detail/search/node_pool.h"
 #include "mpi/broker.h"
+#include "mpi/children.h"
 #include "mpi/gathering.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"
@@ -28,16 +29,15 @@ class Coordinator {
   // Before all else: the plan to start from, and the first tree; or all that a checkpoint knows.
   // Throws as reading one does.
   void begin();
-  // Is it a message to the coordinator? Then handle() does what it asks for. Throws
-  // std::invalid_argument for what no rank can send, and what Gate::post() throws.
-  static bool is_for_coordinator(const message::Message& message);
+  // What one of those below has said. Throws std::invalid_argument for what none can say, and what
+  // Gate::post() throws.
   void handle(int from, message::Message&& message);
   // Looks at the limits; to be called now and then.
   void step();
 
   Cost lower_bound() { return run_.ledger().lower_bound(); }
   // Have all ranks said farewell?
-  bool ended() const { return farewells_ == transport_.ranks(); }
+  bool ended() const { return farewells_ == children_.count(); }
   // Then: the answer.
   Solution conclude();
 
@@ -45,24 +45,27 @@ class Coordinator {
   // Passes on better plans to all.
   class Announcer : public ForwardingObserver {
    public:
-    Announcer(RunObserver& observer, Transport& transport)
-        : ForwardingObserver(observer), transport_(transport) {}
+    Announcer(RunObserver& observer, Children& children)
+        : ForwardingObserver(observer), children_(children) {}
     void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
 
    private:
-    Transport& transport_;
+    Children& children_;
   };
 
   void restore(CheckpointReader& checkpoint);
-  void heard(int from, message::Status status);
+  void heard(int child, message::Status status);
   void look_after_checkpoints();
-  void leave(int from, message::Farewell&& farewell);
+  void leave(message::Farewell&& farewell);
+  Survey told() const;
   Survey survey() const;
 
   const Instance& instance_;
   const SolveOptions& options_;
   const Limits& limits_;
   Transport& transport_;
+  const Hierarchy hierarchy_;
+  Children children_;
   Announcer announcer_;
   NodePool pool_;  // of the roots
   RankNodes nodes_;
@@ -75,8 +78,9 @@ class Coordinator {
   bool gathered_at_end_ = false;
   bool ending_ = false;
   int farewells_ = 0;
-  std::vector<std::int64_t> batches_to_;          // by rank, of those that have said farewell
-  std::vector<std::optional<Account>> accounts_;  // by rank; the last one
+  std::map<std::int32_t, std::int64_t> messages_to_;  // by rank, of those that have said farewell
+  std::map<int, Survey> surveys_;  // by rank, before the farewells; the last one
+  Survey final_;                   // of those that have said farewell
 };
 
 }  // namespace grove::detail

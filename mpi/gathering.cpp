@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The ranks do not look at the same moment, and nodes travel. Yet none is missed. All are told at
-// one moment of the coordinator's, and each hears that in order with the releases from custody. So
-// a node that one rank gave to another is still in its custody when it looks; or the release was
-// sent before Gather was, because a status of the receiver covered the node by then, so that this
-// rank held it, or what it led to, before it heard of Gather. What was entrusted to a rank was so
-// before Gather. A node seen twice does no harm.
+// The ranks do not look at the same moment, and nodes travel. Yet none is missed. Gather comes to a
+// rank by the same way as the releases from custody and what is entrusted to it, in order. So a node
+// that one rank gave to another is still in its custody when it looks; or the release was sent
+// before Gather was, by the coordinator that is nearest above both: because a status that covered
+// the node had come from the receiver by then, which heard of Gather later than that coordinator,
+// and so held the node, or what it led to, when it looked. What was entrusted before Gather comes
+// to a rank before it, for a coordinator passes on at once what is entrusted to it. A node seen
+// twice does no harm.
 //
 // The rest is as in engine/local_checkpoints.cpp: trees are counted before anybody looks, nodes of
 // later ones left out, and the incumbent is asked for when all have looked and said what plans they
@@ -19,9 +21,14 @@
 
 namespace grove::detail {
 
-Gathering::Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport)
-    : checkpoints_(checkpoints), run_(run), transport_(transport), trees_(run.trees().count()) {
-  tell_all(transport, message::Gather{});
+Gathering::Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport,
+                     Children& children)
+    : checkpoints_(checkpoints),
+      run_(run),
+      transport_(transport),
+      children_(children.count()),
+      trees_(run.trees().count()) {
+  children.tell_all(message::Gather{});
 }
 
 // The one before it stands if this one fails, and the run goes on.
@@ -40,7 +47,7 @@ void Gathering::write(Write what) {
 
 void Gathering::handle(const message::Gathered& gathered) {
   evicted_bound_ = std::min(evicted_bound_, gathered.evicted_bound);
-  if (++looked_ < transport_.ranks()) return;
+  if (++looked_ < children_) return;
   write([&] {
     writer_ = std::make_unique<CheckpointWriter>(checkpoints_.directory,
                                                  run_.checkpoint_header(trees_, evicted_bound_));
@@ -59,12 +66,12 @@ void Gathering::handle(message::Part&& part) {
   if (part.last)
     ask_next();
   else
-    transport_.send(asked_, bytes_of(message::More{}));
+    transport_.send(asked_, bytes_of(message::More{}, 0));
 }
 
 void Gathering::ask_next() {
   if (++asked_ < transport_.ranks()) {
-    transport_.send(asked_, bytes_of(message::More{}));
+    transport_.send(asked_, bytes_of(message::More{}, 0));
     return;
   }
   write([&] { writer_->finish(); });

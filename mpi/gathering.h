@@ -10,6 +10,7 @@
 
 #include "grove/detail/engine/checkpoint.h"
 #include "grove/detail/engine/run_state.h"
+#include "mpi/children.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 
@@ -19,8 +20,9 @@ namespace grove::detail {
 // node is missed: gathering.cpp. Of one thread.
 class Gathering {
  public:
-  // Tells all ranks. All must outlive this.
-  Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport);
+  // Tells all ranks, by way of the children of the top. All must outlive this.
+  Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport,
+            Children& children);
 
   bool is_done() const { return done_; }
 
@@ -38,9 +40,10 @@ class Gathering {
   const Checkpoints& checkpoints_;
   RunState& run_;
   Transport& transport_;
+  const int children_;
   const Clock::time_point begin_ = Clock::now();
   const std::int64_t trees_;  // that count as instantiated
-  int looked_ = 0;
+  int looked_ = 0;  // children
   Cost evicted_bound_ = kInfiniteCost;
   int asked_ = -1;  // the rank that sends
   bool done_ = false;

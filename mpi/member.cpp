@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/member.h"
 
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
 #include <utility>
 
 namespace grove::detail {
@@ -8,6 +11,10 @@ namespace grove::detail {
 Member::Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
                RunObserver& observer, Transport& transport, const AgentStopsStore& stops)
     : transport_(transport), rank_(problem, options, limits, transport, stops) {
+  const Hierarchy hierarchy(transport.ranks(), options.tuning.coordinator_children);
+  const int highest = hierarchy.highest_at(transport.rank());
+  for (int level = 1; level <= highest && level < hierarchy.levels(); ++level)
+    subs_.emplace_back(transport, hierarchy, level, options.tuning);
   if (transport.rank() != 0) return;
   coordinator_ = std::make_unique<Coordinator>(problem, options, limits, observer, transport);
   coordinator_->begin();
@@ -17,18 +24,33 @@ bool Member::converse(double now) {
   bool heard = false;
   while (auto parcel = transport_.receive()) {
     heard = true;
-    message::Message message = message::message_of(parcel->bytes);
-    if (Coordinator::is_for_coordinator(message))
-      coordinator_->handle(parcel->from, std::move(message));
-    else
-      rank_.handle(parcel->from, std::move(message));
+    handle(parcel->from, message::message_of(parcel->bytes));
   }
   if (coordinator_) {
     coordinator_->step();
     rank_.know(coordinator_->lower_bound());
   }
   rank_.speak(now);
+  for (SubCoordinator& sub : subs_) sub.speak(now);
   return heard;
+}
+
+void Member::handle(int from, message::Addressed&& addressed) {
+  auto& [level, message] = addressed;
+  if (level == 0)
+    rank_.handle(from, std::move(message));
+  else if (level <= std::ssize(subs_))
+    subs_[static_cast<std::size_t>(level) - 1].handle(from, std::move(message));
+  else if (coordinator_ && level == std::ssize(subs_) + 1)
+    coordinator_->handle(from, std::move(message));
+  else
+    throw std::invalid_argument("a message for a coordinator that is not here");
+}
+
+double Member::speaks_at() const {
+  double first = rank_.speaks_at();
+  for (const SubCoordinator& sub : subs_) first = std::min(first, sub.speaks_at());
+  return first;
 }
 
 }  // namespace grove::detail

@@ -2,16 +2,18 @@
 // One end of a distributed search.
 #pragma once
 
+#include <deque>
 #include <memory>
 
 #include "grove/detail/engine/run_observer.h"
 #include "mpi/coordinator.h"
 #include "mpi/rank.h"
+#include "mpi/sub_coordinator.h"
 #include "mpi/transport.h"
 
 namespace grove::detail {
 
-// A rank, and on rank 0 the coordinator beside it, which share a transport. Of one thread, but for
+// A rank, and the coordinators beside it if there are any, which share a transport. Of one thread, but for
 // what Rank says otherwise.
 class Member {
  public:
@@ -28,14 +30,19 @@ class Member {
   bool converse(double now);
 
   Rank& rank() { return rank_; }
-  // Null but on rank 0.
+  // When something may have to be said though nothing has happened since; infinity: never.
+  double speaks_at() const;
+  // The one over all; null but on rank 0.
   Coordinator* coordinator() { return coordinator_.get(); }
   // Is nothing more to be said, nor to come?
   bool left() const { return rank_.left(); }
 
  private:
+  void handle(int from, message::Addressed&& message);
+
   Transport& transport_;
   Rank rank_;
+  std::deque<SubCoordinator> subs_;  // by level, from 1
   std::unique_ptr<Coordinator> coordinator_;
 };
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/messages.h"
 
+#include <cereal/types/map.hpp>
+#include <cereal/types/optional.hpp>
 #include <cereal/types/variant.hpp>
 
 namespace grove::detail {
-
-template <class Archive>
-void serialize(Archive& archive, Frontier::Level& level) {
-  archive(level.bound, level.open);
-}
 
 template <class Archive>
 void serialize(Archive& archive, Finding& finding) {
@@ -24,6 +21,17 @@ void serialize(Archive& archive, MemoryUse& m) {
 template <class Archive>
 void serialize(Archive& archive, Account& account) {
   archive(account.counts, account.memory);
+}
+
+template <class Archive>
+void serialize(Archive& archive, RankSurvey& rank) {
+  archive(rank.expanded, rank.open, rank.bound, rank.memory, rank.low_level_calls,
+          rank.prices_asked);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Survey& survey) {
+  archive(survey.whole, survey.ranks);
 }
 
 template <class Archive, class Enum>
@@ -68,12 +76,21 @@ void serialize(Archive& archive, Prices& prices) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Want& want) {
+  archive(want.rank, want.idle, want.best);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Taken& taken) {
+  archive(taken.by, taken.from, taken.batches);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Status& s) {
-  archive(s.bound, s.evicted_bound, s.proven, s.live, s.idle, s.open, s.expanded, s.era,
-          s.entrusted);
+  archive(s.bound, s.evicted_bound, s.proven, s.live, s.open, s.expanded, s.era, s.entrusted);
   enumerated(archive, s.proven_by, kLastProvenBy);
   enumerated(archive, s.stopped, StopReason::kInterrupt);
-  archive(s.levels, s.batches);
+  archive(s.spare.bound, s.spare.nodes, s.wants, s.taken);
 }
 
 template <class Archive>
@@ -84,12 +101,12 @@ void serialize(Archive& archive, Found& found) {
 
 template <class Archive>
 void serialize(Archive& archive, Account& account) {
-  archive(account.account);
+  archive(account.survey);
 }
 
 template <class Archive>
 void serialize(Archive& archive, Farewell& farewell) {
-  archive(farewell.account, farewell.batches);
+  archive(farewell.survey, farewell.messages);
 }
 
 template <class Archive>
@@ -124,7 +141,7 @@ void serialize(Archive& archive, Order& order) {
 
 template <class Archive>
 void serialize(Archive& archive, Release& release) {
-  archive(release.to, release.batches);
+  archive(release.from, release.to, release.batches);
 }
 
 template <class Archive>
@@ -139,22 +156,34 @@ void serialize(Archive& archive, BeginAnew& anew) {
 
 template <class Archive>
 void serialize(Archive& archive, Goodbye& goodbye) {
-  archive(goodbye.batches);
+  archive(goodbye.messages);
 }
 
-std::string bytes_of(const Message& message) {
-  return to_bytes(message);
+template <class Archive>
+void serialize(Archive& archive, Addressed& addressed) {
+  std::uint8_t level = 0;
+  archive(level, addressed.message);
+  addressed.level = level;
 }
 
-Message message_of(std::string_view bytes) {
-  return from_bytes<Message>(bytes);
+// What becomes an Addressed, without a copy.
+struct ToAddress {
+  std::uint8_t level;
+  const Message& message;
+};
+
+template <class Archive>
+void save(Archive& archive, const ToAddress& parts) {
+  archive(parts.level, parts.message);
+}
+
+std::string bytes_of(const Message& message, int level) {
+  return to_bytes(ToAddress{static_cast<std::uint8_t>(level), message});
+}
+
+Addressed message_of(std::string_view bytes) {
+  return from_bytes<Addressed>(bytes);
 }
 
 }  // namespace message
-
-void tell_all(Transport& transport, const message::Message& message) {
-  const std::string bytes = bytes_of(message);
-  for (int rank = 0; rank < transport.ranks(); ++rank) transport.send(rank, bytes);
-}
-
 }  // namespace grove::detail

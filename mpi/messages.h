@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// All that ranks say to each other about one search. The coordinator is on rank 0, beside that
-// rank's own nodes. Values; see coordinator.cpp for the protocol.
+// All that ranks say to each other about one search. Values; see coordinator.cpp for the protocol,
+// and hierarchy.h for who answers to whom.
 #pragma once
 
 #include <cereal/types/utility.hpp>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -17,30 +19,56 @@
 #include "grove/detail/model/limits.h"
 #include "grove/detail/primal/plan_source.h"
 #include "grove/detail/search/findings.h"
-#include "grove/detail/search/frontier.h"
 #include "grove/detail/search/node_record.h"
 #include "grove/detail/search/tree_record.h"
-#include "mpi/transport.h"
 
 namespace grove::detail::message {
 
-// Rank to coordinator: where it stands. Covers the nodes it holds, those it has given away that
-// nobody was said to have taken over, and the least bound of those it has given up.
+// Nodes of one bound.
+struct Spare {
+  Cost bound = kInfiniteCost;
+  std::int64_t nodes = 0;
+
+  friend bool operator==(const Spare&, const Spare&) = default;
+};
+
+// A rank that would expand better nodes if it had some.
+struct Want {
+  std::int32_t rank = 0;
+  bool idle = true;  // it has no node that the end waits for
+  Cost best = kInfiniteCost;  // of its open nodes that the end waits for
+
+  friend bool operator==(const Want&, const Want&) = default;
+};
+
+// That many batches of rank `from` have been taken over by rank `by`.
+struct Taken {
+  std::int32_t by = 0;
+  std::int32_t from = 0;
+  std::int64_t batches = 0;
+
+  friend bool operator==(const Taken&, const Taken&) = default;
+};
+
+// To the superior: where a rank stands, or all that are below a coordinator. Covers the nodes it
+// holds, those it has given away that nobody was said to have taken over, and the least bound of
+// those it has given up.
 struct Status {
   Cost bound = kInfiniteCost;
   Cost evicted_bound = kInfiniteCost;
   Cost proven = 0;  // beside the nodes; see Ledger::prove
   ProvenBy proven_by = ProvenBy::kJointSearch;
-  std::int64_t live = 0;
-  bool idle = true;  // no node that the end waits for: the incumbent is within w of those it has
+  bool live = false;  // is any node?
   std::int64_t open = 0;
   std::int64_t expanded = 0;
-  std::int32_t era = 0;                    // how many BeginAnew it has obeyed
+  std::int32_t era = 0;                    // how many BeginAnew all have obeyed
   std::int64_t entrusted = 0;              // how many Entrust it has obeyed
   StopReason stopped = StopReason::kNone;  // a limit that struck there
-  std::vector<Frontier::Level> levels;     // the least ones, of open nodes that the end waits for
-  // Of each rank that it has nodes from: how many batches it has taken over.
-  std::vector<std::pair<std::int32_t, std::int64_t>> batches;
+  Spare spare;                             // of the least bound of which any can be spared
+  std::vector<Want> wants;                 // the neediest first; not of all ranks below
+  std::vector<Taken> taken;                // since the last status; from ranks not below
+
+  friend bool operator==(const Status&, const Status&) = default;
 };
 
 // Rank 0 to a rank that has answered all that it was asked before: find these prices, at once.
@@ -53,22 +81,22 @@ struct Prices {
   PriceAnswer answer;
 };
 
-// Rank to coordinator: a plan, to be checked.
+// To the superior: a plan, to be checked.
 struct Found {
   Plan plan;
   PlanSource source{};
 };
 
-// Rank to coordinator, now and then: what it has done so far, for who looks on.
+// To the superior, now and then: what has been done so far, for who looks on.
 struct Account {
-  grove::detail::Account account;
+  Survey survey;
 };
 
-// Rank to coordinator, after End: what it did, and how many batches it has sent to whom. It sends
-// nothing more.
+// To the superior, after End: what was done, and how many messages were sent to whom that went
+// directly from rank to rank. The sender sends nothing more.
 struct Farewell {
-  grove::detail::Account account;
-  std::vector<std::pair<std::int32_t, std::int64_t>> batches;
+  Survey survey;
+  std::map<std::int32_t, std::int64_t> messages;
 };
 
 // Rank to rank: nodes and what is known about them. Perhaps none.
@@ -78,82 +106,81 @@ struct Batch {
   std::vector<Finding> findings;
 };
 
-// Coordinator to all: a tree, before any of its nodes.
+// To all below: a tree, before any of its nodes.
 struct NewTree {
   std::uint32_t number = 0;
   TreeRecord tree;
 };
 
-// Coordinator to a rank: these nodes are yours; and others, of this bound at least, were given up.
+// Coordinator to a child: these nodes are yours; and others, of this bound at least, were given up.
 struct Entrust {
   std::vector<NodeRecord> nodes;
   Cost evicted_bound = kInfiniteCost;
 };
 
-// Coordinator to a rank: send up to `count` nodes to rank `to`, in one batch.
+// Coordinator to a child: a rank there is to send up to `count` nodes to rank `to`, in one batch.
 struct Order {
   std::int32_t to = 0;
   std::int64_t count = 0;
 };
 
-// Coordinator to a rank: what it sent to rank `to`, up to this number of batches, is covered by
+// On its way to rank `from`: what it sent to rank `to`, up to this number of batches, is covered by
 // that rank's status.
 struct Release {
+  std::int32_t from = 0;
   std::int32_t to = 0;
   std::int64_t batches = 0;
 };
 
-// Coordinator to all: a plan that has been checked.
+// To all below: a plan that has been checked.
 struct Incumbent {
   Plan plan;
 };
 
-// Coordinator to all: no node is live anywhere; forget what was given up, the roots come again.
+// To all below: no node is live anywhere; forget what was given up, the roots come again.
 // Every plan that was not pruned costs `proven` at least.
 struct BeginAnew {
   Cost proven = 0;
 };
 
-// Coordinator to all: look at your nodes, for a checkpoint.
+// To all below: look at your nodes, for a checkpoint.
 struct Gather {};
 
-// Rank to coordinator: it has. The plans of nodes that were gone by then have been sent before.
+// To the superior: all here have. The plans of nodes that were gone by then have been sent before.
 struct Gathered {
   Cost evicted_bound = kInfiniteCost;
 };
 
-// Coordinator to a rank: send some of what you saw then.
+// The top to a rank: send some of what you saw then.
 struct More {};
 
-// Rank to coordinator: some of it.
+// A rank to the top: some of it.
 struct Part {
   std::vector<NodeRecord> nodes;
   bool last = false;
 };
 
-// Coordinator to all: it is over; say farewell.
+// To all below: it is over; say farewell.
 struct End {};
 
-// Coordinator to all, after their farewells: how many batches were sent to this rank altogether.
+// To all below, after their farewells: how many messages were sent to each directly, by rank.
 struct Goodbye {
-  std::int64_t batches = 0;
+  std::map<std::int32_t, std::int64_t> messages;
 };
 
 using Message =
-    std::variant<Status, Found, Gathered, Part, Account, Farewell,  // to the coordinator
-                 Batch, AskPrices, Prices,                          // to another rank
+    std::variant<Status, Found, Gathered, Part, Account, Farewell,  // up
+                 Batch, AskPrices, Prices,                          // from rank to rank
                  NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More, End,
-                 Goodbye>;
+                 Goodbye>;  // down
 
+struct Addressed {
+  int level = 0;  // whom it is for, on the rank that it has come to; see Post
+  Message message;
+};
+
+std::string bytes_of(const Message& message, int level);
 // Throws std::invalid_argument for bytes that are no message.
-std::string bytes_of(const Message& message);
-Message message_of(std::string_view bytes);
+Addressed message_of(std::string_view bytes);
 
 }  // namespace grove::detail::message
-
-namespace grove::detail {
-
-// Sends a message to every rank, this one included.
-void tell_all(Transport& transport, const message::Message& message);
-
-}  // namespace grove::detail

@@ -7,26 +7,28 @@
 #include <tuple>
 #include <utility>
 
+#include "mpi/overloaded.h"
+
 namespace grove::detail {
 namespace {
 
 constexpr std::size_t kLevels = 4;
 constexpr std::size_t kNodesInAPart = 500;
-// Between two statuses that nothing hangs on, in seconds. The coordinator hears all ranks.
-constexpr double kPause = 2e-3;
-constexpr double kPausePerRank = 50e-6;
-
-// What a rank with so many open nodes can spare, about; see Frontier::take_spare().
-std::int64_t spare(const message::Status& status) {
-  return status.open / 2;
+// What a rank with these open nodes can spare of its best bound; see Frontier::take_spare().
+message::Spare spare_of(const std::vector<Frontier::Level>& levels) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const std::int64_t half = (levels[i].open + (i > 0 ? 1 : 0)) / 2;
+    if (half > 0) return {levels[i].bound, half};
+  }
+  return {};
 }
 
-template <class... Handlers>
-struct Overloaded : Handlers... {
-  using Handlers::operator()...;
-};
-template <class... Handlers>
-Overloaded(Handlers...) -> Overloaded<Handlers...>;  // clang 16 asks for it
+// As it stands at the beginning.
+message::Status first_status(int rank) {
+  message::Status status;
+  status.wants = {{rank, true, kInfiniteCost}};
+  return status;
+}
 
 }  // namespace
 
@@ -36,6 +38,8 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       omega_(options.omega),
       limits_(limits),
       transport_(transport),
+      hierarchy_(transport.ranks(), options.tuning.coordinator_children),
+      superior_(transport, hierarchy_, {transport.rank(), 0}, first_status(transport.rank())),
       stops_(stops),
       ledger_(limits, nodes_.frontier),
       search_(options, limits, nodes_, ledger_, elsewhere_, unwatched_),
@@ -47,11 +51,16 @@ void Rank::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("a message for the coordinator came to a rank");
   };
-  std::visit(Overloaded{[&](message::Batch& batch) { take_over(from, batch); },
+  std::visit(Overloaded{[&](message::Batch& batch) {
+                          ++heard_;
+                          take_over(from, batch);
+                        },
                         [&](message::AskPrices& ask) {
+                          ++heard_;
                           search_.lagrangian().help(problem_.instance, std::move(ask.share));
                         },
                         [&](message::Prices& prices) {
+                          ++heard_;
                           ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
                                         ProvenBy::kLagrangian);
                         },
@@ -73,7 +82,7 @@ void Rank::handle(int from, message::Message&& message) {
                           ended_ = true;
                           ledger_.end();
                         },
-                        [&](message::Goodbye& goodbye) { batches_to_come_ = goodbye.batches; },
+                        [&](message::Goodbye& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },
                         unexpected},
              message);
 }
@@ -94,9 +103,8 @@ void Rank::take_over(int from, message::Batch& batch) {
   push(batch.nodes, batch.findings);
   Peer& peer = peers_[from];
   ++peer.taken;
-  ++batches_taken_;
   peer.news = true;
-  urgent_ = true;
+  superior_.urge();
 }
 
 void Rank::take_over_held() {
@@ -113,10 +121,10 @@ void Rank::give(const message::Order& order) {
   Peer& peer = peers_[order.to];
   peer.custody[peer.sent + 1] = nodes;
   in_custody_ += std::ssize(nodes);
-  send(order.to, batch);
+  tell(order.to, batch);
   ++peer.sent;
   nodes_sent_ += std::ssize(nodes);
-  urgent_ = true;
+  superior_.urge();
 }
 
 void Rank::release(const message::Release& covered) {
@@ -132,7 +140,7 @@ void Rank::accept(const message::Entrust& entrusted) {
   push(entrusted.nodes, {});
   nodes_.frontier.note_evicted(entrusted.evicted_bound);
   ++entrusted_;
-  urgent_ = true;
+  superior_.urge();
 }
 
 void Rank::push(const std::vector<NodeRecord>& records, const std::vector<Finding>& findings) {
@@ -152,7 +160,7 @@ void Rank::gather() {
   Frontier::Snapshot snapshot = nodes_.frontier.snapshot();
   send_found();
   gathered_ = std::move(snapshot.live);
-  send(0, message::Gathered{snapshot.evicted_bound});
+  superior_.tell(message::Gathered{snapshot.evicted_bound});
 }
 
 void Rank::send_part() {
@@ -162,13 +170,13 @@ void Rank::send_part() {
     gathered_.pop_back();
   }
   part.last = gathered_.empty();
-  send(0, part);
+  transport_.send(hierarchy_.top().rank, bytes_of(part, hierarchy_.top().level));
 }
 
 void Rank::begin_anew(Cost proven) {
   nodes_.restart({}, proven);
   ++era_;
-  urgent_ = true;
+  superior_.urge();
   take_over_held();
 }
 
@@ -176,15 +184,17 @@ void Rank::begin_anew(Cost proven) {
 // for later: a new beginning must know all of it.
 message::Status Rank::status() const {
   message::Status status;
-  status.live = static_cast<std::int64_t>(nodes_.frontier.live());
+  const auto live = static_cast<std::int64_t>(nodes_.frontier.live());
+  status.live = live > 0;
   status.evicted_bound = nodes_.evicted_bound();
   std::tie(status.proven, status.proven_by) = ledger_.proven();
   status.bound = nodes_.bound();
-  status.levels = nodes_.frontier.levels(kLevels);
-  const bool has_open = !status.levels.empty();
-  std::erase_if(status.levels,
-                [&](const Frontier::Level& level) { return !is_wanted(level.bound); });
-  status.idle = status.live == in_custody_ || (has_open && status.levels.empty());
+  std::vector<Frontier::Level> levels = nodes_.frontier.levels(kLevels);
+  const bool has_open = !levels.empty();
+  std::erase_if(levels, [&](const Frontier::Level& level) { return !is_wanted(level.bound); });
+  const bool idle = live == in_custody_ || (has_open && levels.empty());
+  status.spare = spare_of(levels);
+  status.wants = {{transport_.rank(), idle, levels.empty() ? kInfiniteCost : levels.front().bound}};
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
   status.expanded = nodes_.expanded;
   status.era = era_;
@@ -192,7 +202,7 @@ message::Status Rank::status() const {
   limits_.stop_requested();  // nobody else may look
   status.stopped = limits_.reason();
   for (const auto& [rank, peer] : peers_)
-    if (peer.news) status.batches.emplace_back(rank, peer.taken);
+    if (peer.news) status.taken.push_back({transport_.rank(), rank, peer.taken});
   return status;
 }
 
@@ -206,73 +216,62 @@ bool Rank::is_wanted(Cost bound) const {
 
 // A node that led to a plan is settled after the plan was posted. So a status that does not count
 // the node any more is made before plans are looked for, and sent after them.
-//
-// What can be spared matters at once when it has doubled: while few ranks have nodes the others
-// would wait a pause for each doubling.
 void Rank::speak(double now) {
   if (ended_) return;
   speak_of_prices();
   message::Status status = this->status();
   send_found();
-  const bool at_once = urgent_ || status.bound != said_.bound || status.proven != said_.proven ||
-                       status.stopped != said_.stopped || status.idle != said_.idle ||
-                       (status.live == 0) != (said_.live == 0);
-  const bool has_more = !status.levels.empty() && spare(status) > 2 * spare(said_);
-  const bool changed = status.expanded != said_.expanded || status.open != said_.open;
-  if (!at_once && !has_more && !(changed && now >= said_at_ + pause(transport_.ranks()))) return;
-  send(0, status);
+  if (!superior_.report(std::move(status), now)) return;
   for (auto& [rank, peer] : peers_) peer.news = false;
-  said_ = std::move(status);
-  said_at_ = now;
-  urgent_ = false;
 }
 
 void Rank::speak_of_prices() {
   for (auto& [rank, share] : search_.lagrangian().share_out())
-    send(rank, message::AskPrices{std::move(share)});
+    tell(rank, message::AskPrices{std::move(share)});
   if (auto answer = search_.lagrangian().take_answer())
-    send(0, message::Prices{std::move(*answer)});
-}
-
-double Rank::pause(int ranks) {
-  return kPause + kPausePerRank * ranks;
+    tell(0, message::Prices{std::move(*answer)});
 }
 
 void Rank::send_found() {
   if (auto found = ledger_.take_found())
-    send(0, message::Found{std::move(found->plan), found->source});
+    superior_.tell(message::Found{std::move(found->plan), found->source});
 }
 
-Account Rank::account(Stats counts) const {
+Survey Rank::survey(Stats counts) const {
   search_.add_counts(counts);
   counts.counts["messages"] += transport_.messages();
   counts.counts["message_bytes"] += transport_.bytes();
   counts.counts["nodes_sent"] += nodes_sent_;
   std::int64_t& batches = counts.counts["batches"];
   for (const auto& [rank, peer] : peers_) batches += peer.sent;
-  return {std::move(counts.counts), search_.memory_use()};
+  Survey survey{{std::move(counts.counts), search_.memory_use()}, {}};
+  RankSurvey& mine = survey.ranks[transport_.rank()];
+  mine.expanded = nodes_.expanded;
+  mine.open = nodes_.counts().open;
+  if (nodes_.any()) mine.bound = nodes_.bound();
+  mine.memory = survey.whole.memory.process;
+  mine.low_level_calls = survey.whole.counts["low_level_calls"];
+  mine.prices_asked = survey.whole.counts["prices_asked"];
+  return survey;
 }
 
 void Rank::account_for(Stats counts) {
-  if (!ended_) send(0, message::Account{account(std::move(counts))});
+  if (!ended_) superior_.tell(message::Account{survey(std::move(counts))});
 }
 
 // Limits may strike just when a plan was found.
 void Rank::farewell(Stats counts) {
   send_found();
-  message::Farewell farewell;
-  farewell.account = account(std::move(counts));
-  for (const auto& [rank, peer] : peers_) farewell.batches.emplace_back(rank, peer.sent);
-  send(0, farewell);
+  superior_.tell(message::Farewell{survey(std::move(counts)), told_});
 }
 
 bool Rank::left() const {
-  const auto held = static_cast<std::int64_t>(held_.size());
-  return batches_to_come_ && batches_taken_ + held >= *batches_to_come_;
+  return to_hear_ && heard_ >= *to_hear_;
 }
 
-void Rank::send(int to, const message::Message& message) {
-  transport_.send(to, message::bytes_of(message));
+void Rank::tell(int rank, const message::Message& message) {
+  ++told_[rank];
+  transport_.send(rank, bytes_of(message, 0));
 }
 
 }  // namespace grove::detail

@@ -16,7 +16,9 @@
 #include "grove/detail/search/problem.h"
 #include "grove/detail/search/tree_record.h"
 #include "mpi/ledger_copy.h"
+#include "mpi/hierarchy.h"
 #include "mpi/messages.h"
+#include "mpi/superior.h"
 #include "mpi/transport.h"
 
 namespace grove::detail {
@@ -36,9 +38,6 @@ class Rank {
   // For workers to begin with.
   const AgentStopsStore& stops() const { return stops_; }
 
-  // Of so many ranks, one says no more often than this, in seconds, what nothing hangs on.
-  static double pause(int ranks);
-
   // Something that a rank may be told. Throws std::invalid_argument for what cannot be.
   void handle(int from, message::Message&& message);
   // On rank 0: no plan of the whole search costs less.
@@ -46,6 +45,8 @@ class Rank {
   // Says what is new: plans always; where it stands at once if that may matter at once, else not
   // more often than ranks can bear. `now` in seconds of any clock.
   void speak(double now);
+  // When it may have something to say though nothing has happened since; infinity: never.
+  double speaks_at() const { return superior_.reports_at(); }
 
   // Tells what has been done so far, workers' counts among it.
   void account_for(Stats counts);
@@ -74,14 +75,16 @@ class Rank {
   void push(const std::vector<NodeRecord>& records, const std::vector<Finding>& findings);
   void begin_anew(Cost proven);
   message::Status status() const;
-  Account account(Stats counts) const;
+  Survey survey(Stats counts) const;
   bool is_wanted(Cost bound) const;
-  void send(int to, const message::Message& message);
+  void tell(int rank, const message::Message& message);
 
   const Problem& problem_;
   const Omega omega_;
   const Limits& limits_;
   Transport& transport_;
+  const Hierarchy hierarchy_;
+  Superior superior_;
   LocalNodes nodes_;
   AgentStopsStore stops_;
   LedgerCopy ledger_;
@@ -102,17 +105,17 @@ class Rank {
     std::map<std::int64_t, std::vector<NodePtr>> custody;  // by the number of the batch
   };
   std::map<int, Peer> peers_;
-  std::int64_t batches_taken_ = 0;
   std::int64_t in_custody_ = 0;  // nodes
   std::int64_t nodes_sent_ = 0;
 
   std::vector<NodePtr> gathered_;  // for a checkpoint; not sent yet
 
-  message::Status said_;  // last
-  double said_at_ = -1;
-  bool urgent_ = false;
   bool ended_ = false;
-  std::optional<std::int64_t> batches_to_come_;  // altogether; known at the very end
+  // Directly from rank to rank: how many messages went to whom, came here, and are to come
+  // altogether, which is known at the very end.
+  std::map<std::int32_t, std::int64_t> told_;
+  std::int64_t heard_ = 0;
+  std::optional<std::int64_t> to_hear_;
 };
 
 }  // namespace grove::detail

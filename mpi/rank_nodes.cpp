@@ -2,27 +2,25 @@
 #include "mpi/rank_nodes.h"
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
-#include <string>
 #include <tuple>
 #include <utility>
 
 namespace grove::detail {
 
-RankNodes::RankNodes(Transport& transport)
-    : transport_(transport),
-      latest_(static_cast<std::size_t>(transport.ranks())),
+RankNodes::RankNodes(Children& children)
+    : children_(children),
+      latest_(static_cast<std::size_t>(children.count())),
       under_way_(latest_.size()),
-      ranks_of_this_era_(transport.ranks()) {
-  for (std::size_t rank = 0; rank < latest_.size(); ++rank) bounds_.insert(kInfiniteCost);
+      children_of_this_era_(children.count()) {
+  for (std::size_t child = 0; child < latest_.size(); ++child) bounds_.insert(kInfiniteCost);
 }
 
-// A rank obeys in the order in which it is told: its status covers the first roots that it was
+// A child obeys in the order in which it is told: its status covers the first nodes that it was
 // sent.
-void RankNodes::update(int rank, message::Status status) {
-  const auto place = static_cast<std::size_t>(rank);
-  message::Status& latest = latest_[place];
+void RankNodes::update(int child, message::Status status) {
+  const auto place = static_cast<std::size_t>(child);
+  message::Status& latest = latest_.at(place);
   std::deque<Cost>& sent = under_way_[place];
   const std::int64_t arrived = status.entrusted - latest.entrusted;
   if (arrived < 0 || arrived > std::ssize(sent) || status.era < latest.era || status.era > era_)
@@ -42,14 +40,8 @@ void RankNodes::update(int rank, message::Status status) {
 void RankNodes::add(const message::Status& status, int sign) {
   counts_.expanded += sign * status.expanded;
   counts_.open += sign * status.open;
-  if (status.live > 0) ranks_with_nodes_ += sign;
-  if (status.era == era_) ranks_of_this_era_ += sign;
-}
-
-RankSurvey RankNodes::survey(int rank) const {
-  const message::Status& latest = latest_[static_cast<std::size_t>(rank)];
-  const auto bound = latest.live > 0 ? std::optional(latest.bound) : std::nullopt;
-  return {latest.expanded, latest.open, bound, {}};
+  if (status.live) children_with_nodes_ += sign;
+  if (status.era == era_) children_of_this_era_ += sign;
 }
 
 Cost RankNodes::bound() const {
@@ -60,44 +52,65 @@ Cost RankNodes::evicted_bound() const {
   return std::ranges::min(latest_, {}, &message::Status::evicted_bound).evicted_bound;
 }
 
-// What a rank that has yet to hear of a new beginning holds is not known.
+// What a child that has yet to hear of a new beginning holds is not known.
 bool RankNodes::any() const {
-  return ranks_with_nodes_ > 0 || entrusted_under_way_ > 0 ||
-         ranks_of_this_era_ < std::ssize(latest_);
+  return children_with_nodes_ > 0 || entrusted_under_way_ > 0 ||
+         children_of_this_era_ < std::ssize(latest_);
+}
+
+message::Status RankNodes::merged() const {
+  message::Status all;
+  all.bound = bound();
+  all.live = children_with_nodes_ > 0 || entrusted_under_way_ > 0;
+  all.open = counts_.open;
+  all.expanded = counts_.expanded;
+  all.era = era_;
+  for (const message::Status& status : latest_) {
+    all.evicted_bound = std::min(all.evicted_bound, status.evicted_bound);
+    all.era = std::min(all.era, status.era);
+    if (status.proven > all.proven)
+      std::tie(all.proven, all.proven_by) = std::tie(status.proven, status.proven_by);
+    if (all.stopped == StopReason::kNone) all.stopped = status.stopped;
+  }
+  return all;
 }
 
 void RankNodes::push(const NodePtr& root) {
   tell(root->tree());
-  entrust(idlest(), {record_of(*root)});
+  entrust({{record_of(*root)}, kInfiniteCost});
 }
 
-void RankNodes::entrust(int rank, std::vector<NodeRecord> nodes, Cost evicted_bound) {
-  Cost bound = evicted_bound;
-  for (const NodeRecord& node : nodes) bound = std::min(bound, node.bound);
+void RankNodes::entrust(int child, message::Entrust nodes) {
+  Cost bound = nodes.evicted_bound;
+  for (const NodeRecord& node : nodes.nodes) bound = std::min(bound, node.bound);
   bounds_.insert(bound);
-  under_way_[static_cast<std::size_t>(rank)].push_back(bound);
+  under_way_.at(static_cast<std::size_t>(child)).push_back(bound);
   ++entrusted_under_way_;
-  transport_.send(rank, bytes_of(message::Entrust{std::move(nodes), evicted_bound}));
+  children_.tell(child, nodes);
 }
 
 void RankNodes::tell(const Tree& tree) {
   if (told_.insert(tree.number).second)
-    tell_all(transport_, message::NewTree{tree.number, record_of(tree)});
+    children_.tell_all(message::NewTree{tree.number, record_of(tree)});
 }
 
 int RankNodes::idlest() const {
-  std::vector<int> ranks(latest_.size());
-  for (std::size_t i = 0; i < ranks.size(); ++i) ranks[i] = static_cast<int>(i);
-  return std::ranges::min(ranks, {}, [&](int rank) {
-    const auto place = static_cast<std::size_t>(rank);
-    return std::tuple(under_way_[place].size(), latest_[place].open, rank);
+  std::vector<int> all(latest_.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  return std::ranges::min(all, {}, [&](int child) {
+    const auto place = static_cast<std::size_t>(child);
+    return std::tuple(under_way_[place].size(), latest_[place].open, child);
   });
 }
 
-void RankNodes::restart(std::span<const NodePtr> roots, Cost proven) {
-  tell_all(transport_, message::BeginAnew{proven});
+void RankNodes::begin_anew(Cost proven) {
+  children_.tell_all(message::BeginAnew{proven});
   ++era_;
-  ranks_of_this_era_ = 0;
+  children_of_this_era_ = 0;
+}
+
+void RankNodes::restart(std::span<const NodePtr> roots, Cost proven) {
+  begin_anew(proven);
   for (const NodePtr& root : roots) push(root);
 }
 

@@ -83,7 +83,6 @@ struct SimulatedRank {
   double first_look;  // at the network
   double talk_due = kNotDue;
   double talks_until = 0;   // now, or did last
-  double silent_until = 0;  // what was not worth a status at once will be by then
   double talking_s = 0;
   double talking_processor_s = 0;
   bool said_farewell = false;
@@ -169,7 +168,7 @@ class Simulation {
     for (const int to : setting_.talk.receivers) talk_from(setting_.network.next_arrival(to), to);
     if (const double next = setting_.network.next_arrival(rank); next < kNotDue)
       talk_from(next, rank);
-    if (r.silent_until > time) talk_from(r.silent_until, rank);
+    if (const double next = r.member.speaks_at(); next < kNotDue) talk_from(next, rank);
     if (!r.said_farewell && !r.player.busy() && r.has_work())
       foresee(r.talks_until, rank, Who::kWorker);
     if (!r.said_farewell || r.left || !r.member.left()) return;
@@ -185,7 +184,6 @@ class Simulation {
       if (r.player.busy_until() > now_) return;  // it had begun before
       r.player.end();
       profile_.add(r.player.began(), now_);
-      r.silent_until = now_ + Rank::pause(static_cast<int>(ranks_.size()));
       talk_from(now_, rank);
     }
     r.player.begin(now_, expander_);

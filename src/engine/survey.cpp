@@ -12,4 +12,9 @@ void add(const Account& part, Account& sum) {
   sum.memory.groups += part.memory.groups;
 }
 
+void add(const Survey& part, Survey& sum) {
+  add(part.whole, sum.whole);
+  for (const auto& [rank, survey] : part.ranks) sum.ranks[rank] = survey;
+}
+
 }  // namespace grove::detail

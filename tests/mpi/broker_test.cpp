@@ -3,21 +3,29 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace grove::detail {
 namespace broker_test {
 
-message::Status with(std::vector<Frontier::Level> levels) {
+// Ranks, each below a coordinator of its own children.
+std::vector<std::vector<int>> alone(int ranks) {
+  std::vector<std::vector<int>> children;
+  for (int rank = 0; rank < ranks; ++rank) children.push_back({rank});
+  return children;
+}
+
+message::Status with(int rank, Cost bound, std::int64_t spare) {
   message::Status status;
-  for (const Frontier::Level& level : levels) status.open += level.open;
-  status.idle = status.open == 0;
-  status.levels = std::move(levels);
+  status.spare = {bound, spare};
+  status.wants = {{rank, bound == kInfiniteCost, bound}};
   return status;
 }
 
-TEST(Broker, WhoHasNothingIsGivenHalfOfTheBest) {
-  Broker broker(2);
+TEST(Broker, WhoHasNothingIsGivenWhatCanBeSpared) {
+  Broker broker(alone(2));
   EXPECT_FALSE(broker.next());
-  broker.heard(0, with({{10, 6}, {11, 40}}));
+  broker.heard(0, with(0, 10, 3));
   const auto gift = broker.next();
   ASSERT_TRUE(gift);
   EXPECT_EQ(gift->from, 0);
@@ -26,42 +34,67 @@ TEST(Broker, WhoHasNothingIsGivenHalfOfTheBest) {
 }
 
 TEST(Broker, NobodyIsGivenMoreBeforeTheLastHasArrived) {
-  Broker broker(2);
-  broker.heard(0, with({{10, 600}}));
+  Broker broker(alone(2));
+  broker.heard(0, with(0, 10, 300));
   EXPECT_TRUE(broker.next());
   EXPECT_FALSE(broker.next());
-  broker.heard(1, with({}));
+  broker.heard(1, with(1, kInfiniteCost, 0));
   EXPECT_FALSE(broker.next());
   broker.arrived(1);
   EXPECT_TRUE(broker.next());
-}
-
-TEST(Broker, TheLastNodeOfARankStays) {
-  Broker broker(2);
-  broker.heard(0, with({{10, 1}}));
-  EXPECT_FALSE(broker.next());
-  broker.heard(0, with({{10, 1}, {12, 1}}));
-  EXPECT_TRUE(broker.next()) << "the worse one can be spared";
 }
 
 TEST(Broker, OneGiverServesSeveralWhileItHasSome) {
-  Broker broker(4);
-  broker.heard(0, with({{10, 8}}));
+  Broker broker(alone(4), {.gift_nodes = 2});
+  broker.heard(0, with(0, 10, 5));
   std::vector<int> given;
-  while (const auto gift = broker.next()) given.push_back(gift->to);
-  EXPECT_EQ(given.size(), 3);
+  std::int64_t nodes = 0;
+  while (const auto gift = broker.next()) {
+    given.push_back(gift->to);
+    nodes += gift->nodes;
+  }
+  EXPECT_EQ(given, (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(nodes, 5);
 }
 
 TEST(Broker, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
-  Broker broker(2);
-  broker.heard(1, with({{15, 50}}));
-  broker.arrived(1);
-  broker.heard(0, with({{10, 4}}));
+  Broker broker(alone(2));
+  broker.heard(1, with(1, 15, 25));
+  broker.heard(0, with(0, 10, 2));
   EXPECT_FALSE(broker.next()) << "not for a few nodes";
-  broker.heard(0, with({{10, 400}}));
+  broker.heard(0, with(0, 10, 200));
   const auto gift = broker.next();
   ASSERT_TRUE(gift);
   EXPECT_EQ(gift->to, 1);
+}
+
+TEST(Broker, RanksOfOneChildAreLeftToIt) {
+  Broker broker({{0, 1, 2}, {3, 4, 5}});
+  message::Status status;
+  status.spare = {10, 100};
+  status.wants = {{1, true, kInfiniteCost}, {2, true, kInfiniteCost}};
+  broker.heard(0, status);
+  std::vector<int> given;
+  while (const auto gift = broker.next()) {
+    EXPECT_EQ(gift->from, 0);
+    given.push_back(gift->to);
+  }
+  EXPECT_EQ(given, (std::vector<int>{3, 4})) << "there is nothing left for rank 5";
+}
+
+TEST(Broker, PassesOnWhatItCannotMatch) {
+  Broker broker({{0, 1}, {2, 3}});
+  message::Status status;
+  status.spare = {10, 6};
+  broker.heard(0, status);
+  status.spare = {11, 90};
+  broker.heard(1, status);
+  EXPECT_EQ(broker.spare(), (message::Spare{10, 6})) << "of the best bound";
+  EXPECT_TRUE(broker.wants().empty());
+  EXPECT_EQ(broker.giver(6), 0);
+  EXPECT_EQ(broker.spare(), (message::Spare{11, 90}));
+  EXPECT_EQ(broker.giver(100), 1);
+  EXPECT_EQ(broker.spare().nodes, 0);
 }
 
 }  // namespace broker_test

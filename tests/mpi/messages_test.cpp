@@ -12,38 +12,50 @@ namespace messages_test {
 message::Status some_status() {
   message::Status status;
   status.bound = 17;
-  status.live = 3;
-  status.idle = false;
+  status.live = true;
   status.era = 2;
   status.stopped = StopReason::kMemory;
-  status.levels = {{17, 2}, {19, 1}};
-  status.batches = {{4, 9}};
+  status.spare = {17, 2};
+  status.wants = {{3, true, kInfiniteCost}, {5, false, 19}};
+  status.taken = {{3, 4, 9}};
   return status;
 }
 
+std::string bytes(const message::Message& message) {
+  return bytes_of(message, 2);
+}
+
+template <class Kind>
+Kind returned(const Kind& sent) {
+  const message::Addressed addressed = message::message_of(bytes(sent));
+  EXPECT_EQ(addressed.level, 2);
+  return std::get<Kind>(addressed.message);
+}
+
 TEST(Messages, ArriveAsTheyWereSent) {
-  const message::Message sent = some_status();
-  const auto status = std::get<message::Status>(message::message_of(bytes_of(sent)));
-  EXPECT_EQ(status.bound, 17);
-  EXPECT_EQ(status.evicted_bound, kInfiniteCost);
-  EXPECT_EQ(status.stopped, StopReason::kMemory);
-  EXPECT_EQ(status.levels, some_status().levels);
-  EXPECT_EQ(status.batches, some_status().batches);
-  const auto order = std::get<message::Order>(message::message_of(bytes_of(message::Order{3, 64})));
+  EXPECT_EQ(returned(some_status()), some_status());
+  const auto order = returned(message::Order{3, 64});
   EXPECT_EQ(order.to, 3);
   EXPECT_EQ(order.count, 64);
 }
 
 TEST(Messages, TellWhatARankHasDone) {
-  message::Account sent{{{{"prices_asked", 5}}, {.process = 9, .nodes = 1, .groups = 3}}};
-  const auto told = std::get<message::Account>(message::message_of(bytes_of(sent))).account;
-  EXPECT_EQ(told.counts, sent.account.counts);
-  EXPECT_EQ(told.memory.process, 9);
-  EXPECT_EQ(told.memory.groups, 3);
-  Account sum = told;
+  message::Account sent;
+  sent.survey.whole = {{{"prices_asked", 5}}, {.process = 9, .nodes = 1, .groups = 3}};
+  sent.survey.ranks[7] = {.expanded = 11, .open = 2, .bound = 40, .memory = 9};
+  const Survey told = returned(sent).survey;
+  EXPECT_EQ(told.whole.counts, sent.survey.whole.counts);
+  EXPECT_EQ(told.whole.memory.groups, 3);
+  EXPECT_EQ(told.ranks.at(7).expanded, 11);
+  EXPECT_EQ(told.ranks.at(7).bound, 40);
+  Survey sum;
+  sum.whole.counts["prices_asked"] = 1;
+  sum.ranks[6] = {};
   add(told, sum);
-  EXPECT_EQ(sum.counts.at("prices_asked"), 10);
-  EXPECT_EQ(sum.memory.nodes, 2);
+  EXPECT_EQ(sum.whole.counts.at("prices_asked"), 6);
+  EXPECT_EQ(sum.whole.memory.nodes, 1);
+  EXPECT_EQ(sum.ranks.size(), 2);
+  EXPECT_EQ(sum.ranks.at(7).open, 2);
 }
 
 message::AskPrices some_question() {
@@ -57,8 +69,7 @@ message::AskPrices some_question() {
 }
 
 TEST(Messages, AskForPricesAndTellThem) {
-  const auto share =
-      std::get<message::AskPrices>(message::message_of(bytes_of(some_question()))).share;
+  const auto share = returned(some_question()).share;
   EXPECT_EQ(share.round, 7);
   EXPECT_EQ(share.first, 2);
   EXPECT_EQ(share.known, some_question().share.known);
@@ -71,7 +82,7 @@ TEST(Messages, AskForPricesAndTellThem) {
   sent.answer.prices = {4095, 0};
   sent.answer.paths = {{1, 2, 3}, {}};
   sent.answer.work = 11;
-  const auto answer = std::get<message::Prices>(message::message_of(bytes_of(sent))).answer;
+  const auto answer = returned(sent).answer;
   EXPECT_EQ(answer.round, 7);
   EXPECT_EQ(answer.digest, 0xfedcba9876543210);
   EXPECT_EQ(answer.first, 2);
@@ -81,14 +92,14 @@ TEST(Messages, AskForPricesAndTellThem) {
 }
 
 TEST(Messages, AreRefusedWhenCutShort) {
-  for (const std::string& whole : {bytes_of(some_status()), bytes_of(some_question())})
+  for (const std::string& whole : {bytes(some_status()), bytes(some_question())})
     for (std::size_t length = 0; length < whole.size(); ++length)
       EXPECT_THROW(message::message_of(whole.substr(0, length)), std::invalid_argument) << length;
 }
 
 TEST(Messages, NoiseIsRefusedOrTakenForOtherValues) {
   std::mt19937 dice(1);
-  const std::string whole = bytes_of(some_status());
+  const std::string whole = bytes(some_status());
   for (int i = 0; i < 3000; ++i) {
     std::string noise = whole;
     for (int k = 0; k < 3; ++k) noise[dice() % noise.size()] = static_cast<char>(dice());

@@ -24,7 +24,7 @@ class Outbox : public Transport {
   std::vector<message::Message> take() {
     std::vector<message::Message> all;
     for (const auto& [receiver, bytes] : std::exchange(sent_, {}))
-      all.push_back(message::message_of(bytes));
+      all.push_back(message::message_of(bytes).message);
     return all;
   }
 
@@ -33,7 +33,7 @@ class Outbox : public Transport {
   std::vector<Kind> sent(int to) const {
     std::vector<Kind> all;
     for (const auto& [receiver, bytes] : sent_) {
-      message::Message message = message::message_of(bytes);
+      message::Message message = message::message_of(bytes).message;
       auto* wanted = std::get_if<Kind>(&message);
       if (receiver == to && wanted) all.push_back(std::move(*wanted));
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "mpi/coordinator.h"
 #include "mpi/rank.h"
 #include "mpi/rank_nodes.h"
+#include "mpi/sub_coordinator.h"
 #include "tests/mpi/outbox.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/temporary_directory.h"
@@ -54,14 +56,14 @@ struct RankAlone : Setting {
   }
 };
 
-using Taken = std::vector<std::pair<std::int32_t, std::int64_t>>;
+using Taken = std::vector<message::Taken>;
 
 TEST(RankAlone, SaysThatABatchWasTakenOverWhenItWas) {
   RankAlone r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   const auto status = r.status_after(2, message::Batch{0, {record_of(*root)}, {}});
-  EXPECT_EQ(status.batches, Taken({{2, 1}}));
+  EXPECT_EQ(status.taken, Taken({{1, 2, 1}}));
   EXPECT_EQ(status.bound, root->bound());
 }
 
@@ -69,10 +71,10 @@ TEST(RankAlone, SaysNothingOfABatchWhoseTreeItHasNotHeardOf) {
   RankAlone r;
   const NodePtr root = r.new_root();
   const message::Batch batch{0, {record_of(*root)}, {}};
-  EXPECT_TRUE(r.status_after(2, batch).batches.empty());
-  EXPECT_EQ(r.status_after(2, message::Batch{}).batches, Taken()) << "those of a rank keep order";
+  EXPECT_TRUE(r.status_after(2, batch).taken.empty());
+  EXPECT_EQ(r.status_after(2, message::Batch{}).taken, Taken()) << "those of a rank keep order";
   const auto status = r.status_after(0, message::NewTree{0, record_of(root->tree())});
-  EXPECT_EQ(status.batches, Taken({{2, 2}}));
+  EXPECT_EQ(status.taken, Taken({{1, 2, 2}}));
   EXPECT_EQ(status.bound, root->bound());
 }
 
@@ -81,9 +83,9 @@ TEST(RankAlone, SaysNothingOfABatchOfALaterEra) {
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   const auto early = r.status_after(2, message::Batch{1, {record_of(*root)}, {}});
-  EXPECT_TRUE(early.batches.empty());
+  EXPECT_TRUE(early.taken.empty());
   const auto status = r.status_after(0, message::BeginAnew{0});
-  EXPECT_EQ(status.batches, Taken({{2, 1}}));
+  EXPECT_EQ(status.taken, Taken({{1, 2, 1}}));
   EXPECT_EQ(status.era, 1);
   EXPECT_EQ(status.bound, root->bound());
 }
@@ -94,20 +96,21 @@ TEST(RankAlone, CoversWhatItGaveAwayUntilItIsReleased) {
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   r.rank.handle(0, message::Entrust{{record_of(*root), record_of(*root)}, kInfiniteCost});
   const auto given = r.status_after(0, message::Order{2, 1});
-  EXPECT_EQ(given.live, 2);
+  EXPECT_EQ(r.rank.nodes().frontier.live(), 2);
   EXPECT_EQ(given.open, 1);
   ASSERT_EQ(r.transport.sent<message::Batch>(2).size(), 1);
   const Frontier& frontier = r.rank.nodes().frontier;
-  r.rank.handle(0, message::Release{2, 0});
+  r.rank.handle(0, message::Release{1, 2, 0});
   EXPECT_EQ(frontier.live(), 2);
-  r.rank.handle(0, message::Release{2, 1});
+  r.rank.handle(0, message::Release{1, 2, 1});
   EXPECT_EQ(frontier.live(), 1);
 }
 
 TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
   Setting s;
   Outbox transport(0, 2);
-  RankNodes nodes(transport);
+  Children children(transport, Hierarchy(2, 64), 1);
+  RankNodes nodes(children);
   const std::vector<NodePtr> roots{s.new_root(), s.new_root(), s.new_root()};
   nodes.restart(roots, 0);
   std::int64_t entrusted = 0;
@@ -132,7 +135,8 @@ TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
 TEST(RankNodes, KnowNothingOfARankThatHasYetToHearOfANewBeginning) {
   Setting s;
   Outbox transport(0, 2);
-  RankNodes nodes(transport);
+  Children children(transport, Hierarchy(2, 64), 1);
+  RankNodes nodes(children);
   nodes.restart({}, 0);
   message::Status status;
   status.era = 1;
@@ -153,6 +157,141 @@ TEST(CoordinatorAlone, TellsAllAtOnceToLookForACheckpoint) {
   coordinator.step();
   for (int rank = 0; rank < 3; ++rank)
     EXPECT_EQ(transport.sent<message::Gather>(rank).size(), 1) << rank;
+}
+
+// Nine ranks in threes; that of ranks 3, 4 and 5, on rank 3, which hears what the test says.
+struct SubAlone {
+  Outbox transport{3, 9};
+  SubCoordinator sub{transport, Hierarchy(9, 3), 1, Tuning()};
+  double now = 0;
+
+  // What its superior has been told last after this.
+  message::Status status_after(int from, message::Message message) {
+    sub.handle(from, std::move(message));
+    sub.speak(now += 10);
+    const auto said = transport.sent<message::Status>(0);
+    return said.empty() ? message::Status() : said.back();
+  }
+  static message::Status with(Cost bound, std::int64_t nodes) {
+    message::Status status;
+    status.live = true;
+    status.bound = bound;
+    status.open = 2 * nodes;
+    status.spare = {bound, nodes};
+    return status;
+  }
+};
+
+TEST(SubCoordinatorAlone, SaysTheLeastBoundOfAllBelow) {
+  SubAlone s;
+  EXPECT_EQ(s.status_after(4, SubAlone::with(20, 0)).bound, 20);
+  EXPECT_EQ(s.status_after(5, SubAlone::with(18, 0)).bound, 18);
+  EXPECT_EQ(s.status_after(5, SubAlone::with(25, 0)).bound, 20);
+  message::Status evicted;
+  evicted.evicted_bound = 19;
+  const auto all = s.status_after(4, evicted);
+  EXPECT_EQ(all.bound, 25);
+  EXPECT_EQ(all.evicted_bound, 19);
+  EXPECT_TRUE(all.live);
+}
+
+TEST(SubCoordinatorAlone, CoversWhatItPassesOnUntilAChildSaysThatItHasIt) {
+  Setting setting;
+  SubAlone s;
+  const NodePtr root = setting.new_root();
+  const message::Entrust nodes{{record_of(*root)}, kInfiniteCost};
+  auto status = s.status_after(0, nodes);
+  EXPECT_EQ(status.entrusted, 1);
+  EXPECT_EQ(status.bound, root->bound());
+  EXPECT_TRUE(status.live);
+  ASSERT_EQ(s.transport.sent<message::Entrust>(3).size(), 1);
+  message::Status has_it = SubAlone::with(root->bound() + 1, 0);
+  has_it.entrusted = 1;
+  status = s.status_after(3, has_it);
+  EXPECT_EQ(status.bound, root->bound() + 1);
+}
+
+TEST(SubCoordinatorAlone, ReleasesWhatWentBetweenItsRanksAndPassesOnTheRest) {
+  SubAlone s;
+  message::Status took = SubAlone::with(20, 0);
+  took.taken = {{4, 5, 3}, {4, 8, 1}};
+  const auto status = s.status_after(4, took);
+  EXPECT_EQ(status.taken, Taken({{4, 8, 1}}));
+  EXPECT_EQ(status.bound, 20) << "the same status covers them";
+  const auto released = s.transport.sent<message::Release>(5);
+  ASSERT_EQ(released.size(), 1);
+  EXPECT_EQ(released[0].to, 4);
+  EXPECT_EQ(released[0].batches, 3);
+  EXPECT_TRUE(s.status_after(5, SubAlone::with(30, 0)).taken.empty()) << "once";
+}
+
+TEST(SubCoordinatorAlone, IsOfTheOldEraUntilAllBelowHaveBegunAnew) {
+  SubAlone s;
+  EXPECT_EQ(s.status_after(0, message::BeginAnew{7}).era, 0);
+  message::Status anew;
+  anew.era = 1;
+  for (const int rank : {3, 4}) EXPECT_EQ(s.status_after(rank, anew).era, 0);
+  EXPECT_EQ(s.status_after(5, anew).era, 1);
+  for (const int rank : {3, 4, 5})
+    EXPECT_EQ(s.transport.sent<message::BeginAnew>(rank).size(), 1);
+}
+
+TEST(SubCoordinatorAlone, ServesItsOwnAndOffersWhatIsLeft) {
+  SubAlone s;
+  const auto status = s.status_after(4, SubAlone::with(20, 200));
+  const auto orders = s.transport.sent<message::Order>(4);
+  ASSERT_EQ(orders.size(), 2);
+  EXPECT_EQ(orders[0].to, 3);
+  EXPECT_EQ(orders[1].to, 5);
+  EXPECT_EQ(status.spare, (message::Spare{20, 200 - orders[0].count - orders[1].count}));
+  EXPECT_TRUE(status.wants.empty()) << "those who wait for a gift want none";
+  s.sub.handle(0, message::Order{7, 10});
+  ASSERT_EQ(s.transport.sent<message::Order>(4).size(), 3);
+  EXPECT_EQ(s.transport.sent<message::Order>(4).back().to, 7);
+}
+
+TEST(SubCoordinatorAlone, PassesOnAnOrderThatNobodyHasNodesFor) {
+  SubAlone s;
+  s.sub.handle(0, message::Order{7, 10});
+  EXPECT_EQ(s.transport.sent<message::Order>(3).size(), 1) << "the receiver waits for it";
+}
+
+TEST(SubCoordinatorAlone, DropsPlansNoBetterThanTheIncumbentOnly) {
+  SubAlone s;
+  Plan plan;
+  plan.cost = 50;
+  s.sub.handle(0, message::Incumbent{plan});
+  s.sub.handle(4, message::Found{plan, PlanSource{}});
+  EXPECT_TRUE(s.transport.sent<message::Found>(0).empty());
+  plan.cost = 49;
+  s.sub.handle(4, message::Found{plan, PlanSource{}});
+  s.sub.handle(5, message::Found{plan, PlanSource{}});
+  EXPECT_EQ(s.transport.sent<message::Found>(0).size(), 2) << "nobody has checked the first yet";
+}
+
+TEST(SubCoordinatorAlone, SaysFarewellForAllAndThatAlone) {
+  SubAlone s;
+  s.sub.handle(0, message::End{});
+  s.status_after(4, SubAlone::with(20, 8));
+  for (const int rank : {3, 4, 5}) {
+    EXPECT_TRUE(s.transport.sent<message::Farewell>(0).empty());
+    message::Farewell farewell;
+    farewell.survey.whole.counts["nodes_expanded"] = rank;
+    farewell.survey.ranks[rank].expanded = rank;
+    farewell.messages = {{8, 1}, {rank, 2}};
+    s.sub.handle(rank, std::move(farewell));
+  }
+  s.sub.speak(s.now += 10);
+  EXPECT_TRUE(s.transport.sent<message::Status>(0).empty());
+  EXPECT_TRUE(s.transport.sent<message::Order>(4).empty());
+  const auto said = s.transport.sent<message::Farewell>(0);
+  ASSERT_EQ(said.size(), 1);
+  EXPECT_EQ(said[0].survey.whole.counts.at("nodes_expanded"), 12);
+  EXPECT_EQ(said[0].survey.ranks.size(), 3);
+  EXPECT_EQ(said[0].messages, (std::map<std::int32_t, std::int64_t>{{3, 2}, {4, 2}, {5, 2}, {8, 3}}));
+  s.sub.handle(0, message::Goodbye{{{3, 7}, {5, 9}}});
+  EXPECT_EQ(s.transport.sent<message::Goodbye>(5).at(0).messages.at(5), 9);
+  EXPECT_TRUE(s.transport.sent<message::Goodbye>(4).at(0).messages.empty());
 }
 
 }  // namespace protocol_test

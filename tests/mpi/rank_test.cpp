@@ -84,8 +84,8 @@ TEST(Rank, OffersNodesThatTheEndWaitsFor) {
     RankWithRoot rank(Omega(), excess);
     const auto status = rank.speak(0);
     ASSERT_TRUE(status);
-    EXPECT_FALSE(status->idle);
-    EXPECT_EQ(status->levels, (std::vector<Frontier::Level>{{rank.bound(), 1}}));
+    EXPECT_EQ(status->wants, (std::vector<message::Want>{{0, false, rank.bound()}}));
+    EXPECT_EQ(status->spare.nodes, 0) << "it has but one";
   }
 }
 
@@ -93,9 +93,9 @@ TEST(Rank, IsIdleWithNodesThatTheIncumbentIsWithinOmegaOf) {
   RankWithRoot rank(Omega::parse("0.5"), 1);
   const auto status = rank.speak(0);
   ASSERT_TRUE(status);
-  EXPECT_TRUE(status->idle);
-  EXPECT_TRUE(status->levels.empty());
-  EXPECT_EQ(status->live, 1) << "it counts all the same";
+  EXPECT_EQ(status->wants, (std::vector<message::Want>{{0, true, kInfiniteCost}}));
+  EXPECT_EQ(status->spare.nodes, 0);
+  EXPECT_TRUE(status->live) << "it counts all the same";
   EXPECT_EQ(status->bound, rank.bound());
   EXPECT_EQ(status->open, 1);
 }

@@ -53,7 +53,7 @@ Schedule random_schedule(Techniques techniques, fuzz::Random& dice) {
   Schedule schedule;
   if (techniques.has(Technique::kPrimal)) schedule.most_turns /= 10;  // they take a millisecond
   if (dice.percent(15)) schedule.strikes = dice.pick<int>({10, 100});
-  schedule.ranks = dice.pick<int>({1, 2, 2, 3, 4, 7});
+  schedule.ranks = dice.pick<int>({1, 2, 2, 3, 4, 5, 7, 8});
   schedule.workers = dice.between(1, 2);
   schedule.seed = static_cast<std::uint64_t>(dice.below(1 << 30));
   return schedule;
@@ -170,6 +170,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     options.tuning.most_lagrangian = dice.pick<double>({2, 50});
     options.tuning.lagrangian_level = dice.pick<double>({0.02, 0.2});
   }
+  options.tuning.coordinator_children = dice.pick<std::int64_t>({2, 2, 3, 64});
   if (dice.percent(20)) options.policy = Policy::kFixed;
   if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);

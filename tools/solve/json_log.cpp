@@ -94,23 +94,23 @@ Json memory_json(const MemoryUse& memory) {
 }
 
 // Columns, one entry for each rank; null what is not known.
-Json ranks_json(std::span<const RankSurvey> ranks) {
+Json ranks_json(const Survey& survey) {
   Json json{{"nodes", Json::array()},           {"open", Json::array()},
             {"lower_bound", Json::array()},     {"memory_mb", Json::array()},
             {"low_level_calls", Json::array()}, {"prices_asked", Json::array()}};
-  const auto count = [](const RankSurvey& rank, const char* name) {
-    if (!rank.account) return Json();
-    const auto found = rank.account->counts.find(name);
-    return found == rank.account->counts.end() ? Json() : Json(found->second);
-  };
-  for (const RankSurvey& rank : ranks) {
+  for (int number = 0; number < survey.rank_count; ++number) {
+    const auto found = survey.ranks.find(number);
+    if (found == survey.ranks.end()) {
+      for (Json& column : json) column.push_back(nullptr);
+      continue;
+    }
+    const RankSurvey& rank = found->second;
     json["nodes"].push_back(rank.expanded);
     json["open"].push_back(rank.open);
     json["lower_bound"].push_back(cost_json(rank.bound));
-    json["memory_mb"].push_back(rank.account ? megabytes_json(rank.account->memory.process)
-                                             : Json());
-    for (const char* name : {"low_level_calls", "prices_asked"})
-      json[name].push_back(count(rank, name));
+    json["memory_mb"].push_back(megabytes_json(rank.memory));
+    json["low_level_calls"].push_back(rank.low_level_calls);
+    json["prices_asked"].push_back(rank.prices_asked);
   }
   return json;
 }
@@ -179,7 +179,7 @@ void JsonLog::survey(const Survey& survey, double seconds) {
             {"time_s", seconds_json(seconds)},
             {"counts", survey.whole.counts},
             {"memory_mb", memory_json(survey.whole.memory)}};
-  if (!survey.ranks.empty()) json["ranks"] = ranks_json(survey.ranks);
+  if (survey.rank_count > 0) json["ranks"] = ranks_json(survey);
   sink_.line(line_of(json));
 }
 

@@ -27,18 +27,24 @@ struct Account {
   MemoryUse memory;
 };
 
-// A rank, as the coordinator knows it. What it has not told yet is absent.
+// What a rank does and holds.
 struct RankSurvey {
   std::int64_t expanded = 0;
   std::int64_t open = 0;
   std::optional<Cost> bound;  // none where it holds no node
-  std::optional<Account> account;
+  std::int64_t memory = 0;    // bytes, of the process
+  std::int64_t low_level_calls = 0;
+  std::int64_t prices_asked = 0;
 };
 
 struct Survey {
-  Account whole;                  // of all ranks together
-  std::vector<RankSurvey> ranks;  // none where one process searches alone
+  Account whole;                    // of all ranks together
+  std::map<int, RankSurvey> ranks;  // those that have told something by now
+  int rank_count = 0;               // 0 where one process searches alone
 };
+
+// Adds counts to counts and bytes to bytes; takes over what is said of ranks.
+void add(const Survey& part, Survey& sum);
 
 // Adds counts to counts and bytes to bytes.
 void add(const Account& part, Account& sum);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/children.h"
+
+namespace grove::detail {
+
+std::vector<std::vector<int>> Children::ranks() const {
+  std::vector<std::vector<int>> all(static_cast<std::size_t>(count()));
+  for (int rank = post_.rank; rank < hierarchy_.ranks() && include(rank); ++rank)
+    all[static_cast<std::size_t>(with(rank))].push_back(rank);
+  return all;
+}
+
+void Children::tell(int child, const message::Message& message) {
+  const Post post = hierarchy_.child(post_, child);
+  transport_.send(post.rank, message::bytes_of(message, post.level));
+}
+
+void Children::tell_all(const message::Message& message) {
+  const std::string bytes = message::bytes_of(message, post_.level - 1);
+  for (int child = 0; child < count(); ++child)
+    transport_.send(hierarchy_.child(post_, child).rank, bytes);
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/hierarchy.h"
+
+#include <algorithm>
+
+namespace grove::detail {
+namespace {
+
+int least_levels(int ranks, std::int64_t children) {
+  int levels = 1;
+  for (std::int64_t below = children; below < ranks; below *= children) ++levels;
+  return levels;
+}
+
+}  // namespace
+
+Hierarchy::Hierarchy(int ranks, std::int64_t most_children) : ranks_(ranks), strides_{1} {
+  const int levels = least_levels(ranks, most_children);
+  int children = 2;
+  while (least_levels(ranks, children) > levels) ++children;
+  for (int level = 1; level < levels; ++level) strides_.push_back(strides_.back() * children);
+  strides_.push_back(ranks);
+}
+
+int Hierarchy::highest_at(int rank) const {
+  int level = 0;
+  while (level < levels() && rank % strides_[static_cast<std::size_t>(level) + 1] == 0) ++level;
+  return level;
+}
+
+Post Hierarchy::superior(Post post) const {
+  const int stride = strides_[static_cast<std::size_t>(post.level) + 1];
+  return {post.rank / stride * stride, post.level + 1};
+}
+
+int Hierarchy::children(Post post) const {
+  const int end = std::min(ranks_, post.rank + strides_[static_cast<std::size_t>(post.level)]);
+  return child_with(post, end - 1) + 1;
+}
+
+Post Hierarchy::child(Post post, int number) const {
+  const int stride = strides_[static_cast<std::size_t>(post.level) - 1];
+  return {post.rank + number * stride, post.level - 1};
+}
+
+int Hierarchy::child_with(Post post, int rank) const {
+  return (rank - post.rank) / strides_[static_cast<std::size_t>(post.level) - 1];
+}
+
+bool Hierarchy::is_below(Post post, int rank) const {
+  return rank >= post.rank && rank < post.rank + strides_[static_cast<std::size_t>(post.level)];
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/sub_coordinator.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "mpi/overloaded.h"
+
+namespace grove::detail {
+namespace {
+
+// As it stands at the beginning, when all below are idle.
+message::Status first_status(const Broker& broker) {
+  message::Status status;
+  status.wants = broker.wants();
+  return status;
+}
+
+}  // namespace
+
+SubCoordinator::SubCoordinator(Transport& transport, const Hierarchy& hierarchy, int level,
+                               const Tuning& tuning)
+    : children_(transport, hierarchy, level),
+      nodes_(children_),
+      broker_(children_.ranks(), tuning),
+      superior_(transport, hierarchy, {transport.rank(), level}, first_status(broker_)) {}
+
+void SubCoordinator::handle(int from, message::Message&& message) {
+  const auto child = [&] { return children_.with(from); };
+  const auto unexpected = [](const auto&) {
+    throw std::invalid_argument("a message for somebody else came to a coordinator of some ranks");
+  };
+  std::visit(
+      Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
+                 [&](message::Found& found) {
+                   if (found.plan.cost < cutoff_) superior_.tell(found);
+                 },
+                 [&](message::Account& account) { superior_.tell(account); },
+                 [&](message::Gathered& parts) { gathered(parts); },
+                 [&](message::Farewell& said) { farewell(std::move(said)); },
+                 [&](message::Order& ordered) { order(ordered); },
+                 [&](message::Release& release) {
+                   children_.tell(children_.with(release.from), release);
+                 },
+                 [&](message::Entrust& nodes) {
+                   ++entrusted_;
+                   nodes_.entrust(std::move(nodes));
+                   superior_.urge();
+                 },
+                 [&](message::BeginAnew& anew) { begin_anew(anew); },
+                 [&](message::Incumbent& incumbent) {
+                   cutoff_ = std::min(cutoff_, incumbent.plan.cost);
+                   children_.tell_all(incumbent);
+                 },
+                 [&](message::NewTree& tree) { children_.tell_all(tree); },
+                 [&](message::Gather& gather) {
+                   looked_ = 0;
+                   gathered_ = {};
+                   children_.tell_all(gather);
+                 },
+                 [&](message::End& end) {
+                   ending_ = true;
+                   children_.tell_all(end);
+                 },
+                 [&](message::Goodbye& goodbye) { spread(goodbye); }, unexpected},
+      message);
+  changed_ = true;
+}
+
+// A batch between two of those below is covered by what is merged here, before and after.
+void SubCoordinator::heard(int child, message::Status&& status) {
+  broker_.heard(child, status);
+  for (const message::Taken& taken : status.taken) {
+    broker_.arrived(taken.by);
+    if (children_.include(taken.from))
+      children_.tell(children_.with(taken.from),
+                     message::Release{taken.from, taken.by, taken.batches});
+    else
+      taken_.push_back(taken);
+  }
+  nodes_.update(child, std::move(status));
+  if (ending_) return;  // a batch sent after a farewell would be left under way
+  while (const auto gift = broker_.next())
+    children_.tell(gift->from, message::Order{gift->to, gift->nodes});
+}
+
+// All of the plans that were found before have been passed on by then.
+void SubCoordinator::gathered(const message::Gathered& parts) {
+  gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
+  if (++looked_ == children_.count()) superior_.tell(gathered_);
+}
+
+void SubCoordinator::farewell(message::Farewell&& said) {
+  add(said.survey, farewell_.survey);
+  for (const auto& [rank, messages] : said.messages) farewell_.messages[rank] += messages;
+  if (++farewells_ == children_.count()) superior_.tell(farewell_);
+}
+
+// Somebody must: the receiver waits for it, even if it brings nothing.
+void SubCoordinator::order(const message::Order& order) {
+  children_.tell(broker_.giver(order.count), order);
+}
+
+void SubCoordinator::begin_anew(const message::BeginAnew& anew) {
+  nodes_.begin_anew(anew.proven);
+  superior_.urge();
+}
+
+void SubCoordinator::spread(const message::Goodbye& goodbye) {
+  std::vector<message::Goodbye> parts(static_cast<std::size_t>(children_.count()));
+  for (const auto& [rank, messages] : goodbye.messages)
+    parts.at(static_cast<std::size_t>(children_.with(rank))).messages[rank] = messages;
+  for (int child = 0; child < children_.count(); ++child)
+    children_.tell(child, parts[static_cast<std::size_t>(child)]);
+}
+
+message::Status SubCoordinator::status() const {
+  message::Status status = nodes_.merged();
+  status.entrusted = entrusted_;
+  status.spare = broker_.spare();
+  status.wants = broker_.wants();
+  status.taken = taken_;
+  return status;
+}
+
+void SubCoordinator::speak(double now) {
+  if (!changed_ || ending_) return;
+  if (superior_.report(status(), now)) taken_.clear();
+  changed_ = superior_.reports_at() < std::numeric_limits<double>::infinity();
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// A coordinator of some of the ranks, where there are many.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grove/detail/engine/solve.h"
+#include "mpi/broker.h"
+#include "mpi/children.h"
+#include "mpi/messages.h"
+#include "mpi/rank_nodes.h"
+#include "mpi/superior.h"
+
+namespace grove::detail {
+
+// Merges what is said below it on its way up, spreads what is said above it on its way down, and
+// keeps those below it at work. To its superior it is like a rank, to its children like the one
+// coordinator: why that is sound is told at the head of coordinator.cpp. Of one thread.
+class SubCoordinator {
+ public:
+  // Of this level on the transport's rank; not the top one. `transport` must outlive this.
+  SubCoordinator(Transport& transport, const Hierarchy& hierarchy, int level,
+                 const Tuning& tuning);
+
+  // From a rank that is a child or has one's coordinator, or from that of the superior. Throws
+  // std::invalid_argument for what neither sends.
+  void handle(int from, message::Message&& message);
+  // Tells the superior what is new; see Superior::report().
+  void speak(double now);
+  double speaks_at() const { return superior_.reports_at(); }
+
+ private:
+  void heard(int child, message::Status&& status);
+  void gathered(const message::Gathered& gathered);
+  void farewell(message::Farewell&& farewell);
+  void order(const message::Order& order);
+  void begin_anew(const message::BeginAnew& anew);
+  void spread(const message::Goodbye& goodbye);
+  message::Status status() const;
+
+  Children children_;
+  RankNodes nodes_;
+  Broker broker_;
+  Superior superior_;
+  bool changed_ = false;                // since the last status
+  std::int64_t entrusted_ = 0;          // how many Entrust it has obeyed
+  std::vector<message::Taken> taken_;   // not said yet
+  Cost cutoff_ = kInfiniteCost;         // what the incumbent costs
+  message::Gathered gathered_;          // of those that have looked
+  int looked_ = 0;
+  message::Farewell farewell_;          // of those that have said it
+  int farewells_ = 0;
+  bool ending_ = false;
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/superior.h"
+
+#include <utility>
+
+namespace grove::detail {
+namespace {
+
+// Between two statuses that nothing hangs on, in seconds. A coordinator hears all its children.
+constexpr double kPause = 2e-3;
+constexpr double kPausePerSibling = 50e-6;
+
+constexpr double kNothingToSay = std::numeric_limits<double>::infinity();
+
+bool has_idle(const message::Status& status) {
+  return !status.wants.empty() && status.wants.front().idle;
+}
+
+}  // namespace
+
+Superior::Superior(Transport& transport, const Hierarchy& hierarchy, Post post,
+                   message::Status first)
+    : transport_(transport),
+      to_(hierarchy.superior(post)),
+      pause_(kPause + kPausePerSibling * hierarchy.children(to_)),
+      said_(std::move(first)) {}
+
+void Superior::tell(const message::Message& message) {
+  transport_.send(to_.rank, message::bytes_of(message, to_.level));
+}
+
+// What can be spared matters at once when it has doubled: while few ranks have nodes the others
+// would wait a pause for each doubling.
+bool Superior::is_urgent(const message::Status& status) const {
+  const bool has_more = status.spare.nodes > 0 &&
+                        (said_.spare.nodes == 0 || status.open / 2 > 2 * (said_.open / 2));
+  return has_more || !status.taken.empty() || status.entrusted != said_.entrusted ||
+         status.era != said_.era || status.bound != said_.bound || status.proven != said_.proven ||
+         status.stopped != said_.stopped || status.live != said_.live ||
+         has_idle(status) != has_idle(said_);
+}
+
+bool Superior::report(message::Status status, double now) {
+  reports_at_ = kNothingToSay;
+  if (!urgent_ && status == said_) return false;
+  if (!urgent_ && !is_urgent(status) && now < said_at_ + pause_) {
+    reports_at_ = said_at_ + pause_;
+    return false;
+  }
+  tell(status);
+  said_ = std::move(status);
+  said_.taken.clear();
+  said_at_ = now;
+  urgent_ = false;
+  return true;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/hierarchy.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace grove::detail {
+namespace hierarchy_test {
+
+TEST(Hierarchy, HasAsFewLevelsAndChildrenAsCanBe) {
+  const auto shape = [](int ranks, int most) {
+    const Hierarchy hierarchy(ranks, most);
+    int children = 0;
+    for (int rank = 0; rank < ranks; ++rank)
+      for (int level = 1; level <= hierarchy.highest_at(rank); ++level)
+        children = std::max(children, hierarchy.children({rank, level}));
+    return std::pair(hierarchy.levels(), children);
+  };
+  EXPECT_EQ(shape(1, 64), std::pair(1, 1));
+  EXPECT_EQ(shape(64, 64), std::pair(1, 64));
+  EXPECT_EQ(shape(65, 64), std::pair(2, 9));
+  EXPECT_EQ(shape(4096, 64), std::pair(2, 64));
+  EXPECT_EQ(shape(4097, 64), std::pair(3, 17));
+  EXPECT_EQ(shape(8, 2), std::pair(3, 2));
+}
+
+// Everybody but the top answers to one who counts them among its children, once.
+TEST(Hierarchy, EverybodyHasOnePlace) {
+  for (const int ranks : {1, 2, 3, 7, 8, 9, 26, 64, 100, 1000})
+    for (const int most : {2, 3, 5, 64}) {
+      const Hierarchy hierarchy(ranks, most);
+      EXPECT_EQ(hierarchy.highest_at(0), hierarchy.levels());
+      std::int64_t below = 0;
+      for (int rank = 0; rank < ranks; ++rank)
+        for (int level = 0; level <= hierarchy.highest_at(rank); ++level) {
+          const Post post{rank, level};
+          if (level > 0) {
+            ASSERT_LE(hierarchy.children(post), most);
+            below += hierarchy.children(post);
+          }
+          if (post == hierarchy.top()) continue;
+          const Post superior = hierarchy.superior(post);
+          ASSERT_LE(superior.level, hierarchy.highest_at(superior.rank));
+          ASSERT_TRUE(hierarchy.is_below(superior, rank));
+          const int number = hierarchy.child_with(superior, rank);
+          ASSERT_LT(number, hierarchy.children(superior));
+          ASSERT_EQ(hierarchy.child(superior, number), post);
+        }
+      int posts = 0;
+      for (int rank = 0; rank < ranks; ++rank) posts += 1 + hierarchy.highest_at(rank);
+      EXPECT_EQ(below, posts - 1) << ranks << " ranks, at most " << most;
+    }
+}
+
+}  // namespace hierarchy_test
+}  // namespace grove::detail
