@@ -11,11 +11,13 @@
 
 #include <algorithm>
 #include <ranges>
+#include <utility>
 
 namespace grove::detail {
 namespace {
 
 constexpr std::size_t kWishesPassedOn = 16;
+constexpr std::size_t kLevelsPassedOn = 4;
 
 }  // namespace
 
@@ -44,17 +46,20 @@ void Broker::arrived(int rank) {
   awaiting_.erase(rank);
 }
 
-void Broker::offer(int child, const message::Spare& spare) {
+// The best of what it can spare.
+void Broker::offer(int child, std::vector<message::Spare> spare) {
   View& at = view(child);
-  offers_.erase({at.spare.bound, -at.spare.nodes, child});
-  at.spare = spare;
-  if (spare.nodes > 0) offers_.insert({spare.bound, -spare.nodes, child});
+  const auto best = [&] { return Offer(at.spare[0].bound, -at.spare[0].nodes, child); };
+  if (!at.spare.empty()) offers_.erase(best());
+  at.spare = std::move(spare);
+  if (!at.spare.empty()) offers_.insert(best());
 }
 
 void Broker::take(int child, std::int64_t nodes) {
-  message::Spare left = view(child).spare;
-  left.nodes = std::max<std::int64_t>(0, left.nodes - nodes);
-  offer(child, left);
+  std::vector<message::Spare> left = view(child).spare;
+  left[0].nodes -= std::min(nodes, left[0].nodes);
+  if (left[0].nodes == 0) left.erase(left.begin());
+  offer(child, std::move(left));
 }
 
 // Wishes come in order of need: where nothing helps one, nothing helps those after it.
@@ -87,13 +92,13 @@ int Broker::giver(std::int64_t nodes) {
   return child;
 }
 
-message::Spare Broker::spare() const {
-  message::Spare all;
-  for (const auto& [bound, minus_nodes, child] : offers_) {
-    if (all.nodes > 0 && bound != all.bound) break;
-    all.bound = bound;
-    all.nodes -= minus_nodes;
-  }
+std::vector<message::Spare> Broker::spare() const {
+  std::map<Cost, std::int64_t> sums;
+  for (const View& child : children_)
+    for (const message::Spare& spare : child.spare) sums[spare.bound] += spare.nodes;
+  std::vector<message::Spare> all;
+  for (const auto& [bound, nodes] : sums | std::views::take(kLevelsPassedOn))
+    all.push_back({bound, nodes});
   return all;
 }
 

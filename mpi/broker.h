@@ -37,9 +37,9 @@ class Broker {
   // The child that is to give so many nodes to somebody elsewhere: the one with most to spare, or
   // any.
   int giver(std::int64_t nodes);
-  // What all children together can spare of their best bound, and who of them needs nodes most: for
-  // a superior, to match with those of others.
-  message::Spare spare() const;
+  // What all children together can spare of their best bounds, and who of them needs nodes most:
+  // for a superior, to match with those of others.
+  std::vector<message::Spare> spare() const;
   std::vector<message::Want> wants() const;
 
  private:
@@ -47,12 +47,12 @@ class Broker {
   using Wish = std::tuple<bool, Cost, int>;           // has nodes in hand, minus best bound, rank
 
   struct View {
-    message::Spare spare;
+    std::vector<message::Spare> spare;  // ascending in bound, none of them empty
     std::vector<Wish> wishes;
   };
 
   View& view(int child) { return children_[static_cast<std::size_t>(child)]; }
-  void offer(int child, const message::Spare& spare);
+  void offer(int child, std::vector<message::Spare> spare);
   void take(int child, std::int64_t nodes);
 
   const Tuning tuning_;

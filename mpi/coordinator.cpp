@@ -21,11 +21,11 @@
 // So min(latest statuses, entrusted, next tree) bounds all plans but those pruned, whatever the
 // delays, and a rank that says nothing for long only keeps the bound low.
 //
-// *Sub-coordinators.* Call what is below one coordinator its group. Claim: at every moment the least
-// bound of the latest statuses and of what is entrusted, as one coordinator has them, covers every
-// node of its group, and every one that somebody of its group has in custody. For level 1 this is
-// the argument above, for what comes from elsewhere and goes there is in the custody of somebody or
-// covered by a status already processed. Above it:
+// *Sub-coordinators.* Call what is below one coordinator its group. Claim: at every moment the
+// least bound of the latest statuses and of what is entrusted, as one coordinator has them, covers
+// every node of its group, and every one that somebody of its group has in custody. For level 1
+// this is the argument above, for what comes from elsewhere and goes there is in the custody of
+// somebody or covered by a status already processed. Above it:
 // - A status of a sub-coordinator is that minimum of its own at one moment, so it covers what its
 //   group then held. What its group holds later comes from nodes covered then, from what was
 //   entrusted to it since, which is covered above until a status says that it has arrived, or from
@@ -130,17 +130,15 @@ void Coordinator::handle(int from, message::Message&& message) {
     throw std::invalid_argument("a message for a rank came to the coordinator");
   };
   std::visit(
-      Overloaded{[&](message::Status& status) { heard(children_.with(from), std::move(status)); },
-                 [&](message::Found& found) {
-                   run_.ledger().post(std::move(found.plan), found.source);
-                 },
-                 [&](message::Gathered& gathered) { gathering_.value().handle(gathered); },
-                 [&](message::Part& part) { gathering_.value().handle(std::move(part)); },
-                 [&](message::Account& account) {
-                   for (const auto& [rank, survey] : account.survey.ranks)
-                     surveys_[rank] = account.survey;
-                 },
-                 [&](message::Farewell& farewell) { leave(std::move(farewell)); }, unexpected},
+      Overloaded{
+          [&](message::Status& status) { heard(children_.with(from), std::move(status)); },
+          [&](message::Found& found) { run_.ledger().post(std::move(found.plan), found.source); },
+          [&](message::Gathered& gathered) { gathering_.value().handle(gathered); },
+          [&](message::Part& part) { gathering_.value().handle(std::move(part)); },
+          [&](message::Account& account) {
+            for (const auto& [rank, survey] : account.survey.ranks) surveys_[rank] = account.survey;
+          },
+          [&](message::Farewell& farewell) { leave(std::move(farewell)); }, unexpected},
       message);
 }
 

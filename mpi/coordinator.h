@@ -79,8 +79,8 @@ class Coordinator {
   bool ending_ = false;
   int farewells_ = 0;
   std::map<std::int32_t, std::int64_t> messages_to_;  // by rank, of those that have said farewell
-  std::map<int, Survey> surveys_;  // by rank, before the farewells; the last one
-  Survey final_;                   // of those that have said farewell
+  std::map<int, Survey> surveys_;                     // by rank, before the farewells; the last one
+  Survey final_;                                      // of those that have said farewell
 };
 
 }  // namespace grove::detail

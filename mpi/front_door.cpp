@@ -5,14 +5,14 @@
 #include <exception>
 #include <string>
 
-#include "src/api/access.h"
-#include "src/api/run.h"
 #include "grove/detail/engine/solve.h"
 #include "grove/detail/model/fingerprint.h"
 #include "grove/detail/search/problem.h"
 #include "grove/mpi.hpp"
 #include "mpi/mpi_transport.h"
 #include "mpi/solve_distributed.h"
+#include "src/api/access.h"
+#include "src/api/run.h"
 
 namespace grove::mpi {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The ranks do not look at the same moment, and nodes travel. Yet none is missed. Gather comes to a
-// rank by the same way as the releases from custody and what is entrusted to it, in order. So a node
-// that one rank gave to another is still in its custody when it looks; or the release was sent
+// rank by the same way as the releases from custody and what is entrusted to it, in order. So a
+// node that one rank gave to another is still in its custody when it looks; or the release was sent
 // before Gather was, by the coordinator that is nearest above both: because a status that covered
 // the node had come from the receiver by then, which heard of Gather later than that coordinator,
 // and so held the node, or what it led to, when it looked. What was entrusted before Gather comes

@@ -43,7 +43,7 @@ class Gathering {
   const int children_;
   const Clock::time_point begin_ = Clock::now();
   const std::int64_t trees_;  // that count as instantiated
-  int looked_ = 0;  // children
+  int looked_ = 0;            // children
   Cost evicted_bound_ = kInfiniteCost;
   int asked_ = -1;  // the rank that sends
   bool done_ = false;

@@ -15,9 +15,9 @@ struct Post {
   friend bool operator==(const Post&, const Post&) = default;
 };
 
-// Neighbouring ranks make groups, each with a coordinator of level 1 on its first rank; neighbouring
-// groups make groups with a coordinator of level 2, on the first rank again; up to the one over all,
-// on rank 0. Immutable; may be used from any thread.
+// Neighbouring ranks make groups, each with a coordinator of level 1 on its first rank;
+// neighbouring groups make groups with a coordinator of level 2, on the first rank again; up to the
+// one over all, on rank 0. Immutable; may be used from any thread.
 class Hierarchy {
  public:
   // With as few levels as there can be with at most `most_children` below each, and then as few

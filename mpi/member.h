@@ -13,8 +13,8 @@
 
 namespace grove::detail {
 
-// A rank, and the coordinators beside it if there are any, which share a transport. Of one thread, but for
-// what Rank says otherwise.
+// A rank, and the coordinators beside it if there are any, which share a transport. Of one thread,
+// but for what Rank says otherwise.
 class Member {
  public:
   // All must outlive this, but for `stops`; see Rank. The observer hears of the run on rank 0.

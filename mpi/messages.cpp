@@ -76,6 +76,11 @@ void serialize(Archive& archive, Prices& prices) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Spare& spare) {
+  archive(spare.bound, spare.nodes);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Want& want) {
   archive(want.rank, want.idle, want.best);
 }
@@ -90,7 +95,7 @@ void serialize(Archive& archive, Status& s) {
   archive(s.bound, s.evicted_bound, s.proven, s.live, s.open, s.expanded, s.era, s.entrusted);
   enumerated(archive, s.proven_by, kLastProvenBy);
   enumerated(archive, s.stopped, StopReason::kInterrupt);
-  archive(s.spare.bound, s.spare.nodes, s.wants, s.taken);
+  archive(s.spare, s.wants, s.taken);
 }
 
 template <class Archive>

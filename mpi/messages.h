@@ -35,7 +35,7 @@ struct Spare {
 // A rank that would expand better nodes if it had some.
 struct Want {
   std::int32_t rank = 0;
-  bool idle = true;  // it has no node that the end waits for
+  bool idle = true;           // it has no node that the end waits for
   Cost best = kInfiniteCost;  // of its open nodes that the end waits for
 
   friend bool operator==(const Want&, const Want&) = default;
@@ -64,7 +64,7 @@ struct Status {
   std::int32_t era = 0;                    // how many BeginAnew all have obeyed
   std::int64_t entrusted = 0;              // how many Entrust it has obeyed
   StopReason stopped = StopReason::kNone;  // a limit that struck there
-  Spare spare;                             // of the least bound of which any can be spared
+  std::vector<Spare> spare;                // of the least bounds of which any can be spared
   std::vector<Want> wants;                 // the neediest first; not of all ranks below
   std::vector<Taken> taken;                // since the last status; from ranks not below
 

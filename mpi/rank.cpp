@@ -14,13 +14,14 @@ namespace {
 
 constexpr std::size_t kLevels = 4;
 constexpr std::size_t kNodesInAPart = 500;
-// What a rank with these open nodes can spare of its best bound; see Frontier::take_spare().
-message::Spare spare_of(const std::vector<Frontier::Level>& levels) {
+// What a rank with these open nodes can spare; see Frontier::take_spare().
+std::vector<message::Spare> spare_of(const std::vector<Frontier::Level>& levels) {
+  std::vector<message::Spare> spare;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const std::int64_t half = (levels[i].open + (i > 0 ? 1 : 0)) / 2;
-    if (half > 0) return {levels[i].bound, half};
+    if (half > 0) spare.push_back({levels[i].bound, half});
   }
-  return {};
+  return spare;
 }
 
 // As it stands at the beginning.
@@ -51,40 +52,41 @@ void Rank::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("a message for the coordinator came to a rank");
   };
-  std::visit(Overloaded{[&](message::Batch& batch) {
-                          ++heard_;
-                          take_over(from, batch);
-                        },
-                        [&](message::AskPrices& ask) {
-                          ++heard_;
-                          search_.lagrangian().help(problem_.instance, std::move(ask.share));
-                        },
-                        [&](message::Prices& prices) {
-                          ++heard_;
-                          ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
-                                        ProvenBy::kLagrangian);
-                        },
-                        [&](message::NewTree& tree) {
-                          roots_[tree.number] = trees_.add(tree.tree, tree.number);
-                          take_over_held();
-                        },
-                        [&](message::Entrust& entrusted) { accept(entrusted); },
-                        [&](message::Order& order) { give(order); },
-                        [&](message::Release& covered) { release(covered); },
-                        [&](message::Incumbent& incumbent) {
-                          const Cost cost = incumbent.plan.cost;
-                          ledger_.adopt(std::move(incumbent.plan));
-                          nodes_.prune(cost);
-                        },
-                        [&](message::BeginAnew& anew) { begin_anew(anew.proven); },
-                        [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
-                        [&](message::End&) {
-                          ended_ = true;
-                          ledger_.end();
-                        },
-                        [&](message::Goodbye& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },
-                        unexpected},
-             message);
+  std::visit(
+      Overloaded{[&](message::Batch& batch) {
+                   ++heard_;
+                   take_over(from, batch);
+                 },
+                 [&](message::AskPrices& ask) {
+                   ++heard_;
+                   search_.lagrangian().help(problem_.instance, std::move(ask.share));
+                 },
+                 [&](message::Prices& prices) {
+                   ++heard_;
+                   ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
+                                 ProvenBy::kLagrangian);
+                 },
+                 [&](message::NewTree& tree) {
+                   roots_[tree.number] = trees_.add(tree.tree, tree.number);
+                   take_over_held();
+                 },
+                 [&](message::Entrust& entrusted) { accept(entrusted); },
+                 [&](message::Order& order) { give(order); },
+                 [&](message::Release& covered) { release(covered); },
+                 [&](message::Incumbent& incumbent) {
+                   const Cost cost = incumbent.plan.cost;
+                   ledger_.adopt(std::move(incumbent.plan));
+                   nodes_.prune(cost);
+                 },
+                 [&](message::BeginAnew& anew) { begin_anew(anew.proven); },
+                 [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
+                 [&](message::End&) {
+                   ended_ = true;
+                   ledger_.end();
+                 },
+                 [&](message::Goodbye& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },
+                 unexpected},
+      message);
 }
 
 // Its tree may not have been heard of yet, or what was given up here has yet to be forgotten.

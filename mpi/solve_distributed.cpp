@@ -11,6 +11,7 @@
 #include "grove/detail/engine/multicore.h"
 #include "grove/detail/engine/worker.h"
 #include "grove/detail/search/proof_log.h"
+#include "mpi/looks.h"
 #include "mpi/member.h"
 
 namespace grove::detail {
@@ -20,10 +21,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kAccountInterval_s = 2;  // of what nobody but who looks on has to know
 
-// Messages wait so long at most. Looking for them costs little, but to be woken up costs the
-// threads that search more than it seems to: on a virtual machine some 40 us (looking every 0.2 ms
-// took 15 % of a search by one rank, every millisecond 5 %).
-constexpr auto kNap = std::chrono::milliseconds(1);
+constexpr double kLeastNap_s = 1e-5;  // or a look would be taken for the next one
+
+void sleep(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
 
 // The threads that search, and what became of them.
 class Searching {
@@ -79,8 +81,10 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   Searching searching(problem, options, limits, member.rank(), transport.rank());
   bool said_farewell = false;
   double accounted = 0;
+  double heard_at = 0;
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   while (!member.left()) {
-    const double now = std::chrono::duration<double>(Clock::now() - begin).count();
+    const double now = seconds();
     const bool heard = member.converse(now);
     meanwhile();
     if (now - accounted > kAccountInterval_s) {
@@ -91,7 +95,9 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
       member.rank().farewell(searching.counts());
       said_farewell = true;
     }
-    if (!heard) std::this_thread::sleep_for(kNap);
+    if (heard) heard_at = now;
+    const double rested = seconds();
+    if (!heard) sleep(next_look(heard_at, rested + kLeastNap_s) - rested);
   }
   if (!member.coordinator()) return std::nullopt;
   if (options.proof != nullptr) member.rank().search().lagrangian().write_down(*options.proof);

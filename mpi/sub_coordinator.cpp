@@ -33,40 +33,39 @@ void SubCoordinator::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("a message for somebody else came to a coordinator of some ranks");
   };
-  std::visit(
-      Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
-                 [&](message::Found& found) {
-                   if (found.plan.cost < cutoff_) superior_.tell(found);
-                 },
-                 [&](message::Account& account) { superior_.tell(account); },
-                 [&](message::Gathered& parts) { gathered(parts); },
-                 [&](message::Farewell& said) { farewell(std::move(said)); },
-                 [&](message::Order& ordered) { order(ordered); },
-                 [&](message::Release& release) {
-                   children_.tell(children_.with(release.from), release);
-                 },
-                 [&](message::Entrust& nodes) {
-                   ++entrusted_;
-                   nodes_.entrust(std::move(nodes));
-                   superior_.urge();
-                 },
-                 [&](message::BeginAnew& anew) { begin_anew(anew); },
-                 [&](message::Incumbent& incumbent) {
-                   cutoff_ = std::min(cutoff_, incumbent.plan.cost);
-                   children_.tell_all(incumbent);
-                 },
-                 [&](message::NewTree& tree) { children_.tell_all(tree); },
-                 [&](message::Gather& gather) {
-                   looked_ = 0;
-                   gathered_ = {};
-                   children_.tell_all(gather);
-                 },
-                 [&](message::End& end) {
-                   ending_ = true;
-                   children_.tell_all(end);
-                 },
-                 [&](message::Goodbye& goodbye) { spread(goodbye); }, unexpected},
-      message);
+  std::visit(Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
+                        [&](message::Found& found) {
+                          if (found.plan.cost < cutoff_) superior_.tell(found);
+                        },
+                        [&](message::Account& account) { superior_.tell(account); },
+                        [&](message::Gathered& parts) { gathered(parts); },
+                        [&](message::Farewell& said) { farewell(std::move(said)); },
+                        [&](message::Order& ordered) { order(ordered); },
+                        [&](message::Release& release) {
+                          children_.tell(children_.with(release.from), release);
+                        },
+                        [&](message::Entrust& nodes) {
+                          ++entrusted_;
+                          nodes_.entrust(std::move(nodes));
+                          superior_.urge();
+                        },
+                        [&](message::BeginAnew& anew) { begin_anew(anew); },
+                        [&](message::Incumbent& incumbent) {
+                          cutoff_ = std::min(cutoff_, incumbent.plan.cost);
+                          children_.tell_all(incumbent);
+                        },
+                        [&](message::NewTree& tree) { children_.tell_all(tree); },
+                        [&](message::Gather& gather) {
+                          looked_ = 0;
+                          gathered_ = {};
+                          children_.tell_all(gather);
+                        },
+                        [&](message::End& end) {
+                          ending_ = true;
+                          children_.tell_all(end);
+                        },
+                        [&](message::Goodbye& goodbye) { spread(goodbye); }, unexpected},
+             message);
   changed_ = true;
 }
 

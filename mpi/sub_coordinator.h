@@ -20,8 +20,7 @@ namespace grove::detail {
 class SubCoordinator {
  public:
   // Of this level on the transport's rank; not the top one. `transport` must outlive this.
-  SubCoordinator(Transport& transport, const Hierarchy& hierarchy, int level,
-                 const Tuning& tuning);
+  SubCoordinator(Transport& transport, const Hierarchy& hierarchy, int level, const Tuning& tuning);
 
   // From a rank that is a child or has one's coordinator, or from that of the superior. Throws
   // std::invalid_argument for what neither sends.
@@ -43,13 +42,13 @@ class SubCoordinator {
   RankNodes nodes_;
   Broker broker_;
   Superior superior_;
-  bool changed_ = false;                // since the last status
-  std::int64_t entrusted_ = 0;          // how many Entrust it has obeyed
-  std::vector<message::Taken> taken_;   // not said yet
-  Cost cutoff_ = kInfiniteCost;         // what the incumbent costs
-  message::Gathered gathered_;          // of those that have looked
+  bool changed_ = false;               // since the last status
+  std::int64_t entrusted_ = 0;         // how many Entrust it has obeyed
+  std::vector<message::Taken> taken_;  // not said yet
+  Cost cutoff_ = kInfiniteCost;        // what the incumbent costs
+  message::Gathered gathered_;         // of those that have looked
   int looked_ = 0;
-  message::Farewell farewell_;          // of those that have said it
+  message::Farewell farewell_;  // of those that have said it
   int farewells_ = 0;
   bool ending_ = false;
 };

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "grove/detail/engine/techniques_of.h"
+#include "mpi/looks.h"
 #include "mpi/member.h"
 #include "mpi/simulated_network.h"
 #include "mpi/simulator/busy_profile.h"
@@ -67,8 +68,8 @@ struct SimulatedRank {
         worker(setting.problem, setting.options, setting.limits, member.rank().search(),
                setting.stops, rank),
         player(worker, setting.machine),
-        first_look(setting.machine.poll * (rank * kGoldenRatio - std::floor(rank * kGoldenRatio))) {
-  }
+        heard_at(setting.machine.poll *
+                 (rank * kGoldenRatio - std::floor(rank * kGoldenRatio) - 1)) {}
 
   bool has_work() {
     return member.rank().nodes().frontier.open() > 0 ||
@@ -80,9 +81,9 @@ struct SimulatedRank {
   Member member;
   Worker worker;
   SimulatedWorker player;
-  double first_look;  // at the network
+  double heard_at;  // last; looks at the network follow from it
   double talk_due = kNotDue;
-  double talks_until = 0;   // now, or did last
+  double talks_until = 0;  // now, or did last
   double talking_s = 0;
   double talking_processor_s = 0;
   bool said_farewell = false;
@@ -135,9 +136,7 @@ class Simulation {
   // There is cause for this rank's talker to look at the network at `time` or soon after.
   void talk_from(double time, int rank) {
     SimulatedRank& r = at(rank);
-    const double pause = setting_.machine.poll;
-    const double looks = std::ceil(std::max(0.0, time - r.first_look) / pause);
-    if (time > r.talks_until && pause > 0) time = std::max(time, r.first_look + pause * looks);
+    if (time > r.talks_until) time = next_look(r.heard_at, time, setting_.machine.poll);
     time = std::max(time, r.talks_until);
     if (time >= r.talk_due) return;
     r.talk_due = time;
@@ -150,7 +149,7 @@ class Simulation {
     r.talk_due = kNotDue;
     setting_.talk = {};
     const double before_s = processor_time();
-    r.member.converse(now_);
+    const bool heard = r.member.converse(now_);
     if (r.member.rank().ended() && !r.said_farewell) {
       if (r.player.busy()) abandon_work(r);
       r.member.rank().farewell({});
@@ -158,6 +157,7 @@ class Simulation {
     }
     r.talking_processor_s += processor_time() - before_s;
     talked(rank, now_);
+    if (heard) r.heard_at = r.talks_until;
   }
 
   // What follows from the talk that this rank began at `time`.

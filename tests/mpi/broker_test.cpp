@@ -17,7 +17,7 @@ std::vector<std::vector<int>> alone(int ranks) {
 
 message::Status with(int rank, Cost bound, std::int64_t spare) {
   message::Status status;
-  status.spare = {bound, spare};
+  if (spare > 0) status.spare = {{bound, spare}};
   status.wants = {{rank, bound == kInfiniteCost, bound}};
   return status;
 }
@@ -42,6 +42,15 @@ TEST(Broker, NobodyIsGivenMoreBeforeTheLastHasArrived) {
   EXPECT_FALSE(broker.next());
   broker.arrived(1);
   EXPECT_TRUE(broker.next());
+}
+
+TEST(Broker, TheSecondBestBoundWillDo) {
+  Broker broker(alone(3), {.gift_nodes = 1});
+  message::Status status = with(0, 10, 1);
+  status.spare.push_back({11, 1});
+  broker.heard(0, status);
+  for (int gifts = 0; gifts < 2; ++gifts) EXPECT_TRUE(broker.next());
+  EXPECT_FALSE(broker.next());
 }
 
 TEST(Broker, OneGiverServesSeveralWhileItHasSome) {
@@ -71,7 +80,7 @@ TEST(Broker, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
 TEST(Broker, RanksOfOneChildAreLeftToIt) {
   Broker broker({{0, 1, 2}, {3, 4, 5}});
   message::Status status;
-  status.spare = {10, 100};
+  status.spare = {{10, 100}};
   status.wants = {{1, true, kInfiniteCost}, {2, true, kInfiniteCost}};
   broker.heard(0, status);
   std::vector<int> given;
@@ -85,16 +94,20 @@ TEST(Broker, RanksOfOneChildAreLeftToIt) {
 TEST(Broker, PassesOnWhatItCannotMatch) {
   Broker broker({{0, 1}, {2, 3}});
   message::Status status;
-  status.spare = {10, 6};
+  using Spare = std::vector<message::Spare>;
+  status.spare = {{10, 6}, {11, 2}};
   broker.heard(0, status);
-  status.spare = {11, 90};
+  status.spare = {{11, 90}};
   broker.heard(1, status);
-  EXPECT_EQ(broker.spare(), (message::Spare{10, 6})) << "of the best bound";
+  EXPECT_EQ(broker.spare(), Spare({{10, 6}, {11, 92}}));
   EXPECT_TRUE(broker.wants().empty());
   EXPECT_EQ(broker.giver(6), 0);
-  EXPECT_EQ(broker.spare(), (message::Spare{11, 90}));
+  EXPECT_EQ(broker.spare(), Spare({{11, 92}}));
   EXPECT_EQ(broker.giver(100), 1);
-  EXPECT_EQ(broker.spare().nodes, 0);
+  EXPECT_EQ(broker.spare(), Spare({{11, 2}}));
+  EXPECT_EQ(broker.giver(100), 0);
+  EXPECT_TRUE(broker.spare().empty());
+  EXPECT_EQ(broker.giver(100), 0) << "somebody must";
 }
 
 }  // namespace broker_test

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// When a rank looks whether messages have come.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace grove::detail {
+
+// To be woken up costs the threads that search more than it seems to: on a virtual machine some
+// 40 us (looking every 0.2 ms took 15 % of a search by one rank, every millisecond 5 %). But where
+// one message has come another may follow, above all while nodes spread over ranks that have none.
+// So a rank looks again soon after it has heard something, and then ever more rarely: after 1, 2,
+// 4,
+// ... parts of the longest nap, and at the end of each nap of that length.
+constexpr double kLongestNap_s = 1e-3;
+constexpr double kShortestNap = 1.0 / 16;  // of the longest
+
+// The first look at `time` or later, of a rank that heard something last at `heard`. All in seconds
+// of one clock.
+inline double next_look(double heard, double time, double longest_nap = kLongestNap_s) {
+  if (longest_nap <= 0) return time;
+  const double elapsed = std::max(time - heard, kShortestNap * longest_nap);
+  if (elapsed > longest_nap / 2) return heard + longest_nap * std::ceil(elapsed / longest_nap);
+  double nap = kShortestNap * longest_nap;
+  while (nap < elapsed) nap *= 2;
+  return heard + nap;
+}
+
+}  // namespace grove::detail
