@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -170,7 +171,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     options.tuning.most_lagrangian = dice.pick<double>({2, 50});
     options.tuning.lagrangian_level = dice.pick<double>({0.02, 0.2});
   }
-  options.tuning.coordinator_children = dice.pick<std::int64_t>({2, 2, 3, 64});
+  options.tuning.coordinator_children = std::array{2, 3, 2, 64}[seed % 4];
   if (dice.percent(20)) options.policy = Policy::kFixed;
   if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);
