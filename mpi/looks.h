@@ -21,10 +21,10 @@ constexpr double kShortestNap = 1.0 / 16;  // of the longest
 inline double next_look(double heard, double time, double longest_nap = kLongestNap_s) {
   if (longest_nap <= 0) return time;
   const double elapsed = std::max(time - heard, kShortestNap * longest_nap);
-  if (elapsed > longest_nap / 2) return heard + longest_nap * std::ceil(elapsed / longest_nap);
   double nap = kShortestNap * longest_nap;
-  while (nap < elapsed) nap *= 2;
-  return heard + nap;
+  while (nap < std::min(elapsed, longest_nap)) nap *= 2;
+  if (elapsed > nap) nap = longest_nap * std::ceil(elapsed / longest_nap);
+  return std::max(time, heard + nap);  // rounding must not make it earlier
 }
 
 }  // namespace grove::detail

@@ -82,6 +82,7 @@ void Rank::handle(int from, message::Message&& message) {
                  [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
                  [&](message::End&) {
                    ended_ = true;
+                   superior_.end_reports();
                    ledger_.end();
                  },
                  [&](message::Goodbye& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },

@@ -62,6 +62,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                         },
                         [&](message::End& end) {
                           ending_ = true;
+                          superior_.end_reports();
                           children_.tell_all(end);
                         },
                         [&](message::Goodbye& goodbye) { spread(goodbye); }, unexpected},

@@ -25,8 +25,10 @@ class Superior {
   bool report(message::Status status, double now);
   // The next status matters at once, whatever it says.
   void urge() { urgent_ = true; }
-  // When what was kept back may be said; infinity if nothing was.
+  // When what was kept back may be said; infinity if nothing was, or is to be any more.
   double reports_at() const { return reports_at_; }
+  // No more reports.
+  void end_reports() { reports_at_ = std::numeric_limits<double>::infinity(); }
 
  private:
   bool is_urgent(const message::Status& status) const;
