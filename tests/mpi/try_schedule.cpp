@@ -162,7 +162,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     options.tuning.joint_begins_work = 0;
     options.tuning.joint_step_work = 1;
   }
-  if (dice.percent(40)) {
+  if (dice.percent(70)) {
     options.techniques = options.techniques.with(Technique::kLagrangian);
     options.tuning.lagrangian_agents = 1;
     options.tuning.lagrangian_begins_work = 0;
