@@ -265,11 +265,11 @@ class Memory(Program):
     WITHOUT = ["--mca", "osc", "^sm"]  # such windows are its alone
 
     def large(self):
-        """An instance with 120 MB of distances."""
+        """An instance with 118 MB of distances, and little else."""
         self.run_well([GROVE, "generate", "map", "random", "--width", 256, "--height", 256,
                        "--obstacles", "0.1", "--seed", 1, "-o", "large.map"])
-        self.run_well([GROVE, "generate", "instance", "--map", "large.map", "--agents", 100,
-                       "--tasks", 900, "--seed", 1, "-o", "large.cts.json"])
+        self.run_well([GROVE, "generate", "instance", "--map", "large.map", "--agents", 300,
+                       "--tasks", 600, "--seed", 1, "-o", "large.cts.json"])
         return self.folder / "large.cts.json"
 
     def with_mca(self, options, command):
@@ -278,7 +278,7 @@ class Memory(Program):
     def most_held(self, ranks, instance, options):
         """The memory of all ranks together when they had most, in bytes, and what was said."""
         running = start(self.with_mca(options, mpirun(ranks, "solve", instance, "--threads", 1,
-                                                      "--time-limit", 8)), self.folder)
+                                                      "--time-limit", 10)), self.folder)
         most = 0
         while running.poll() is None:
             most = max(most, sum(held_by(pid) for pid in processes_of(running).values()))
