@@ -7,9 +7,10 @@
 
 #include "grove/detail/engine/solve.h"
 #include "grove/detail/model/fingerprint.h"
-#include "grove/detail/search/problem.h"
 #include "grove/mpi.hpp"
+#include "mpi/mpi_shared_memory.h"
 #include "mpi/mpi_transport.h"
+#include "mpi/shared_problem.h"
 #include "mpi/solve_distributed.h"
 #include "src/api/access.h"
 #include "src/api/run.h"
@@ -79,6 +80,8 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
 
+  const auto [bytes, zero_bytes] = detail::SharedProblem::need(inner);
+  const detail::MpiSharedMemory memory(communicator, bytes, zero_bytes);
   Run run(inner, options);
   std::optional<detail::Solution> answer;
   detail::Solution told =
@@ -86,7 +89,8 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
         return translated([&] {
           detail::RunObserver silent;
           detail::RunObserver& listener = rank == 0 ? observer : silent;
-          const detail::Problem problem(inner, limits, search.threads);
+          const detail::SharedProblem shared(inner, limits, search.threads, memory);
+          const detail::Problem& problem = shared.problem();
           answer = answer_without_search(problem, search, limits, listener);
           const bool all_search = least(answer ? 0 : 1, communicator) == 1;
           if (all_search) {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "mpi/mpi_shared_memory.h"
 #include "mpi/mpi_transport.h"
 
 namespace grove::detail {
@@ -47,6 +48,10 @@ std::unique_ptr<Transport> MpiSession::connect(int group) const {
   auto transport = std::make_unique<MpiTransport>(communicator);
   MPI_Comm_free(&communicator);
   return transport;
+}
+
+std::unique_ptr<SharedMemory> MpiSession::share(std::size_t bytes, std::size_t zero_bytes) const {
+  return std::make_unique<MpiSharedMemory>(MPI_COMM_WORLD, bytes, zero_bytes);
 }
 
 void MpiSession::abort(int exit_code) const {

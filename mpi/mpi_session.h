@@ -2,11 +2,13 @@
 // The MPI of a process, from beginning to end.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "mpi/shared_memory.h"
 #include "mpi/transport.h"
 
 namespace grove::detail {
@@ -27,6 +29,8 @@ class MpiSession {
   std::vector<std::string> gather(const std::string& mine) const;
   // All ranks: a network among those that name the same group, numbered as they are here.
   std::unique_ptr<Transport> connect(int group = 0) const;
+  // All ranks, with the same numbers: memory that those on one host share, see MpiSharedMemory.
+  std::unique_ptr<SharedMemory> share(std::size_t bytes, std::size_t zero_bytes) const;
   // Ends the processes of all ranks.
   [[noreturn]] void abort(int exit_code) const;
 

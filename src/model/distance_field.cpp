@@ -14,6 +14,8 @@ namespace {
 
 // With less to do a thread costs more than it saves.
 constexpr std::size_t kStatesForThreads = std::size_t{1} << 20;
+// There are fields of ports up to so many states.
+constexpr State kMostStatesWithPorts = 1 << 16;
 
 std::vector<State> states_on(const World& world, Place place) {
   std::vector<State> states;
@@ -30,6 +32,8 @@ class Targets {
                                                            : add(instance.states_visiting(task)));
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
       of_agents.push_back(to_rest(agent));
+    if (instance.world().kind_count() > 1 && instance.world().state_count() <= kMostStatesWithPorts)
+      add_ports();
   }
 
   std::vector<std::vector<State>> sets;
@@ -38,6 +42,7 @@ class Targets {
   static constexpr int kNone = -1;
   std::vector<int> of_tasks;
   std::vector<int> of_agents;
+  std::vector<int> of_ports;  // as DistanceFields::by_port_; empty: there are no ports
 
  private:
   int add(std::vector<State> states, Place place = kNoPlace) {
@@ -64,6 +69,27 @@ class Targets {
     }
     return anywhere_;
   }
+  void add_ports() {
+    constexpr int kPorts = DistanceFields::kPorts;
+    const World& world = instance_.world();
+    const auto kinds = static_cast<std::size_t>(world.kind_count());
+    of_ports.assign(static_cast<std::size_t>(instance_.task_count()) * kinds * kPorts, kNone);
+    for (const Agent& agent : instance_.agents()) {
+      if (agent.kind == 0) continue;
+      for (const TaskIndex task : agent.stops) {
+        int* const ports =
+            &of_ports[(static_cast<std::size_t>(task) * kinds + agent.kind) * kPorts];
+        if (*ports != kNone) continue;
+        const State first = world.bases(instance_.task(task).cell, agent.kind).first;
+        for (int port = 0; port < kPorts; ++port) {
+          std::vector<State> there;
+          for (const State state : instance_.states_visiting(task))
+            if (world.base(state) == first + port) there.push_back(state);
+          ports[port] = add(std::move(there));
+        }
+      }
+    }
+  }
 
   const Instance& instance_;
   std::map<Place, int> by_place_;
@@ -77,24 +103,30 @@ class Walker {
       : world_(world), queue_(static_cast<std::size_t>(world.state_count())) {}
 
   DistanceField walk(std::span<const State> targets) {
-    DistanceField distances;
-    walk(targets, kNever, distances);
+    DistanceField distances(queue_.size(), kNever);
+    walk(targets, kNever, distances.data());
     return distances;
   }
 
   // None: there is no memory left for what is too far for 16 bits.
   std::optional<KeptField> field(std::span<const State> targets, const Limits& limits) {
-    std::vector<std::uint16_t> distances;
-    if (walk(targets, Distances::kShortNever, distances)) return KeptField(std::move(distances));
+    std::vector<std::uint16_t> distances(queue_.size(), Distances::kShortNever);
+    if (walk(targets, Distances::kShortNever, distances.data()))
+      return KeptField(std::move(distances));
     if (!limits.memory_allows(queue_.size() * sizeof(Time))) return std::nullopt;
     return KeptField(walk(targets));
   }
 
+  // Into memory that is there already. False: 16 bits are not enough.
+  bool fill(std::span<const State> targets, std::uint16_t* distances) {
+    std::fill_n(distances, queue_.size(), Distances::kShortNever);
+    return walk(targets, Distances::kShortNever, distances);
+  }
+
  private:
-  // False: some are too far to be told from `never`.
+  // All `distances` are `never` before. False: some are too far to be told from it.
   template <class Steps>
-  bool walk(std::span<const State> targets, Steps never, std::vector<Steps>& distances) {
-    distances.assign(queue_.size(), never);
+  bool walk(std::span<const State> targets, Steps never, Steps* distances) {
     std::size_t end = 0;
     const auto reach = [&](State state, Steps steps) {
       if (distances[state] != never) return;
@@ -148,78 +180,71 @@ DistanceField distance_field(const World& world, Place target) {
   return distance_field(world, states_on(world, target));
 }
 
+std::vector<std::size_t> DistanceFields::layout_of(const Instance& instance) {
+  const auto states = static_cast<std::size_t>(instance.world().state_count());
+  return std::vector<std::size_t>(Targets(instance).sets.size(), states * sizeof(std::uint16_t));
+}
+
 DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, int threads,
-                               const DistanceFields* known) {
+                               const DistanceFields* known, const SharedArrays* arrays)
+    : arrays_(arrays) {
   if (instance.world().states_are_places()) map_ = instance.shared_map();
   const Targets targets(instance);
+  const std::size_t sets = targets.sets.size();
   const auto states = static_cast<std::size_t>(instance.world().state_count());
-  if (!limits.memory_allows(targets.sets.size() * states * sizeof(std::uint16_t))) {
+  // What is shared is there already.
+  if (!limits.memory_allows(arrays ? 0 : sets * states * sizeof(std::uint16_t))) {
     limits.memory_exhausted();
     return;
   }
   for (const Place place : targets.places) fields_.push_back(field_to(place, known));
-  if (targets.sets.size() * states < kStatesForThreads) threads = 1;
+  if (sets * states < kStatesForThreads) threads = 1;
   std::atomic<std::size_t> next{0};
+  if (arrays)
+    on_threads(threads, [&] {
+      Walker walker(instance.world());
+      for (std::size_t i = next++; i < sets && !limits.stop_requested(); i = next++) {
+        const std::size_t set = (arrays->first_of(sets) + i) % sets;
+        if (!fields_[set])
+          array(ArrayKind::kDistances, set).make([&](std::byte* begin) {
+            return walker.fill(targets.sets[set], reinterpret_cast<std::uint16_t*>(begin));
+          });
+      }
+    });
+  next = 0;
   on_threads(threads, [&] {
     Walker walker(instance.world());
-    for (std::size_t set = next++; set < fields_.size(); set = next++) {
+    for (std::size_t set = next++; set < sets; set = next++) {
       if (fields_[set]) continue;
       if (limits.stop_requested()) return;
+      if (const std::byte* made = array(ArrayKind::kDistances, set).await(limits)) {
+        fields_[set] =
+            std::make_shared<const KeptField>(reinterpret_cast<const std::uint16_t*>(made));
+        continue;
+      }
       auto field = walker.field(targets.sets[set], limits);
       if (!field) return limits.memory_exhausted();
       fields_[set] = std::make_shared<const KeptField>(std::move(*field));
     }
   });
   if (std::ranges::count(fields_, nullptr) > 0) return;
-  for (std::size_t set = 0; set < fields_.size(); ++set)
+  for (std::size_t set = 0; set < sets; ++set)
     if (map_ && targets.places[set] != kNoPlace)
       to_place_.emplace(targets.places[set], fields_[set]);
-  for (const int set : targets.of_tasks) by_task_.push_back(fields_[set]->distances());
-  for (const int set : targets.of_agents)
-    by_agent_.push_back(set == Targets::kNone ? Distances() : fields_[set]->distances());
-  complete_ = add_ports(instance, limits);
+  const auto distances = [&](int set) {
+    return set == Targets::kNone ? Distances() : fields_[set]->distances();
+  };
+  for (const int set : targets.of_tasks) by_task_.push_back(distances(set));
+  for (const int set : targets.of_agents) by_agent_.push_back(distances(set));
+  for (const int set : targets.of_ports) by_port_.push_back(distances(set));
+  kinds_ = static_cast<std::size_t>(instance.world().kind_count());
+  complete_ = true;
 }
 
 DistanceFields::FieldPtr DistanceFields::field_to(Place place, const DistanceFields* known) const {
   if (!known || !map_ || known->map_ != map_) return nullptr;
   const auto found = known->to_place_.find(place);
   return found == known->to_place_.end() ? nullptr : found->second;
-}
-
-// False if a limit struck.
-bool DistanceFields::add_ports(const Instance& instance, const Limits& limits) {
-  const World& world = instance.world();
-  if (world.kind_count() == 1 || world.state_count() > kMostStatesWithPorts) return true;
-  kinds_ = static_cast<std::size_t>(world.kind_count());
-  by_port_.resize(static_cast<std::size_t>(instance.task_count()) * kinds_ * kPorts);
-  const auto bytes = static_cast<std::size_t>(world.state_count()) * sizeof(std::uint16_t) * kPorts;
-  Walker walker(world);
-  for (const Agent& agent : instance.agents()) {
-    if (agent.kind == 0) continue;
-    for (const TaskIndex task : agent.stops) {
-      KeptField* fields =
-          &by_port_[(static_cast<std::size_t>(task) * kinds_ + agent.kind) * kPorts];
-      if (fields->distances()) continue;
-      if (limits.stop_requested()) return false;
-      if (!limits.memory_allows(bytes)) {
-        limits.memory_exhausted();
-        return false;
-      }
-      const State first = world.bases(instance.task(task).cell, agent.kind).first;
-      for (int port = 0; port < kPorts; ++port) {
-        std::vector<State> there;
-        for (const State state : instance.states_visiting(task))
-          if (world.base(state) == first + port) there.push_back(state);
-        auto field = walker.field(there, limits);
-        if (!field) {
-          limits.memory_exhausted();
-          return false;
-        }
-        fields[port] = std::move(*field);
-      }
-    }
-  }
-  return true;
 }
 
 Time least_from(const World& world, Place place, int kind, Distances distances) {

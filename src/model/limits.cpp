@@ -16,6 +16,10 @@ namespace {
 constexpr Limits::Clock::duration kMemoryLookInterval = std::chrono::milliseconds(5);
 constexpr double kForEver = 4e9;  // seconds; the clock counts no further
 
+// Of the memory that this process shares.
+std::atomic<std::size_t> sharers{1};
+std::atomic<std::size_t> shared_bytes{0};
+
 }  // namespace
 
 std::size_t resident_bytes() {
@@ -23,9 +27,20 @@ std::size_t resident_bytes() {
                                                              &std::fclose);
   long total_pages = 0;
   long resident_pages = 0;
-  if (!file || std::fscanf(file.get(), "%ld %ld", &total_pages, &resident_pages) != 2) return 0;
-  return static_cast<std::size_t>(resident_pages) *
-         static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  long shared_pages = 0;
+  if (!file ||
+      std::fscanf(file.get(), "%ld %ld %ld", &total_pages, &resident_pages, &shared_pages) != 3)
+    return 0;
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const std::size_t own = static_cast<std::size_t>(resident_pages - shared_pages) * page;
+  const std::size_t shared = static_cast<std::size_t>(shared_pages) * page;
+  return own + std::max(shared, shared_bytes.load(std::memory_order_relaxed)) /
+                   sharers.load(std::memory_order_relaxed);
+}
+
+void share_memory_among(int processes, std::size_t bytes) {
+  sharers = static_cast<std::size_t>(processes);
+  shared_bytes = bytes;
 }
 
 std::size_t peak_resident_bytes() {

@@ -84,25 +84,19 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
       start_(instance.agent(agent).start),
       start_place_(instance.world().place(start_)),
       destination_(instance.agent(agent).goal),
-      completions_(port_matrix(instance, agent, distances)) {
+      completions_(port_matrix(instance, agent, distances),
+                   distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent))) {
   ports_ = completions_.matrix().ports;
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);
-  std::vector<std::int8_t> stop_at(world.state_count(), kNoStop);
-  for (State state = 0; state < world.state_count(); ++state)
-    if (world.is_working(state)) stop_at[state] = kForeignWork;
   for (std::size_t stop = 0; stop < who.stops.size(); ++stop) {
     const Task& task = instance.task(who.stops[stop]);
     places_.push_back(task.cell);
     durations_.push_back(task.duration);
     if (task.duration > 0) work_stops_ |= bit(static_cast<int>(stop));
-    world.for_each_state(task.cell, [&](State state) {
-      if (instance.is_visited(who.stops[stop], state))
-        stop_at[state] = static_cast<std::int8_t>(stop);
-      else if (world.is_working(state) && world.work(state).task == who.stops[stop])
-        stop_at[state] = static_cast<std::int8_t>(kFirstWork - static_cast<int>(stop));
-    });
   }
+  stop_at_ = stops_of_states(
+      instance, distances.array(ArrayKind::kStopsOfStates, static_cast<std::size_t>(agent)));
   if (!instance.rests_on_last_stop(agent)) to_rest_ = distances.to_rest(agent);
 
   const std::size_t ports = port_count();
@@ -120,7 +114,32 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
                       : field[world.bases(here, who.kind).first + static_cast<int>(from) % ports_];
     }
   }
-  stop_at_ = std::make_shared<const std::vector<std::int8_t>>(std::move(stop_at));
+}
+
+std::shared_ptr<const std::int8_t[]> AgentStops::stops_of_states(const Instance& instance,
+                                                                 SharedArray shared) const {
+  const auto states = static_cast<std::size_t>(instance.world().state_count());
+  const auto fill = [&](std::int8_t* stop_at) {
+    const World& world = instance.world();
+    std::fill_n(stop_at, states, std::int8_t{kNoStop});
+    for (State state = 0; state < world.state_count(); ++state)
+      if (world.is_working(state)) stop_at[state] = kForeignWork;
+    const std::vector<TaskIndex>& stops = instance.agent(agent_).stops;
+    for (std::size_t stop = 0; stop < stops.size(); ++stop)
+      world.for_each_state(instance.task(stops[stop]).cell, [&](State state) {
+        if (instance.is_visited(stops[stop], state))
+          stop_at[state] = static_cast<std::int8_t>(stop);
+        else if (world.is_working(state) && world.work(state).task == stops[stop])
+          stop_at[state] = static_cast<std::int8_t>(kFirstWork - static_cast<int>(stop));
+      });
+    return true;
+  };
+  const std::byte* const made = shared.get(
+      Limits(), [&](std::byte* begin) { return fill(reinterpret_cast<std::int8_t*>(begin)); });
+  if (made) return {std::shared_ptr<void>(), reinterpret_cast<const std::int8_t*>(made)};
+  const std::shared_ptr<std::int8_t[]> own(new std::int8_t[states]);
+  fill(own.get());
+  return own;
 }
 
 // Whoever is there for good, on what nobody bars for ever after, turns and works at once: all of

@@ -40,7 +40,8 @@ class Completions::Store {
 template <class Entry>
 class Completions::Table : public Store {
  public:
-  using Store::Store;
+  Table(std::shared_ptr<const CostMatrix> matrix, SharedArray shared)
+      : Store(std::move(matrix)), shared_(shared) {}
 
   Time relaxed_bound() const override { return relaxation_bound(least_matrix(matrix())); }
   Time beyond() const override { return table_.built() ? kNever : 0; }
@@ -48,11 +49,12 @@ class Completions::Table : public Store {
     return table_.built() ? table_.completion(left, port) : kNever;
   }
   std::shared_ptr<const Store> widened(Time, const Limits& limits) const override {
-    auto built = std::make_shared<Table>(this->shared_matrix());
-    return built->table_.build(matrix(), limits) ? built : nullptr;
+    auto built = std::make_shared<Table>(this->shared_matrix(), shared_);
+    return built->table_.build(matrix(), limits, shared_) ? built : nullptr;
   }
 
  private:
+  SharedArray shared_;
   HeldKarpTable<Entry> table_;
 };
 
@@ -79,14 +81,19 @@ class Completions::Graph : public Store {
   SequenceDag dag_;
 };
 
-Completions::Completions(CostMatrix matrix) {
+Completions::Completions(CostMatrix matrix, SharedArray table) {
   auto shared = std::make_shared<const CostMatrix>(std::move(matrix));
   if (shared->stops() > kTableStops)
     store_ = std::make_shared<Graph>(std::move(shared));
   else if (fits_narrow_table(*shared))
-    store_ = std::make_shared<Table<std::int16_t>>(std::move(shared));
+    store_ = std::make_shared<Table<std::int16_t>>(std::move(shared), table);
   else
-    store_ = std::make_shared<Table<std::int32_t>>(std::move(shared));
+    store_ = std::make_shared<Table<std::int32_t>>(std::move(shared), table);
+}
+
+std::size_t Completions::table_bytes(int stops, int ports) {
+  if (stops > kTableStops) return 0;
+  return HeldKarpTable<std::int16_t>::entries(stops, ports) * sizeof(std::int16_t);
 }
 
 Completions::Completions(std::shared_ptr<const Store> store) : store_(std::move(store)) {}

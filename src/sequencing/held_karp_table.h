@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "grove/detail/model/limits.h"
+#include "grove/detail/model/shared_arrays.h"
 #include "grove/detail/sequencing/cost_matrix.h"
 #include "stop_set.h"
 
@@ -45,23 +47,34 @@ class HeldKarpTable {
  public:
   bool built() const { return table_ != nullptr; }
 
-  // False, and not built, when a limit struck.
-  bool build(const CostMatrix& matrix, const Limits& limits) {
+  // Of a table, with what vectors of them spill over; 0: it would be too large.
+  static std::size_t entries(int stops, int ports) {
+    const int width = stops * ports;
+    return stops > kMostTableStops || width > kMostLanes * kLanes
+               ? 0
+               : (std::size_t{1} << stops) * width + kMostLanes * kLanes;
+  }
+
+  // In `shared`, if there is room. False, and not built, when a limit struck.
+  bool build(const CostMatrix& matrix, const Limits& limits, SharedArray shared = {}) {
     stops_ = matrix.stops();
     ports_ = matrix.ports;
-    const int width = stops_ * ports_;
-    const std::size_t entries = stops_ > kMostTableStops || width > kMostLanes * kLanes
-                                    ? 0
-                                    : (std::size_t{1} << stops_) * width + kMostLanes * kLanes;
+    const std::size_t bytes = entries(stops_, ports_) * sizeof(Entry);
     if (limits.stop_requested()) return false;
-    if (entries == 0 || !limits.memory_allows(entries * sizeof(Entry)) || !allocate(entries)) {
+    if (bytes > 0 && shared.has_room(bytes))
+      table_ = reinterpret_cast<const Entry*>(shared.get(limits, [&](std::byte* begin) {
+        return fill(reinterpret_cast<Entry*>(begin), matrix, limits);
+      }));
+    if (table_) return true;
+    if (bytes == 0 || !limits.memory_allows(bytes) || !allocate(bytes / sizeof(Entry))) {
       limits.memory_exhausted();
       return false;
     }
-    const bool complete =
-        ports_ == 1 ? fill_lanes<1>(matrix, limits) : fill_lanes<4>(matrix, limits);
-    if (!complete) table_.reset();
-    return complete;
+    if (fill(own_.get(), matrix, limits))
+      table_ = own_.get();
+    else
+      own_.reset();
+    return built();
   }
 
   // The least cost from a port through all of `left` to the end; kNever when there is no way.
@@ -76,36 +89,43 @@ class HeldKarpTable {
   static constexpr std::uint32_t kPollInterval = 4096;  // rows, together about 0.2 ms
 
   bool allocate(std::size_t entries) {
-    table_.reset(new (std::nothrow) Entry[entries]);
-    return table_ != nullptr;
+    own_.reset(new (std::nothrow) Entry[entries]);
+    return own_ != nullptr;
+  }
+
+  // False when a limit struck.
+  bool fill(Entry* table, const CostMatrix& matrix, const Limits& limits) const {
+    return ports_ == 1 ? fill_lanes<1>(table, matrix, limits)
+                       : fill_lanes<4>(table, matrix, limits);
   }
 
   // As many lanes as it takes.
   template <int kPorts, int kCount = 1>
-  bool fill_lanes(const CostMatrix& matrix, const Limits& limits) {
+  bool fill_lanes(Entry* table, const CostMatrix& matrix, const Limits& limits) const {
     if constexpr (kCount < kMostLanes)
-      if (stops_ * kPorts > kCount * kLanes) return fill_lanes<kPorts, kCount + 1>(matrix, limits);
-    return fill<kPorts, kCount * kLanes>(matrix, limits);
+      if (stops_ * kPorts > kCount * kLanes)
+        return fill_lanes<kPorts, kCount + 1>(table, matrix, limits);
+    return fill_wide<kPorts, kCount * kLanes>(table, matrix, limits);
   }
 
   template <int kPorts, int kWidth>
-  bool fill(const CostMatrix& matrix, const Limits& limits) {
+  bool fill_wide(Entry* table, const CostMatrix& matrix, const Limits& limits) const {
     const int n = stops_ * kPorts;
     const std::vector<Entry> into = columns(matrix, kWidth);
-    for (int v = 0; v < n; ++v) table_[v] = entry(matrix.to_end(v));
+    for (int v = 0; v < n; ++v) table[v] = entry(matrix.to_end(v));
     for (std::uint32_t set = 1; set < std::uint32_t{1} << stops_; ++set) {
       if (set % kPollInterval == 0 && limits.stop_requested()) return false;
       Entry row[kWidth];
       std::fill_n(row, kWidth, kNoWay<Entry>);
       for_each_stop(set, [&](int stop) {
         for (int u = stop * kPorts; u < (stop + 1) * kPorts; ++u) {
-          const Entry rest = table_[(set & ~bit(stop)) * n + u];
+          const Entry rest = table[(set & ~bit(stop)) * n + u];
           const Entry* leg = &into[static_cast<std::size_t>(u) * kWidth];
           for (int v = 0; v < kWidth; ++v)
             row[v] = std::min(row[v], static_cast<Entry>(leg[v] + rest));
         }
       });
-      std::copy_n(row, kWidth, &table_[std::size_t{set} * n]);
+      std::copy_n(row, kWidth, &table[std::size_t{set} * n]);
     }
     return true;
   }
@@ -125,7 +145,8 @@ class HeldKarpTable {
 
   int stops_ = 0;
   int ports_ = 1;
-  std::unique_ptr<Entry[]> table_;
+  const Entry* table_ = nullptr;  // in own_, or in memory shared
+  std::unique_ptr<Entry[]> own_;
 };
 
 }  // namespace grove::detail

@@ -2,6 +2,9 @@
 #include "grove/detail/model/limits.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+
+#include <cstring>
 
 namespace grove::detail {
 namespace limits_test {
@@ -42,6 +45,27 @@ TEST(ResidentBytes, AreThoseOfARunningProcess) {
   const std::size_t now = resident_bytes();
   EXPECT_GT(now, std::size_t{100'000});
   EXPECT_GE(peak_resident_bytes() + (std::size_t{1} << 20), now);  // the kernel counts by threads
+}
+
+TEST(ResidentBytes, OfWhatIsSharedAreAPart) {
+  constexpr std::size_t kSize = std::size_t{64} << 20;
+  void* const shared =
+      ::mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
+  std::memset(shared, 1, kSize);
+  const std::size_t whole = resident_bytes();
+  share_memory_among(4, kSize);
+  const std::size_t part = resident_bytes();
+  share_memory_among(4, 4 * kSize);  // most of it touched by others
+  const std::size_t part_of_more = resident_bytes();
+  share_memory_among(1, 0);
+  EXPECT_GT(whole, kSize);
+  EXPECT_LT(part + kSize / 4 * 3, whole + (std::size_t{1} << 20));
+  EXPECT_GT(part, kSize / 4);
+  EXPECT_GT(part_of_more, kSize);
+  EXPECT_LT(part_of_more, part + kSize);
+  EXPECT_GE(resident_bytes(), whole);
+  ::munmap(shared, kSize);
 }
 
 }  // namespace limits_test

@@ -4,6 +4,7 @@
 import csv
 import json
 import os
+import shlex
 import signal
 import subprocess
 import tempfile
@@ -12,7 +13,8 @@ import unittest
 from pathlib import Path
 
 import kill_and_resume
-from mpi_program import DATA, ENVIRONMENT, GROVE, GROVE_MPI, mpirun, plan_of, processes_of, run, start
+from mpi_program import (DATA, ENVIRONMENT, GROVE, GROVE_MPI, held_by, mpirun, plan_of, processes_of,
+                         run, start)
 
 EASY = DATA / "rooms-32x32_n10_m30.cts.json"
 
@@ -255,6 +257,97 @@ class Faults(Program):
         self.assertEqual(running.returncode, 0, said)
         self.assertEqual(self.plan()["status"], "optimal")
         self.run_well([GROVE, "check", instance, "plan.json"])
+
+
+class Memory(Program):
+    """What the ranks of a host hold together: distances and tables, by windows of MPI."""
+
+    WITHOUT = ["--mca", "osc", "^sm"]  # such windows are its alone
+
+    def large(self):
+        """An instance with 118 MB of distances, and little else."""
+        self.run_well([GROVE, "generate", "map", "random", "--width", 256, "--height", 256,
+                       "--obstacles", "0.1", "--seed", 1, "-o", "large.map"])
+        self.run_well([GROVE, "generate", "instance", "--map", "large.map", "--agents", 300,
+                       "--tasks", 600, "--seed", 1, "-o", "large.cts.json"])
+        return self.folder / "large.cts.json"
+
+    def with_mca(self, options, command):
+        return [command[0], *options, *command[1:]]
+
+    def most_held(self, ranks, instance, options):
+        """The memory of all ranks together when they had most, in bytes, and what was said."""
+        running = start(self.with_mca(options, mpirun(ranks, "solve", instance, "--threads", 1,
+                                                      "--time-limit", 10)), self.folder)
+        most = 0
+        while running.poll() is None:
+            most = max(most, sum(held_by(pid) for pid in processes_of(running).values()))
+            time.sleep(0.2)
+        said, _ = running.communicate()
+        self.assertEqual(running.returncode, 0, said)
+        return most, said
+
+    def test_four_ranks_hold_the_distances_once(self):
+        instance = self.large()
+        fields = 100e6
+        alone, said = self.most_held(1, instance, [])
+        self.assertNotIn("MB shared", said)
+        shared, said = self.most_held(4, instance, [])
+        self.assertRegex(said, r"Threads .* on 4 ranks, 1 host, 1\d\d MB shared")
+        self.assertNotIn("share no memory", said)
+        apart, said = self.most_held(4, instance, self.WITHOUT)
+        self.assertNotIn("MB shared", said)
+        self.assertRegex(said, r"Warning: ranks on host \S+ share no memory, .*: MPI makes no windows")
+        self.assertGreater(alone, fields)
+        self.assertGreater(apart, 4 * fields)
+        self.assertLess(shared, apart - 2.7 * fields)
+
+    def test_answers_are_the_same(self):
+        self.run_well([GROVE, "generate", "map", "random", "--width", 256, "--height", 256,
+                       "--obstacles", "0.1", "--seed", 1, "-o", "large.map"])
+        for seed, more in ((1, []), (2, ["--mg"]), (3, [])):
+            self.run_well([GROVE, "generate", "instance", "--map", "large.map", "--agents", 30, "--tasks",
+                           150, "--seed", seed, *more, "-o", "middling.cts.json"])
+            found = []
+            for ranks, options in ((1, []), (3, []), (3, self.WITHOUT)):
+                said = self.run_well(self.with_mca(options, mpirun(
+                    ranks, "solve", "middling.cts.json", "--omega", 0, "--threads", 1, "--output",
+                    "plan.json")))
+                self.assertEqual("MB shared" in said, (ranks, options) == (3, []), said)
+                self.run_well([GROVE, "check", "middling.cts.json", "plan.json"])
+                found.append((self.plan()["status"], self.plan()["cost"], self.plan()["lower_bound"]))
+                (self.folder / "plan.json").unlink()
+            self.assertEqual(found[0][0], "optimal")
+            self.assertEqual(found, found[:1] * 3)
+
+    def test_too_little_room(self):
+        """A container's /dev/shm."""
+        instance = self.large()
+        if os.geteuid() != 0:
+            self.skipTest("only root can mount a small /dev/shm")
+        command = " ".join(map(shlex.quote, map(str, mpirun(2, "solve", instance, "--threads", 1,
+                                                            "--time-limit", 3))))
+        code, said = run(["unshare", "--mount", "sh", "-c",
+                          f"mount -t tmpfs -o size=64m tmpfs /dev/shm && {command}"], self.folder)
+        if "mount:" in said or "unshare:" in said:
+            self.skipTest("nothing can be mounted here")
+        self.assertEqual(code, 0, said)
+        self.assertIn("share no memory", said)
+        self.assertIn("too little room in /dev/shm", said)
+
+    def test_a_rank_that_stands_still_while_fields_are_made(self):
+        running = start(mpirun(3, "solve", self.large(), "--threads", 1, "--time-limit", 4), self.folder)
+        deadline = time.monotonic() + 20
+        while len(processes_of(running)) < 3 or held_by(processes_of(running)[0]) < 40e6:
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.02)
+        stopped = processes_of(running)[2]
+        os.kill(stopped, signal.SIGSTOP)
+        time.sleep(2)
+        os.kill(stopped, signal.SIGCONT)
+        said, _ = running.communicate()
+        self.assertEqual(running.returncode, 0, said)
+        self.assertIn("Lower bound", said)
 
 
 class Batches(Program):

@@ -35,6 +35,15 @@ def plan_of(path):
     return json.loads(Path(path).read_text(encoding="utf-8"))
 
 
+def held_by(pid):
+    """The memory of a process in bytes, its part of what it shares; 0: it has ended."""
+    try:
+        rollup = Path(f"/proc/{pid}/smaps_rollup").read_text(encoding="utf-8")
+    except OSError:
+        return 0
+    return sum(int(line.split()[1]) * 1024 for line in rollup.splitlines() if line.startswith("Pss:"))
+
+
 def processes_of(mpirun_process):
     """The ranks that an mpirun has started on this machine, by number."""
     pids = subprocess.run(["pgrep", "--parent", str(mpirun_process.pid)], capture_output=True,

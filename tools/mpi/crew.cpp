@@ -36,29 +36,36 @@ void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSess
   if (app.count("--memory-limit") == 0) arguments.memory_limit_gb /= on_host;
 }
 
-Crew gather_crew(const MpiSession& session, std::int64_t threads) {
-  return {session.gather(host_name()), gather_numbers(session, static_cast<int>(threads)),
+Crew gather_crew(const MpiSession& session, std::int64_t threads, const SharedMemory& memory) {
+  return {session.gather(host_name()),
+          gather_numbers(session, static_cast<int>(threads)),
           gather_numbers(session, usable_cores()),
-          gather_numbers(session, static_cast<int>(std::thread::hardware_concurrency()))};
+          gather_numbers(session, static_cast<int>(std::thread::hardware_concurrency())),
+          session.gather(memory.why_not()),
+          memory.bytes().size()};
 }
 
 std::string workers_text(const Crew& crew) {
   const bool same = std::set(crew.threads.begin(), crew.threads.end()).size() == 1;
   const auto hosts = std::set(crew.hosts.begin(), crew.hosts.end()).size();
-  return fmt::format("{}{} on {} rank{}, {} host{}",
-                     same ? fmt::format("{}", crew.threads.front())
-                          : fmt::format("{}", fmt::join(crew.threads, ", ")),
-                     crew.threads.size() > 1 && same ? " each" : "", crew.threads.size(),
-                     crew.threads.size() == 1 ? "" : "s", hosts, hosts == 1 ? "" : "s");
+  return fmt::format(
+      "{}{} on {} rank{}, {} host{}{}",
+      same ? fmt::format("{}", crew.threads.front())
+           : fmt::format("{}", fmt::join(crew.threads, ", ")),
+      crew.threads.size() > 1 && same ? " each" : "", crew.threads.size(),
+      crew.threads.size() == 1 ? "" : "s", hosts, hosts == 1 ? "" : "s",
+      crew.shared_bytes == 0 ? "" : fmt::format(", {} MB shared", crew.shared_bytes / 1'000'000));
 }
 
 std::vector<std::string> warnings(const Crew& crew) {
   std::vector<std::string> found;
   std::map<std::string, std::pair<int, int>> by_host;  // threads, cores
+  std::map<std::string, std::string> unshared;         // by host: why
   for (std::size_t rank = 0; rank < crew.hosts.size(); ++rank) {
     auto& [threads, cores] = by_host[crew.hosts[rank]];
     threads += crew.threads[rank];
     cores = crew.machines[rank];
+    if (!crew.unshared[rank].empty()) unshared[crew.hosts[rank]] = crew.unshared[rank];
     if (crew.threads[rank] > crew.cores[rank])
       found.push_back(fmt::format(
           "rank {} has {} threads and may use {} of {} cores; see mpirun's --bind-to none", rank,
@@ -74,6 +81,9 @@ std::vector<std::string> warnings(const Crew& crew) {
           "--bind-to none",
           name, cores, threads));
   }
+  for (const auto& [name, why] : unshared)
+    found.push_back(fmt::format(
+        "ranks on host {} share no memory, each has its own distances and tables: {}", name, why));
   return found;
 }
 

@@ -13,6 +13,7 @@
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/model/fingerprint.h"
+#include "mpi/shared_problem.h"
 #include "mpi/solve_distributed.h"
 #include "tools/common/program.h"
 #include "tools/common/version.h"
@@ -55,12 +56,12 @@ class Run {
     require_same(session_, "an instance of fingerprint",
                  fmt::format("{:016x}", fingerprint(loaded_->instance)));
     set_limits(limits_, a_, start_);
-    const Crew crew = gather_crew(session_, a_.threads);
     together(session_, [&] {
-      if (is_first()) prepare(crew);
+      if (is_first()) prepare();
     });
     together(session_, [&] { proof_.emplace(a_, session_.rank()); });
     options_.proof = proof_->log();
+    share_memory();
     if (is_first())
       solve_and_write();
     else
@@ -79,15 +80,23 @@ class Run {
     a_.instance.set_standard_input(session_.gather(text).front());
   }
 
-  void prepare(const Crew& crew) {
+  void prepare() {
     prepare_outputs(a_, *loaded_);
     if (!a_.start.empty()) options_.start = read_start_plan(a_.start, loaded_->instance);
     checkpoints_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
     log_ = open_log(a_, false);
+    if (!checkpoints_.resumed) ProofOutput::remove_old(a_);
+  }
+
+  // When no rank will refuse its input any more, and so all of them come to give the memory back.
+  void share_memory() {
+    const auto [bytes, zero_bytes] = SharedProblem::need(loaded_->instance);
+    memory_ = session_.share(bytes, zero_bytes);
+    const Crew crew = gather_crew(session_, a_.threads, *memory_);
+    if (!is_first()) return;
     log_->head(head_of(app_, a_, *loaded_, workers_text(crew)));
     for (const std::string& warning : warnings(crew)) log_->warning(warning);
     if (checkpoints_.resumed) log_->resumed(checkpoints_.resumed->header());
-    if (!checkpoints_.resumed) ProofOutput::remove_old(a_);
   }
 
   void solve_and_write() {
@@ -104,7 +113,8 @@ class Run {
 
   // All search or none does: rank 0 then says what there is to say.
   std::optional<Solution> solve_with(RunObserver& observer) {
-    const Problem problem(loaded_->instance, limits_, options_.threads);
+    const SharedProblem shared(loaded_->instance, limits_, options_.threads, *memory_);
+    const Problem& problem = shared.problem();
     const auto answer = answer_without_search(problem, options_, limits_, observer);
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {
@@ -147,6 +157,7 @@ class Run {
   CheckpointFolder checkpoints_;
   std::unique_ptr<LogFormat> log_;
   std::optional<ProofOutput> proof_;
+  std::unique_ptr<SharedMemory> memory_;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "grove/detail/model/assert.h"
 #include "grove/detail/model/instance.h"
 #include "grove/detail/model/limits.h"
+#include "grove/detail/model/shared_arrays.h"
 
 namespace grove::detail {
 
@@ -59,12 +60,16 @@ class KeptField {
   // kShortNever stands for kNever.
   explicit KeptField(std::vector<std::uint16_t> distances) : short_(std::move(distances)) {}
   explicit KeptField(DistanceField distances) : long_(std::move(distances)) {}
+  // In memory that somebody else owns, and that must outlive this.
+  explicit KeptField(const std::uint16_t* distances) : elsewhere_(distances) {}
 
   Distances distances() const {
+    if (elsewhere_) return {elsewhere_, nullptr};
     return {short_.empty() ? nullptr : short_.data(), long_.empty() ? nullptr : long_.data()};
   }
 
  private:
+  const std::uint16_t* elsewhere_ = nullptr;
   std::vector<std::uint16_t> short_;
   DistanceField long_;
 };
@@ -75,9 +80,20 @@ class DistanceFields {
  public:
   // Computes them on so many threads, if there is enough to do. Asks `limits` for the memory and
   // looks at them between fields; if they strike, complete() is false. Shares what `known` (null:
-  // nothing) has of the same map, as long as every state is its place.
+  // nothing) has of the same map, as long as every state is its place. Fields lie in `arrays`, if
+  // there are some (of the layout_of() this instance; they must outlive this), where other
+  // processes make their share of them; what nobody there makes is made here.
   explicit DistanceFields(const Instance& instance, const Limits& limits = Limits(),
-                          int threads = 1, const DistanceFields* known = nullptr);
+                          int threads = 1, const DistanceFields* known = nullptr,
+                          const SharedArrays* arrays = nullptr);
+
+  // The arrays that fields of this instance take when they are shared, of ArrayKind::kDistances: so
+  // many bytes each.
+  static std::vector<std::size_t> layout_of(const Instance& instance);
+  // An array for what is derived from these fields; none unless there are shared ones.
+  SharedArray array(ArrayKind kind, std::size_t number) const {
+    return arrays_ ? arrays_->array(kind, number) : SharedArray();
+  }
 
   // All fields are there. If not, nothing must be asked for.
   bool complete() const { return complete_; }
@@ -89,7 +105,7 @@ class DistanceFields {
   static constexpr int kPorts = 4;
   bool has_ports() const { return !by_port_.empty(); }
   Distances to_port(TaskIndex task, int kind, int port) const {
-    return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port].distances();
+    return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
   }
   // To where the agent may rest. Not of agents that rest on the last stop of their sequence.
   Distances to_rest(AgentIndex agent) const {
@@ -101,18 +117,16 @@ class DistanceFields {
   using FieldPtr = std::shared_ptr<const KeptField>;
   FieldPtr field_to(Place place, const DistanceFields* known) const;
 
-  std::shared_ptr<const Map> map_;      // null unless every state is its place
-  std::map<Place, FieldPtr> to_place_;  // of that map
+  const SharedArrays* arrays_ = nullptr;  // null: fields_ own their memory
+  std::shared_ptr<const Map> map_;        // null unless every state is its place
+  std::map<Place, FieldPtr> to_place_;    // of that map
   std::vector<FieldPtr> fields_;
   std::vector<Distances> by_task_;
   std::vector<Distances> by_agent_;
   // By task, kind and heading; empty where no such agent has the task.
-  std::vector<KeptField> by_port_;
+  std::vector<Distances> by_port_;
   std::size_t kinds_ = 1;
   bool complete_ = false;
-
-  static constexpr State kMostStatesWithPorts = 1 << 16;
-  bool add_ports(const Instance& instance, const Limits& limits);
 };
 
 // The least of the distances from the base states of one kind on a place.

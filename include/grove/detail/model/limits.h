@@ -16,7 +16,12 @@ enum class StopReason : std::uint8_t { kNone, kTime, kMemory, kInterrupt };
 // The memory this process holds, in bytes (its resident set). 0 where the system does not tell.
 std::size_t resident_bytes();
 // The most it has held since it began. (Not getrusage's ru_maxrss, which a parent hands down.)
+// What is shared counts in full.
 std::size_t peak_resident_bytes();
+// So many processes share so many bytes. From now on resident_bytes() counts its part of these,
+// whoever has touched them, and of files, in place of what this process has touched of both. 1, 0:
+// nothing is shared, as in the beginning.
+void share_memory_among(int processes, std::size_t bytes);
 
 // Limits on a run. One object per run, shared by reference; every method may be called from any
 // thread. Once stopped it stays stopped, with the first reason.

@@ -26,7 +26,8 @@ class AgentStops {
  public:
   static constexpr int kNoStop = -1;
 
-  // `instance` and `distances` must outlive this.
+  // `instance` and `distances` must outlive this. What is large shares the memory of the distances,
+  // if that is shared.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
 
   AgentIndex agent() const { return agent_; }
@@ -37,7 +38,7 @@ class AgentStops {
   Place place(int stop) const { return places_[stop]; }
   // The stop where an agent in this state is: on its place or, if it takes time, with the work just
   // completed. kNoStop: none. Less: it is at work, see stop_of_work().
-  int stop_at(State state) const { return (*stop_at_)[state]; }
+  int stop_at(State state) const { return stop_at_[state]; }
   // For what is less than kNoStop: the stop at which an agent is at work; kNoStop: none of its own.
   static int stop_of_work(int at) { return at == kForeignWork ? kNoStop : kFirstWork - at; }
   // Does the stop take time?
@@ -76,6 +77,8 @@ class AgentStops {
 
  private:
   std::size_t port_count() const { return places_.size() * static_cast<std::size_t>(ports_); }
+  std::shared_ptr<const std::int8_t[]> stops_of_states(const Instance& instance,
+                                                       SharedArray shared) const;
 
   // What stands for work on stop s is kFirstWork - s.
   static constexpr int kFirstWork = -2;
@@ -91,7 +94,7 @@ class AgentStops {
   std::vector<Place> places_;
   std::vector<Time> durations_;  // by stop
   StopSet work_stops_ = 0;
-  std::shared_ptr<const std::vector<std::int8_t>> stop_at_;  // by state
+  std::shared_ptr<const std::int8_t[]> stop_at_;  // by state; owns nothing where that is shared
   std::vector<Distances> to_port_;
   std::vector<Time> longest_legs_;  // by port, then port
   int ports_ = 1;

@@ -2,10 +2,12 @@
 // What it costs one agent to complete a sequence, for all the states that may matter.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "grove/detail/model/grid.h"
 #include "grove/detail/model/limits.h"
+#include "grove/detail/model/shared_arrays.h"
 #include "grove/detail/sequencing/sequence.h"
 
 namespace grove::detail {
@@ -16,7 +18,11 @@ namespace grove::detail {
 // each is widened for itself: a copy may go to another thread.
 class Completions {
  public:
-  explicit Completions(CostMatrix matrix);
+  // The table, if there is one, is made in `table`, if there is room, or read from there.
+  explicit Completions(CostMatrix matrix, SharedArray table = {});
+  // The room that a table of so many stops with so many ports takes, in bytes, but of the largest
+  // costs; 0: there is none.
+  static std::size_t table_bytes(int stops, int ports);
   // A graph however small a table were: they must tell the same.
   static Completions as_graph(CostMatrix matrix);
   const CostMatrix& matrix() const;

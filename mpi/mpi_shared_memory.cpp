@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Open MPI keeps windows in files of /dev/shm. Where there is too little room it fails on the rank
+// that makes the file, and the others wait for it for ever; so they look for room themselves first.
+#include "mpi/mpi_shared_memory.h"
+
+#include <sys/statvfs.h>
+
+#include <algorithm>
+#include <exception>
+
+namespace grove::detail {
+namespace {
+
+constexpr const char* kFolder = "/dev/shm";
+
+// A tenth more than is asked for, since MPI has other files there.
+bool has_room(std::size_t bytes) {
+  struct statvfs folder = {};
+  if (::statvfs(kFolder, &folder) != 0) return true;  // then MPI puts it elsewhere
+  return static_cast<double>(folder.f_bavail) * static_cast<double>(folder.f_frsize) >
+         1.1 * static_cast<double>(bytes);
+}
+
+}  // namespace
+
+MpiSharedMemory::MpiSharedMemory(MPI_Comm communicator, std::size_t bytes, std::size_t zero_bytes) {
+  if (bytes == 0) return;
+  MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host_);
+  MPI_Comm_rank(host_, &member_);
+  MPI_Comm_size(host_, &members_);
+  if (members_ > 1) allocate(bytes, zero_bytes);
+}
+
+MpiSharedMemory::~MpiSharedMemory() {
+  if (std::uncaught_exceptions() > 0) return;
+  if (window_ != MPI_WIN_NULL) {
+    MPI_Win_unlock_all(window_);
+    MPI_Win_free(&window_);
+  }
+  if (host_ != MPI_COMM_NULL) MPI_Comm_free(&host_);
+}
+
+bool MpiSharedMemory::all_on_host(bool mine) const {
+  int all = mine ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MIN, host_);
+  return all == 1;
+}
+
+// The pages of a file that are never touched take no memory.
+void MpiSharedMemory::allocate(std::size_t bytes, std::size_t zero_bytes) {
+  if (!all_on_host(has_room(bytes))) {
+    why_not_ = std::string("there is too little room in ") + kFolder;
+    return;
+  }
+  MPI_Comm_set_errhandler(host_, MPI_ERRORS_RETURN);
+  void* begin = nullptr;
+  const auto size = static_cast<MPI_Aint>(member_ == 0 ? bytes : 0);
+  const int error = MPI_Win_allocate_shared(size, 1, MPI_INFO_NULL, host_, &begin, &window_);
+  if (error != MPI_SUCCESS) window_ = MPI_WIN_NULL;
+  if (!all_on_host(error == MPI_SUCCESS)) {
+    why_not_ = "MPI makes no windows";
+    if (window_ != MPI_WIN_NULL) MPI_Win_free(&window_);
+    return;
+  }
+  MPI_Aint whole = 0;
+  int unit = 0;
+  MPI_Win_shared_query(window_, 0, &whole, &unit, &begin);
+  MPI_Win_lock_all(MPI_MODE_NOCHECK, window_);
+  bytes_ = {static_cast<std::byte*>(begin), bytes};
+  if (member_ == 0) std::ranges::fill(bytes_.first(zero_bytes), std::byte{0});
+  MPI_Win_sync(window_);
+  MPI_Barrier(host_);
+  MPI_Win_sync(window_);
+}
+
+}  // namespace grove::detail

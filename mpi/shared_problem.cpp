@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/shared_problem.h"
+
+namespace grove::detail {
+namespace {
+
+// Nobody lacks less memory than this, and small problems had better not wait for one another.
+constexpr std::size_t kLeastShared = std::size_t{16} << 20;
+
+}  // namespace
+
+SharedProblem::Need SharedProblem::need(const Instance& instance) {
+  const ArrayLayout layout = array_layout(instance);
+  const std::size_t bytes = SharedArrays::bytes(layout);
+  if (bytes < kLeastShared) return {};
+  return {bytes, SharedArrays::zero_bytes(layout)};
+}
+
+SharedProblem::SharedProblem(const Instance& instance, const Limits& limits, int threads,
+                             const SharedMemory& memory) {
+  if (!memory.bytes().empty()) {
+    arrays_.emplace(memory.bytes(), array_layout(instance), memory.member(), memory.members());
+    share_memory_among(arrays_->members(), memory.bytes().size());
+  }
+  problem_.emplace(instance, limits, threads, nullptr, arrays_ ? &*arrays_ : nullptr);
+}
+
+SharedProblem::~SharedProblem() {
+  share_memory_among(1, 0);
+}
+
+}  // namespace grove::detail
