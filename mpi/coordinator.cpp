@@ -54,6 +54,9 @@
 // what is missing is found there; so nothing here waits for prices, and no bound depends on the
 // order in which they come. What rank 0 proves by them goes to the coordinator in its statuses.
 //
+// *Ranks that stand still.* What the latest status of such a rank covers stays covered. So when a
+// limit has struck, and nothing has been heard for long, the coordinator concludes without it.
+//
 // *Leaving.* After End, and what it was ordered before, a rank says farewell and sends nothing
 // more; a sub-coordinator does when all its children have. The coordinator then tells each rank how
 // many messages were sent to it directly by others (batches, questions for prices, answers), so
@@ -61,6 +64,7 @@
 // that last word, by the same ways.
 #include "mpi/coordinator.h"
 
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -73,6 +77,8 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kNodesEntrusted = 200;  // at a time
+// Ranks look at their limits every few milliseconds, and at the network every millisecond.
+constexpr auto kLongSilence = std::chrono::milliseconds(700);
 
 }  // namespace
 
@@ -126,6 +132,7 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
 }
 
 void Coordinator::handle(int from, message::Message&& message) {
+  heard_at_ = Clock::now();
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("a message for a rank came to the coordinator");
   };
@@ -193,6 +200,20 @@ void Coordinator::leave(message::Farewell&& farewell) {
     parts.at(static_cast<std::size_t>(children_.with(rank))).messages[rank] = messages;
   for (int child = 0; child < children_.count(); ++child)
     children_.tell(child, parts[static_cast<std::size_t>(child)]);
+}
+
+// What is known of a rank that stands still goes on to hold.
+std::int64_t Coordinator::give_up_the_silent() {
+  if (ended() || !limits_.stop_requested() || Clock::now() - heard_at_ < kLongSilence) return 0;
+  heard_at_ = Clock::now();
+  if (gathering_) {
+    run_.announcements().checkpoint({.failure = "a rank says nothing any more"});
+    gathering_.reset();
+    gathered_at_end_ = true;
+  } else if (ending_) {
+    return transport_.ranks() - std::ssize(final_.ranks);
+  }
+  return 0;
 }
 
 Solution Coordinator::conclude() {

@@ -2,6 +2,7 @@
 // The head of a distributed search.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -38,10 +39,16 @@ class Coordinator {
   Cost lower_bound() { return run_.ledger().lower_bound(); }
   // Have all ranks said farewell?
   bool ended() const { return farewells_ == children_.count(); }
-  // Then: the answer.
+  // If a limit has struck, and somebody who is waited for has said nothing for too long: gives up a
+  // checkpoint that was being made; if there was none, says how many ranks have not said farewell.
+  // Else 0.
+  std::int64_t give_up_the_silent();
+  // When ended(), or without those ranks: the answer.
   Solution conclude();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   // Passes on better plans to all.
   class Announcer : public ForwardingObserver {
    public:
@@ -77,6 +84,7 @@ class Coordinator {
   bool restored_ = true;  // nothing of a checkpoint is missing
   bool gathered_at_end_ = false;
   bool ending_ = false;
+  Clock::time_point heard_at_ = Clock::now();  // anybody, last
   int farewells_ = 0;
   std::map<std::int32_t, std::int64_t> messages_to_;  // by rank, of those that have said farewell
   std::map<int, Survey> surveys_;                     // by rank, before the farewells; the last one

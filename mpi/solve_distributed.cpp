@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/solve_distributed.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <chrono>
 #include <exception>
 #include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "grove/detail/engine/multicore.h"
@@ -72,6 +75,12 @@ class Searching {
 
 }  // namespace
 
+SilentRanks::SilentRanks(Solution found, std::int64_t count)
+    : std::runtime_error(
+          fmt::format("{} ranks say nothing any more after a limit has struck", count)),
+      solution(std::move(found)),
+      ranks(count) {}
+
 std::optional<Solution> solve_distributed(const Problem& problem, const SolveOptions& options,
                                           const Limits& limits, Transport& transport,
                                           RunObserver& observer,
@@ -87,6 +96,10 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
     const double now = seconds();
     const bool heard = member.converse(now);
     meanwhile();
+    if (auto* coordinator = member.coordinator()) {
+      const std::int64_t silent = coordinator->give_up_the_silent();
+      if (silent > 0) throw SilentRanks(coordinator->conclude(), silent);
+    }
     if (now - accounted > kAccountInterval_s) {
       member.rank().account_for(searching.counts());
       accounted = now;

@@ -2,8 +2,10 @@
 // A solve by several processes.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/engine/solve.h"
@@ -12,12 +14,22 @@
 
 namespace grove::detail {
 
+// Thrown on rank 0: a limit has struck, and some ranks say nothing any more. The transport cannot
+// be left then, nor can anything be done by all; their processes must be ended from outside.
+struct SilentRanks : std::runtime_error {
+  SilentRanks(Solution found, std::int64_t count);
+
+  Solution solution;   // without them
+  std::int64_t ranks;  // how many
+};
+
 // Solves with all ranks of `transport`, each of which calls this with the same problem and options
 // but for its own number of threads; the calling thread speaks, others search. Rank 0 returns the
 // answer, the others nothing. The limits of rank 0 are the run's, but any rank's limits may stop
 // it. `meanwhile` is called about every millisecond. `observer` hears of the run on rank 0; of
-// single nodes it hears of roots only. `options.deterministic` must not be set. Throws what solve()
-// does; the others then wait for this rank, until their process is ended from outside.
+// single nodes it hears of roots only. `options.deterministic` must not be set. Throws SilentRanks,
+// and what solve() does; the others then wait for this rank, until their process is ended from
+// outside.
 std::optional<Solution> solve_distributed(const Problem& problem, const SolveOptions& options,
                                           const Limits& limits, Transport& transport,
                                           RunObserver& observer,

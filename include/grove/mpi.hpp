@@ -25,7 +25,8 @@ namespace grove::mpi {
 /// Throws on all ranks what grove::solve() throws, if any of them is given what it refuses; and
 /// InvalidArgument, "/instance", if they are not given the same one, "/deterministic" if that is
 /// set, and "/method" for methods that are for one process. What goes wrong later goes wrong on one
-/// rank alone: then call MPI_Abort.
+/// rank alone: then call MPI_Abort. So does rank 0, with an Error, when other ranks say nothing any
+/// more, a second or two after a limit has struck.
 GROVE_API std::optional<Solution> solve(const Instance& instance, const Options& options = {},
                                         MPI_Comm communicator = MPI_COMM_WORLD);
 

@@ -258,6 +258,29 @@ class Faults(Program):
         self.assertEqual(self.plan()["status"], "optimal")
         self.run_well([GROVE, "check", instance, "plan.json"])
 
+    def test_a_rank_that_never_goes_on(self):
+        """The job ends soon after its limit, with what is proven."""
+        instance = self.generate(30, 60, 3)
+        limit = 4
+        for stopped, more in ((1, []), (2, ["--checkpoint", "saved", "--proof", "proof.zst"])):
+            begin = time.monotonic()
+            running = start(mpirun(3, "solve", instance, "--omega", 0, "--threads", 1, "--time-limit",
+                                   limit, "--output", "plan.json", *more), self.folder)
+            while len(processes_of(running)) < 3:
+                time.sleep(0.02)
+            time.sleep(1.5)
+            os.kill(processes_of(running)[stopped], signal.SIGSTOP)
+            said, _ = running.communicate()
+            self.assertLess(time.monotonic() - begin, limit + 5, said)  # starting and ending MPI included
+            plan = self.plan()
+            self.assertEqual(plan["stats"]["silent_ranks"], 1)
+            self.assertLess(plan["stats"]["wall_s"], limit + 2)
+            self.assertGreater(plan["lower_bound"], 0)
+            self.assertIn("1 of 3 ranks said nothing after the limit", said)
+            self.assertEqual("without a certificate" in said, bool(more), said)
+            self.run_well([GROVE, "check", instance, "plan.json"])
+            (self.folder / "plan.json").unlink()
+
 
 class Memory(Program):
     """What the ranks of a host hold together: distances and tables, by windows of MPI."""

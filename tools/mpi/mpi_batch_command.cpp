@@ -219,7 +219,8 @@ class BatchRun {
     const auto found = batch::gather(*agreement_, answer ? "an answer" : "", poll);
     if (std::ranges::count(found, "") < farm_->ranks()) {
       if (farm_->rank() != 0) return std::nullopt;
-      return answer ? std::move(answer) : grove::detail::solve(instance, options_, limits, &observer);
+      return answer ? std::move(answer)
+                    : grove::detail::solve(instance, options_, limits, &observer);
     }
     try {
       return solve_distributed(problem, options_, limits, *search_, observer, poll);

@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/io/input_error.h"
@@ -104,11 +106,22 @@ class Run {
     IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
                             options_.omega, rows);
     Solution solution = *solve_with(observer);
-    proof_->write(loaded_->instance, solution);
+    if (missing_ == 0) proof_->write(loaded_->instance, solution);
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
+    if (missing_ > 0) {
+      solution.stats.counts["silent_ranks"] = missing_;
+      log_->warning(without_text());
+    }
     finish_run(a_, loaded_->instance, solution, *log_);
+    if (missing_ > 0) session_.abort(kExitSuccess);  // or they would keep the others here
     proof_->report_failure();
+  }
+
+  std::string without_text() {
+    return fmt::format("{} of {} ranks said nothing after the limit: the job ends without them{}",
+                       missing_, session_.ranks(),
+                       proof_->log() == nullptr ? "" : ", and without a certificate");
   }
 
   // All search or none does: rank 0 then says what there is to say.
@@ -119,6 +132,7 @@ class Run {
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {
       auto solution = solve_by_all(problem, observer);
+      if (missing_ > 0) return solution;
       proof_->close();
       session_.gather("");  // now all have
       return solution;
@@ -131,11 +145,15 @@ class Run {
 
   // What goes wrong here goes wrong on one rank alone, for which the others would wait for ever: a
   // checkpoint may turn out to be damaged when rank 0 reads its nodes. Nor can the network be left
-  // while messages are under way.
+  // while messages are under way, as they may be to ranks that stand still.
   std::optional<Solution> solve_by_all(const Problem& problem, RunObserver& observer) {
-    const auto network = session_.connect();
+    auto network = session_.connect();
     try {
       return solve_distributed(problem, options_, limits_, *network, observer, [] {});
+    } catch (SilentRanks& silence) {
+      static_cast<void>(network.release());
+      missing_ = silence.ranks;
+      return std::move(silence.solution);
     } catch (const InputError& error) {
       complain(*app_.get_parent(), error.what());
       session_.abort(kExitBadInput);
@@ -158,6 +176,7 @@ class Run {
   std::unique_ptr<LogFormat> log_;
   std::optional<ProofOutput> proof_;
   std::unique_ptr<SharedMemory> memory_;
+  std::int64_t missing_ = 0;  // ranks that the job is to end without
 };
 
 }  // namespace
