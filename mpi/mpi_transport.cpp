@@ -22,7 +22,8 @@ MpiTransport::MpiTransport(MPI_Comm communicator) {
   MPI_Comm_size(communicator_, &ranks_);
 }
 
-// While an exception passes others may stand still, or not come.
+// While an exception passes others may stand still, or not come: then nothing is waited for, and
+// the bytes of messages under way are left to MPI.
 MpiTransport::~MpiTransport() {
   if (std::uncaught_exceptions() > 0) {
     static_cast<void>(std::make_unique<std::list<Sending>>(std::move(sending_)).release());

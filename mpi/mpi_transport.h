@@ -17,6 +17,7 @@ namespace grove::detail {
 class MpiTransport : public Transport {
  public:
   explicit MpiTransport(MPI_Comm communicator);
+  // While an exception passes it leaves the network to the end of the process.
   ~MpiTransport() override;
 
   int rank() const override { return rank_; }

@@ -144,14 +144,12 @@ class Run {
   }
 
   // What goes wrong here goes wrong on one rank alone, for which the others would wait for ever: a
-  // checkpoint may turn out to be damaged when rank 0 reads its nodes. Nor can the network be left
-  // while messages are under way, as they may be to ranks that stand still.
+  // checkpoint may turn out to be damaged when rank 0 reads its nodes.
   std::optional<Solution> solve_by_all(const Problem& problem, RunObserver& observer) {
-    auto network = session_.connect();
     try {
+      const auto network = session_.connect();
       return solve_distributed(problem, options_, limits_, *network, observer, [] {});
     } catch (SilentRanks& silence) {
-      static_cast<void>(network.release());
       missing_ = silence.ranks;
       return std::move(silence.solution);
     } catch (const InputError& error) {
