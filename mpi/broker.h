@@ -34,8 +34,8 @@ class Broker {
   // What to order next. Until it has arrived the receiver is given nothing else.
   std::optional<Gift> next();
 
-  // The child that is to give so many nodes to somebody elsewhere: the one with most to spare, or
-  // any.
+  // The child that is to give so many nodes to somebody elsewhere: the one that can spare the best,
+  // or any.
   int giver(std::int64_t nodes);
   // What all children together can spare of their best bounds, and who of them needs nodes most:
   // for a superior, to match with those of others.

@@ -89,7 +89,8 @@ void add_options(CLI::App& app, SimArguments& a) {
              "seconds that sender and receiver spend on each message beside its bytes")
       ->type_name("S");
   add_number(app, "--poll", a.machine.poll, 0, 1e3,
-             "seconds between two looks of a rank at the network")
+             "seconds between two looks of a rank at the network, at most; soon after a message "
+             "it looks more often")
       ->type_name("S");
   add_number(app, "--cost-per-work", a.machine.seconds_per_work, 0, 1e3,
              "seconds that a unit of work takes; 0: what it takes here")
