@@ -21,4 +21,11 @@ void Children::tell_all(const message::Message& message) {
     transport_.send(hierarchy_.child(post_, child).rank, bytes);
 }
 
+void Children::say_goodbye(const message::Goodbye& goodbye) {
+  std::vector<message::Goodbye> parts(static_cast<std::size_t>(count()));
+  for (const auto& [rank, messages] : goodbye.messages)
+    parts.at(static_cast<std::size_t>(with(rank))).messages[rank] = messages;
+  for (int child = 0; child < count(); ++child) tell(child, parts[static_cast<std::size_t>(child)]);
+}
+
 }  // namespace grove::detail

@@ -26,6 +26,8 @@ class Children {
 
   void tell(int child, const message::Message& message);
   void tell_all(const message::Message& message);
+  // Each its part of this.
+  void say_goodbye(const message::Goodbye& goodbye);
 
  private:
   Transport& transport_;

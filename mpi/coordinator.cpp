@@ -77,7 +77,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kNodesEntrusted = 200;  // at a time
-// Ranks look at their limits every few milliseconds, and at the network every millisecond.
+// Ranks look at their limits every few milliseconds, and at the network every millisecond at least.
 constexpr auto kLongSilence = std::chrono::milliseconds(700);
 
 }  // namespace
@@ -145,7 +145,7 @@ void Coordinator::handle(int from, message::Message&& message) {
           [&](message::Account& account) {
             for (const auto& [rank, survey] : account.survey.ranks) surveys_[rank] = account.survey;
           },
-          [&](message::Farewell& farewell) { leave(std::move(farewell)); }, unexpected},
+          [&](message::Farewell& said) { leave(said); }, unexpected},
       message);
 }
 
@@ -191,15 +191,9 @@ void Coordinator::step() {
   }
 }
 
-void Coordinator::leave(message::Farewell&& farewell) {
-  for (const auto& [rank, messages] : farewell.messages) messages_to_[rank] += messages;
-  add(farewell.survey, final_);
-  if (++farewells_ < children_.count()) return;
-  std::vector<message::Goodbye> parts(static_cast<std::size_t>(children_.count()));
-  for (const auto& [rank, messages] : messages_to_)
-    parts.at(static_cast<std::size_t>(children_.with(rank))).messages[rank] = messages;
-  for (int child = 0; child < children_.count(); ++child)
-    children_.tell(child, parts[static_cast<std::size_t>(child)]);
+void Coordinator::leave(const message::Farewell& said) {
+  add(said, farewell_);
+  if (++farewells_ == children_.count()) children_.say_goodbye({farewell_.messages});
 }
 
 // What is known of a rank that stands still goes on to hold.
@@ -211,7 +205,7 @@ std::int64_t Coordinator::give_up_the_silent() {
     gathering_.reset();
     gathered_at_end_ = true;
   } else if (ending_) {
-    return transport_.ranks() - std::ssize(final_.ranks);
+    return transport_.ranks() - std::ssize(farewell_.survey.ranks);
   }
   return 0;
 }
@@ -225,7 +219,7 @@ Solution Coordinator::conclude() {
 
 // A simulated run ends without farewells.
 Survey Coordinator::told() const {
-  Survey all = final_;
+  Survey all = farewell_.survey;
   for (const auto& [rank, survey] : surveys_)
     if (!all.ranks.contains(rank)) add(survey, all);
   return all;

@@ -40,8 +40,8 @@ class Coordinator {
   // Have all ranks said farewell?
   bool ended() const { return farewells_ == children_.count(); }
   // If a limit has struck, and somebody who is waited for has said nothing for too long: gives up a
-  // checkpoint that was being made; if there was none, says how many ranks have not said farewell.
-  // Else 0.
+  // checkpoint that was being made; if there was none, says how many ranks have not said farewell,
+  // themselves or by who speaks for them. Else 0.
   std::int64_t give_up_the_silent();
   // When ended(), or without those ranks: the answer.
   Solution conclude();
@@ -63,7 +63,7 @@ class Coordinator {
   void restore(CheckpointReader& checkpoint);
   void heard(int child, message::Status status);
   void look_after_checkpoints();
-  void leave(message::Farewell&& farewell);
+  void leave(const message::Farewell& said);
   Survey told() const;
   Survey survey() const;
 
@@ -86,9 +86,8 @@ class Coordinator {
   bool ending_ = false;
   Clock::time_point heard_at_ = Clock::now();  // anybody, last
   int farewells_ = 0;
-  std::map<std::int32_t, std::int64_t> messages_to_;  // by rank, of those that have said farewell
-  std::map<int, Survey> surveys_;                     // by rank, before the farewells; the last one
-  Survey final_;                                      // of those that have said farewell
+  message::Farewell farewell_;     // of those that have said it
+  std::map<int, Survey> surveys_;  // by rank, before the farewells; the last one
 };
 
 }  // namespace grove::detail

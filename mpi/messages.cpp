@@ -182,6 +182,11 @@ void save(Archive& archive, const ToAddress& parts) {
   archive(parts.level, parts.message);
 }
 
+void add(const Farewell& part, Farewell& sum) {
+  detail::add(part.survey, sum.survey);
+  for (const auto& [rank, messages] : part.messages) sum.messages[rank] += messages;
+}
+
 std::string bytes_of(const Message& message, int level) {
   return to_bytes(ToAddress{static_cast<std::uint8_t>(level), message});
 }

@@ -99,6 +99,9 @@ struct Farewell {
   std::map<std::int32_t, std::int64_t> messages;
 };
 
+// What two say together.
+void add(const Farewell& part, Farewell& sum);
+
 // Rank to rank: nodes and what is known about them. Perhaps none.
 struct Batch {
   std::int32_t era = 0;

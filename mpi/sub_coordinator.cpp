@@ -33,40 +33,40 @@ void SubCoordinator::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("a message for somebody else came to a coordinator of some ranks");
   };
-  std::visit(Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
-                        [&](message::Found& found) {
-                          if (found.plan.cost < cutoff_) superior_.tell(found);
-                        },
-                        [&](message::Account& account) { superior_.tell(account); },
-                        [&](message::Gathered& parts) { gathered(parts); },
-                        [&](message::Farewell& said) { farewell(std::move(said)); },
-                        [&](message::Order& ordered) { order(ordered); },
-                        [&](message::Release& release) {
-                          children_.tell(children_.with(release.from), release);
-                        },
-                        [&](message::Entrust& nodes) {
-                          ++entrusted_;
-                          nodes_.entrust(std::move(nodes));
-                          superior_.urge();
-                        },
-                        [&](message::BeginAnew& anew) { begin_anew(anew); },
-                        [&](message::Incumbent& incumbent) {
-                          cutoff_ = std::min(cutoff_, incumbent.plan.cost);
-                          children_.tell_all(incumbent);
-                        },
-                        [&](message::NewTree& tree) { children_.tell_all(tree); },
-                        [&](message::Gather& gather) {
-                          looked_ = 0;
-                          gathered_ = {};
-                          children_.tell_all(gather);
-                        },
-                        [&](message::End& end) {
-                          ending_ = true;
-                          superior_.end_reports();
-                          children_.tell_all(end);
-                        },
-                        [&](message::Goodbye& goodbye) { spread(goodbye); }, unexpected},
-             message);
+  std::visit(
+      Overloaded{
+          [&](message::Status& status) { heard(child(), std::move(status)); },
+          [&](message::Found& found) {
+            if (found.plan.cost < cutoff_) superior_.tell(found);
+          },
+          [&](message::Account& account) { superior_.tell(account); },
+          [&](message::Gathered& parts) { gathered(parts); },
+          [&](message::Farewell& said) { farewell(said); },
+          [&](message::Order& ordered) { order(ordered); },
+          [&](message::Release& release) { children_.tell(children_.with(release.from), release); },
+          [&](message::Entrust& nodes) {
+            ++entrusted_;
+            nodes_.entrust(std::move(nodes));
+            superior_.urge();
+          },
+          [&](message::BeginAnew& anew) { begin_anew(anew); },
+          [&](message::Incumbent& incumbent) {
+            cutoff_ = std::min(cutoff_, incumbent.plan.cost);
+            children_.tell_all(incumbent);
+          },
+          [&](message::NewTree& tree) { children_.tell_all(tree); },
+          [&](message::Gather& gather) {
+            looked_ = 0;
+            gathered_ = {};
+            children_.tell_all(gather);
+          },
+          [&](message::End& end) {
+            ending_ = true;
+            superior_.end_reports();
+            children_.tell_all(end);
+          },
+          [&](message::Goodbye& goodbye) { children_.say_goodbye(goodbye); }, unexpected},
+      message);
   changed_ = true;
 }
 
@@ -93,9 +93,8 @@ void SubCoordinator::gathered(const message::Gathered& parts) {
   if (++looked_ == children_.count()) superior_.tell(gathered_);
 }
 
-void SubCoordinator::farewell(message::Farewell&& said) {
-  add(said.survey, farewell_.survey);
-  for (const auto& [rank, messages] : said.messages) farewell_.messages[rank] += messages;
+void SubCoordinator::farewell(const message::Farewell& said) {
+  add(said, farewell_);
   if (++farewells_ == children_.count()) superior_.tell(farewell_);
 }
 
@@ -107,14 +106,6 @@ void SubCoordinator::order(const message::Order& order) {
 void SubCoordinator::begin_anew(const message::BeginAnew& anew) {
   nodes_.begin_anew(anew.proven);
   superior_.urge();
-}
-
-void SubCoordinator::spread(const message::Goodbye& goodbye) {
-  std::vector<message::Goodbye> parts(static_cast<std::size_t>(children_.count()));
-  for (const auto& [rank, messages] : goodbye.messages)
-    parts.at(static_cast<std::size_t>(children_.with(rank))).messages[rank] = messages;
-  for (int child = 0; child < children_.count(); ++child)
-    children_.tell(child, parts[static_cast<std::size_t>(child)]);
 }
 
 message::Status SubCoordinator::status() const {

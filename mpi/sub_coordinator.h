@@ -32,10 +32,9 @@ class SubCoordinator {
  private:
   void heard(int child, message::Status&& status);
   void gathered(const message::Gathered& gathered);
-  void farewell(message::Farewell&& farewell);
+  void farewell(const message::Farewell& said);
   void order(const message::Order& order);
   void begin_anew(const message::BeginAnew& anew);
-  void spread(const message::Goodbye& goodbye);
   message::Status status() const;
 
   Children children_;
