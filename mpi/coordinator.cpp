@@ -132,7 +132,6 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
 }
 
 void Coordinator::handle(int from, message::Message&& message) {
-  heard_at_ = Clock::now();
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("a message for a rank came to the coordinator");
   };
@@ -140,13 +139,18 @@ void Coordinator::handle(int from, message::Message&& message) {
       Overloaded{
           [&](message::Status& status) { heard(children_.with(from), std::move(status)); },
           [&](message::Found& found) { run_.ledger().post(std::move(found.plan), found.source); },
-          [&](message::Gathered& gathered) { gathering_.value().handle(gathered); },
-          [&](message::Part& part) { gathering_.value().handle(std::move(part)); },
+          [&](message::Gathered& gathered) {
+            if (gathering_) gathering_->handle(gathered);  // else it was given up
+          },
+          [&](message::Part& part) {
+            if (gathering_) gathering_->handle(std::move(part));
+          },
           [&](message::Account& account) {
             for (const auto& [rank, survey] : account.survey.ranks) surveys_[rank] = account.survey;
           },
           [&](message::Farewell& said) { leave(said); }, unexpected},
       message);
+  heard_at_ = Clock::now();  // after that: a checkpoint takes time to be written
 }
 
 void Coordinator::heard(int child, message::Status status) {

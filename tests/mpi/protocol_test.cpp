@@ -3,8 +3,10 @@
 // meet.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <deque>
 #include <map>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -157,6 +159,34 @@ TEST(CoordinatorAlone, TellsAllAtOnceToLookForACheckpoint) {
   coordinator.step();
   for (int rank = 0; rank < 3; ++rank)
     EXPECT_EQ(transport.sent<message::Gather>(rank).size(), 1) << rank;
+}
+
+TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
+  Setting s;
+  const TemporaryDirectory folder;
+  s.options.checkpoints.directory = folder.path();
+  s.options.checkpoints.interval_s = 0;
+  Outbox transport(0, 3);
+  Coordinator coordinator(s.problem, s.options, s.limits, s.observer, transport);
+  coordinator.begin();
+  coordinator.step();
+  const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(800)); };
+  wait();
+  EXPECT_EQ(coordinator.give_up_the_silent(), 0);
+  coordinator.handle(1, message::Gathered{});  // it counts: nothing was given up before a limit
+  s.limits.stop(StopReason::kTime);
+  EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "it has just been heard";
+  wait();
+  EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "the checkpoint comes first";
+  coordinator.handle(2, message::Gathered{});  // late
+  coordinator.step();
+  EXPECT_EQ(transport.sent<message::End>(1).size(), 1);
+  message::Farewell farewell;
+  farewell.survey.ranks[1] = {};
+  coordinator.handle(1, std::move(farewell));
+  wait();
+  EXPECT_EQ(coordinator.give_up_the_silent(), 2);
+  EXPECT_GT(coordinator.conclude().lower_bound, 0);
 }
 
 // Nine ranks in threes; that of ranks 3, 4 and 5, on rank 3, which hears what the test says.
