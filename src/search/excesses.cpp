@@ -2,7 +2,6 @@
 #include "grove/detail/search/excesses.h"
 
 #include <algorithm>
-#include <mutex>
 
 #include "grove/detail/model/assert.h"
 
@@ -17,6 +16,11 @@ std::uint64_t key(Excesses::Id first, Excesses::Id second) {
 }
 
 }  // namespace
+
+// Situations are numbered as they come up, in each part of their table.
+Excesses::Id Excesses::newest(const std::vector<Id>& situations) {
+  return *std::ranges::max_element(situations);
+}
 
 Excesses::Known Excesses::of_pair(Id first, Id second) const {
   return parts_.with(parts_.part_of(first), [&](const Part& part) {
@@ -50,25 +54,28 @@ void Excesses::partners(Id first, std::vector<Partner>& partners) const {
 }
 
 Excesses::Known Excesses::of_group(const std::vector<Id>& situations) const {
-  const std::shared_lock lock(groups_mutex_);
-  const auto found = known_groups_.find(situations);
-  return found == known_groups_.end() ? Known() : found->second;
+  Known known;
+  groups_listed_under(newest(situations), [&](const Group& group) {
+    if (group.situations == situations) known = group.known;
+  });
+  return known;
 }
 
 void Excesses::learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                            Known known) {
   GROVE_ASSERT(agents.size() == situations.size() && std::ranges::is_sorted(agents),
                "a group is its agents in ascending order, and their situations");
-  const std::lock_guard lock(groups_mutex_);
-  groups_.insert(agents);
-  const auto [entry, is_new] = known_groups_.try_emplace(situations, known);
-  if (is_new) bytes_ += kBytesPerGroup;
-  entry->second = join(entry->second, known);
-}
-
-void Excesses::groups(std::vector<std::vector<AgentIndex>>& groups) const {
-  const std::shared_lock lock(groups_mutex_);
-  groups.insert(groups.end(), groups_.begin(), groups_.end());
+  const Id under = newest(situations);
+  parts_.with(parts_.part_of(under), [&](Part& part) {
+    auto& groups = part.groups[under];
+    const auto listed = std::ranges::find(groups, situations, &Group::situations);
+    if (listed != groups.end()) {
+      listed->known = join(listed->known, known);
+    } else {
+      groups.push_back({agents, situations, known});
+      bytes_ += kBytesPerGroup;
+    }
+  });
 }
 
 }  // namespace grove::detail

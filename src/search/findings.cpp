@@ -50,9 +50,7 @@ class SituationsAt {
 // Collects what is known at one node after the other, once.
 class Collector {
  public:
-  explicit Collector(CommonMemory& memory) : memory_(memory), situations_(memory) {
-    memory.excesses.groups(groups_);
-  }
+  explicit Collector(CommonMemory& memory) : memory_(memory), situations_(memory) {}
 
   void look_at(const Node& node, std::int32_t place, std::vector<Finding>& findings) {
     const std::vector<Id>& ids = situations_.of(node);
@@ -67,22 +65,19 @@ class Collector {
           findings.push_back(
               {place, {static_cast<AgentIndex>(a), static_cast<AgentIndex>(b)}, known});
       }
-    for (const auto& group : groups_) {
-      if (std::ranges::none_of(group, [&](AgentIndex agent) { return is_new_[agent]; })) continue;
-      key_.clear();
-      for (const AgentIndex agent : group) key_.push_back(ids[agent]);
-      const Known known = memory_.excesses.of_group(key_);
-      if (says_something(known)) findings.push_back({place, group, known});
-    }
+    for (const Id id : ids)
+      memory_.excesses.groups_listed_under(id, [&](const Excesses::Group& group) {
+        if (group.is_in(ids) && says_something(group.known) &&
+            std::ranges::any_of(group.agents, [&](AgentIndex agent) { return is_new_[agent]; }))
+          findings.push_back({place, group.agents, group.known});
+      });
   }
 
  private:
   CommonMemory& memory_;
   SituationsAt situations_;
-  std::vector<std::vector<AgentIndex>> groups_;
   std::set<Id> seen_;
   std::vector<bool> is_new_;  // by AgentIndex: a situation that no earlier node had
-  std::vector<Id> key_;
 };
 
 void require_place(const Finding& finding, std::size_t nodes) {

@@ -55,19 +55,16 @@ void Memory::partners(Id first, std::vector<Excesses::Partner>& partners) const 
 }
 
 Excesses::Known Memory::of_group(const std::vector<Id>& situations) const {
-  ++groups_asked_;
-  const auto found = std::ranges::find(found_.groups, situations, &FoundOut::Group::situations);
-  return found == found_.groups.end() ? common_->excesses.of_group(situations) : found->known;
+  Excesses::Known known;
+  groups_listed_under(Excesses::newest(situations), [&](const Excesses::Group& group) {
+    if (group.situations == situations) known = Excesses::join(known, group.known);
+  });
+  return known;
 }
 
 void Memory::learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                          Excesses::Known known) {
   found_.groups.push_back({agents, situations, known});
-}
-
-void Memory::groups(std::vector<std::vector<AgentIndex>>& groups) const {
-  common_->excesses.groups(groups);
-  for (const FoundOut::Group& group : found_.groups) groups.push_back(group.agents);
 }
 
 }  // namespace grove::detail

@@ -55,9 +55,24 @@ TEST(Excesses, KnowGroupsBySituations) {
   EXPECT_TRUE(same(excesses.of_group({10, 12, 15}), Known()));
   excesses.learn_group({0, 2, 4}, {10, 12, 15}, {1, true, 1});
   EXPECT_GT(excesses.bytes(), bytes);
-  std::vector<std::vector<AgentIndex>> groups;
-  excesses.groups(groups);
-  EXPECT_EQ(groups, (std::vector<std::vector<AgentIndex>>{{0, 2, 4}}));
+  EXPECT_TRUE(same(excesses.of_group({10, 12, 14}), {3, false, 8}));
+  EXPECT_TRUE(same(excesses.of_group({10, 12, 15}), {1, true, 1}));
+}
+
+TEST(Excesses, ListGroupsUnderTheirNewestSituation) {
+  Excesses excesses;
+  excesses.learn_group({0, 2, 4}, {10, 32, 14}, {1, false, 8});
+  excesses.learn_group({1, 2, 3}, {11, 32, 13}, {2, false, 8});
+  excesses.learn_group({1, 2, 3}, {11, 12, 33}, {3, false, 8});
+  std::vector<Excesses::Group> listed;
+  for (const Situations::Id id : {10, 11, 12, 13, 14, 32})
+    excesses.groups_listed_under(id, [&](const auto& group) { listed.push_back(group); });
+  ASSERT_EQ(listed.size(), 2u);
+  EXPECT_EQ(listed[0].agents, (std::vector<AgentIndex>{0, 2, 4}));
+  EXPECT_EQ(listed[1].agents, (std::vector<AgentIndex>{1, 2, 3}));
+  EXPECT_EQ(listed[1].known.excess, 2);
+  EXPECT_TRUE(listed[0].is_in({10, 0, 32, 0, 14}));
+  EXPECT_FALSE(listed[0].is_in({10, 0, 32, 0, 15}));
 }
 
 struct TwoWorkers : testing::NodeAtHand {

@@ -106,7 +106,6 @@ class Dependencies {
   std::vector<NodePtr> children_;
   std::vector<ProofSplit> written_;  // of the group under way, if there is a proof to be written
   std::vector<Excesses::Partner> partners_;
-  std::vector<std::vector<AgentIndex>> groups_;
   std::int64_t expansions_ = 0;
   std::int64_t give_up_at_ = 0;  // of work()
 };

@@ -6,10 +6,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <set>
-#include <shared_mutex>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -29,6 +25,18 @@ class Excesses {
     Cost excess = 0;              // at least so much
     bool exact = false;           // and conflict-free paths cost that
     std::int32_t expansions = 0;  // spent on it
+  };
+  // Several agents, in ascending order.
+  struct Group {
+    std::vector<AgentIndex> agents;
+    std::vector<Id> situations;
+    Known known;
+
+    // `situations_now`, by AgentIndex: are these agents in these situations?
+    bool is_in(const std::vector<Id>& situations_now) const {
+      return std::ranges::equal(situations, agents, {}, {},
+                                [&](AgentIndex agent) { return situations_now[agent]; });
+    }
   };
   // The other agent of a pair that costs more.
   struct Partner {
@@ -51,8 +59,19 @@ class Excesses {
   Known of_group(const std::vector<Id>& situations) const;
   void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    Known known);
-  // The groups that something is known about, in some situations. Appended.
-  void groups(std::vector<std::vector<AgentIndex>>& groups) const;
+  // Calls use(group) for each group listed under a situation: it is the newest of the group's, the
+  // one that is in the fewest groups. `use` must not call this object, and copies what it keeps.
+  template <class Use>
+  void groups_listed_under(Id situation, Use use) const {
+    parts_.with(parts_.part_of(situation), [&](const Part& part) {
+      const auto found = part.groups.find(situation);
+      if (found == part.groups.end()) return;
+      for (const Group& group : found->second) use(group);
+    });
+  }
+
+  // The situation that a group is listed under.
+  static Id newest(const std::vector<Id>& situations);
 
   // Memory held, in bytes (about).
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
@@ -61,12 +80,10 @@ class Excesses {
   struct Part {
     std::unordered_map<std::uint64_t, Known> known;         // by both situations
     std::unordered_map<Id, std::vector<Partner>> partners;  // by the first
+    std::unordered_map<Id, std::vector<Group>> groups;      // by the newest
   };
 
-  Sharded<Part> parts_;  // by the first situation
-  mutable std::shared_mutex groups_mutex_;
-  std::map<std::vector<Id>, Known> known_groups_;
-  std::set<std::vector<AgentIndex>> groups_;
+  Sharded<Part> parts_;  // by the situation that a pair or group is listed under
   std::atomic<std::size_t> bytes_{0};
 };
 

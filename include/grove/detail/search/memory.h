@@ -26,17 +26,11 @@ struct FoundOut {
     AgentIndex agent;
     Excesses::Known known;
   };
-  struct Group {
-    std::vector<AgentIndex> agents;
-    std::vector<Id> situations;
-    Excesses::Known known;
-  };
-
   std::unordered_map<Id, Situations::Known> costs;
   std::unordered_map<Id, PathSets::Set> sets;  // all that were asked for
   // Few at a time.
   std::vector<Pair> pairs;
-  std::vector<Group> groups;
+  std::vector<Excesses::Group> groups;
 };
 
 // What all workers know. Thread-safe; nothing is ever taken back, so whoever wants it forgotten
@@ -86,7 +80,7 @@ class Memory {
     ++asked_;
     return common_->situations.id(agent, order, constraints);
   }
-  // Situations, and groups, that were asked about so far.
+  // Situations that were asked about so far, and groups that were looked at for an answer.
   std::int64_t asked() const { return asked_; }
   std::int64_t groups_asked() const { return groups_asked_; }
   // Sets of optimal paths that were asked for so far, and those of them that had been made.
@@ -107,7 +101,16 @@ class Memory {
   Excesses::Known of_group(const std::vector<Id>& situations) const;
   void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    Excesses::Known known);
-  void groups(std::vector<std::vector<AgentIndex>>& groups) const;
+  template <class Use>
+  void groups_listed_under(Id situation, Use use) const {
+    const auto counted = [&](const Excesses::Group& group) {
+      ++groups_asked_;
+      use(group);
+    };
+    common_->excesses.groups_listed_under(situation, counted);
+    for (const Excesses::Group& group : found_.groups)
+      if (Excesses::newest(group.situations) == situation) counted(group);
+  }
 
  private:
   PathPlanner& planner_;
