@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Two arrays hold who is where now and one step ago, as a list per place; entries carry a stamp
-// that grows for ever, so nothing is ever cleared.
+// Two arrays hold who is where now and one step ago, as a list per place, and a third one who has
+// come to rest there and need not be looked at again; entries carry a stamp that grows for ever, so
+// nothing is ever cleared.
 #include "grove/detail/conflicts/conflict.h"
 
 #include <algorithm>
@@ -30,66 +31,100 @@ Split split(const Conflict& c) {
 ConflictFinder::ConflictFinder(const World& world, bool may_follow)
     : world_(world), may_follow_(may_follow) {
   for (auto& visits : visits_) visits.resize(world.place_count());
+  rests_.resize(world.place_count());
 }
 
 void ConflictFinder::all(std::span<const Path> paths, std::span<const AgentIndex> agents,
                          std::vector<Conflict>& conflicts) {
   conflicts.clear();
-  std::size_t horizon = 0;
-  for (AgentIndex agent : agents) horizon = std::max(horizon, paths[agent].size());
-  for (auto& list : also_there_) list.resize(std::max(list.size(), paths.size()));
-  for (Time time = 0; time < static_cast<Time>(horizon); ++time) {
-    for (AgentIndex agent : agents) meet_all(paths, agent, time, conflicts);
+  begin(paths, agents);
+  Time time = 0;
+  for (; !moving_.empty(); ++time) {
+    step(paths, time);
+    meet_all(time, conflicts);
     if (time == 0) continue;
-    for (AgentIndex agent : agents) swap_all(paths, agent, time, conflicts);
+    for (const AgentIndex agent : moving_) swap_all(agent, time, conflicts);
     if (may_follow_) continue;
-    for (AgentIndex agent : agents) follow_all(paths, agent, time, conflicts);
+    for (const AgentIndex agent : moving_) follow_all(agent, time, conflicts);
   }
-  base_ += static_cast<std::int64_t>(horizon) + 1;
+  base_ += time + 1;
+}
+
+void ConflictFinder::begin(std::span<const Path> paths, std::span<const AgentIndex> agents) {
+  moving_.assign(agents.begin(), agents.end());
+  for (auto* by_agent : {&also_there_[0], &also_there_[1], &also_rests_})
+    by_agent->resize(std::max(by_agent->size(), paths.size()));
+  for (auto* by_agent : {&now_, &before_})
+    by_agent->resize(std::max(by_agent->size(), paths.size()));
+}
+
+// Moves everybody on to `time`; whose path has ended rests from then on.
+void ConflictFinder::step(std::span<const Path> paths, Time time) {
+  const auto rests = [&](AgentIndex agent) {
+    if (time < static_cast<Time>(paths[agent].size())) return false;
+    Visit& rest = rests_[now_[agent]];
+    also_rests_[agent] = rest.stamp == base_ ? rest.agent : -1;
+    rest = {base_, agent};
+    return true;
+  };
+  std::erase_if(moving_, rests);
+  for (const AgentIndex agent : moving_) {
+    before_[agent] = now_[agent];
+    now_[agent] = world_.place(paths[agent][time]);
+  }
+}
+
+// In the order of the second agents, and of one of these from the nearest first one on.
+void ConflictFinder::meet_all(Time time, std::vector<Conflict>& conflicts) {
+  const auto first = std::ssize(conflicts);
+  for (const AgentIndex agent : moving_) meet(agent, time, conflicts);
+  if (std::ssize(conflicts) - first < 2) return;
+  std::sort(conflicts.begin() + first, conflicts.end(), [](const Conflict& c, const Conflict& d) {
+    return c.second != d.second ? c.second < d.second : c.first > d.first;
+  });
 }
 
 // Puts the agent where it is, and reports whom it meets there.
-void ConflictFinder::meet_all(std::span<const Path> paths, AgentIndex agent, Time time,
-                              std::vector<Conflict>& conflicts) {
-  const Place place = place_at(world_, paths[agent], time);
+void ConflictFinder::meet(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) {
+  const Place place = now_[agent];
   Visit& visit = visits_[time % 2][place];
   auto& also_there = also_there_[time % 2];
   also_there[agent] = visit.stamp == base_ + time ? visit.agent : -1;
   visit = {base_ + time, agent};
-  for (AgentIndex other = also_there[agent]; other >= 0; other = also_there[other]) {
-    const bool together = time > 0 && place_at(world_, paths[agent], time - 1) == place &&
-                          place_at(world_, paths[other], time - 1) == place;
-    if (!together)
-      conflicts.push_back({std::min(agent, other), std::max(agent, other), place, kNoPlace, time});
-  }
+  const bool was_there = time > 0 && before_[agent] == place;
+  const auto report = [&](AgentIndex other) {
+    conflicts.push_back({std::min(agent, other), std::max(agent, other), place, kNoPlace, time});
+  };
+  for (AgentIndex other = also_there[agent]; other >= 0; other = also_there[other])
+    if (!was_there || before_[other] != place) report(other);
+  if (was_there || rests_[place].stamp != base_) return;
+  for (AgentIndex other = rests_[place].agent; other >= 0; other = also_rests_[other])
+    report(other);
 }
 
-void ConflictFinder::swap_all(std::span<const Path> paths, AgentIndex agent, Time time,
-                              std::vector<Conflict>& conflicts) const {
-  const Place to = place_at(world_, paths[agent], time);
-  const Place from = place_at(world_, paths[agent], time - 1);
+// Who rests swaps with nobody.
+void ConflictFinder::swap_all(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const {
+  const Place to = now_[agent];
+  const Place from = before_[agent];
   const Visit& visit = visits_[(time - 1) % 2][to];
   if (from == to || visit.stamp != base_ + time - 1) return;
   const auto& also_there = also_there_[(time - 1) % 2];
   for (AgentIndex other = visit.agent; other >= 0; other = also_there[other])
-    if (agent < other && place_at(world_, paths[other], time) == from)
-      conflicts.push_back({agent, other, to, from, time});
+    if (agent < other && now_[other] == from) conflicts.push_back({agent, other, to, from, time});
 }
 
 // Those that stay are met, those that come the other way swapped with.
-void ConflictFinder::follow_all(std::span<const Path> paths, AgentIndex agent, Time time,
+void ConflictFinder::follow_all(AgentIndex agent, Time time,
                                 std::vector<Conflict>& conflicts) const {
-  const Place to = place_at(world_, paths[agent], time);
-  const Place from = place_at(world_, paths[agent], time - 1);
+  const Place to = now_[agent];
+  const Place from = before_[agent];
   const Visit& visit = visits_[(time - 1) % 2][to];
   if (from == to || visit.stamp != base_ + time - 1) return;
   const auto& also_there = also_there_[(time - 1) % 2];
-  for (AgentIndex other = visit.agent; other >= 0; other = also_there[other]) {
-    const Place now = place_at(world_, paths[other], time);
-    if (now != to && now != from)
+  for (AgentIndex other = visit.agent; other >= 0; other = also_there[other])
+    if (now_[other] != to && now_[other] != from)
       conflicts.push_back(
           {std::min(agent, other), std::max(agent, other), to, kNoPlace, time, agent});
-  }
 }
 
 }  // namespace grove::detail

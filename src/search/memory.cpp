@@ -16,6 +16,7 @@ void Memory::turn_to(std::shared_ptr<CommonMemory> common) {
   if (common == common_) return;
   found_ = {};
   common_ = std::move(common);
+  ++numbering_;
 }
 
 Situations::Known Memory::known(Id id) const {

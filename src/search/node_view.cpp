@@ -21,9 +21,22 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
   scope_.assign(scope.begin(), scope.end());
   rerouted_.clear();
   node->paths(problem_, scope_, paths_);
-  node->constraints(constraints_);
-  for (AgentIndex agent : scope_) canonical(constraints_[agent]);
+  look_at_constraints();
   find_conflicts();
+}
+
+// What is demanded of most agents is what was demanded at the last node.
+void NodeView::look_at_constraints() {
+  node_->constraints(demands_);
+  for (auto* by_agent : {&last_demands_, &constraints_}) by_agent->resize(demands_.size());
+  situations_.resize(demands_.size());
+  for (const AgentIndex agent : scope_) {
+    if (demands_[agent] == last_demands_[agent]) continue;
+    std::swap(demands_[agent], last_demands_[agent]);
+    constraints_[agent] = last_demands_[agent];
+    canonical(constraints_[agent]);
+    situations_[agent] = {};
+  }
 }
 
 void NodeView::find_conflicts() {
@@ -32,7 +45,11 @@ void NodeView::find_conflicts() {
 }
 
 Situations::Id NodeView::situation(AgentIndex agent) {
-  return memory_.id(agent, order(agent), constraints_[agent]);
+  KnownSituation& known = situations_[agent];
+  const AgentOrder& order = this->order(agent);
+  if (known.order != &order || known.numbering != memory_.numbering())
+    known = {&order, memory_.numbering(), memory_.id(agent, order, constraints_[agent])};
+  return known.id;
 }
 
 std::span<const Constraint> NodeView::constraints_with(AgentIndex agent, const Constraint& more) {

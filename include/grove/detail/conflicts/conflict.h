@@ -54,20 +54,23 @@ class ConflictFinder {
     AgentIndex agent = -1;
   };
 
-  void meet_all(std::span<const Path> paths, AgentIndex agent, Time time,
-                std::vector<Conflict>& conflicts);
-  void swap_all(std::span<const Path> paths, AgentIndex agent, Time time,
-                std::vector<Conflict>& conflicts) const;
-
-  void follow_all(std::span<const Path> paths, AgentIndex agent, Time time,
-                  std::vector<Conflict>& conflicts) const;
+  void begin(std::span<const Path> paths, std::span<const AgentIndex> agents);
+  void step(std::span<const Path> paths, Time time);
+  void meet_all(Time time, std::vector<Conflict>& conflicts);
+  void meet(AgentIndex agent, Time time, std::vector<Conflict>& conflicts);
+  void swap_all(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const;
+  void follow_all(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const;
 
   const World& world_;
   const bool may_follow_;
   std::int64_t base_ = 0;
-  std::array<std::vector<Visit>, 2> visits_;  // by parity of the time, then by place
+  std::vector<AgentIndex> moving_;            // whose paths have not ended, in ascending order
+  std::vector<Place> now_, before_;           // where they are, by agent
+  std::array<std::vector<Visit>, 2> visits_;  // of these: by parity of the time, then by place
   // Who else is there: by parity of the time, then by agent; -1 ends the list.
   std::array<std::vector<AgentIndex>, 2> also_there_;
+  std::vector<Visit> rests_;            // of the others, by place; the stamp is base_
+  std::vector<AgentIndex> also_rests_;  // as also_there_
 };
 
 }  // namespace grove::detail

@@ -74,6 +74,8 @@ class Memory {
   // so are all numbers.
   void turn_to(std::shared_ptr<CommonMemory> common);
   const std::shared_ptr<CommonMemory>& common() const { return common_; }
+  // Changes with the common memory: numbers of situations are good as long as this is the same.
+  std::int64_t numbering() const { return numbering_; }
 
   // As those of Situations.
   Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints) {
@@ -115,6 +117,7 @@ class Memory {
  private:
   PathPlanner& planner_;
   std::shared_ptr<CommonMemory> common_;
+  std::int64_t numbering_ = 0;
   const std::int64_t most_set_nodes_;
   std::int64_t asked_ = 0;
   mutable std::int64_t groups_asked_ = 0;

@@ -58,6 +58,13 @@ class NodeView {
   std::int64_t steps() const { return steps_; }
 
  private:
+  struct KnownSituation {
+    const AgentOrder* order = nullptr;  // null: not known
+    std::int64_t numbering = 0;         // of the memory
+    Situations::Id id = 0;
+  };
+
+  void look_at_constraints();
   void find_conflicts();
 
   const Problem& problem_;
@@ -67,8 +74,12 @@ class NodeView {
 
   NodePtr node_;
   std::vector<AgentIndex> scope_;
-  std::vector<Path> paths_;                           // by AgentIndex
-  std::vector<std::vector<Constraint>> constraints_;  // by AgentIndex; canonical
+  std::vector<Path> paths_;  // by AgentIndex
+  // By AgentIndex. Those of agents in scope are of this node, those of others of an earlier one.
+  std::vector<std::vector<Constraint>> constraints_;   // canonical
+  std::vector<std::vector<Constraint>> last_demands_;  // as the node lists them
+  std::vector<KnownSituation> situations_;
+  std::vector<std::vector<Constraint>> demands_;
   std::vector<Conflict> conflicts_;
   std::vector<AgentIndex> rerouted_;
   std::vector<Constraint> extended_;
