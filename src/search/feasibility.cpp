@@ -46,8 +46,8 @@ std::optional<std::string> unreachable_cell(const Problem& problem) {
     const Agent& agent = instance.agent(i);
     const auto no_way = [&](Distances to) { return to[agent.start] == kNever; };
     const auto told = [&](Place place) {
-      return fmt::format("agent '{}' cannot reach {}: there is no way from its start",
-                         agent.id, instance.world().name(place));
+      return fmt::format("agent '{}' cannot reach {}: there is no way from its start", agent.id,
+                         instance.world().name(place));
     };
     for (const TaskIndex task : agent.stops)
       if (no_way(problem.distances.to_task(task))) return told(instance.task(task).cell);
@@ -160,8 +160,8 @@ std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Pl
     const Agent& agent = *agents[r];
     for (Cell cell : required_cells(instance, agent))
       if (place[cell] < r || place[cell] > length - (count - r))
-        return fmt::format("agent '{}' cannot get to {}: other agents fill the corridor",
-                           agent.id, instance.world().name(cell));
+        return fmt::format("agent '{}' cannot get to {}: other agents fill the corridor", agent.id,
+                           instance.world().name(cell));
     if (!agent.goal) continue;
     if (place[*agent.goal] < last_goal)
       return fmt::format("agent '{}' would have to pass another agent in a corridor", agent.id);

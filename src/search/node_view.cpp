@@ -54,8 +54,7 @@ Situations::Id NodeView::situation(AgentIndex agent) {
 
 std::span<const Constraint> NodeView::constraints_with(AgentIndex agent, const Constraint& more) {
   extended_ = constraints_[agent];
-  extended_.push_back(more);
-  canonical(extended_);
+  add_to_canonical(extended_, more);
   return extended_;
 }
 

@@ -43,6 +43,11 @@ void canonical(std::vector<Constraint>& constraints) {
   constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
 }
 
+void add_to_canonical(std::vector<Constraint>& constraints, const Constraint& more) {
+  const auto at = std::ranges::lower_bound(constraints, key_of(more), {}, key_of);
+  if (at == constraints.end() || *at != more) constraints.insert(at, more);
+}
+
 Situations::Id Situations::id(AgentIndex agent, const AgentOrder& order,
                               std::span<const Constraint> constraints) {
   GROVE_ASSERT(std::ranges::is_sorted(constraints, {}, key_of),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A root's cost is the first bound of its tree, so what comes from elsewhere is checked: a path that
-// takes the least time for the order in which it visits its stops. For a fixed order that proves the
-// bound again. Mostly the distances settle it at once; where agents turn, they may be too small.
+// A root's cost is the first bound of its tree, so what comes from elsewhere is checked: a path
+// that takes the least time for the order in which it visits its stops. For a fixed order that
+// proves the bound again. Mostly the distances settle it at once; where agents turn, they may be
+// too small.
 #include "grove/detail/search/tree_record.h"
 
 #include <algorithm>

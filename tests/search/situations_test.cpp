@@ -92,5 +92,20 @@ TEST(Situations, CanonicalListsHaveOneOrderAndNoRepeats) {
   EXPECT_EQ(a.size(), 2u);
 }
 
+TEST(CanonicalConstraints, AreTheSameWhenOneComesAfterTheOther) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Constraint> all;
+    std::vector<Constraint> grown;
+    for (int i = 0; i < 6; ++i) {
+      const auto cell = static_cast<Cell>(random() % 3);
+      all.push_back({cell, kNoCell, 1, static_cast<Time>(1 + random() % 2)});
+      add_to_canonical(grown, all.back());
+    }
+    canonical(all);
+    ASSERT_EQ(grown, all);
+  }
+}
+
 }  // namespace situations_test
 }  // namespace grove::detail

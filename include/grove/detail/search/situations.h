@@ -65,5 +65,7 @@ class Situations {
 
 // Puts a list of constraints into the order that Situations wants, repeated ones once.
 void canonical(std::vector<Constraint>& constraints);
+// Adds one to a list in that order, if it is not there.
+void add_to_canonical(std::vector<Constraint>& constraints, const Constraint& more);
 
 }  // namespace grove::detail
