@@ -138,9 +138,9 @@ def main(instance, proof):
     text = Path(proof).read_bytes()
     if text.startswith(b"\x28\xb5\x2f\xfd"):  # compressed
         text = subprocess.run(["zstd", "-dc"], input=text, capture_output=True, check=True).stdout
-    lines = iter(text.decode("ascii").split("\n")[:-1])
+    lines = text.decode("ascii").split("\n")[:-1]
     try:
-        print(f"verified: no plan costs less than {check(Path(instance), lines)}")
+        print(f"verified: no plan costs less than {check(Path(instance), iter(lines))}" + ", where following is forbidden" * (lines[2] == "following no"))
     except (Refused, ValueError, IndexError, StopIteration) as error:
         sys.exit(f"refused: {error or 'it is cut off'}")
 

@@ -48,6 +48,9 @@
 // anew before it hears of that itself: batches carry their era, and wait. Until a rank's status is
 // of the new era it is not known what it holds; a group is of the era of its last.
 //
+// *Facts.* What ranks find out about agents they tell each other (knowledge.h). That is never a
+// node, is true wherever it comes (search/facts.cpp), and nobody waits for it or answers.
+//
 // *Prices.* The Lagrangian bound is rank 0's, beside its nodes. It asks other ranks for prices
 // under its multipliers, each for one share of the agents at a time: the next when it has answered.
 // An answer that comes late, or of other multipliers, is dropped there (lagrangian_bound.cpp), and
@@ -59,8 +62,8 @@
 //
 // *Leaving.* After End, and what it was ordered before, a rank says farewell and sends nothing
 // more; a sub-coordinator does when all its children have. The coordinator then tells each rank how
-// many messages were sent to it directly by others (batches, questions for prices, answers), so
-// that nothing is left under way. What went up came before the farewells, what goes down before
+// many messages were sent to it directly by others (batches, questions for prices, answers, facts),
+// so that nothing is left under way. What went up came before the farewells, what goes down before
 // that last word, by the same ways.
 #include "mpi/coordinator.h"
 

@@ -14,6 +14,17 @@ void serialize(Archive& archive, Finding& finding) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, AgentSituation& s) {
+  archive(s.tree, s.agent, s.constraints);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Fact& fact) {
+  archive(fact.agents, fact.cost.at_least, fact.cost.exact, fact.cost.hard, fact.excess.excess,
+          fact.excess.exact, fact.excess.expansions);
+}
+
+template <class Archive>
 void serialize(Archive& archive, MemoryUse& m) {
   archive(m.process, m.nodes, m.prices, m.path_sets, m.groups);
 }
@@ -117,6 +128,11 @@ void serialize(Archive& archive, Farewell& farewell) {
 template <class Archive>
 void serialize(Archive& archive, Batch& batch) {
   archive(batch.era, batch.nodes, batch.findings);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Facts& facts) {
+  archive(facts.reach, facts.facts);
 }
 
 template <class Archive>

@@ -18,6 +18,7 @@
 #include "grove/detail/lagrangian/price_share.h"
 #include "grove/detail/model/limits.h"
 #include "grove/detail/primal/plan_source.h"
+#include "grove/detail/search/facts.h"
 #include "grove/detail/search/findings.h"
 #include "grove/detail/search/node_record.h"
 #include "grove/detail/search/tree_record.h"
@@ -109,6 +110,13 @@ struct Batch {
   std::vector<Finding> findings;
 };
 
+// Rank to rank: what was found out. The receiver tells it to the next `reach` - 1 ranks, in the
+// order of ranks, the first being after the last; see knowledge.h.
+struct Facts {
+  std::int32_t reach = 1;
+  std::vector<Fact> facts;
+};
+
 // To all below: a tree, before any of its nodes.
 struct NewTree {
   std::uint32_t number = 0;
@@ -173,7 +181,7 @@ struct Goodbye {
 
 using Message =
     std::variant<Status, Found, Gathered, Part, Account, Farewell,  // up
-                 Batch, AskPrices, Prices,                          // from rank to rank
+                 Batch, AskPrices, Prices, Facts,                   // from rank to rank
                  NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More, End,
                  Goodbye>;  // down
 

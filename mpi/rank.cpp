@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t kLevels = 4;
 constexpr std::size_t kNodesInAPart = 500;
+constexpr double kBytesPerMegabyte = 1e6;
+
 // What a rank with these open nodes can spare; see Frontier::take_spare().
 std::vector<message::Spare> spare_of(const std::vector<Frontier::Level>& levels) {
   std::vector<message::Spare> spare;
@@ -44,7 +46,9 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       stops_(stops),
       ledger_(limits, nodes_.frontier),
       search_(options, limits, nodes_, ledger_, elsewhere_, unwatched_),
-      trees_(problem, stops_, nodes_.pool) {
+      trees_(problem, stops_, nodes_.pool),
+      knowledge_(transport.rank(), transport.ranks(),
+                 options.tuning.knowledge_rate * kBytesPerMegabyte) {
   if (transport.rank() == 0) search_.lagrangian().set_ranks(transport.ranks());
 }
 
@@ -66,8 +70,13 @@ void Rank::handle(int from, message::Message&& message) {
                    ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
                                  ProvenBy::kLagrangian);
                  },
+                 [&](message::Facts& facts) {
+                   ++heard_;
+                   hear(facts);
+                 },
                  [&](message::NewTree& tree) {
-                   roots_[tree.number] = trees_.add(tree.tree, tree.number);
+                   const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
+                   trees_of_facts_.add(root->tree());
                    take_over_held();
                  },
                  [&](message::Entrust& entrusted) { accept(entrusted); },
@@ -222,6 +231,7 @@ bool Rank::is_wanted(Cost bound) const {
 void Rank::speak(double now) {
   if (ended_) return;
   speak_of_prices();
+  speak_of_facts(now);
   message::Status status = this->status();
   send_found();
   if (!superior_.report(std::move(status), now)) return;
@@ -235,6 +245,25 @@ void Rank::speak_of_prices() {
     tell(0, message::Prices{std::move(*answer)});
 }
 
+void Rank::speak_of_facts(double now) {
+  if (!knowledge_.is_on()) return;
+  const auto memory = search_.memory();
+  knowledge_.add(facts_of(memory->take_news(), *memory, trees_of_facts_));
+  for (auto& [rank, facts] : knowledge_.due(now)) {
+    facts_sent_ += std::ssize(facts.facts);
+    tell(rank, facts);
+  }
+}
+
+// Others further on have to be told even if there is no room here.
+void Rank::hear(message::Facts& facts) {
+  if (search_.has_room_for_facts()) {
+    const auto memory = search_.memory();
+    for (const Fact& fact : facts.facts) learn(fact, trees_of_facts_, *memory);
+  }
+  if (!ended_) knowledge_.add(std::move(facts.facts), facts.reach);
+}
+
 void Rank::send_found() {
   if (auto found = ledger_.take_found())
     superior_.tell(message::Found{std::move(found->plan), found->source});
@@ -245,6 +274,7 @@ Survey Rank::survey(Stats counts) const {
   counts.counts["messages"] += transport_.messages();
   counts.counts["message_bytes"] += transport_.bytes();
   counts.counts["nodes_sent"] += nodes_sent_;
+  counts.counts["facts_sent"] += facts_sent_;
   std::int64_t& batches = counts.counts["batches"];
   for (const auto& [rank, peer] : peers_) batches += peer.sent;
   Survey survey{{std::move(counts.counts), search_.memory_use()}, {}};

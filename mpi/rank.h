@@ -2,6 +2,7 @@
 // One rank's part of a search, and of the talk about it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "grove/detail/search/problem.h"
 #include "grove/detail/search/tree_record.h"
 #include "mpi/hierarchy.h"
+#include "mpi/knowledge.h"
 #include "mpi/ledger_copy.h"
 #include "mpi/messages.h"
 #include "mpi/superior.h"
@@ -46,7 +48,10 @@ class Rank {
   // more often than ranks can bear. `now` in seconds of any clock.
   void speak(double now);
   // When it may have something to say though nothing has happened since; infinity: never.
-  double speaks_at() const { return superior_.reports_at(); }
+  double speaks_at() const {
+    return ended_ ? superior_.reports_at()
+                  : std::min(superior_.reports_at(), knowledge_.speaks_at());
+  }
 
   // Tells what has been done so far, workers' counts among it.
   void account_for(Stats counts);
@@ -72,6 +77,8 @@ class Rank {
   void send_part();
   void send_found();
   void speak_of_prices();
+  void speak_of_facts(double now);
+  void hear(message::Facts& facts);
   void push(const std::vector<NodeRecord>& records, const std::vector<Finding>& findings);
   void begin_anew(Cost proven);
   message::Status status() const;
@@ -94,6 +101,8 @@ class Rank {
 
   Trees trees_;
   std::map<std::uint32_t, NodePtr> roots_;  // by the number of the tree
+  TreesOfFacts trees_of_facts_;
+  Knowledge knowledge_;
   std::int32_t era_ = 0;
   std::int64_t entrusted_ = 0;
   std::vector<Held> held_;
@@ -107,6 +116,7 @@ class Rank {
   std::map<int, Peer> peers_;
   std::int64_t in_custody_ = 0;  // nodes
   std::int64_t nodes_sent_ = 0;
+  std::int64_t facts_sent_ = 0;
 
   std::vector<NodePtr> gathered_;  // for a checkpoint; not sent yet
 

@@ -40,6 +40,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
       observer_(observer),
       lagrangian_(options.tuning),
       shares_(std::make_unique<MemoryShares>(limits, options.node_memory)),
+      most_known_(kMostKnown),
       known_(std::make_shared<CommonMemory>()) {}
 
 SharedSearch::~SharedSearch() = default;
@@ -113,7 +114,8 @@ void SharedSearch::keep_within_memory() {
   } else if (pool_.bytes() > shares_->for_nodes()) {
     evict_to(shares_->for_nodes() / 8 * 7);
   }
-  if (known <= std::min(kMostKnown, shares_->for_expanders())) return;
+  most_known_ = std::min(kMostKnown, shares_->for_expanders());
+  if (known <= most_known_) return;
   auto next = std::make_shared<CommonMemory>(CommonMemory::Successor{});
   const std::lock_guard lock_known(knowing_);  // the old memory is freed after it
   known_.swap(next);
@@ -122,6 +124,11 @@ void SharedSearch::keep_within_memory() {
 std::shared_ptr<CommonMemory> SharedSearch::memory() const {
   const std::lock_guard lock(knowing_);
   return known_;
+}
+
+// Half of it is for what is found out here: what is full is all forgotten.
+bool SharedSearch::has_room_for_facts() const {
+  return memory()->bytes() < most_known_ / 2;
 }
 
 // The best open node stays. Evicting a leaf frees those ancestors that no other node shares.

@@ -29,12 +29,14 @@ Excesses::Known Excesses::of_pair(Id first, Id second) const {
   });
 }
 
-void Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
-  parts_.with(parts_.part_of(first), [&](Part& part) {
+bool Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
+  return parts_.with(parts_.part_of(first), [&](Part& part) {
     const auto [entry, is_new] = part.known.try_emplace(key(first, second), known);
     if (is_new) bytes_ += kBytesPerPair;
-    entry->second = join(entry->second, known);
-    if (known.excess == 0) return;
+    const Known before = entry->second;
+    entry->second = join(before, known);
+    const bool is_news = is_new || entry->second != before;
+    if (known.excess == 0) return is_news;
     auto& partners = part.partners[first];
     const auto same = [&](const Partner& p) { return p.agent == agent && p.situation == second; };
     const auto listed = std::ranges::find_if(partners, same);
@@ -42,6 +44,7 @@ void Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
       listed->excess = entry->second.excess;
     else
       partners.push_back({agent, second, known.excess});
+    return is_news;
   });
 }
 
@@ -61,20 +64,22 @@ Excesses::Known Excesses::of_group(const std::vector<Id>& situations) const {
   return known;
 }
 
-void Excesses::learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
+bool Excesses::learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                            Known known) {
   GROVE_ASSERT(agents.size() == situations.size() && std::ranges::is_sorted(agents),
                "a group is its agents in ascending order, and their situations");
   const Id under = newest(situations);
-  parts_.with(parts_.part_of(under), [&](Part& part) {
+  return parts_.with(parts_.part_of(under), [&](Part& part) {
     auto& groups = part.groups[under];
     const auto listed = std::ranges::find(groups, situations, &Group::situations);
-    if (listed != groups.end()) {
-      listed->known = join(listed->known, known);
-    } else {
+    if (listed == groups.end()) {
       groups.push_back({agents, situations, known});
       bytes_ += kBytesPerGroup;
+      return true;
     }
+    const Known before = listed->known;
+    listed->known = join(before, known);
+    return listed->known != before;
   });
 }
 

@@ -2,14 +2,31 @@
 #include "grove/detail/search/memory.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace grove::detail {
 
 void CommonMemory::learn(const FoundOut& found) {
-  for (const auto& [id, known] : found.costs) situations.learn(id, known);
+  const bool keeps = keeps_news_;
+  News news;
+  for (const auto& [id, known] : found.costs)
+    if (situations.learn(id, known) && keeps) news.costs.emplace_back(id, known);
   for (const auto& [id, set] : found.sets) path_sets.add(id, set);
-  for (const auto& p : found.pairs) excesses.learn_pair(p.first, p.second, p.agent, p.known);
-  for (const auto& g : found.groups) excesses.learn_group(g.agents, g.situations, g.known);
+  for (const auto& p : found.pairs)
+    if (excesses.learn_pair(p.first, p.second, p.agent, p.known) && keeps) news.pairs.push_back(p);
+  for (const auto& g : found.groups)
+    if (excesses.learn_group(g.agents, g.situations, g.known) && keeps) news.groups.push_back(g);
+  if (!keeps) return;
+  const std::lock_guard lock(news_mutex_);
+  std::ranges::move(news.costs, std::back_inserter(news_.costs));
+  std::ranges::move(news.pairs, std::back_inserter(news_.pairs));
+  std::ranges::move(news.groups, std::back_inserter(news_.groups));
+}
+
+News CommonMemory::take_news() {
+  keeps_news_ = true;
+  const std::lock_guard lock(news_mutex_);
+  return std::exchange(news_, {});
 }
 
 void Memory::turn_to(std::shared_ptr<CommonMemory> common) {

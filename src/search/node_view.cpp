@@ -32,10 +32,10 @@ void NodeView::look_at_constraints() {
   situations_.resize(demands_.size());
   for (const AgentIndex agent : scope_) {
     if (demands_[agent] == last_demands_[agent]) continue;
-    std::swap(demands_[agent], last_demands_[agent]);
-    constraints_[agent] = last_demands_[agent];
+    constraints_[agent] = demands_[agent];
     canonical(constraints_[agent]);
     situations_[agent] = {};
+    std::swap(demands_[agent], last_demands_[agent]);  // last, for there may be no memory
   }
 }
 
@@ -45,6 +45,7 @@ void NodeView::find_conflicts() {
 }
 
 Situations::Id NodeView::situation(AgentIndex agent) {
+  GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
   KnownSituation& known = situations_[agent];
   const AgentOrder& order = this->order(agent);
   if (known.order != &order || known.numbering != memory_.numbering())

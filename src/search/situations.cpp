@@ -69,12 +69,21 @@ Situations::Known Situations::known(Id id) const {
                      [&](const Part& part) { return part.entries[place_of(id)].known; });
 }
 
-void Situations::learn(Id id, Known learnt) {
-  parts_.with(parts_.part_of(id), [&](Part& part) {
+Situation Situations::situation(Id id) const {
+  return parts_.with(parts_.part_of(id), [&](const Part& part) {
+    const Entry& entry = part.entries[place_of(id)];
+    const auto constraints = std::span(part.constraints).subspan(entry.first, entry.count);
+    return Situation{entry.order, entry.agent, {constraints.begin(), constraints.end()}};
+  });
+}
+
+bool Situations::learn(Id id, Known learnt) {
+  return parts_.with(parts_.part_of(id), [&](Part& part) {
     Known& known = part.entries[place_of(id)].known;
-    const bool hard = known.hard || learnt.hard;
+    const Known before = known;
     if (!known.exact && (learnt.exact || learnt.at_least > known.at_least)) known = learnt;
-    known.hard = hard;
+    known.hard = before.hard || learnt.hard;
+    return known != before;
   });
 }
 

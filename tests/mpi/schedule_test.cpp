@@ -19,6 +19,7 @@ TEST(Schedules, NeverSayMoreThanIsTrue) {
   }
   EXPECT_GT(tally.tried, 60);
   EXPECT_GT(tally.batches, 60) << "too few nodes travelled to be a test";
+  EXPECT_GT(tally.facts, 100) << "too few facts were told to be a test";
   EXPECT_GT(tally.prices, 20) << "too few prices were asked for to be a test";
 }
 

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   fmt::print(
       "{} schedules ({} unfinished, {} struck, {} resumed, {} reopened, {} new beginnings), ",
       tally.tried, tally.unfinished, tally.struck, tally.resumed, tally.reopened, tally.restarts);
-  fmt::print("{} nodes, {} batches, {} prices of ranks, {} messages: {} false\n", tally.nodes,
-             tally.batches, tally.prices, tally.messages, failed);
+  fmt::print("{} nodes, {} batches, {} prices of ranks, {} facts, {} messages: {} false\n",
+             tally.nodes, tally.batches, tally.prices, tally.facts, tally.messages, failed);
   return failed == 0 ? 0 : 1;
 }

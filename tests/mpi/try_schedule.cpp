@@ -172,6 +172,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     options.tuning.lagrangian_level = dice.pick<double>({0.02, 0.2});
   }
   options.tuning.coordinator_children = std::array{2, 3, 2, 64}[seed % 4];
+  options.tuning.knowledge_rate = std::array{8.0, 0.01, 0.0}[seed % 3];
   if (dice.percent(20)) options.policy = Policy::kFixed;
   if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);
@@ -221,6 +222,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     tally.nodes += stats.at("nodes_expanded");
     tally.batches += stats.at("batches");
     tally.restarts += stats.at("restarts");
+    tally.facts += stats.at("facts_sent");
     if (stats.contains("prices_of_ranks")) tally.prices += stats.at("prices_of_ranks");
   }
   return wrong;

@@ -16,6 +16,7 @@ struct ScheduleTally {
   std::int64_t batches = 0;
   std::int64_t restarts = 0;
   std::int64_t prices = 0;  // that rank 0 asked others for, and counted
+  std::int64_t facts = 0;   // that ranks told each other
   std::int64_t resumed = 0;
   std::int64_t struck = 0;
   std::int64_t reopened = 0;  // checkpoints from which one process went on

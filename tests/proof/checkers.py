@@ -45,3 +45,8 @@ def small_checker(instance, certificate):
     with tempfile.TemporaryDirectory() as name:
         (Path(name) / "proof").write_text(certificate)
         return Verdict([sys.executable, SMALL, instance.write(Path(name)), Path(name) / "proof"])
+
+
+def of(following):
+    """What a verdict says of a certificate for worlds where agents may follow each other, or may not."""
+    return "" if following else ", where following is forbidden"

@@ -71,7 +71,7 @@ class Generated(unittest.TestCase):
             if least == INF:
                 found = checkers.verify(instance, "\n".join(
                     ["grove-proof 1", f"instance {instance.checksum()}", f"following {'yes' if following else 'no'}", "theorem inf", "joint", "end\n"]))
-                self.assertEqual(found.text, "verified: there is no plan\n")
+                self.assertEqual(found.text, f"verified: there is no plan{checkers.of(following)}\n")
                 seen["none"] += 1
                 continue
             try:
@@ -80,7 +80,7 @@ class Generated(unittest.TestCase):
                 seen["too long"] += 1
                 continue
             found = checkers.verify(instance, certificate)
-            self.assertEqual(found.text, f"verified: no plan costs less than {least}\n", f"{kind}\n{certificate}")
+            self.assertEqual(found.text, f"verified: no plan costs less than {least}{checkers.of(following)}\n", f"{kind}\n{certificate}")
             self.assertEqual(checkers.verify(instance, raised(certificate)).code, 1, certificate)
             for mutant in mutants(rng, certificate, 4):
                 found = checkers.verify(instance, mutant)

@@ -39,6 +39,7 @@ class Rules(unittest.TestCase):
     def verified(self, instance, *lines, following="yes"):
         bound = next(line.split(" ")[1] for line in lines if line.startswith("theorem"))
         said = "there is no plan" if bound == "inf" else f"no plan costs less than {bound}"
+        said += checkers.of(following == "yes")
         found = checkers.verify(instance, certificate(instance, *lines, following=following))
         self.assertEqual((found.code, found.text), (0, f"verified: {said}\n"), lines)
 

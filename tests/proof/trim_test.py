@@ -98,7 +98,7 @@ class Trimmed(unittest.TestCase):
                 seen["too long"] += 1
                 continue
             before = checkers.verify(instance, certificate)
-            self.assertEqual(before.text, f"verified: no plan costs less than {least}\n", f"{kind}\n{certificate}")
+            self.assertEqual(before.text, f"verified: no plan costs less than {least}{checkers.of(following)}\n", f"{kind}\n{certificate}")
             short = trimmed(certificate)
             after = checkers.verify(instance, short)
             self.assertEqual(after.text, before.text, f"{kind}\n{certificate}\n--- trimmed:\n{short}")

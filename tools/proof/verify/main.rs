@@ -112,9 +112,10 @@ fn verify(arguments: &Arguments) -> (i32, String) {
     let outcome = verifier.run();
     if arguments.stats { eprintln!("{}, {:.3} s", verifier.statistics(), begin.elapsed().as_secs_f64()); }
     let line = LINE.load(Ordering::Relaxed);
+    let of = if verifier.may_follow() { "" } else { ", where following is forbidden" };
     match outcome {
-        Ok(Some(bound)) => (0, format!("verified: no plan costs less than {}", bound)),
-        Ok(None) => (0, "verified: there is no plan".to_string()),
+        Ok(Some(bound)) => (0, format!("verified: no plan costs less than {}{}", bound, of)),
+        Ok(None) => (0, format!("verified: there is no plan{}", of)),
         Err((code, reason)) => (code, format!("{}: line {}: {}", if code == 1 { "refused" } else { "unreadable" }, line, reason)),
     }
 }

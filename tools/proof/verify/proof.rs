@@ -68,6 +68,9 @@ impl Verifier {
         if line.ends_with(' ') { Err(unreadable("expected no blank at the end of the line")) } else { Ok(line.to_string()) }
     }
 
+    /// Once it has run: is the claim about all plans, or about those in which nobody follows another?
+    pub fn may_follow(&self) -> bool { self.following }
+
     /// What the theorem says: L, or None for `inf`.
     pub fn run(&mut self) -> Result<Option<u64>, Fault> {
         Some(self.line()?).filter(|line| line == "grove-proof 1").ok_or_else(|| unreadable("expected 'grove-proof 1'"))?;

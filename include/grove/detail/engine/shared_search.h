@@ -59,6 +59,8 @@ class SharedSearch {
   void keep_within_memory();
   // What was found out, for expanders to go on with.
   std::shared_ptr<CommonMemory> memory() const;
+  // Is there room there for what others found out?
+  bool has_room_for_facts() const;
 
   // Adds what was counted here to the answer's statistics.
   void add_counts(Stats& stats) const;
@@ -89,6 +91,7 @@ class SharedSearch {
   std::mutex keeping_;  // guards the shares
   const std::unique_ptr<MemoryShares> shares_;
 
+  std::atomic<std::size_t> most_known_;  // bytes of what was found out
   mutable std::mutex knowing_;
   std::shared_ptr<CommonMemory> known_;  // under knowing_: GCC 11 has no std::atomic of these
 

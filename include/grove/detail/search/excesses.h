@@ -25,6 +25,7 @@ class Excesses {
     Cost excess = 0;              // at least so much
     bool exact = false;           // and conflict-free paths cost that
     std::int32_t expansions = 0;  // spent on it
+    friend bool operator==(const Known&, const Known&) = default;
   };
   // Several agents, in ascending order.
   struct Group {
@@ -51,13 +52,13 @@ class Excesses {
   }
 
   Known of_pair(Id first, Id second) const;
-  // The agent is the second one.
-  void learn_pair(Id first, Id second, AgentIndex agent, Known known);
+  // The agent is the second one. True, here and below: it was news.
+  bool learn_pair(Id first, Id second, AgentIndex agent, Known known);
   // Of an agent in a situation, those of greater index that it costs more with. Appended.
   void partners(Id first, std::vector<Partner>& partners) const;
 
   Known of_group(const std::vector<Id>& situations) const;
-  void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
+  bool learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    Known known);
   // Calls use(group) for each group listed under a situation: it is the newest of the group's, the
   // one that is in the fewest groups. `use` must not call this object, and copies what it keeps.

@@ -2,8 +2,10 @@
 // What was found out about agents, pairs and groups in the course of a search.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -33,6 +35,13 @@ struct FoundOut {
   std::vector<Excesses::Group> groups;
 };
 
+// What workers found out lately that nobody here knew before; see FoundOut. Values.
+struct News {
+  std::vector<std::pair<Situations::Id, Situations::Known>> costs;
+  std::vector<FoundOut::Pair> pairs;
+  std::vector<Excesses::Group> groups;
+};
+
 // What all workers know. Thread-safe; nothing is ever taken back, so whoever wants it forgotten
 // starts another one.
 struct CommonMemory {
@@ -49,10 +58,17 @@ struct CommonMemory {
 
   // Adds this. Workers may do so at the same time: it does not matter who is first.
   void learn(const FoundOut& found);
+  // What was news of that, from the first call on, since the last call.
+  News take_news();
 
   // Forgets what there is too much of, and can be found again.
   void trim() { path_sets.trim(); }
   std::size_t bytes() const { return situations.bytes() + path_sets.bytes() + excesses.bytes(); }
+
+ private:
+  std::atomic<bool> keeps_news_{false};
+  std::mutex news_mutex_;
+  News news_;
 };
 
 // What one worker knows: the common memory, and what it has found out that is not common yet. So

@@ -2,11 +2,13 @@
 // A constraint-tree node as some of its agents see it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "grove/detail/conflicts/conflict.h"
+#include "grove/detail/model/assert.h"
 #include "grove/detail/search/memory.h"
 #include "grove/detail/search/node.h"
 #include "grove/detail/search/search_options.h"
@@ -31,7 +33,10 @@ class NodeView {
 
   // Of an agent in scope: its order of visits, and what the node demands of it, in canonical order.
   const AgentOrder& order(AgentIndex agent) const { return *node_->tree().orders[agent]; }
-  std::span<const Constraint> constraints(AgentIndex agent) const { return constraints_[agent]; }
+  std::span<const Constraint> constraints(AgentIndex agent) const {
+    GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
+    return constraints_[agent];
+  }
   Situations::Id situation(AgentIndex agent);
   // The same with one constraint more, in canonical order; until the next call.
   std::span<const Constraint> constraints_with(AgentIndex agent, const Constraint& more);
@@ -64,6 +69,7 @@ class NodeView {
     Situations::Id id = 0;
   };
 
+  bool is_in_scope(AgentIndex agent) const { return std::ranges::binary_search(scope_, agent); }
   void look_at_constraints();
   void find_conflicts();
 

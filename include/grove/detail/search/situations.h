@@ -13,6 +13,13 @@
 
 namespace grove::detail {
 
+// As below, as a value.
+struct Situation {
+  const AgentOrder* order = nullptr;
+  AgentIndex agent = -1;
+  std::vector<Constraint> constraints;  // in canonical order
+};
+
 // A *situation* is an agent with its order of visits and a set of constraints. Most nodes of a
 // constraint tree ask about situations that others asked about before: they are numbered as they
 // come up, and what is found out about each is kept. Keys are compared in full, so a hash can cost
@@ -33,9 +40,12 @@ class Situations {
   // must outlive this object.
   Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints);
 
+  // What has this number.
+  Situation situation(Id id) const;
+
   Known known(Id id) const;
-  // Adds what was found out; the stronger statement stays.
-  void learn(Id id, Known known);
+  // Adds what was found out; the stronger statement stays. True: it was news.
+  bool learn(Id id, Known known);
 
   // Memory held, in bytes (about).
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }

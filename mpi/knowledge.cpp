@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// *Claim: each rank is told a fact once at most.* A rank of reach n has to do with the n ranks from
+// itself on. To the one at h = ceil(n / 2) from it goes the reach n - h, it keeps h; these are the
+// two parts of n, so no rank is in both, and it ends at 1.
+#include "mpi/knowledge.h"
+
+#include <algorithm>
+
+namespace grove::detail {
+namespace {
+
+constexpr double kPause_s = 1e-3;   // between two tellings
+constexpr double kMostPauses = 10;  // whose bytes may be told at one go, after a silence
+constexpr std::size_t kMostWaiting = 4000;
+
+}  // namespace
+
+void Knowledge::add(std::vector<Fact> facts, int reach) {
+  std::vector<Piece> pieces;
+  for (Fact& fact : facts) {
+    const double worth = fact.worth();
+    pieces.push_back({worth, std::make_shared<const Fact>(std::move(fact))});
+  }
+  if (pieces.empty()) return;
+  for (int n = std::min(reach, ranks_); n > 1; n = (n + 1) / 2) add(pieces, waiting_[n]);
+}
+
+void Knowledge::add(const std::vector<Piece>& pieces, Waiting& waiting) {
+  for (const Piece& piece : pieces) {
+    waiting.push_back(piece);
+    std::push_heap(waiting.begin(), waiting.end());
+  }
+  if (waiting.size() <= 2 * kMostWaiting) return;
+  std::nth_element(waiting.begin(), waiting.begin() + kMostWaiting, waiting.end(),
+                   [](const Piece& a, const Piece& b) { return b < a; });
+  waiting.resize(kMostWaiting);
+  std::make_heap(waiting.begin(), waiting.end());
+}
+
+std::vector<Knowledge::Parcel> Knowledge::due(double now) {
+  std::vector<Parcel> parcels;
+  if (waiting_.empty() || now < next_) return parcels;
+  allowance_ = std::min(allowance_ + (now - last_) * rate_, kMostPauses * kPause_s * rate_);
+  last_ = now;
+  next_ = now + kPause_s;
+  auto left = static_cast<double>(waiting_.size());
+  // The largest reach first: it has the longest way.
+  for (auto at = waiting_.rbegin(); at != waiting_.rend(); ++at, --left) {
+    const int reach = at->first;
+    const int to = (rank_ + (reach + 1) / 2) % ranks_;
+    message::Facts facts = best_of(at->second, allowance_ / left, reach / 2);
+    if (!facts.facts.empty()) parcels.push_back({to, std::move(facts)});
+  }
+  std::erase_if(waiting_, [](const auto& entry) { return entry.second.empty(); });
+  return parcels;
+}
+
+message::Facts Knowledge::best_of(Waiting& waiting, double bytes, int reach) {
+  message::Facts told{reach, {}};
+  while (!waiting.empty()) {
+    const Fact& best = *waiting.front().fact;
+    const auto more = static_cast<double>(best.bytes());
+    if (more > bytes) break;
+    bytes -= more;
+    allowance_ -= more;
+    told.facts.push_back(best);
+    std::pop_heap(waiting.begin(), waiting.end());
+    waiting.pop_back();
+  }
+  return told;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// How what one rank finds out comes to all others.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "grove/detail/search/facts.h"
+#include "mpi/messages.h"
+
+namespace grove::detail {
+
+// What a rank has to tell of what was found out, here or by others. Each fact comes to each rank
+// once, by at most log2 of them others: whoever has to tell it to the next n ranks tells it to the
+// one in the middle, which tells it to the further half, and goes on with the nearer half. It says
+// the most worthwhile first and no more than ranks can bear; what waits too long is never said. So
+// it is of use, and nothing may depend on it. Of one thread.
+class Knowledge {
+ public:
+  struct Parcel {
+    int to;
+    message::Facts facts;
+  };
+
+  // `rate`: bytes per second that it may tell; 0: nothing.
+  Knowledge(int rank, int ranks, double rate) : rank_(rank), ranks_(ranks), rate_(rate) {}
+
+  bool is_on() const { return ranks_ > 1 && rate_ > 0; }
+
+  // Facts that the next `reach` - 1 ranks are to be told: found out here, all others.
+  void add(std::vector<Fact> facts, int reach);
+  void add(std::vector<Fact> facts) { add(std::move(facts), ranks_); }
+
+  // What is to be said now, in seconds of any clock.
+  std::vector<Parcel> due(double now);
+  // When there may be something; infinity: unless something is added, never.
+  double speaks_at() const {
+    return waiting_.empty() ? std::numeric_limits<double>::infinity() : next_;
+  }
+
+ private:
+  struct Piece {
+    double worth;
+    std::shared_ptr<const Fact> fact;
+    friend bool operator<(const Piece& a, const Piece& b) { return a.worth < b.worth; }
+  };
+  using Waiting = std::vector<Piece>;  // a heap
+
+  static void add(const std::vector<Piece>& pieces, Waiting& waiting);
+  message::Facts best_of(Waiting& waiting, double bytes, int reach);
+
+  const int rank_;
+  const int ranks_;
+  const double rate_;
+  double next_ = 0;
+  double last_ = 0;
+  double allowance_ = 0;            // bytes
+  std::map<int, Waiting> waiting_;  // by the reach of whoever tells; none is empty
+};
+
+}  // namespace grove::detail

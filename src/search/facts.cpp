@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// *Claim: a fact is as true in another process as where it was found.* It speaks of agents with
+// their orders of visits under sets of constraints and of nothing else: neither of a node, nor of
+// an incumbent (a search that a cutoff ended leaves behind what it had proven by then, which holds
+// under any cutoff; prices.cpp, dependencies.cpp). A tree's number stands for the same orders in
+// every process of a run, and constraints are values. Which number a situation has differs from
+// process to process, and is not told.
+//
+// So facts may come late, twice, in any order or never: nothing but time depends on it.
+#include "grove/detail/search/facts.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace grove::detail {
+namespace {
+
+constexpr std::size_t kBytesPerFact = 40;
+constexpr std::size_t kBytesPerAgent = 16;
+constexpr std::size_t kBytesPerConstraint = 17;
+
+std::size_t constraints_in(const Fact& fact) {
+  std::size_t sum = 0;
+  for (const AgentSituation& s : fact.agents) sum += s.constraints.size();
+  return sum;
+}
+
+// Collects facts whose agents are of trees that are known.
+class Facts {
+ public:
+  Facts(const CommonMemory& memory, const TreesOfFacts& trees) : memory_(memory), trees_(trees) {}
+
+  void add(std::span<const Situations::Id> ids, Situations::Known cost, Excesses::Known excess) {
+    Fact fact{{}, cost, excess};
+    for (const Situations::Id id : ids) {
+      Situation situation = memory_.situations.situation(id);
+      const Tree* tree = trees_.of(*situation.order);
+      if (tree == nullptr) return;
+      fact.agents.push_back({tree->number, situation.agent, std::move(situation.constraints)});
+    }
+    facts_.push_back(std::move(fact));
+  }
+
+  std::vector<Fact> all() { return std::move(facts_); }
+
+ private:
+  const CommonMemory& memory_;
+  const TreesOfFacts& trees_;
+  std::vector<Fact> facts_;
+};
+
+void require(bool possible) {
+  if (!possible)
+    throw std::invalid_argument("a fact must be about agents of the instance, in order");
+}
+
+void require_order(const Fact& fact) {
+  const auto& agents = fact.agents;
+  require(!agents.empty() && fact.excess.excess >= 0 && fact.cost.at_least >= 0 &&
+          std::ranges::adjacent_find(agents, std::greater_equal<>(), &AgentSituation::agent) ==
+              agents.end());
+}
+
+}  // namespace
+
+double Fact::worth() const {
+  return (1.0 + excess.expansions) / static_cast<double>(1 + constraints_in(*this));
+}
+
+std::size_t Fact::bytes() const {
+  return kBytesPerFact + kBytesPerAgent * agents.size() +
+         kBytesPerConstraint * constraints_in(*this);
+}
+
+void TreesOfFacts::add(const Tree& tree) {
+  by_number_.emplace(tree.number, &tree);
+  for (const auto& order : tree.orders) by_order_.emplace(order.get(), &tree);
+}
+
+const Tree* TreesOfFacts::of(const AgentOrder& order) const {
+  const auto found = by_order_.find(&order);
+  return found == by_order_.end() ? nullptr : found->second;
+}
+
+const Tree* TreesOfFacts::numbered(std::uint32_t number) const {
+  const auto found = by_number_.find(number);
+  return found == by_number_.end() ? nullptr : found->second;
+}
+
+std::vector<Fact> facts_of(const News& news, const CommonMemory& memory,
+                           const TreesOfFacts& trees) {
+  Facts facts(memory, trees);
+  for (const auto& [id, known] : news.costs) facts.add(std::array{id}, known, {});
+  for (const auto& pair : news.pairs)
+    facts.add(std::array{pair.first, pair.second}, {}, pair.known);
+  for (const auto& group : news.groups) facts.add(group.situations, {}, group.known);
+  return facts.all();
+}
+
+void learn(const Fact& fact, const TreesOfFacts& trees, CommonMemory& memory) {
+  require_order(fact);
+  std::vector<Situations::Id> ids;
+  std::vector<AgentIndex> agents;
+  for (const auto& [number, agent, demands] : fact.agents) {
+    const Tree* tree = trees.numbered(number);
+    if (tree == nullptr) return;
+    require(agent >= 0 && static_cast<std::size_t>(agent) < tree->orders.size());
+    std::vector<Constraint> constraints = demands;
+    canonical(constraints);
+    ids.push_back(memory.situations.id(agent, *tree->orders[agent], constraints));
+    agents.push_back(agent);
+  }
+  if (ids.size() == 1)
+    memory.situations.learn(ids[0], fact.cost);
+  else if (ids.size() == 2)
+    memory.excesses.learn_pair(ids[0], ids[1], agents[1], fact.excess);
+  else
+    memory.excesses.learn_group(agents, ids, fact.excess);
+}
+
+}  // namespace grove::detail

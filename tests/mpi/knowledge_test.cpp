@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/knowledge.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <limits>
+
+namespace grove::detail {
+namespace knowledge_test {
+
+constexpr double kPlenty = 1e12;
+
+Fact fact(AgentIndex agent, std::int32_t expansions = 0) {
+  return {{{0, agent, {}}}, {7, true}, {0, false, expansions}};
+}
+
+std::vector<Fact> facts(int count) {
+  std::vector<Fact> all;
+  for (int i = 0; i < count; ++i) all.push_back(fact(i, i));
+  return all;
+}
+
+class Ranks : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Counts, Ranks, ::testing::Values(2, 3, 4, 5, 7, 8, 13, 16, 31, 64, 100));
+
+TEST_P(Ranks, AreToldEachFactOnceByWhoeverFoundIt) {
+  const int ranks = GetParam();
+  for (const int finder : {0, ranks / 2, ranks - 1}) {
+    std::deque<Knowledge> all;
+    for (int rank = 0; rank < ranks; ++rank) all.emplace_back(rank, ranks, kPlenty);
+    std::vector<int> told(static_cast<std::size_t>(ranks));
+    all[finder].add({fact(3)});
+    int rounds = 1;
+    for (bool news = true; news; ++rounds) {
+      news = false;
+      std::vector<Knowledge::Parcel> under_way;
+      for (Knowledge& one : all)
+        for (auto& parcel : one.due(rounds)) under_way.push_back(std::move(parcel));
+      for (auto& [to, message] : under_way) {
+        news = true;
+        ASSERT_EQ(message.facts.size(), 1u);
+        ++told[to];
+        all[to].add(std::move(message.facts), message.reach);
+      }
+    }
+    for (int rank = 0; rank < ranks; ++rank)
+      EXPECT_EQ(told[rank], rank == finder ? 0 : 1) << "rank " << rank << " of " << ranks;
+    EXPECT_LE(1 << (rounds - 3), ranks) << "as many rounds as the number of ranks has digits";
+  }
+}
+
+TEST(Knowledge, IsOffWhereThereIsNobodyToTellOrNothingMayBeSaid) {
+  EXPECT_FALSE(Knowledge(0, 1, 1e6).is_on());
+  EXPECT_FALSE(Knowledge(0, 9, 0).is_on());
+  EXPECT_TRUE(Knowledge(0, 2, 1).is_on());
+}
+
+TEST(Knowledge, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
+  constexpr double kRate = 1e5;
+  Knowledge knowledge(0, 2, kRate);
+  knowledge.due(0);
+  knowledge.add(facts(3000));
+  double said = 0;
+  double last = 1e9;
+  int count = 0;
+  double now = 0;
+  for (; knowledge.speaks_at() < 100; now = knowledge.speaks_at())
+    for (const auto& [to, message] : knowledge.due(now)) {
+      EXPECT_EQ(to, 1);
+      EXPECT_EQ(message.reach, 1);
+      for (const Fact& told : message.facts) {
+        ++count;
+        said += static_cast<double>(told.bytes());
+        EXPECT_LE(told.worth(), last);
+        last = told.worth();
+      }
+      EXPECT_LE(said, kRate * (now + 0.011));
+    }
+  EXPECT_EQ(count, 3000);
+  EXPECT_GT(now, 0.5);
+}
+
+// What is worth least is given up when too much waits.
+TEST(Knowledge, KeepsSomeThousandWaiting) {
+  Knowledge knowledge(0, 2, kPlenty);
+  for (int i = 0; i < 30; ++i) knowledge.add(facts(1000));
+  std::size_t count = 0;
+  for (const auto& parcel : knowledge.due(1)) count += parcel.facts.facts.size();
+  EXPECT_LT(count, 10000u);
+  EXPECT_GT(count, 3000u);
+  EXPECT_EQ(knowledge.speaks_at(), std::numeric_limits<double>::infinity());
+}
+
+}  // namespace knowledge_test
+}  // namespace grove::detail
