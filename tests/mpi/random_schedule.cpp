@@ -15,8 +15,8 @@
 namespace grove::detail::testing {
 namespace {
 
-constexpr double kTick = 1e-4;   // about what a step may take
-constexpr int kLongQuiet = 300;  // steps of a rank; statuses wait for fewer
+constexpr double kTick = 1e-4;    // about what a step may take
+constexpr int kLongQuiet = 3000;  // steps of a rank; statuses wait for fewer, trees without nodes
 
 using Dice = std::mt19937_64;
 
