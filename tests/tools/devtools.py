@@ -39,6 +39,10 @@ def is_blank(picture):
 SETTLED = "new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
 
 
+class NoAnswer(AssertionError):
+    """For a minute."""
+
+
 class Chromium:
     """A browser with one page. Use as a context manager."""
 
@@ -117,7 +121,7 @@ class Chromium:
         while True:
             found = self.message()
             if found is None:
-                raise AssertionError(f"no answer to {method}")
+                raise NoAnswer(f"no answer to {method}")
             if found.get("id") != self.number:
                 continue
             if "error" in found:

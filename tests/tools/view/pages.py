@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from devtools import CHROMIUM, Chromium, is_blank, shares  # noqa: E402
+from devtools import CHROMIUM, Chromium, NoAnswer, is_blank, shares  # noqa: E402, F401
 
 SKIPPED = 77
 DATA = Path(__file__).resolve().parents[3] / "benchmarks/data"
