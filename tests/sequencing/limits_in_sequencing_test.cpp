@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <ctime>
 #include <thread>
 
 #include "brute_force.h"
@@ -70,12 +71,12 @@ TEST_P(LimitsInSequencing, StopsInTime) {
   Random random(54);
   const CostMatrix matrix = points_in_the_plane(64, random);
   Limits limits;
-  const auto begin = Limits::Clock::now();
-  limits.set_deadline(begin + milliseconds(20));
+  const std::clock_t begin = std::clock();  // a busy machine takes longer by the wall
+  limits.set_deadline(Limits::Clock::now() + milliseconds(20));
   limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 30));
   const auto solver = make_rtsp_solver(GetParam(), matrix, limits);
   const RtspAnswer answer = solver->best({}, kNever);
-  EXPECT_LT(Limits::Clock::now() - begin, milliseconds(520));
+  EXPECT_LT(std::clock() - begin, CLOCKS_PER_SEC * 52 / 100);
   EXPECT_EQ(answer.kind, RtspAnswer::Kind::kStopped);
   EXPECT_GE(answer.cost, solver->root_bound());
 }
@@ -111,8 +112,7 @@ TEST_P(LimitsInSequencing, AJointListNeitherHangsNorClaimsTheEnd) {
   EXPECT_LE(joint.lower_bound(), best);
 }
 
-INSTANTIATE_TEST_SUITE_P(, LimitsInSequencing,
-                         ::testing::ValuesIn(rtsp_backends()), name_of);
+INSTANTIATE_TEST_SUITE_P(, LimitsInSequencing, ::testing::ValuesIn(rtsp_backends()), name_of);
 
 // A table beyond any memory is refused, not attempted.
 TEST(HeldKarp, RefusesATableOfFortyStops) {
@@ -123,16 +123,22 @@ TEST(HeldKarp, RefusesATableOfFortyStops) {
   EXPECT_EQ(limits.reason(), StopReason::kMemory);
 }
 
-// Some 0.4 s of work.
+// In clock ticks of the processor.
+std::clock_t building_takes(const CostMatrix& matrix, const Limits& limits,
+                            RtspAnswer::Kind expected) {
+  const std::clock_t begin = std::clock();
+  const auto solver = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
+  EXPECT_EQ(solver->best({}, kNever).kind, expected);
+  return std::clock() - begin;
+}
+
 TEST(HeldKarp, StopsInTheMiddleOfATable) {
   Random random(58);
-  const CostMatrix matrix = points_in_the_plane(23, random);
+  const CostMatrix matrix = points_in_the_plane(20, random);
+  const std::clock_t whole = building_takes(matrix, Limits(), RtspAnswer::Kind::kExact);
   Limits limits;
-  const auto begin = Limits::Clock::now();
-  limits.set_deadline(begin + milliseconds(20));
-  const auto solver = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
-  EXPECT_EQ(solver->best({}, kNever).kind, RtspAnswer::Kind::kStopped);
-  EXPECT_LT(Limits::Clock::now() - begin, milliseconds(270));
+  limits.set_deadline(Limits::Clock::now() + milliseconds(2));
+  EXPECT_LT(building_takes(matrix, limits, RtspAnswer::Kind::kStopped), whole / 2);
 }
 
 TEST(Cbc, ServesThreadsOneAtATime) {
