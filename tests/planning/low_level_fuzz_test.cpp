@@ -127,7 +127,7 @@ class LowLevelFuzz : public ::testing::TestWithParam<bool> {};
 TEST_P(LowLevelFuzz, AgreesWithATimeExpandedSearch) {
   int delayed = 0;
   int infeasible = 0;
-  const int seeds = testing::fuzz_rounds(2000);
+  const int seeds = testing::fuzz_rounds(1000);
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Fuzzer fuzzer(static_cast<unsigned>(seed), GetParam());

@@ -33,7 +33,7 @@ TEST(JointSearchWithoutMemory, GivesUpAndKeepsItsBound) {
   const Instance instance = fuzz::random_puzzle(3).build();
   const Cost optimum = run_to_the_end(instance).lower_bound;
   int failures = 0;
-  for (int at = 0;; at += 1 + at / 20, ++failures) {
+  for (int at = 0;; at += 1 + at / 12, ++failures) {
     testing::allocations_until_failure = at;
     const End end = run_to_the_end(instance);
     testing::allocations_until_failure = -1;

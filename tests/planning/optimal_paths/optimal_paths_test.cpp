@@ -216,7 +216,7 @@ class Fuzzer {
 };
 
 TEST(OptimalPathsFuzz, AgreeWithTryingAll) {
-  const int seeds = testing::fuzz_rounds(1500);
+  const int seeds = testing::fuzz_rounds(700);
   int fits = 0;
   int collides = 0;
   for (int seed = 0; seed < seeds; ++seed) {
