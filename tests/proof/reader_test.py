@@ -28,11 +28,12 @@ def compressed(data):
 
 
 class Reader(unittest.TestCase):
-    def ends(self, data, codes=(1, 2), says="^(refused|unreadable): ", instance=CROSS, options=(), seconds=2):
+    def ends(self, data, codes=(1, 2), says="^(refused|unreadable): ", instance=CROSS, options=(), seconds=1):
         found = checkers.verify(instance, data, *options)
         self.assertIn(found.code, codes, (data[:200], found.text))
         self.assertRegex(found.text, says)
         self.assertEqual(found.text.count("\n"), 1, found.text)
+        self.assertNotIn(".rs", found.text)  # nothing that overflowed
         self.assertLess(found.seconds, seconds, data[:200])
         return found
 
@@ -92,10 +93,10 @@ class Reader(unittest.TestCase):
                           ["theorem 5", "split 0 norest 5 {0} | 0 rest 5 {0}", "leaf", "leaf"], ["theorem 9", "later {0} {0} {0} {0} {0}"],
                           ["theorem 5", "split 0 stop {0} {0} | 0 nostop {0} {0}"], ["theorem 5", "prices", "place 4 {} 1024", "end"],
                           ["theorem 5", "prices", "finish 0 {0} 1 {0} 0", "end"], ["lemma 5 0 1", "demand 0 bar 4 0 {}", "joint"]):
-                self.ends(certificate(CROSS, *(line.format(number) for line in lines)), (1,), "^refused: ", options=["--time-limit", "1"], seconds=3)
+                self.ends(certificate(CROSS, *(line.format(number) for line in lines)), (1,), "^refused: ", options=["--time-limit", "1"], seconds=2)
             for rows in (["place 4 1 {}"], ["place 4 1 {}"] * 2, ["edge 4 5 1 {0}", "place 5 2 {0}"]):
                 rows = [row.format(number) for row in rows]
-                self.ends(certificate(CROSS, "theorem 6", "prices", *rows, "end"), (1,), "^refused: ", options=["--time-limit", "1"], seconds=3)
+                self.ends(certificate(CROSS, "theorem 6", "prices", *rows, "end"), (1,), "^refused: ", options=["--time-limit", "1"], seconds=2)
 
     def test_a_million_splits(self):
         for split in ("0 bar 4 1 1 | 1 bar 4 1 1", "0 norest 5 2 | 0 rest 5 2", "1 bar 4 1 1 | 0 bar 4 1 1"):

@@ -131,7 +131,11 @@ fn main() {
             refuse("the time limit is reached")
         });
     }
-    std::panic::set_hook(Box::new(|panic| refuse(&panic.to_string().replace('\n', " "))));
+    std::panic::set_hook(Box::new(|panic| {
+        let what = panic.payload();
+        let what = what.downcast_ref::<String>().map(String::as_str).or_else(|| what.downcast_ref::<&str>().copied());
+        refuse(&format!("beyond this checker: {}", what.unwrap_or("it failed")))
+    }));
     // Its own stack: the least cover and joint search call themselves for each agent.
     let worker = std::thread::Builder::new().stack_size(1 << 29).spawn(move || verify(&arguments));
     let (code, text) = worker.expect("a thread").join().unwrap_or_else(|_| refuse("it could not be checked"));

@@ -345,22 +345,23 @@ impl Verifier {
         let (agents, places) = (self.bodies.len(), self.instance.world.links.len());
         hold(of.agents.len() == agents && self.trail.is_empty(), "prices are of all agents, without demands")?;
         let mut prices = Prices::default();
+        let price = |words: &mut Words| words.number().map(u64::from);  // so small that no sum overflows
         loop {
             let line = self.line()?;
             let mut words = Words::of(&line);
             match words.word()? {
-                "place" => prices.place(words.index(places, "place")?, words.number()?, words.whole()?),
+                "place" => prices.place(words.index(places, "place")?, words.number()?, price(&mut words)?),
                 "edge" => {
                     let (from, to) = (words.index(places, "place")?, words.index(places, "place")?);
                     hold(from < to, "places of an edge that do not ascend")?;
-                    prices.edge(from, to, words.number()?, words.whole()?);
+                    prices.edge(from, to, words.number()?, price(&mut words)?);
                 }
                 "finish" => {
                     let mut side = || Ok::<_, Fault>((words.index(agents, "agent")?, words.number()?));
                     let (one, two) = (side()?, side()?);
                     let none = one.0 < two.0 && self.none_joint(&[one.0, two.0], &[one.1, two.1], Some(INFINITE));
                     hold(none, "these agents may both have finished by then")?;
-                    prices.finish([one, two], words.whole()?);
+                    prices.finish([one, two], price(&mut words)?);
                 }
                 "end" => break,
                 _ => return Err(unreadable("expected a row, or 'end'")),
