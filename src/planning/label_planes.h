@@ -26,14 +26,11 @@ template <class Label>
 requires std::is_trivial_v<Label> && std::same_as<decltype(Label::stamp), std::uint32_t>
 class LabelPlanes {
  public:
-  // Forgets all labels. `written`: so many have been so far, about; 0: too few to count.
-  void begin_search(int slots, std::int64_t written = 0) {
-    if (written - written_before_ > kMostWritten && bytes() > kBytesKept) {
-      pieces_.clear();
-      written_before_ = written;
-    }
+  // Forgets all labels.
+  void begin_search(int slots) {
+    if (touched_groups_ > kGroupsKept) give_back();
     if (static_cast<std::size_t>(slots) > capacity_) {
-      pieces_.clear();
+      give_back();
       // Tight at first, since memory may be short; but reservations grow path by path.
       const std::size_t tight =
           static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
@@ -42,7 +39,7 @@ class LabelPlanes {
                                                   kMostPlanesPerPiece);
     }
     if (++stamp_ == 0) {
-      pieces_.clear();
+      give_back();
       by_state_.clear();
       stamp_ = 1;
     }
@@ -60,35 +57,53 @@ class LabelPlanes {
 
   // The state must be open.
   Label& label(std::int32_t slot, std::int32_t state) {
-    GROVE_ASSERT(by_state_[state].stamp == stamp_, "labels are asked for of an open state");
-    return by_state_[state].labels[slot];
+    const Use& use = by_state_[state];
+    GROVE_ASSERT(use.stamp == stamp_, "labels are asked for of an open state");
+    Label& found = use.labels[slot];
+    if (auto& touched = use.touched[slot / kGroup]; !touched) {
+      touched = true;
+      ++touched_groups_;
+      found.stamp = 0;
+    }
+    return found;
   }
   bool is_current(const Label& label) const { return label.stamp == stamp_; }
   std::uint32_t stamp() const { return stamp_; }
 
  private:
   static constexpr std::size_t kSpare = 64;
+  // About a page of labels. A page is written to before it is read: one that is read first is
+  // mapped to a page of zeros, and the write after that faults again and interrupts all threads.
+  static constexpr std::int32_t kGroup = 4096 / sizeof(Label);
   // Memory is asked for by the piece, of one or more planes: from the system, for the allocator
   // would clear what it has used before.
   static constexpr std::size_t kPieceBytes = std::size_t{16} << 20;
   static constexpr std::size_t kMostPlanesPerPiece = 16;
-  // What many searches have touched here and there is given back after so many labels, unless it
-  // is little. A label alone on its page costs two hundred times its size.
-  static constexpr std::int64_t kMostWritten = 1 << 18;
-  static constexpr std::size_t kBytesKept = std::size_t{64} << 20;
+  // What many searches have touched here and there is given back, unless it is little. A label
+  // alone on its page costs two hundred times its size.
+  static constexpr std::int64_t kGroupsKept = (std::int64_t{128} << 20) / 4096;
 
   struct Unmap {
     std::size_t bytes;
     void operator()(Label* labels) const { ::munmap(labels, bytes); }
   };
-  using Piece = std::unique_ptr<Label, Unmap>;
+  struct Piece {
+    std::unique_ptr<Label, Unmap> labels;
+    std::vector<std::uint8_t> touched;  // of each plane, its groups: is any of its labels known?
+  };
   struct Use {
     Label* labels = nullptr;
+    std::uint8_t* touched = nullptr;
     std::uint32_t stamp = 0;
   };
 
+  std::size_t groups() const { return capacity_ / kGroup + 1; }
   std::size_t piece_bytes() const { return planes_per_piece_ * capacity_ * sizeof(Label); }
-  std::size_t bytes() const { return pieces_.size() * piece_bytes(); }
+
+  void give_back() {
+    pieces_.clear();
+    touched_groups_ = 0;
+  }
 
   bool add(std::int32_t state, const Limits& limits) {
     const bool full = used_ == pieces_.size() * planes_per_piece_;
@@ -99,9 +114,10 @@ class LabelPlanes {
     }
     if (static_cast<std::size_t>(state) >= by_state_.size())
       by_state_.resize(2 * static_cast<std::size_t>(state) + 1);
-    by_state_[state] = {
-        pieces_[used_ / planes_per_piece_].get() + used_ % planes_per_piece_ * capacity_, stamp_};
-    ++used_;
+    Piece& piece = pieces_[used_ / planes_per_piece_];
+    const std::size_t plane = used_++ % planes_per_piece_;
+    by_state_[state] = {piece.labels.get() + plane * capacity_,
+                        piece.touched.data() + plane * groups(), stamp_};
     return true;
   }
 
@@ -111,14 +127,15 @@ class LabelPlanes {
     void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                                 MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory == MAP_FAILED) return false;
-    pieces_.push_back(Piece(static_cast<Label*>(memory), Unmap{bytes}));
+    pieces_.push_back({{static_cast<Label*>(memory), Unmap{bytes}},
+                       std::vector<std::uint8_t>(planes_per_piece_ * groups())});
     return true;
   }
 
   std::size_t capacity_ = 0;  // of a plane
   std::size_t planes_per_piece_ = 1;
   std::vector<Piece> pieces_;
-  std::int64_t written_before_ = 0;  // when the pieces were new
+  std::int64_t touched_groups_ = 0;
   std::size_t used_ = 0;
   std::vector<Use> by_state_;
   std::uint32_t stamp_ = 0;

@@ -142,7 +142,7 @@ void SafeIntervalSearch<Goals>::begin(State start, Progress progress, Time first
                                       const ConflictAvoidanceTable* others, const Limits& limits) {
   others_ = others;
   limits_ = &limits;
-  planes_.begin_search(intervals_.slot_limit(), expanded_);
+  planes_.begin_search(intervals_.slot_limit());
   queue_.reset(first_layer);
   const int slot = intervals_.start_slot(start);
   if (slot == kNoSlot) return;
