@@ -64,7 +64,7 @@ class Scripts(unittest.TestCase):
         subprocess.run([program("GROVE"), "solve", INSTANCE, "--quiet", "-o", plan], cwd=self.folder,
                        check=True)
 
-    def run_script(self, name, *arguments, grove_mpi=None):
+    def run_script(self, name, *arguments, grove_mpi=None, code=0):
         environment = {
             **os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}", "SLURM_JOB_ID": "7",
             "SLURM_MEM_PER_NODE": "2000", "SLURM_CPUS_PER_TASK": "1", "SLURM_NTASKS_PER_NODE": "1",
@@ -72,7 +72,7 @@ class Scripts(unittest.TestCase):
         done = subprocess.run(["bash", CLUSTER / name, *map(str, arguments)], cwd=self.folder, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment,
                               check=False)
-        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(done.returncode, code, done.stdout)
         return done.stdout
 
     def test_the_values_here_are_of_all_documented_options(self):
@@ -122,6 +122,22 @@ class Scripts(unittest.TestCase):
         said = self.run_script("preempt.sbatch", INSTANCE, "--time-limit", "0")
         self.assertIn("first.plan.json keeps its valid plan", said)
         self.assertEqual(self.requeued(), 0)
+
+    def test_a_lost_rank_is_started_again_from_its_checkpoint(self):
+        lost = self.executable("lost", f'''echo >>runs
+[ "$(wc -l <runs)" -gt 2 ] && exec "{program("GROVE_MPI")}" "$@"
+timeout -s KILL 2 "{program("GROVE_MPI")}" "$@" --checkpoint-interval 0.2''')
+        hard = hard_instance(self.folder)
+        runs = self.folder / "runs"
+        said = self.run_script("preempt.sbatch", hard, "--time-limit", "3", grove_mpi=lost)
+        self.assertIn("A rank was lost (exit code 137): restart 2 of 3\n", said)
+        self.assertEqual(runs.read_text().count("\n"), 3)
+        self.assertEqual(said.count("Resuming from a checkpoint"), 2)
+        runs.unlink()
+        self.run_script("preempt.sbatch", "--restarts", "1", hard, "--resume", "never", grove_mpi=lost, code=137)
+        self.assertEqual(runs.read_text().count("\n"), 2)
+        bad = self.run_script("preempt.sbatch", hard, "--no-such-option", code=2)
+        self.assertNotIn("restart", bad)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Kills a distributed solve at random moments and goes on from its checkpoint, with another number
-of ranks each time, until it ends; the answer must be the one of an undisturbed run.
+of ranks each time, until it ends; the answer must be the one of an undisturbed run. Or, with --script,
+cluster/preempt.sbatch goes on, with three ranks, mpirun standing in for srun.
 
-    kill_and_resume.py [--kills N] [--seed S] [--most-seconds T] INSTANCE
+    kill_and_resume.py [--kills N] [--seed S] [--most-seconds T] [--script] INSTANCE
 
 GROVE and GROVE_MPI name the programs.
 """
@@ -16,7 +17,14 @@ import tempfile
 import time
 from pathlib import Path
 
-from mpi_program import GROVE, mpirun, plan_of, processes_of, run, start
+from mpi_program import GROVE, GROVE_MPI, mpirun, plan_of, processes_of, run, start
+
+PREEMPT = Path(__file__).resolve().parents[2] / "cluster/preempt.sbatch"
+SRUN = """#!/bin/sh
+while case $1 in --*) ;; *) false ;; esac; do shift; done
+exec mpirun --oversubscribe --bind-to none -np 3 "$@"
+"""
+SLURM = {"SLURM_MEM_PER_NODE": "6000", "SLURM_CPUS_PER_TASK": "1", "SLURM_NTASKS_PER_NODE": "3", "SLURM_JOB_ID": "7"}
 
 
 def undisturbed(instance, folder):
@@ -29,12 +37,40 @@ def undisturbed(instance, folder):
 
 
 def kill_a_rank(running, dice, most_seconds):
-    """So long after they have started, at most."""
+    """So long after they have started, at most. The ranks that there were; none if they had ended before."""
     while not (ranks := processes_of(running)) and running.poll() is None:
         time.sleep(0.02)
     time.sleep(dice.uniform(0.3, most_seconds))
     if running.poll() is None:
-        os.kill(dice.choice(sorted(ranks.values())), signal.SIGKILL)
+        try:
+            os.kill(dice.choice(sorted(ranks.values())), signal.SIGKILL)
+            return set(ranks.values())
+        except ProcessLookupError:
+            pass
+    return set()
+
+
+def disturbed_script(instance, folder, kills, dice, most_seconds):
+    """The same of one run of the script, which ends by itself."""
+    (folder / "bin").mkdir()
+    (folder / "bin/srun").write_text(SRUN, encoding="utf-8")
+    (folder / "bin/srun").chmod(0o755)
+    said = folder / "said"
+    running = start(["sh", "-c", 'exec bash "$@" >said 2>&1', "sh", PREEMPT, "--restarts", kills, instance, "--omega", 0,
+                     "--checkpoint-interval", 0.2, "--output", "plan.json"], folder,
+                    PATH=f"{folder}/bin:{os.environ['PATH']}", GROVE_MPI=GROVE_MPI, **SLURM)
+    killed = 0
+    while killed < kills and running.poll() is None:
+        ranks = kill_a_rank(running, dice, most_seconds)
+        killed += bool(ranks)
+        while ranks & set(processes_of(running).values()):
+            time.sleep(0.02)
+    code = running.wait()
+    text = said.read_text(encoding="utf-8")
+    assert code == 0, text
+    assert killed - 1 <= text.count("A rank was lost") <= killed, text  # the last one may have done its part
+    print(f"{killed} killed, {text.count('Resuming from a checkpoint')} times from a checkpoint")
+    return plan_of(folder / "plan.json"), killed
 
 
 def disturbed(instance, folder, kills, dice, most_seconds):
@@ -55,11 +91,11 @@ def disturbed(instance, folder, kills, dice, most_seconds):
         print(f"killed one of {ranks} ranks: mpirun ended with {running.returncode}")
 
 
-def check(instance, kills, seed, most_seconds=2.0):
+def check(instance, kills, seed, most_seconds=2.0, way=disturbed):
     dice = random.Random(seed)
     with tempfile.TemporaryDirectory() as folder:
         truth = undisturbed(instance, folder)
-        plan, killed = disturbed(instance, folder, kills, dice, most_seconds)
+        plan, killed = way(instance, Path(folder), kills, dice, most_seconds)
         assert (plan["status"], plan["cost"]) == ("optimal", truth), (plan["status"], plan["cost"])
         code, said = run([GROVE, "check", instance, "plan.json"], folder)
         assert code == 0, said
@@ -74,8 +110,15 @@ def main():
     parser.add_argument("--kills", type=int, default=10)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--most-seconds", type=float, default=2.0)
+    parser.add_argument("--script", action="store_true", help="one run of the job script after the other, until so many were killed")
     a = parser.parse_args()
-    check(a.instance.resolve(), a.kills, a.seed, a.most_seconds)
+    kills = 0
+    while kills < a.kills:
+        kills += check(a.instance.resolve(), min(a.kills - kills, 10) if a.script else a.kills, a.seed + kills, a.most_seconds,
+                       disturbed_script if a.script else disturbed)
+        if not a.script:
+            break
+    print(f"{kills} kills in all")
     return 0
 
 

@@ -26,8 +26,8 @@ def run(command, folder):
     return done.returncode, done.stdout
 
 
-def start(command, folder):
-    return subprocess.Popen([str(word) for word in command], cwd=folder, env=ENVIRONMENT,
+def start(command, folder, **variables):
+    return subprocess.Popen([str(word) for word in command], cwd=folder, env={**ENVIRONMENT, **variables},
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
@@ -44,17 +44,16 @@ def held_by(pid):
     return sum(int(line.split()[1]) * 1024 for line in rollup.splitlines() if line.startswith("Pss:"))
 
 
-def processes_of(mpirun_process):
-    """The ranks that an mpirun has started on this machine, by number."""
-    pids = subprocess.run(["pgrep", "--parent", str(mpirun_process.pid)], capture_output=True,
-                          text=True).stdout.split()
+def processes_of(process):
+    """The ranks that an mpirun, or one below this process, has started on this machine, by number."""
+    pids = subprocess.run(["pgrep", "--parent", str(process.pid if isinstance(process, subprocess.Popen) else process)],
+                          capture_output=True, text=True).stdout.split()
     ranks = {}
     for pid in pids:
         try:
             variables = Path(f"/proc/{pid}/environ").read_text(encoding="utf-8").split("\0")
         except OSError:
             continue
-        for variable in variables:
-            if variable.startswith("OMPI_COMM_WORLD_RANK="):
-                ranks[int(variable.split("=")[1])] = int(pid)
+        numbers = [variable.split("=")[1] for variable in variables if variable.startswith("OMPI_COMM_WORLD_RANK=")]
+        ranks.update({int(numbers[0]): int(pid)} if numbers else processes_of(pid))
     return ranks
