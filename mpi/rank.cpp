@@ -17,12 +17,11 @@ constexpr std::size_t kNodesInAPart = 500;
 constexpr double kBytesPerMegabyte = 1e6;
 
 // What a rank with these open nodes can spare; see Frontier::take_spare().
-std::vector<message::Spare> spare_of(const std::vector<Frontier::Level>& levels, bool keeps_next) {
+std::vector<message::Spare> spare_of(const std::vector<Frontier::Level>& levels) {
   std::vector<message::Spare> spare;
-  for (const Frontier::Level& level : levels) {
-    const std::size_t nodes = Frontier::spare_of(static_cast<std::size_t>(level.open), keeps_next);
-    if (nodes > 0) spare.push_back({level.bound, static_cast<std::int64_t>(nodes)});
-    keeps_next = false;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const std::int64_t half = (levels[i].open + (i > 0 ? 1 : 0)) / 2;
+    if (half > 0) spare.push_back({levels[i].bound, half});
   }
   return spare;
 }
@@ -126,8 +125,7 @@ void Rank::take_over_held() {
 
 // What is given stays in custody: taken from the frontier, but not settled.
 void Rank::give(const message::Order& order) {
-  const auto nodes =
-      nodes_.frontier.take_spare(static_cast<std::size_t>(order.count), keeps_next());
+  const auto nodes = nodes_.frontier.take_spare(static_cast<std::size_t>(order.count));
   message::Batch batch;
   batch.era = era_;
   for (const NodePtr& node : nodes) batch.nodes.push_back(record_of(*node));
@@ -139,12 +137,6 @@ void Rank::give(const message::Order& order) {
   ++peer.sent;
   nodes_sent_ += std::ssize(nodes);
   superior_.urge();
-}
-
-// Not while a worker is at a node: that may take long, and hardly ever ends without another one.
-bool Rank::keeps_next() const {
-  return static_cast<std::int64_t>(nodes_.frontier.live()) <=
-         static_cast<std::int64_t>(nodes_.frontier.open()) + in_custody_;
 }
 
 void Rank::release(const message::Release& covered) {
@@ -213,7 +205,7 @@ message::Status Rank::status() const {
   const bool has_open = !levels.empty();
   std::erase_if(levels, [&](const Frontier::Level& level) { return !is_wanted(level.bound); });
   const bool idle = live == in_custody_ || (has_open && levels.empty());
-  status.spare = spare_of(levels, keeps_next());
+  status.spare = spare_of(levels);
   status.wants = {{transport_.rank(), idle, levels.empty() ? kInfiniteCost : levels.front().bound}};
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
   status.expanded = nodes_.expanded;
