@@ -30,8 +30,8 @@ class PreemptScript:
                        CLUSTER / "preempt.sbatch", self.instance, "--omega", "0",
                        "--time-limit", TIME_LIMIT_S, cwd=self.folder).strip()
         self.addCleanup(subprocess.run, ["scancel", self.job], check=False)
-        # Without a tree there would be nothing to go on from.
-        wait_until("a plan and a tree", lambda: re.search(r"^[A-Z* ]( +\d+){2} +[1-9]\d*( +\d+){2} ", self.log(), re.M), 30)
+        # Without an expansion there would be nothing to go on from.
+        wait_until("a plan and an expansion", lambda: re.search(r"^[A-Z* ] +[1-9]\d*( +\d+){4} ", self.log(), re.M), 30)
 
     def log(self):
         path = self.folder / "log"
