@@ -72,6 +72,12 @@ TEST(LabelPlanes, WriteToAPageBeforeTheyReadIt) {
     planes.label(slot, 0) = {planes.stamp(), slot};
   }
   EXPECT_LT(page_faults() - before, kPages * 3 / 2);
+  planes.begin_search(kSlots);  // so little is kept
+  ASSERT_TRUE(planes.open(0, Limits()));
+  const std::int64_t between = page_faults();
+  for (int slot = 0; slot < kSlots; slot += kSlotsOnAPage)
+    EXPECT_FALSE(planes.is_current(planes.label(slot, 0)));
+  EXPECT_LT(page_faults() - between, kPages / 2);
 }
 
 TEST(LabelPlanes, AskForMemory) {
