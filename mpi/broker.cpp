@@ -19,6 +19,10 @@ namespace {
 constexpr std::size_t kWishesPassedOn = 16;
 constexpr std::size_t kLevelsPassedOn = 4;
 
+std::int64_t all_of(const message::Spare& spare) {
+  return spare.nodes + spare.next;
+}
+
 }  // namespace
 
 Broker::Broker(const std::vector<std::vector<int>>& children, const Tuning& tuning)
@@ -49,7 +53,7 @@ void Broker::arrived(int rank) {
 // The best of what it can spare.
 void Broker::offer(int child, std::vector<message::Spare> spare) {
   View& at = view(child);
-  const auto best = [&] { return Offer(at.spare[0].bound, -at.spare[0].nodes, child); };
+  const auto best = [&] { return Offer(at.spare[0].bound, -all_of(at.spare[0]), child); };
   if (!at.spare.empty()) offers_.erase(best());
   at.spare = std::move(spare);
   if (!at.spare.empty()) offers_.insert(best());
@@ -57,8 +61,11 @@ void Broker::offer(int child, std::vector<message::Spare> spare) {
 
 void Broker::take(int child, std::int64_t nodes) {
   std::vector<message::Spare> left = view(child).spare;
-  left[0].nodes -= std::min(nodes, left[0].nodes);
-  if (left[0].nodes == 0) left.erase(left.begin());
+  message::Spare& best = left[0];
+  const std::int64_t few = std::min(nodes, best.nodes);
+  best.nodes -= few;
+  best.next -= std::min(nodes - few, best.next);
+  if (all_of(best) == 0) left.erase(left.begin());
   offer(child, std::move(left));
 }
 
@@ -73,11 +80,14 @@ std::optional<Broker::Gift> Broker::next() {
       if (offers_.empty()) break;
       continue;
     }
-    const auto [bound, minus_nodes, from] = *best;
+    const int from = std::get<int>(*best);
+    const message::Spare& spare = view(from).spare[0];
     const bool helps = -minus_best == kInfiniteCost ||
-                       (-minus_best > bound && -minus_nodes >= tuning_.plenty_nodes);
+                       (-minus_best > spare.bound && spare.nodes >= tuning_.plenty_nodes);
     if (!helps) break;
-    const Gift gift{from, to, std::min(-minus_nodes, tuning_.gift_nodes)};
+    const std::int64_t nodes = busy ? spare.nodes : all_of(spare);
+    if (nodes == 0) continue;
+    const Gift gift{from, to, std::min(nodes, tuning_.gift_nodes), !busy};
     take(from, gift.nodes);
     awaiting_.insert(to);
     return gift;
@@ -93,13 +103,15 @@ int Broker::giver(std::int64_t nodes) {
 }
 
 std::vector<message::Spare> Broker::spare() const {
-  std::map<Cost, std::int64_t> sums;
+  std::map<Cost, message::Spare> sums;
   for (const View& child : children_)
-    for (const message::Spare& spare : child.spare) sums[spare.bound] += spare.nodes;
-  std::vector<message::Spare> all;
-  for (const auto& [bound, nodes] : sums | std::views::take(kLevelsPassedOn))
-    all.push_back({bound, nodes});
-  return all;
+    for (const message::Spare& spare : child.spare) {
+      message::Spare& sum = sums[spare.bound];
+      sum = {spare.bound, sum.nodes + spare.nodes, sum.next + spare.next};
+    }
+  std::vector<message::Spare> best;
+  for (const auto& [bound, sum] : sums | std::views::take(kLevelsPassedOn)) best.push_back(sum);
+  return best;
 }
 
 std::vector<message::Want> Broker::wants() const {

@@ -22,6 +22,7 @@ class Broker {
     int from = 0;            // the child
     int to = 0;              // the rank, which is not there
     std::int64_t nodes = 0;  // at most
+    bool to_idle = false;
   };
 
   // The ranks that each child is, or that are below it; nobody has nodes yet.
@@ -43,7 +44,7 @@ class Broker {
   std::vector<message::Want> wants() const;
 
  private:
-  using Offer = std::tuple<Cost, std::int64_t, int>;  // bound, minus nodes, child
+  using Offer = std::tuple<Cost, std::int64_t, int>;  // bound, minus all nodes, child
   using Wish = std::tuple<bool, Cost, int>;           // has nodes in hand, minus best bound, rank
 
   struct View {

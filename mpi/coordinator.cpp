@@ -171,7 +171,7 @@ void Coordinator::heard(int child, message::Status status) {
   if (ending_) return;  // a batch sent after a farewell would be left under way
   run_.trees().bring_due_tree();
   while (const auto gift = broker_.next())
-    children_.tell(gift->from, message::Order{gift->to, gift->nodes});
+    children_.tell(gift->from, message::Order{gift->to, gift->nodes, gift->to_idle});
 }
 
 // One at a time; the last one when the search is over, before the ranks are told.

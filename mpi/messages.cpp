@@ -88,7 +88,7 @@ void serialize(Archive& archive, Prices& prices) {
 
 template <class Archive>
 void serialize(Archive& archive, Spare& spare) {
-  archive(spare.bound, spare.nodes);
+  archive(spare.bound, spare.nodes, spare.next);
 }
 
 template <class Archive>
@@ -157,7 +157,7 @@ void serialize(Archive& archive, Part& part) {
 
 template <class Archive>
 void serialize(Archive& archive, Order& order) {
-  archive(order.to, order.count);
+  archive(order.to, order.count, order.to_idle);
 }
 
 template <class Archive>

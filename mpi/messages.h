@@ -29,6 +29,9 @@ namespace grove::detail::message {
 struct Spare {
   Cost bound = kInfiniteCost;
   std::int64_t nodes = 0;
+  // Beside these, for idle ranks only: the next nodes of ranks that are at another one. (Busy ranks
+  // would hand each other their best nodes for ever.)
+  std::int64_t next = 0;
 
   friend bool operator==(const Spare&, const Spare&) = default;
 };
@@ -129,10 +132,12 @@ struct Entrust {
   Cost evicted_bound = kInfiniteCost;
 };
 
-// Coordinator to a child: a rank there is to send up to `count` nodes to rank `to`, in one batch.
+// Coordinator to a child: a rank there is to send up to `count` nodes to rank `to`, in one batch;
+// see Spare::next.
 struct Order {
   std::int32_t to = 0;
   std::int64_t count = 0;
+  bool to_idle = false;
 };
 
 // On its way to rank `from`: what it sent to rank `to`, up to this number of batches, is covered by

@@ -17,11 +17,13 @@ constexpr std::size_t kNodesInAPart = 500;
 constexpr double kBytesPerMegabyte = 1e6;
 
 // What a rank with these open nodes can spare; see Frontier::take_spare().
-std::vector<message::Spare> spare_of(const std::vector<Frontier::Level>& levels) {
+std::vector<message::Spare> spare_of(const std::vector<Frontier::Level>& levels, bool keeps_next) {
   std::vector<message::Spare> spare;
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const std::int64_t half = (levels[i].open + (i > 0 ? 1 : 0)) / 2;
-    if (half > 0) spare.push_back({levels[i].bound, half});
+    const bool is_best = i == 0;
+    const std::int64_t half = (levels[i].open + (is_best ? 0 : 1)) / 2;
+    const std::int64_t next = is_best && !keeps_next ? levels[i].open % 2 : 0;
+    if (half + next > 0) spare.push_back({levels[i].bound, half, next});
   }
   return spare;
 }
@@ -125,7 +127,8 @@ void Rank::take_over_held() {
 
 // What is given stays in custody: taken from the frontier, but not settled.
 void Rank::give(const message::Order& order) {
-  const auto nodes = nodes_.frontier.take_spare(static_cast<std::size_t>(order.count));
+  const bool keeps = !order.to_idle || keeps_next();
+  const auto nodes = nodes_.frontier.take_spare(static_cast<std::size_t>(order.count), keeps);
   message::Batch batch;
   batch.era = era_;
   for (const NodePtr& node : nodes) batch.nodes.push_back(record_of(*node));
@@ -137,6 +140,12 @@ void Rank::give(const message::Order& order) {
   ++peer.sent;
   nodes_sent_ += std::ssize(nodes);
   superior_.urge();
+}
+
+// Not while a worker is at a node: that may take long, and hardly ever ends without another one.
+bool Rank::keeps_next() const {
+  return static_cast<std::int64_t>(nodes_.frontier.live()) <=
+         static_cast<std::int64_t>(nodes_.frontier.open()) + in_custody_;
 }
 
 void Rank::release(const message::Release& covered) {
@@ -205,7 +214,7 @@ message::Status Rank::status() const {
   const bool has_open = !levels.empty();
   std::erase_if(levels, [&](const Frontier::Level& level) { return !is_wanted(level.bound); });
   const bool idle = live == in_custody_ || (has_open && levels.empty());
-  status.spare = spare_of(levels);
+  status.spare = spare_of(levels, keeps_next());
   status.wants = {{transport_.rank(), idle, levels.empty() ? kInfiniteCost : levels.front().bound}};
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
   status.expanded = nodes_.expanded;

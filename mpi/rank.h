@@ -71,6 +71,7 @@ class Rank {
   void take_over_held();
   bool is_early(const message::Batch& batch) const;
   void give(const message::Order& order);
+  bool keeps_next() const;
   void release(const message::Release& release);
   void accept(const message::Entrust& entrusted);
   void gather();

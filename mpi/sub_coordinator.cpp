@@ -84,7 +84,7 @@ void SubCoordinator::heard(int child, message::Status&& status) {
   nodes_.update(child, std::move(status));
   if (ending_) return;  // a batch sent after a farewell would be left under way
   while (const auto gift = broker_.next())
-    children_.tell(gift->from, message::Order{gift->to, gift->nodes});
+    children_.tell(gift->from, message::Order{gift->to, gift->nodes, gift->to_idle});
 }
 
 // All of the plans that were found before have been passed on by then.

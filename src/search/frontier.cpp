@@ -82,14 +82,14 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
 }
 
 // Until enough are found; a heap's last half holds none of its better ones.
-std::vector<NodePtr> Frontier::take_spare(std::size_t count) {
+std::vector<NodePtr> Frontier::take_spare(std::size_t count, bool keeps_next) {
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;
   spare.reserve(std::min(count, open_count_));
   in_hand_.reserve(in_hand_.size() + std::min(count, open_count_));
   for (auto& [rank, heap] : open_) {
-    const bool is_best = rank == open_.begin()->first;
-    const std::size_t half = (heap.size() + (is_best ? 0 : 1)) / 2;
+    const bool is_kept = keeps_next && rank == open_.begin()->first;
+    const std::size_t half = (heap.size() + (is_kept ? 0 : 1)) / 2;
     const std::size_t here = std::min(half, count - spare.size());
     if (here == 0) continue;
     taken_[rank] += here;

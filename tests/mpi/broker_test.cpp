@@ -77,6 +77,28 @@ TEST(Broker, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
   EXPECT_EQ(gift->to, 1);
 }
 
+TEST(Broker, NextNodesAreForIdleRanksOnly) {
+  Broker broker(alone(3), {.plenty_nodes = 1});
+  broker.heard(1, with(1, 15, 0));
+  broker.heard(2, with(2, kInfiniteCost, 0));
+  message::Status status = with(0, 10, 0);
+  status.spare = {{10, 0, 1}};
+  broker.heard(0, status);
+  const auto gift = broker.next();
+  ASSERT_TRUE(gift);
+  EXPECT_EQ(gift->to, 2);
+  EXPECT_TRUE(gift->to_idle);
+  EXPECT_EQ(gift->nodes, 1);
+  status.spare = {{10, 1, 1}};
+  broker.heard(0, status);
+  const auto other = broker.next();
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->to, 1);
+  EXPECT_FALSE(other->to_idle);
+  EXPECT_EQ(other->nodes, 1);
+  EXPECT_EQ(broker.spare(), std::vector<message::Spare>({{10, 0, 1}}));
+}
+
 TEST(Broker, RanksOfOneChildAreLeftToIt) {
   Broker broker({{0, 1, 2}, {3, 4, 5}});
   message::Status status;

@@ -58,7 +58,7 @@ TEST_F(FrontierTest, CountsTakenNodesAsLive) {
 TEST_F(FrontierTest, SpareNodesCountUntilTheyAreSettled) {
   for (const Time bound : {3, 3, 3, 3, 5, 8}) frontier_.push(node(bound));
   EXPECT_EQ(frontier_.levels(2), (std::vector<Frontier::Level>{{3, 4}, {5, 1}}));
-  const auto spare = frontier_.take_spare(3);
+  const auto spare = frontier_.take_spare(3, true);
   ASSERT_EQ(spare.size(), 3);
   EXPECT_EQ(spare[1]->bound(), 3);
   EXPECT_EQ(spare[2]->bound(), 5);
@@ -74,11 +74,24 @@ TEST_F(FrontierTest, SpareNodesCountUntilTheyAreSettled) {
 
 TEST_F(FrontierTest, TheNodeThatIsNextIsNotSpare) {
   frontier_.push(node(2));
-  EXPECT_TRUE(frontier_.take_spare(5).empty());
+  EXPECT_TRUE(frontier_.take_spare(5, true).empty());
   frontier_.push(node(7));
-  EXPECT_EQ(frontier_.take_spare(5).front()->bound(), 7);
+  EXPECT_EQ(frontier_.take_spare(5, true).front()->bound(), 7);
   EXPECT_EQ(frontier_.take()->bound(), 2);
   EXPECT_EQ(frontier_.take(), nullptr);
+}
+
+TEST_F(FrontierTest, WhoIsAtANodeCanSpareTheNext) {
+  frontier_.push(node(2));
+  const NodePtr taken = frontier_.take();
+  frontier_.push(node(3));
+  EXPECT_TRUE(frontier_.take_spare(5, true).empty());
+  const auto spare = frontier_.take_spare(5, false);
+  ASSERT_EQ(spare.size(), 1);
+  EXPECT_EQ(spare.front()->bound(), 3);
+  EXPECT_EQ(frontier_.bound(), 2);
+  frontier_.settle(taken);
+  EXPECT_EQ(frontier_.bound(), 3);
 }
 
 TEST_F(FrontierTest, TwoTakenNodesOfOneBoundAreTwo) {

@@ -31,10 +31,10 @@ class Frontier {
   // which the cheapest plan is expected, if each conflict costs `per_conflict`. Null when there is
   // none. O(distinct bounds within omega).
   NodePtr take_promising(Omega omega, Cost lower_bound, double per_conflict);
-  // Takes up to `count` nodes for another frontier, beginning with the best bound, but not the node
-  // that take() would: of each bound half of the open nodes, the worse ones. Settle them when they
-  // count there.
-  std::vector<NodePtr> take_spare(std::size_t count);
+  // Takes up to `count` nodes for another frontier, beginning with the best bound: of each bound
+  // half of the open nodes, the worse ones; if `keeps_next`, not the node that take() would. Settle
+  // them when they count there.
+  std::vector<NodePtr> take_spare(std::size_t count, bool keeps_next);
   // A taken node has been replaced by what it led to (push that first), or pruned.
   void settle(const NodePtr& node);
   // A taken node goes back unexpanded.
