@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is solved: cases of the Moving AI folder and the files that stand for them."""
+"""What is solved: cases of the Moving AI folder, drawn ones, and the files that stand for them."""
 
 import dataclasses
 import json
@@ -59,6 +59,40 @@ class FileCase:
         return str(self.file)
 
 
+@dataclasses.dataclass(frozen=True)
+class DrawnCase:
+    """An instance on a world, both as `grove generate` draws them: everywhere the same bytes.
+
+    `world` has the words after `grove generate`. Without tasks (None) it is classical MAPF.
+    """
+
+    name: str
+    world: str
+    agents: int
+    tasks: int | None
+    seed: int
+    mg: bool = False
+
+    def __str__(self):
+        return self.name
+
+    def make(self, grove, folder):
+        """How `grove solve` is told of it; its files are made in the folder."""
+        folder = pathlib.Path(folder)
+        kind = self.world.split()[0]
+        world = folder / f"world.{'map' if kind == 'map' else 'roadmap.json'}"
+        run([grove, "generate", *self.world.split(), "-o", world])
+        of_world = [f"--{kind}", world, "--seed", self.seed]
+        if self.tasks is None:
+            scenario = folder / "world.scen"
+            run([grove, "generate", "scenario", *of_world, "--rows", self.agents, "-o", scenario])
+            return [scenario, "--map", world, "--agents", self.agents]
+        instance = folder / "instance.cts.json"
+        run([grove, "generate", "instance", *of_world, "--agents", self.agents, "--tasks", self.tasks,
+             "-o", instance, *(["--mg"] if self.mg else [])])
+        return [instance]
+
+
 def cases_in(folder):
     """The instances of a folder, by name."""
     cases = []
@@ -84,7 +118,7 @@ class Maps:
 
     def missing(self, case):
         """The file that the case needs and that is not there; none: it can be run."""
-        if isinstance(case, FileCase):
+        if not isinstance(case, Case):
             return None
         return next((file for file in (self.map(case), self.scenario(case)) if not file.exists()),
                     None)
@@ -110,6 +144,8 @@ def instance_arguments(grove, maps, case, folder):
     """How `grove solve` is told of the case, whose instance is made in the folder if need be."""
     if isinstance(case, FileCase):
         return [case.file]
+    if isinstance(case, DrawnCase):
+        return case.make(grove, folder)
     if case.tasks is None:
         return [maps.scenario(case), "--map", maps.map(case), "--agents", case.agents]
     instance = pathlib.Path(folder) / "instance.cts.json"

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "GROVE-CP";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // about so many to a block
 constexpr std::size_t kBlockHeadBytes = 12;
 constexpr std::size_t kChecksumBytes = 4;

@@ -154,7 +154,7 @@ TEST(Checkpoint, MayHoldNothing) {
 TEST(Checkpoint, OfManyTreesIsReadAgain) {
   const TemporaryDirectory directory;
   Whole whole = search().whole(0);
-  while (whole.header.trees.size() < 2000) whole.header.trees.push_back(whole.header.trees.back());
+  while (whole.header.trees.size() < 4000) whole.header.trees.push_back(whole.header.trees.back());
   write(directory.path(), whole);
   EXPECT_GT(file_content(checkpoint_file(directory.path())).size(), 600'000u);
   expect_same(read(directory.path()), whole);
@@ -361,7 +361,7 @@ TEST_F(DamagedCheckpoint, OfAnotherVersionOrKindIsRefused) {
   std::string later = bytes_;
   later[8] = 7;
   EXPECT_EQ(reading(later),
-            "checkpoint.grove: is a checkpoint of format version 7; expected version 2");
+            "checkpoint.grove: is a checkpoint of format version 7; expected version 3");
   EXPECT_EQ(reading("{\"status\": \"optimal\"}"),
             "checkpoint.grove: is no checkpoint: begins with '{\"status'; expected 'GROVE-CP'");
   EXPECT_EQ(reading(""), "checkpoint.grove: is no checkpoint: begins with ''; expected 'GROVE-CP'");

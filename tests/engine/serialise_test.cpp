@@ -65,8 +65,35 @@ TEST(Bytes, MakeTheValueAgain) {
 
 // Of machines of either kind: the format says which of its bytes comes first.
 TEST(Bytes, HaveAnOrderOfTheirOwn) {
-  EXPECT_EQ(to_bytes(std::uint32_t{0x01020304}), std::string("\1\4\3\2\1", 5));
-  EXPECT_EQ(from_bytes<std::uint32_t>(std::string("\0\1\2\3\4", 5)), 0x01020304u);
+  EXPECT_EQ(to_bytes(std::uint32_t{300}), "\xAC\2");
+  EXPECT_EQ(to_bytes(1.0), std::string("\0\0\0\0\0\0\xF0\x3F", 8));
+  const std::vector<std::uint32_t> array{0x01020304};
+  EXPECT_EQ(to_bytes(array), "\1\4\3\2\1");
+}
+
+TEST(Bytes, KeepNumbersOfAllSizes) {
+  const auto same = [](auto value) {
+    return from_bytes<decltype(value)>(to_bytes(value)) == value;
+  };
+  for (int bit = 0; bit < 64; ++bit)
+    for (const int more : {-1, 0, 1}) {
+      const std::uint64_t number = (std::uint64_t{1} << bit) + static_cast<std::uint64_t>(more);
+      EXPECT_TRUE(same(number)) << number;
+      EXPECT_TRUE(same(static_cast<std::int64_t>(number))) << number;
+      EXPECT_TRUE(same(static_cast<std::int32_t>(number))) << number;
+      EXPECT_TRUE(same(static_cast<std::uint16_t>(number))) << number;
+      EXPECT_TRUE(same(static_cast<std::int8_t>(number))) << number;
+    }
+  EXPECT_EQ(to_bytes(std::int64_t{-64}).size(), 1) << "small ones are short";
+}
+
+TEST(Bytes, OfNumbersThatDoNotFitOrAreLongerThanNeedBeAreRefused) {
+  EXPECT_EQ(refusal<std::uint16_t>(to_bytes(std::uint32_t{1} << 16)), "a number of too many bits");
+  EXPECT_EQ(refusal<std::int16_t>(to_bytes(std::int32_t{-32769})), "a number of too many bits");
+  EXPECT_EQ(refusal<std::int32_t>(to_bytes(std::int64_t{1} << 31)), "a number of too many bits");
+  EXPECT_EQ(refusal<std::uint64_t>(std::string(9, '\xFF') + '\2'), "a number of too many bits");
+  EXPECT_EQ(refusal<std::uint64_t>(std::string(10, '\xFF') + '\1'), "a number of too many bits");
+  EXPECT_EQ(refusal<std::uint64_t>(std::string("\x85\0", 2)), "a number longer than need be");
 }
 
 template <class T>
@@ -96,7 +123,7 @@ void expect_no_damage_unnoticed(const T& value) {
     else
       EXPECT_NE(to_bytes(from_bytes<T>(damaged)), bytes) << bit;
   }
-  EXPECT_GT(refused, 100);
+  EXPECT_GT(refused, 40);
 }
 
 TEST(Bytes, WithABitFlippedAreAnotherValueOrRefused) {
@@ -110,7 +137,6 @@ TEST(Bytes, OfNoiseDoNoHarm) {
   for (int i = 0; i < 20'000; ++i) {
     std::string noise(random() % 200, '\0');
     for (char& c : noise) c = static_cast<char>(random() % 4 == 0 ? random() : 0);
-    if (!noise.empty()) noise[0] = 1;
     is_refused<NodeRecord>(noise);
     is_refused<TreeRecord>(noise);
     is_refused<Plan>(noise);
@@ -125,9 +151,9 @@ TEST(Bytes, ThatAnnounceMoreThanTheyHoldAreRefused) {
                                     std::uint64_t{1} << 61, ~std::uint64_t{0}}) {
     const std::string announced = to_bytes(count);
     std::string hostile = bytes;
-    hostile.replace(1, 8, announced.substr(1));
+    hostile.replace(1, 1, announced);  // the count of constraints, after the tree
     EXPECT_EQ(refusal<NodeRecord>(hostile), said) << count;
-    EXPECT_EQ(refusal<std::vector<std::uint64_t>>(announced + std::string(99, 'x')), said);
+    EXPECT_EQ(refusal<std::vector<std::uint64_t>>(announced + std::string(9, 'x')), said);
     EXPECT_EQ(refusal<std::string>(announced + "xy"), said);
     using Map = std::map<std::string, std::string>;
     EXPECT_EQ(refusal<Map>(announced + "xy"), said);
@@ -135,7 +161,7 @@ TEST(Bytes, ThatAnnounceMoreThanTheyHoldAreRefused) {
 }
 
 TEST(Bytes, ThatAreNoTruthValueOrKindAreRefused) {
-  EXPECT_TRUE(is_refused<bool>(std::string("\1\2", 2)));
+  EXPECT_TRUE(is_refused<bool>("\2"));
   Constraint strange;
   std::string bytes = to_bytes(strange);
   bytes.back() = static_cast<char>(ConstraintKind::kStopIsNot) + 1;
