@@ -3,6 +3,7 @@
 """How the distributed search scales: simulated up to 4,096 ranks, and checked with two real ones.
 
     benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]   three hard instances: simulated.csv
+    benchmarks/scaling.py hours --ranks 1,128             instances of hours: hours.csv
     benchmarks/scaling.py bound --maps FOLDER                 if messages cost nothing: bound.csv
     benchmarks/scaling.py compare --maps FOLDER               2 ranks, also measured: compared.csv
     benchmarks/scaling.py draw                                scaling.png from these; needs matplotlib
@@ -21,7 +22,7 @@ import tempfile
 from pathlib import Path
 
 from harness import tables
-from harness.instances import Case, Maps, instance_arguments
+from harness.instances import Case, DrawnCase, Maps, instance_arguments
 from harness.programs import MPIRUN, add_folders, median_optimum, optimum, run
 
 HERE = Path(__file__).resolve().parent
@@ -30,6 +31,10 @@ HERE = Path(__file__).resolve().parent
 # ranks expand more; larger ones would take hours.
 HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
         Case("room-32-32-4", 40, None, 4)]
+# One core needs minutes to hours and 10^6 nodes or more for each; data/hours has the plans to begin with.
+OPEN = "map random --width 32 --height 32 --obstacles 0.2 --seed 1"
+ROOMS = "map rooms --width 32 --height 32 --seed 1"
+HOURS = [DrawnCase("open-60-mapf", OPEN, 60, None, 1)]
 # Seconds of one core: to be measured here.
 SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
          Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]
@@ -43,6 +48,9 @@ TREE_ONLY = ["--threads", 1, "--without", "primal,configurations"]
 def prepared(case, a, folder):
     """How a program is told of the case, with an optimal plan to begin with."""
     instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
+    kept = HERE / f"data/hours/{case}.plan.json"
+    if kept.exists():
+        return [*instance, *OPTIMAL, "--start", kept]
     plan = folder / "start.json"
     optimum([a.bin / "grove", "solve", *instance, *OPTIMAL, "--time-limit", a.time_limit], plan)
     return [*instance, *OPTIMAL, "--start", plan]
@@ -85,28 +93,32 @@ def merge(path, rows):
     others = read(path) if path.exists() else []
     new = {row["instance"] for row in rows}
     rows = [row for row in others if row["instance"] not in new] + rows
-    order = [str(case) for case in HARD + SHORT]
+    order = [str(case) for case in HARD + SHORT + HOURS]
     write(path, sorted(rows, key=lambda row: order.index(row["instance"])))
 
 
-def study(output, machine, a):
+def study(cases, output, machine, a):
     def rows_of(case):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             return simulated(case, prepared(case, a, folder), a.ranks, a, folder, machine)
 
     with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
-        for rows in pool.map(rows_of, chosen(HARD, a)):
+        for rows in pool.map(rows_of, chosen(cases, a)):
             merge(output, rows)
             print(f"{rows[0]['instance']}: simulated", flush=True)
 
 
 def simulate(a):
-    study(a.output / "simulated.csv", (), a)
+    study(HARD, a.output / "simulated.csv", (), a)
+
+
+def hours(a):
+    study(HOURS, a.output / "hours.csv", ("--time-limit", 40000), a)
 
 
 def bound(a):
-    study(a.output / "bound.csv", FREE_MESSAGES, a)
+    study(HARD, a.output / "bound.csv", FREE_MESSAGES, a)
 
 
 def comparison(case, a, folder):
@@ -252,7 +264,7 @@ def draw_shares(panel, name, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["simulate", "bound", "compare", "draw", "tables"])
+    parser.add_argument("what", choices=["simulate", "hours", "bound", "compare", "draw", "tables"])
     parser.add_argument("--ranks", type=lambda text: [int(word) for word in text.split(",")],
                         default=RANKS, help="whole numbers with commas; begin with 1")
     parser.add_argument("--only", default="", help="instances whose name contains this")
@@ -265,7 +277,7 @@ def main():
     parser.add_argument("--output", type=Path, default=HERE / "results/scaling")
     add_folders(parser)
     a = parser.parse_args()
-    {"simulate": simulate, "bound": bound, "compare": compare, "draw": draw,
+    {"simulate": simulate, "hours": hours, "bound": bound, "compare": compare, "draw": draw,
      "tables": print_tables}[a.what](a)
 
 

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What the script of the scaling study makes of its figures, and that its README shows them."""
+import json
+import os
 import pathlib
 import sys
 import tempfile
@@ -10,6 +12,10 @@ BENCHMARKS = pathlib.Path(__file__).resolve().parents[2] / "benchmarks"
 sys.path.insert(0, str(BENCHMARKS))
 
 import scaling  # noqa: E402
+from harness.instances import instance_arguments  # noqa: E402
+from harness.programs import run  # noqa: E402
+
+GROVE = os.environ["GROVE"]
 
 RESULTS = BENCHMARKS / "results/scaling"
 
@@ -27,6 +33,23 @@ class Results(unittest.TestCase):
                                      for name in ("simulated", "bound", "compared"))
         self.assertIn(scaling.simulated_table(simulated, free), readme)
         self.assertIn(scaling.compared_table(compared), readme)
+
+
+class Hours(unittest.TestCase):
+    """Each has a plan to begin with, of the cost that its page says."""
+
+    def test_plans_are_of_the_instances_that_are_drawn(self):
+        page = (BENCHMARKS / "data/hours/README.md").read_text(encoding="utf-8")
+        self.assertEqual({str(case) for case in scaling.HOURS},
+                         {file.name.removesuffix(".plan.json")
+                          for file in (BENCHMARKS / "data/hours").glob("*.plan.json")})
+        for case in scaling.HOURS:
+            with self.subTest(case=str(case)), tempfile.TemporaryDirectory() as name:
+                instance = instance_arguments(GROVE, None, case, name)
+                plan = BENCHMARKS / f"data/hours/{case}.plan.json"
+                run([GROVE, "check", *instance, plan])
+                cost = json.loads(plan.read_text(encoding="utf-8"))["cost"]
+                self.assertRegex(page, rf"\| {case} \|.*\| {cost:,} \|")
 
 
 class Study(unittest.TestCase):
