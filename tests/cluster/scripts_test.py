@@ -138,6 +138,8 @@ timeout -s KILL 2 "{program("GROVE_MPI")}" "$@" --checkpoint-interval 0.2''')
         self.assertEqual(runs.read_text().count("\n"), 2)
         bad = self.run_script("preempt.sbatch", hard, "--no-such-option", code=2)
         self.assertNotIn("restart", bad)
+        bad = self.run_script("preempt.sbatch", "--restarts", hard, code=2)
+        self.assertEqual(bad, f"preempt.sbatch: --restarts '{hard}': expected a whole number\n")
 
 
 if __name__ == "__main__":
