@@ -71,7 +71,6 @@ def disturbed_script(instance, folder, kills, dice, most_seconds):
     code = running.wait()
     text = said.read_text(encoding="utf-8")
     assert code == 0, text
-    assert killed, "solved before a rank could be killed"
     print(f"{killed} killed, {text.count('Resuming from a checkpoint')} times from a checkpoint")
     return plan_of(folder / "plan.json"), killed
 
@@ -94,7 +93,7 @@ def disturbed(instance, folder, kills, dice, most_seconds):
         print(f"killed one of {ranks} ranks: mpirun ended with {running.returncode}")
 
 
-def check(instance, kills, seed, most_seconds=2.0, way=disturbed):
+def check(instance, kills, seed, most_seconds, way=disturbed):
     dice = random.Random(seed)
     with tempfile.TemporaryDirectory() as folder:
         truth = undisturbed(instance, folder)
@@ -102,6 +101,7 @@ def check(instance, kills, seed, most_seconds=2.0, way=disturbed):
         assert (plan["status"], plan["cost"]) == ("optimal", truth), (plan["status"], plan["cost"])
         code, said = run([GROVE, "check", instance, "plan.json"], folder)
         assert code == 0, said
+        assert killed or not kills, "solved before a rank could be killed"
         print(f"{killed} kills, then optimal with cost {truth}")
         return killed
 
@@ -113,14 +113,12 @@ def main():
     parser.add_argument("--kills", type=int, default=10)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--most-seconds", type=float, default=2.0)
-    parser.add_argument("--script", action="store_true", help="one run of the job script after the other, until so many were killed")
+    parser.add_argument("--script", action="store_true", help="ten kills in a run of the job script")
     a = parser.parse_args()
+    way, in_a_run = (disturbed_script, 10) if a.script else (disturbed, a.kills)
     kills = 0
     while kills < a.kills:
-        kills += check(a.instance.resolve(), min(a.kills - kills, 10) if a.script else a.kills, a.seed + kills, a.most_seconds,
-                       disturbed_script if a.script else disturbed)
-        if not a.script:
-            break
+        kills += check(a.instance.resolve(), min(a.kills - kills, in_a_run), a.seed + kills, a.most_seconds, way)
     print(f"{kills} kills in all")
     return 0
 
