@@ -34,7 +34,8 @@ HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
 # One core needs minutes to hours and 10^6 nodes or more for each; data/hours has the plans to begin with.
 OPEN = "map random --width 32 --height 32 --obstacles 0.2 --seed 1"
 ROOMS = "map rooms --width 32 --height 32 --seed 1"
-HOURS = [DrawnCase("open-60-mapf", OPEN, 60, None, 1)]
+HOURS = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf", OPEN, 60, None, 1),
+         DrawnCase("open-40-40", OPEN, 40, 40, 1)]
 # Seconds of one core: to be measured here.
 SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
          Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]

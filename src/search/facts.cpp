@@ -19,9 +19,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kBytesPerFact = 40;
-constexpr std::size_t kBytesPerAgent = 16;
-constexpr std::size_t kBytesPerConstraint = 17;
+constexpr std::size_t kBytesPerFact = 9;
+constexpr std::size_t kBytesPerAgent = 3;
+constexpr std::size_t kBytesPerConstraint = 7;
 
 std::size_t constraints_in(const Fact& fact) {
   std::size_t sum = 0;

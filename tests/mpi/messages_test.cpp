@@ -58,6 +58,24 @@ TEST(Messages, TellWhatARankHasDone) {
   EXPECT_EQ(sum.ranks.at(7).open, 2);
 }
 
+// The rate at which facts are told is reckoned by it.
+TEST(Messages, TakeAboutAsManyBytesForFactsAsTheseSay) {
+  for (const int constraints : {0, 3, 30}) {
+    Fact fact;
+    for (const AgentIndex agent : {7, 19}) {
+      AgentSituation& situation = fact.agents.emplace_back(0, agent);
+      for (Time time = 0; time < constraints; ++time)
+        situation.constraints.push_back(
+            {500 + 9 * time, kNoCell, time, 30 + time, ConstraintKind::kBar});
+    }
+    fact.excess = {2, true, 400};
+    const message::Facts none{512, {}};
+    const message::Facts one{512, {fact}};
+    const auto bytes = static_cast<double>(bytes_of(one, 0).size() - bytes_of(none, 0).size());
+    EXPECT_NEAR(static_cast<double>(fact.bytes()), bytes, 0.2 * bytes) << constraints;
+  }
+}
+
 message::AskPrices some_question() {
   message::AskPrices ask;
   ask.share.round = 7;
