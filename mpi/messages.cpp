@@ -24,9 +24,17 @@ void serialize(Archive& archive, Fact& fact) {
           fact.excess.exact, fact.excess.expansions);
 }
 
+// At its full width: what a process takes is another number in each run, and messages would have
+// another length in each simulation.
+template <class Archive>
+void at_full_width(Archive& archive, std::int64_t& number) {
+  archive(cereal::binary_data(&number, sizeof number));
+}
+
 template <class Archive>
 void serialize(Archive& archive, MemoryUse& m) {
-  archive(m.process, m.nodes, m.prices, m.path_sets, m.groups);
+  for (std::int64_t* bytes : {&m.process, &m.nodes, &m.prices, &m.path_sets, &m.groups})
+    at_full_width(archive, *bytes);
 }
 
 template <class Archive>
@@ -36,8 +44,8 @@ void serialize(Archive& archive, Account& account) {
 
 template <class Archive>
 void serialize(Archive& archive, RankSurvey& rank) {
-  archive(rank.expanded, rank.open, rank.bound, rank.memory, rank.low_level_calls,
-          rank.prices_asked);
+  archive(rank.expanded, rank.open, rank.bound, rank.low_level_calls, rank.prices_asked);
+  at_full_width(archive, rank.memory);
 }
 
 template <class Archive>

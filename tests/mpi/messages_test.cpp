@@ -58,6 +58,16 @@ TEST(Messages, TellWhatARankHasDone) {
   EXPECT_EQ(sum.ranks.at(7).open, 2);
 }
 
+TEST(Messages, AreAsLongWhateverMemoryAProcessTakes) {
+  const auto length = [](std::int64_t memory) {
+    message::Account account;
+    account.survey.whole.memory.process = memory;
+    account.survey.ranks[7].memory = memory;
+    return bytes(account).size();
+  };
+  EXPECT_EQ(length(0), length(std::int64_t{1} << 40));
+}
+
 // The rate at which facts are told is reckoned by it.
 TEST(Messages, TakeAboutAsManyBytesForFactsAsTheseSay) {
   for (const int constraints : {0, 3, 30}) {
