@@ -47,11 +47,10 @@ TREE_ONLY = ["--threads", 1, "--without", "primal,configurations"]
 
 
 def prepared(case, a, folder):
-    """How a program is told of the case, with an optimal plan to begin with."""
+    """How a program is told of the case, with a plan to begin with: the one that is kept, or an optimal one."""
     instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
-    kept = HERE / f"data/hours/{case}.plan.json"
-    if kept.exists():
-        return [*instance, *OPTIMAL, "--start", kept]
+    if isinstance(case, DrawnCase):
+        return [*instance, *OPTIMAL, "--start", HERE / f"data/hours/{case}.plan.json"]
     plan = folder / "start.json"
     optimum([a.bin / "grove", "solve", *instance, *OPTIMAL, "--time-limit", a.time_limit], plan)
     return [*instance, *OPTIMAL, "--start", plan]

@@ -84,18 +84,17 @@ TEST(Broker, NextNodesAreForIdleRanksOnly) {
   message::Status status = with(0, 10, 0);
   status.spare = {{10, 0, 1}};
   broker.heard(0, status);
-  const auto gift = broker.next();
-  ASSERT_TRUE(gift);
-  EXPECT_EQ(gift->to, 2);
-  EXPECT_TRUE(gift->to_idle);
-  EXPECT_EQ(gift->nodes, 1);
+  const auto expect_a_node_for = [&](int rank, bool is_idle) {
+    const auto gift = broker.next();
+    ASSERT_TRUE(gift);
+    EXPECT_EQ(gift->to, rank);
+    EXPECT_EQ(gift->to_idle, is_idle);
+    EXPECT_EQ(gift->nodes, 1);
+  };
+  expect_a_node_for(2, true);
   status.spare = {{10, 1, 1}};
   broker.heard(0, status);
-  const auto other = broker.next();
-  ASSERT_TRUE(other);
-  EXPECT_EQ(other->to, 1);
-  EXPECT_FALSE(other->to_idle);
-  EXPECT_EQ(other->nodes, 1);
+  expect_a_node_for(1, false);
   EXPECT_EQ(broker.spare(), std::vector<message::Spare>({{10, 0, 1}}));
 }
 

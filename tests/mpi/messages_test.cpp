@@ -34,9 +34,10 @@ Kind returned(const Kind& sent) {
 
 TEST(Messages, ArriveAsTheyWereSent) {
   EXPECT_EQ(returned(some_status()), some_status());
-  const auto order = returned(message::Order{3, 64});
+  const auto order = returned(message::Order{3, 64, true});
   EXPECT_EQ(order.to, 3);
   EXPECT_EQ(order.count, 64);
+  EXPECT_TRUE(order.to_idle);
 }
 
 TEST(Messages, TellWhatARankHasDone) {

@@ -108,6 +108,21 @@ TEST(RankAlone, CoversWhatItGaveAwayUntilItIsReleased) {
   EXPECT_EQ(frontier.live(), 1);
 }
 
+TEST(RankAlone, AtANodeGivesItsNextOneToAnIdleRankOnly) {
+  RankAlone r;
+  const NodePtr root = r.new_root();
+  r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
+  r.rank.handle(0, message::Entrust{{record_of(*root), record_of(*root)}, kInfiniteCost});
+  const NodePtr taken = r.rank.search().take();
+  ASSERT_TRUE(taken);
+  const auto kept = r.status_after(0, message::Order{2, 1, false});
+  EXPECT_EQ(kept.open, 1);
+  EXPECT_EQ(kept.spare, std::vector<message::Spare>({{root->bound(), 0, 1}}));
+  const auto given = r.status_after(0, message::Order{2, 1, true});
+  EXPECT_EQ(given.open, 0);
+  EXPECT_TRUE(given.spare.empty());
+}
+
 TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
   Setting s;
   Outbox transport(0, 2);

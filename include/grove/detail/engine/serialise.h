@@ -2,9 +2,9 @@
 // Values as bytes, for files and for other processes: cereal walks the values, the archives here
 // write and read them, the same on every machine. Whole numbers take a byte for seven of their bits
 // (LEB128), low ones first, those with a sign folded over zero: the constraints of a node, small
-// numbers nearly all, take a third of what they would by their width, and a checkpoint of ten
-// million nodes is written in half the time. Fractions, and arrays of numbers, which packed paths
-// are, have their width, low bytes first.
+// numbers nearly all, take a third of what they would by their width, and a checkpoint of
+// millions of nodes is written in half the time. Fractions, and arrays of numbers, which packed
+// paths are, have their width, low bytes first.
 //
 // A type takes part by a function serialize(Archive&, T&) in its namespace, like those below, made
 // of numbers, strings, vectors, maps and optionals. What bytes may hold beyond its shape - cells on
