@@ -5,31 +5,34 @@
 #include "mpi/knowledge.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "mpi/looks.h"
 
 namespace grove::detail {
 namespace {
 
-constexpr double kPause_s = 1e-3;   // between two tellings
+constexpr double kPause_s = 1e-3;   // between two tellings, in the beginning; see pause_at()
 constexpr double kMostPauses = 10;  // whose bytes may be told at one go, after a silence
 constexpr std::size_t kMostWaiting = 4000;
+constexpr std::size_t kBytesOfSize = 1;  // of a fact, in a message
 
 }  // namespace
 
-void Knowledge::add(std::vector<Fact> facts, int reach) {
-  std::vector<Piece> pieces;
-  for (Fact& fact : facts) {
-    const double worth = fact.worth();
-    pieces.push_back({worth, std::make_shared<const Fact>(std::move(fact))});
-  }
-  if (pieces.empty()) return;
-  for (int n = std::min(reach, ranks_); n > 1; n = (n + 1) / 2) add(pieces, waiting_[n]);
+void Knowledge::add(const Fact& fact) {
+  add(fact.worth(), message::packed(fact), ranks_);
 }
 
-void Knowledge::add(const std::vector<Piece>& pieces, Waiting& waiting) {
-  for (const Piece& piece : pieces) {
-    waiting.push_back(piece);
-    std::push_heap(waiting.begin(), waiting.end());
-  }
+void Knowledge::add(double worth, std::string fact, int reach) {
+  reach = std::min(reach, ranks_);
+  if (reach <= 1) return;
+  const Piece piece{worth, std::make_shared<const std::string>(std::move(fact))};
+  for (int n = reach; n > 1; n = (n + 1) / 2) add(piece, waiting_[n]);
+}
+
+void Knowledge::add(const Piece& piece, Waiting& waiting) {
+  waiting.push_back(piece);
+  std::push_heap(waiting.begin(), waiting.end());
   if (waiting.size() <= 2 * kMostWaiting) return;
   std::nth_element(waiting.begin(), waiting.begin() + kMostWaiting, waiting.end(),
                    [](const Piece& a, const Piece& b) { return b < a; });
@@ -40,9 +43,10 @@ void Knowledge::add(const std::vector<Piece>& pieces, Waiting& waiting) {
 std::vector<Knowledge::Parcel> Knowledge::due(double now) {
   std::vector<Parcel> parcels;
   if (waiting_.empty() || now < next_) return parcels;
-  allowance_ = std::min(allowance_ + (now - last_) * rate_, kMostPauses * kPause_s * rate_);
+  const double pause = pause_at(now, kPause_s);
+  allowance_ = std::min(allowance_ + (now - last_) * rate_, kMostPauses * pause * rate_);
   last_ = now;
-  next_ = now + kPause_s;
+  next_ = now + pause;
   auto left = static_cast<double>(waiting_.size());
   // The largest reach first: it has the longest way.
   for (auto at = waiting_.rbegin(); at != waiting_.rend(); ++at, --left) {
@@ -58,8 +62,8 @@ std::vector<Knowledge::Parcel> Knowledge::due(double now) {
 message::Facts Knowledge::best_of(Waiting& waiting, double bytes, int reach) {
   message::Facts told{reach, {}};
   while (!waiting.empty()) {
-    const Fact& best = *waiting.front().fact;
-    const auto more = static_cast<double>(best.bytes());
+    const std::string& best = *waiting.front().fact;
+    const auto more = static_cast<double>(best.size() + kBytesOfSize);
     if (more > bytes) break;
     bytes -= more;
     allowance_ -= more;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "grove/detail/search/facts.h"
@@ -30,11 +30,12 @@ class Knowledge {
 
   bool is_on() const { return ranks_ > 1 && rate_ > 0; }
 
-  // Facts that the next `reach` - 1 ranks are to be told: found out here, all others.
-  void add(std::vector<Fact> facts, int reach);
-  void add(std::vector<Fact> facts) { add(std::move(facts), ranks_); }
+  // One that was found out here.
+  void add(const Fact& fact);
+  // One, packed, of this worth, that the next `reach` - 1 ranks are to be told.
+  void add(double worth, std::string fact, int reach);
 
-  // What is to be said now, in seconds of any clock.
+  // What is to be said now, in seconds since the beginning.
   std::vector<Parcel> due(double now);
   // When there may be something; infinity: unless something is added, never.
   double speaks_at() const {
@@ -44,12 +45,12 @@ class Knowledge {
  private:
   struct Piece {
     double worth;
-    std::shared_ptr<const Fact> fact;
+    std::shared_ptr<const std::string> fact;
     friend bool operator<(const Piece& a, const Piece& b) { return a.worth < b.worth; }
   };
   using Waiting = std::vector<Piece>;  // a heap
 
-  static void add(const std::vector<Piece>& pieces, Waiting& waiting);
+  static void add(const Piece& piece, Waiting& waiting);
   message::Facts best_of(Waiting& waiting, double bytes, int reach);
 
   const int rank_;

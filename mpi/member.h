@@ -25,8 +25,8 @@ class Member {
       : Member(problem, options, limits, observer, transport,
                AgentStopsStore(problem.instance, problem.distances)) {}
 
-  // Handles what has arrived and says what is new. `now` in seconds of any clock. True if anything
-  // had arrived.
+  // Handles what has arrived and says what is new. `now` in seconds since the beginning. True if
+  // anything had arrived.
   bool converse(double now);
 
   Rank& rank() { return rank_; }

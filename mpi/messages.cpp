@@ -211,6 +211,14 @@ void add(const Farewell& part, Farewell& sum) {
   for (const auto& [rank, messages] : part.messages) sum.messages[rank] += messages;
 }
 
+std::string packed(const Fact& fact) {
+  return to_bytes(fact);
+}
+
+Fact unpacked(std::string_view bytes) {
+  return from_bytes<Fact>(bytes);
+}
+
 std::string bytes_of(const Message& message, int level) {
   return to_bytes(ToAddress{static_cast<std::uint8_t>(level), message});
 }

@@ -117,7 +117,7 @@ struct Batch {
 // order of ranks, the first being after the last; see knowledge.h.
 struct Facts {
   std::int32_t reach = 1;
-  std::vector<Fact> facts;
+  std::vector<std::string> facts;  // packed, see below: many pass by who only hands them on
 };
 
 // To all below: a tree, before any of its nodes.
@@ -194,6 +194,11 @@ struct Addressed {
   int level = 0;  // whom it is for, on the rank that it has come to; see Post
   Message message;
 };
+
+// A fact as it travels.
+std::string packed(const Fact& fact);
+// Throws std::invalid_argument for bytes that are no fact.
+Fact unpacked(std::string_view bytes);
 
 std::string bytes_of(const Message& message, int level);
 // Throws std::invalid_argument for bytes that are no message.

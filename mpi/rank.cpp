@@ -257,7 +257,8 @@ void Rank::speak_of_prices() {
 void Rank::speak_of_facts(double now) {
   if (!knowledge_.is_on()) return;
   const auto memory = search_.memory();
-  knowledge_.add(facts_of(memory->take_news(), *memory, trees_of_facts_));
+  for (const Fact& fact : facts_of(memory->take_news(), *memory, trees_of_facts_))
+    knowledge_.add(fact);
   for (auto& [rank, facts] : knowledge_.due(now)) {
     facts_sent_ += std::ssize(facts.facts);
     tell(rank, facts);
@@ -266,11 +267,13 @@ void Rank::speak_of_facts(double now) {
 
 // Others further on have to be told even if there is no room here.
 void Rank::hear(message::Facts& facts) {
-  if (search_.has_room_for_facts()) {
-    const auto memory = search_.memory();
-    for (const Fact& fact : facts.facts) learn(fact, trees_of_facts_, *memory);
+  const auto memory = search_.memory();
+  const bool has_room = search_.has_room_for_facts();
+  for (std::string& bytes : facts.facts) {
+    const Fact fact = message::unpacked(bytes);
+    if (has_room) learn(fact, trees_of_facts_, *memory);
+    if (!ended_) knowledge_.add(fact.worth(), std::move(bytes), facts.reach);
   }
-  if (!ended_) knowledge_.add(std::move(facts.facts), facts.reach);
 }
 
 void Rank::send_found() {

@@ -45,7 +45,7 @@ class Rank {
   // On rank 0: no plan of the whole search costs less.
   void know(Cost bound) { ledger_.know(bound); }
   // Says what is new: plans always; where it stands at once if that may matter at once, else not
-  // more often than ranks can bear. `now` in seconds of any clock.
+  // more often than ranks can bear. `now` in seconds since the beginning.
   void speak(double now);
   // When it may have something to say though nothing has happened since; infinity: never.
   double speaks_at() const {

@@ -3,10 +3,13 @@
 
 #include <utility>
 
+#include "mpi/looks.h"
+
 namespace grove::detail {
 namespace {
 
-// Between two statuses that nothing hangs on, in seconds. A coordinator hears all its children.
+// Between two statuses that nothing hangs on, in seconds, in the beginning; see pause_at(). A
+// coordinator hears all its children.
 constexpr double kPause = 2e-3;
 constexpr double kPausePerSibling = 50e-6;
 
@@ -42,8 +45,9 @@ bool Superior::is_urgent(const message::Status& status) const {
 bool Superior::report(message::Status status, double now) {
   reports_at_ = kNothingToSay;
   if (!urgent_ && status == said_) return false;
-  if (!urgent_ && !is_urgent(status) && now < said_at_ + pause_) {
-    reports_at_ = said_at_ + pause_;
+  const double next = said_at_ + pause_at(said_at_, pause_);
+  if (!urgent_ && !is_urgent(status) && now < next) {
+    reports_at_ = next;
     return false;
   }
   tell(status);

@@ -20,7 +20,7 @@ class Superior {
   // Says this at once.
   void tell(const message::Message& message);
   // Says where things stand, if that is news: at once if it may matter at once, else not more often
-  // than the superior can bear who hears all its children. `now` in seconds of any clock.
+  // than the superior can bear who hears all its children. `now` in seconds since the beginning.
   // True if it was said.
   bool report(message::Status status, double now);
   // The next status matters at once, whatever it says.

@@ -19,10 +19,6 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kBytesPerFact = 9;
-constexpr std::size_t kBytesPerAgent = 3;
-constexpr std::size_t kBytesPerConstraint = 7;
-
 std::size_t constraints_in(const Fact& fact) {
   std::size_t sum = 0;
   for (const AgentSituation& s : fact.agents) sum += s.constraints.size();
@@ -69,11 +65,6 @@ void require_order(const Fact& fact) {
 
 double Fact::worth() const {
   return (1.0 + excess.expansions) / static_cast<double>(1 + constraints_in(*this));
-}
-
-std::size_t Fact::bytes() const {
-  return kBytesPerFact + kBytesPerAgent * agents.size() +
-         kBytesPerConstraint * constraints_in(*this);
 }
 
 void TreesOfFacts::add(const Tree& tree) {

@@ -15,10 +15,8 @@ Fact fact(AgentIndex agent, std::int32_t expansions = 0) {
   return {{{0, agent, {}}}, {7, true}, {0, false, expansions}};
 }
 
-std::vector<Fact> facts(int count) {
-  std::vector<Fact> all;
-  for (int i = 0; i < count; ++i) all.push_back(fact(i, i));
-  return all;
+void add_facts(int count, Knowledge& knowledge) {
+  for (int i = 0; i < count; ++i) knowledge.add(fact(i, i));
 }
 
 class Ranks : public ::testing::TestWithParam<int> {};
@@ -30,7 +28,7 @@ TEST_P(Ranks, AreToldEachFactOnceByWhoeverFoundIt) {
     std::deque<Knowledge> all;
     for (int rank = 0; rank < ranks; ++rank) all.emplace_back(rank, ranks, kPlenty);
     std::vector<int> told(static_cast<std::size_t>(ranks));
-    all[finder].add({fact(3)});
+    all[finder].add(fact(3));
     int rounds = 1;
     for (bool news = true; news; ++rounds) {
       news = false;
@@ -41,7 +39,7 @@ TEST_P(Ranks, AreToldEachFactOnceByWhoeverFoundIt) {
         news = true;
         ASSERT_EQ(message.facts.size(), 1u);
         ++told[to];
-        all[to].add(std::move(message.facts), message.reach);
+        all[to].add(1, std::move(message.facts[0]), message.reach);
       }
     }
     for (int rank = 0; rank < ranks; ++rank)
@@ -60,7 +58,7 @@ TEST(Knowledge, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
   constexpr double kRate = 1e5;
   Knowledge knowledge(0, 2, kRate);
   knowledge.due(0);
-  knowledge.add(facts(3000));
+  add_facts(3000, knowledge);
   double said = 0;
   double last = 1e9;
   int count = 0;
@@ -69,11 +67,12 @@ TEST(Knowledge, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
     for (const auto& [to, message] : knowledge.due(now)) {
       EXPECT_EQ(to, 1);
       EXPECT_EQ(message.reach, 1);
-      for (const Fact& told : message.facts) {
+      for (const std::string& told : message.facts) {
         ++count;
-        said += static_cast<double>(told.bytes());
-        EXPECT_LE(told.worth(), last);
-        last = told.worth();
+        said += static_cast<double>(told.size() + 1);
+        const double worth = message::unpacked(told).worth();
+        EXPECT_LE(worth, last);
+        last = worth;
       }
       EXPECT_LE(said, kRate * (now + 0.011));
     }
@@ -84,7 +83,7 @@ TEST(Knowledge, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
 // What is worth least is given up when too much waits.
 TEST(Knowledge, KeepsSomeThousandWaiting) {
   Knowledge knowledge(0, 2, kPlenty);
-  for (int i = 0; i < 30; ++i) knowledge.add(facts(1000));
+  for (int i = 0; i < 30; ++i) add_facts(1000, knowledge);
   std::size_t count = 0;
   for (const auto& parcel : knowledge.due(1)) count += parcel.facts.facts.size();
   EXPECT_LT(count, 10000u);

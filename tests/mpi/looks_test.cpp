@@ -25,5 +25,13 @@ TEST(Looks, AreNeverBeforeTheirTime) {
   EXPECT_EQ(next_look(3, 9, 0), 9) << "without naps";
 }
 
+TEST(Pauses, GrowWithTheRunUpToABound) {
+  EXPECT_EQ(pause_at(0, 2e-3), 2e-3);
+  EXPECT_EQ(pause_at(0.1, 2e-3), 2e-3);
+  EXPECT_EQ(pause_at(1, 2e-3), 0.01);
+  EXPECT_EQ(pause_at(1e6, 2e-3), kLongestPause_s);
+  EXPECT_EQ(pause_at(1e6, 0.1), 0.1) << "coordinators of many hear each more rarely";
+}
+
 }  // namespace looks_test
 }  // namespace grove::detail

@@ -69,22 +69,23 @@ TEST(Messages, AreAsLongWhateverMemoryAProcessTakes) {
   EXPECT_EQ(length(0), length(std::int64_t{1} << 40));
 }
 
-// The rate at which facts are told is reckoned by it.
-TEST(Messages, TakeAboutAsManyBytesForFactsAsTheseSay) {
-  for (const int constraints : {0, 3, 30}) {
-    Fact fact;
-    for (const AgentIndex agent : {7, 19}) {
-      AgentSituation& situation = fact.agents.emplace_back(0, agent);
-      for (Time time = 0; time < constraints; ++time)
-        situation.constraints.push_back(
-            {500 + 9 * time, kNoCell, time, 30 + time, ConstraintKind::kBar});
-    }
-    fact.excess = {2, true, 400};
-    const message::Facts none{512, {}};
-    const message::Facts one{512, {fact}};
-    const auto bytes = static_cast<double>(bytes_of(one, 0).size() - bytes_of(none, 0).size());
-    EXPECT_NEAR(static_cast<double>(fact.bytes()), bytes, 0.2 * bytes) << constraints;
+TEST(Messages, PackFacts) {
+  Fact fact;
+  for (const AgentIndex agent : {7, 19}) {
+    AgentSituation& situation = fact.agents.emplace_back(3, agent);
+    situation.constraints.push_back({500, kNoCell, 9, 30, ConstraintKind::kBar});
   }
+  fact.excess = {2, true, 400};
+  const std::string bytes = message::packed(fact);
+  const Fact back = message::unpacked(bytes);
+  EXPECT_EQ(back.agents, fact.agents);
+  EXPECT_EQ(back.cost, fact.cost);
+  EXPECT_EQ(back.excess, fact.excess);
+  EXPECT_THROW(message::unpacked(bytes.substr(1)), std::invalid_argument);
+  EXPECT_THROW(message::unpacked(bytes + "x"), std::invalid_argument);
+  const auto told = returned(message::Facts{512, {bytes, bytes}});
+  EXPECT_EQ(told.reach, 512);
+  EXPECT_EQ(told.facts, (std::vector{bytes, bytes}));
 }
 
 message::AskPrices some_question() {

@@ -33,8 +33,6 @@ struct Fact {
   // How much there is to gain by telling it: what took long to find out, and comes up again, as
   // few constraints do more often than many.
   double worth() const;
-  // About, as it is sent.
-  std::size_t bytes() const;
 };
 
 // The trees that facts are about. Of one thread.
