@@ -16,6 +16,8 @@ of ranks. results/scaling/README.md tells what came out.
 import argparse
 import concurrent.futures
 import csv
+import json
+import math
 import os
 import statistics
 import tempfile
@@ -34,8 +36,10 @@ HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
 # One core needs minutes to hours and 10^6 nodes or more for each; data/hours has the plans to begin with.
 OPEN = "map random --width 32 --height 32 --obstacles 0.2 --seed 1"
 ROOMS = "map rooms --width 32 --height 32 --seed 1"
+WAREHOUSE = "roadmap --kind warehouse"
 HOURS = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf", OPEN, 60, None, 1),
-         DrawnCase("open-40-40", OPEN, 40, 40, 1)]
+         DrawnCase("open-40-40", OPEN, 40, 40, 1), DrawnCase("rooms-25-60-mg", ROOMS, 25, 60, 1, mg=True),
+         DrawnCase("warehouse-100-200", WAREHOUSE, 100, 200, 1)]
 # Seconds of one core: to be measured here.
 SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
          Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]
@@ -46,11 +50,17 @@ OPTIMAL = ["--omega", 0]
 TREE_ONLY = ["--threads", 1, "--without", "primal,configurations"]
 
 
+def until_bound_of(plan):
+    """The options with which a run begins with a plan, and ends when the bound that its file says is proven."""
+    known = json.loads(plan.read_text(encoding="utf-8"))
+    return ["--omega", f"{math.ceil((known['cost'] / known['lower_bound'] - 1) * 1e6) / 1e6:f}", "--start", plan]
+
+
 def prepared(case, a, folder):
     """How a program is told of the case, with a plan to begin with: the one that is kept, or an optimal one."""
     instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
     if isinstance(case, DrawnCase):
-        return [*instance, *OPTIMAL, "--start", HERE / f"data/hours/{case}.plan.json"]
+        return [*instance, *until_bound_of(HERE / f"data/hours/{case}.plan.json")]
     plan = folder / "start.json"
     optimum([a.bin / "grove", "solve", *instance, *OPTIMAL, "--time-limit", a.time_limit], plan)
     return [*instance, *OPTIMAL, "--start", plan]
@@ -89,12 +99,14 @@ def chosen(cases, a):
 
 
 def merge(path, rows):
-    """The rows of a file anew, but for those of other instances."""
-    others = read(path) if path.exists() else []
-    new = {row["instance"] for row in rows}
-    rows = [row for row in others if row["instance"] not in new] + rows
+    """The rows of a file anew, but for those of other instances or other numbers of ranks."""
+    def key(row):
+        return order.index(row["instance"]), int(row.get("ranks", 0))
+
     order = [str(case) for case in HARD + SHORT + HOURS]
-    write(path, sorted(rows, key=lambda row: order.index(row["instance"])))
+    others = read(path) if path.exists() else []
+    new = {key(row) for row in rows}
+    write(path, sorted([row for row in others if key(row) not in new] + rows, key=key))
 
 
 def study(cases, output, machine, a):

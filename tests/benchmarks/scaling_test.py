@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What the script of the scaling study makes of its figures, and that its README shows them."""
+import fractions
 import json
 import os
 import pathlib
@@ -52,16 +53,29 @@ class Hours(unittest.TestCase):
                 self.assertRegex(page, rf"\| {case} \|.*\| {cost:,} \|")
 
 
+    def test_runs_end_with_the_bound_that_is_known(self):
+        with tempfile.TemporaryDirectory() as name:
+            plan = pathlib.Path(name) / "a.plan.json"
+            for cost, bound in ((1206, 1206), (2284, 2281), (16340, 16333)):
+                plan.write_text(json.dumps({"cost": cost, "lower_bound": bound}), encoding="utf-8")
+                omega = fractions.Fraction(scaling.until_bound_of(plan)[1])
+                self.assertLessEqual(cost, (1 + omega) * bound)
+                self.assertGreater(cost, (1 + omega) * (bound - 1))
+
+
 class Study(unittest.TestCase):
-    def test_rows_of_an_instance_are_replaced(self):
+    def test_rows_of_an_instance_and_a_number_of_ranks_are_replaced(self):
         with tempfile.TemporaryDirectory() as name:
             path = pathlib.Path(name) / "rows.csv"
             first, second = (str(case) for case in scaling.HARD[:2])
-            scaling.merge(path, [{"instance": second, "ranks": "1"}])
-            scaling.merge(path, [{"instance": first, "ranks": "1"}])
-            scaling.merge(path, [{"instance": second, "ranks": "2"}])
-            self.assertEqual(scaling.read(path), [{"instance": first, "ranks": "1"},
-                                                  {"instance": second, "ranks": "2"}])
+            def row(instance, ranks, cost):
+                return {"instance": instance, "ranks": str(ranks), "cost": cost}
+
+            scaling.merge(path, [row(second, 16, "old"), row(second, 2, "old")])
+            scaling.merge(path, [row(first, 1, "new")])
+            scaling.merge(path, [row(second, 16, "new")])
+            self.assertEqual(scaling.read(path), [row(first, 1, "new"), row(second, 2, "old"),
+                                                  row(second, 16, "new")])
 
 
 if __name__ == "__main__":
