@@ -80,7 +80,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kNodesEntrusted = 200;  // at a time
-// Ranks look at their limits every few milliseconds, and at the network every millisecond at least.
+// Ranks look at their limits every few milliseconds, and at the network every four at least.
 constexpr auto kLongSilence = std::chrono::milliseconds(700);
 
 }  // namespace
