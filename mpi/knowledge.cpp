@@ -15,7 +15,7 @@ namespace {
 constexpr double kPause_s = 1e-3;   // between two tellings, in the beginning; see pause_at()
 constexpr double kMostPauses = 10;  // whose bytes may be told at one go, after a silence
 constexpr std::size_t kMostWaiting = 4000;
-constexpr std::size_t kBytesOfSize = 1;  // of a fact, in a message
+constexpr std::size_t kBytesOfSize = 1;  // of a fact, in a message: about
 
 }  // namespace
 

@@ -12,7 +12,8 @@ namespace grove::detail {
 // one message has come another may follow, above all while nodes spread over ranks that have none.
 // So a rank looks again soon after it has heard something, and then ever more rarely: after 1, 2,
 // 4, ... parts of the longest nap, and at the end of each nap of that length. (Simulated, naps of 4
-// ms instead of one make no difference with 128 and 1,024 ranks; naps of 16 take a tenth longer.)
+// ms instead of one make no difference with 128 and 1,024 ranks; with naps of 16 an instance took
+// 128 a tenth longer.)
 constexpr double kLongestNap_s = 4e-3;
 constexpr double kShortestNap = 1.0 / 16;  // of the longest
 
@@ -27,11 +28,11 @@ inline double next_look(double heard, double time, double longest_nap = kLongest
   return std::max(time, heard + nap);  // rounding must not make it earlier
 }
 
-// How long news may wait that nothing hangs on, `time` after the beginning, if at first it may wait
-// for `pause`. All in seconds. News that is late by a hundredth of the whole time loses little, and
-// each message wakes up somebody.
 constexpr double kLongestPause_s = 20e-3;
 
+// How long news may wait that nothing hangs on, `time` after the beginning, if at first it may wait
+// for `pause`. All in seconds. News that is late by a hundredth of the time so far loses little,
+// and each message wakes up somebody.
 inline double pause_at(double time, double pause) {
   return std::max(pause, std::min(time / 100, kLongestPause_s));
 }

@@ -52,7 +52,6 @@ class Hours(unittest.TestCase):
                 cost = json.loads(plan.read_text(encoding="utf-8"))["cost"]
                 self.assertRegex(page, rf"\| {case} \|.*\| {cost:,} \|")
 
-
     def test_runs_end_with_the_bound_that_is_known(self):
         with tempfile.TemporaryDirectory() as name:
             plan = pathlib.Path(name) / "a.plan.json"
@@ -68,6 +67,7 @@ class Study(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             path = pathlib.Path(name) / "rows.csv"
             first, second = (str(case) for case in scaling.HARD[:2])
+
             def row(instance, ranks, cost):
                 return {"instance": instance, "ranks": str(ranks), "cost": cost}
 

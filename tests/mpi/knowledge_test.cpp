@@ -6,6 +6,8 @@
 #include <deque>
 #include <limits>
 
+#include "mpi/looks.h"
+
 namespace grove::detail {
 namespace knowledge_test {
 
@@ -78,6 +80,15 @@ TEST(Knowledge, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
     }
   EXPECT_EQ(count, 3000);
   EXPECT_GT(now, 0.5);
+}
+
+TEST(Knowledge, SpeaksMoreRarelyLaterInARun) {
+  Knowledge knowledge(0, 2, 1e4);
+  add_facts(3000, knowledge);
+  for (const double now : {0.0, 1.0, 100.0}) {
+    knowledge.due(now);
+    EXPECT_EQ(knowledge.speaks_at(), now + pause_at(now, 1e-3));
+  }
 }
 
 // What is worth least is given up when too much waits.
