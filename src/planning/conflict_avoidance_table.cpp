@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 #include "grove/detail/model/assert.h"
 
@@ -28,22 +29,33 @@ int ConflictAvoidanceTable::direction_on_roads(const World& world, Place from, P
   return std::min(static_cast<int>(std::ranges::find(neighbors, from) - neighbors.begin()), 3);
 }
 
-// For so many keys more. Left-overs go first.
+// For so many keys more. What is in use goes over into a new generation, in the same memory if that
+// will do; left-overs stay behind.
 void ConflictAvoidanceTable::make_room(std::size_t steps) {
   if (kSparsity * (keys_ + steps) <= counts_.size()) return;
-  const auto in_use = [&](const Counts& c) { return is_current(c.key) && c.visits > 0; };
-  keys_ = static_cast<std::size_t>(std::ranges::count_if(counts_, in_use));
-  const std::size_t size = std::bit_ceil(2 * kSparsity * (keys_ + steps));
-  std::vector<Counts> old(std::max(counts_.size(), size));
-  old.swap(counts_);
+  in_use_.clear();
+  std::ranges::copy_if(counts_, std::back_inserter(in_use_), [&](const Counts& counts) {
+    return is_current(counts.key) && counts.visits > 0;
+  });
+  const std::size_t size = std::bit_ceil(2 * kSparsity * (in_use_.size() + steps));
+  if (size > counts_.size()) counts_ = std::vector<Counts>(size);
   mask_ = counts_.size() - 1;
-  std::ranges::fill(visited_, Visited{});
-  for (const Counts& counts : old) {
-    if (!in_use(counts)) continue;
+  keys_ = in_use_.size();
+  begin_generation();
+  for (Counts& counts : in_use_) {
+    const auto place = static_cast<Place>(counts.key & ((std::uint64_t{1} << kPlaceBits) - 1));
+    const auto time = static_cast<Time>(counts.key >> kPlaceBits & kLastTime);
+    counts.key = key(place, time);
     counts_[slot(counts.key)] = counts;
-    mark(static_cast<Place>(counts.key & ((std::uint64_t{1} << kPlaceBits) - 1)),
-         static_cast<Time>(counts.key >> kPlaceBits & kLastTime));
+    mark(place, time);
   }
+}
+
+void ConflictAvoidanceTable::begin_generation() {
+  if (generation_++ < kLastGeneration) return;
+  std::ranges::fill(counts_, Counts{});
+  std::ranges::fill(visited_, Visited{});
+  generation_ = 1;
 }
 
 void ConflictAvoidanceTable::mark(Place place, Time time) {
@@ -104,11 +116,7 @@ void ConflictAvoidanceTable::remove(const Path& path) {
 }
 
 void ConflictAvoidanceTable::clear() {
-  if (generation_++ == kLastGeneration) {
-    std::ranges::fill(counts_, Counts{});
-    std::ranges::fill(visited_, Visited{});
-    generation_ = 1;
-  }
+  begin_generation();
   for (const Rest& rest : rests_) first_rest_[rest.place] = kNever;
   rests_.clear();
   keys_ = 0;

@@ -2,10 +2,13 @@
 #include "grove/detail/search/situations.h"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 #include <tuple>
 
 #include "grove/detail/model/assert.h"
 #include "grove/detail/model/hash.h"
+#include "grove/detail/search/packed_constraints.h"
 
 namespace grove::detail {
 namespace {
@@ -17,18 +20,42 @@ std::size_t place_of(Situations::Id id) {
   return static_cast<std::size_t>(id) / Sharded<int>::kParts;
 }
 
+template <class Value>
+void append(Value value, std::string& bytes) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class Value>
+Value taken_from(std::string_view& bytes) {
+  Value value;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  bytes.remove_prefix(sizeof value);
+  return value;
+}
+
+void write_key(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints,
+               std::string& key) {
+  key.clear();
+  append(&order, key);
+  append(agent, key);
+  pack(constraints, key);
+}
+
+Situation situation_of(std::string_view key) {
+  Situation situation;
+  situation.order = taken_from<const AgentOrder*>(key);
+  situation.agent = taken_from<AgentIndex>(key);
+  situation.constraints = unpacked_constraints(key);
+  return situation;
+}
+
 // Of values, not of addresses: the same in every run, so that tables are of the same size.
-std::uint64_t hash_of(AgentIndex agent, const AgentOrder& order,
-                      std::span<const Constraint> constraints) {
-  const auto both = [](std::int32_t a, std::int32_t b) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 |
-           static_cast<std::uint32_t>(b);
-  };
-  std::uint64_t hash = mixed_in(static_cast<std::uint64_t>(agent), order.sequences.forbidden_next);
+std::uint64_t hash_of(const AgentOrder& order, std::string_view key) {
+  std::uint64_t hash = order.sequences.forbidden_next;
   for (const Stop stop : order.sequences.prefix) hash = mixed_in(hash, stop);
-  for (const Constraint& c : constraints)
-    hash = mixed_in(mixed_in(mixed_in(hash, both(c.cell, c.from)), both(c.begin, c.end)),
-                    static_cast<std::uint64_t>(c.kind));
+  key.remove_prefix(sizeof &order);
+  while (key.size() >= sizeof hash) hash = mixed_in(hash, taken_from<std::uint64_t>(key));
+  for (const char byte : key) hash = mixed_in(hash, static_cast<unsigned char>(byte));
   return hash;
 }
 
@@ -52,12 +79,13 @@ Situations::Id Situations::id(AgentIndex agent, const AgentOrder& order,
                               std::span<const Constraint> constraints) {
   GROVE_ASSERT(std::ranges::is_sorted(constraints, {}, key_of),
                "constraints are in canonical order");
-  const std::uint64_t hash = hash_of(agent, order, constraints);
+  thread_local std::string key;  // keeps its room
+  write_key(agent, order, constraints, key);
+  const std::uint64_t hash = hash_of(order, key);
   const std::size_t number = hash >> (64 - Sharded<Part>::kBits);
-  const Entry key{hash, &order, agent, 0, static_cast<std::uint32_t>(constraints.size()), {}};
   const Id at = parts_.with(number, [&](Part& part) {
     const std::size_t before = part.bytes();
-    const Id id = part.find_or_add(key, constraints);
+    const Id id = part.find_or_add(static_cast<std::uint32_t>(hash), key);
     bytes_ += part.bytes() - before;
     return id;
   });
@@ -71,9 +99,7 @@ Situations::Known Situations::known(Id id) const {
 
 Situation Situations::situation(Id id) const {
   return parts_.with(parts_.part_of(id), [&](const Part& part) {
-    const Entry& entry = part.entries[place_of(id)];
-    const auto constraints = std::span(part.constraints).subspan(entry.first, entry.count);
-    return Situation{entry.order, entry.agent, {constraints.begin(), constraints.end()}};
+    return situation_of(part.key(static_cast<Id>(place_of(id))));
   });
 }
 
@@ -87,38 +113,46 @@ bool Situations::learn(Id id, Known learnt) {
   });
 }
 
-Situations::Id Situations::Part::find_or_add(const Entry& key,
-                                             std::span<const Constraint> constraints_of_key) {
-  if (2 * entries.size() >= table.size()) grow();
+Situations::Id Situations::Part::find_or_add(std::uint32_t tag, std::string_view key_sought) {
+  if (4 * entries.size() >= 3 * table.size()) grow();
   const std::size_t mask = table.size() - 1;
-  const auto same = [&](const Entry& entry) {
-    return entry.hash == key.hash && entry.agent == key.agent && entry.order == key.order &&
-           std::ranges::equal(std::span(constraints).subspan(entry.first, entry.count),
-                              constraints_of_key);
-  };
-  std::size_t at = key.hash & mask;
-  for (; table[at] != kFree; at = (at + 1) & mask)
-    if (same(entries[table[at]])) return table[at];
+  std::size_t at = tag & mask;
+  for (; table[at].entry != kFree; at = (at + 1) & mask)
+    if (table[at].tag == tag && key(table[at].entry) == key_sought) return table[at].entry;
   const auto id = static_cast<Id>(entries.size());
-  entries.push_back(key);
-  entries.back().first = static_cast<std::uint32_t>(constraints.size());
-  constraints.insert(constraints.end(), constraints_of_key.begin(), constraints_of_key.end());
-  return table[at] = id;
+  const auto first = static_cast<std::uint32_t>(keys.size());
+  GROVE_ASSERT(first == keys.size(), "long before that a memory is full, and another one begun");
+  entries.push_back({first, {}});
+  try {
+    keys += key_sought;
+  } catch (...) {
+    entries.pop_back();
+    throw;
+  }
+  table[at] = {tag, id};
+  return id;
+}
+
+std::string_view Situations::Part::key(Id entry) const {
+  const auto at = static_cast<std::size_t>(entry);
+  const std::size_t end = at + 1 < entries.size() ? entries[at + 1].first : keys.size();
+  return std::string_view(keys).substr(entries[at].first, end - entries[at].first);
 }
 
 void Situations::Part::grow() {
-  table.assign(std::max(kFirstSize, 2 * table.size()), kFree);
-  const std::size_t mask = table.size() - 1;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    std::size_t at = entries[i].hash & mask;
-    while (table[at] != kFree) at = (at + 1) & mask;
-    table[at] = static_cast<Id>(i);
+  std::vector<Slot> larger(std::max(kFirstSize, 2 * table.size()), Slot{0, kFree});
+  const std::size_t mask = larger.size() - 1;
+  for (const Slot& slot : table) {
+    if (slot.entry == kFree) continue;
+    std::size_t at = slot.tag & mask;
+    while (larger[at].entry != kFree) at = (at + 1) & mask;
+    larger[at] = slot;
   }
+  table.swap(larger);
 }
 
 std::size_t Situations::Part::bytes() const {
-  return entries.capacity() * sizeof(Entry) + constraints.capacity() * sizeof(Constraint) +
-         table.capacity() * sizeof(Id);
+  return entries.capacity() * sizeof(Entry) + keys.capacity() + table.capacity() * sizeof(Slot);
 }
 
 }  // namespace grove::detail

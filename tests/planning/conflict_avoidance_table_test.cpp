@@ -54,6 +54,37 @@ TEST(ConflictAvoidanceTable, AgreesWithNaiveCounts) {
   }
 }
 
+// Those that are gone take room until it is wanted: three times as many paths come as fit at first.
+TEST(ConflictAvoidanceTable, AgreesWhenItMakesRoom) {
+  std::mt19937 random(8);
+  const Grid grid =
+      grid_of({"........", "........", "........", "........", "........", "........"});
+  for (const std::size_t most_paths : {2, 40}) {
+    ConflictAvoidanceTable table(grid);
+    NaiveConflicts naive;
+    for (int step = 0; step < 80; ++step) {
+      if (naive.paths.size() == most_paths) {
+        table.remove(naive.paths.front());
+        naive.paths.erase(naive.paths.begin());
+      }
+      naive.paths.push_back(testing::random_walk(grid, random, 18));
+      table.add(naive.paths.back());
+      if (step % 8 == 7) expect_same_counts(grid, table, naive);
+    }
+  }
+}
+
+TEST(ConflictAvoidanceTable, ForgetsHoweverOftenItIsCleared) {
+  const Grid grid = grid_of({"...."});
+  ConflictAvoidanceTable table(grid);
+  for (int round = 0; round < 140'000; ++round) {
+    if (round % 2 == 0) table.add({0, 1, 2});
+    EXPECT_EQ(table.conflicts(1, 1, 1), round % 2 == 0 ? 1 : 0);
+    EXPECT_EQ(table.conflicts(2, 1, 2), round % 2 == 0 ? 1 : 0);
+    table.clear();
+  }
+}
+
 TEST(ConflictAvoidanceTable, CountsVertexAndSwap) {
   const Grid grid = grid_of({"..."});
   ConflictAvoidanceTable table(grid);

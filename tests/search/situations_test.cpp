@@ -43,10 +43,12 @@ TEST(Situations, AreTheSameIfAgentOrderAndConstraintsAre) {
       situations.learn(id, {id, true});
     }
     EXPECT_EQ(keys.at(id), key);
+    const Situation situation = situations.situation(id);
+    EXPECT_EQ(Key(situation.agent, situation.order, situation.constraints), key);
     EXPECT_EQ(situations.known(id).at_least, id);
   }
   EXPECT_GT(keys.size(), 500u);
-  EXPECT_GT(situations.bytes(), keys.size() * sizeof(Constraint));
+  EXPECT_GT(situations.bytes(), keys.size() * (sizeof(AgentIndex) + sizeof(AgentOrder*)));
 }
 
 TEST(Situations, KeepTheStrongerStatement) {

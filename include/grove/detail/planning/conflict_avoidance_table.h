@@ -80,7 +80,7 @@ class ConflictAvoidanceTable {
     Time since;
   };
 
-  // A key is of one generation: clear() begins a new one, and entries of older ones count as free.
+  // A key is of one generation: entries of older ones count as free.
   // Later times than kLastTime are not counted.
   static constexpr int kPlaceBits = 27;
   static constexpr int kTimeBits = 21;
@@ -141,6 +141,7 @@ class ConflictAvoidanceTable {
   Counts& insert(std::uint64_t key);
   int rests_before(Place place, Time time) const;
   void make_room(std::size_t steps);
+  void begin_generation();
 
   const World& world_;
   std::vector<Counts> counts_;    // a power of two
@@ -152,6 +153,7 @@ class ConflictAvoidanceTable {
   Time horizon_ = 0;              // no path added since the last clear() moves after this time
   std::vector<Time> first_rest_;  // by place: when the first path comes to rest there
   std::vector<Rest> rests_;
+  std::vector<Counts> in_use_;  // scratch of make_room()
 };
 
 }  // namespace grove::detail

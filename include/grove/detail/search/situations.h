@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "grove/detail/search/node.h"
@@ -52,19 +54,21 @@ class Situations {
 
  private:
   struct Entry {
-    std::uint64_t hash;
-    const AgentOrder* order;
-    AgentIndex agent;
-    std::uint32_t first;  // of its constraints
-    std::uint32_t count;
+    std::uint32_t first;  // byte of its key
     Known known;
+  };
+  // Of a place in the table: what tells most keys apart without a look at them.
+  struct Slot {
+    std::uint32_t tag;
+    Id entry;
   };
   struct Part {
     std::vector<Entry> entries;
-    std::vector<Constraint> constraints;
-    std::vector<Id> table;  // open addressing; a power of two
+    std::string keys;         // one after the other
+    std::vector<Slot> table;  // open addressing; a power of two
 
-    Id find_or_add(const Entry& key, std::span<const Constraint> constraints_of_key);
+    Id find_or_add(std::uint32_t tag, std::string_view key);
+    std::string_view key(Id entry) const;
     void grow();
     std::size_t bytes() const;
   };
