@@ -90,9 +90,9 @@ class OptimalPathsBuilder::Workspace {
   void leave_by(const Move& move, Time arrival);
   Time last_arrival(const Move& move, Time latest) const;
   std::size_t count_nodes() const;
-  void write_layers(OptimalPaths& paths);
-  void write_nodes(Time time, OptimalPaths& paths);
-  void write_successors(const Label& label, Time time, OptimalPaths& paths) const;
+  void write_layers();
+  void write_nodes(Time time);
+  void write_successors(const Label& label, Time time);
   bool is_end(const Label& label) const;
   State state(LabelId label) const { return intervals_.state_of(labels_[label].slot); }
   Place place(LabelId label) const { return world_.place(state(label)); }
@@ -109,6 +109,7 @@ class OptimalPathsBuilder::Workspace {
   std::vector<LabelId> useful_;         // by latest, which they have, the last first
   std::vector<LabelId> here_;           // the labels of the layer that is being written
   std::vector<NodeId> nodes_;           // by label: of the layer after it
+  OptimalPaths written_;                // so far; keeps its room
   std::int64_t met_ = 0;                // labels and nodes, in all calls
 
   // Of the call under way.
@@ -116,6 +117,20 @@ class OptimalPathsBuilder::Workspace {
   const Limits* limits_ = nullptr;
   Time cost_ = 0;
 };
+
+std::size_t OptimalPaths::bytes() const {
+  const auto bytes_of = [](const auto& list) { return list.capacity() * sizeof(list.front()); };
+  return sizeof(OptimalPaths) + bytes_of(first_of_layer_) + bytes_of(places_) + bytes_of(states_) +
+         bytes_of(first_successor_) + bytes_of(successors_);
+}
+
+void OptimalPaths::clear() {
+  first_of_layer_.clear();
+  places_.clear();
+  states_.clear();
+  first_successor_.clear();
+  successors_.clear();
+}
 
 OptimalPathsBuilder::OptimalPathsBuilder(const World& world)
     : workspace_(std::make_unique<Workspace>(world)) {}
@@ -158,7 +173,8 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::make_layers(std::si
   go_backward();
   if (ends_.empty()) return Outcome::kNone;
   if (count_nodes() > most_nodes) return Outcome::kTooLarge;
-  write_layers(paths);
+  write_layers();
+  paths = written_;
   return Outcome::kBuilt;
 }
 
@@ -293,44 +309,44 @@ std::size_t OptimalPathsBuilder::Workspace::count_nodes() const {
   return count;
 }
 
-void OptimalPathsBuilder::Workspace::write_layers(OptimalPaths& paths) {
+void OptimalPathsBuilder::Workspace::write_layers() {
+  written_.clear();
   nodes_.assign(labels_.size(), kNoNode);
   here_ = ends_;
-  write_nodes(cost_, paths);
+  write_nodes(cost_);
   here_.clear();
   auto next = useful_.begin();
   for (Time time = cost_ - 1; time >= 0; --time) {
     std::erase_if(here_, [&](LabelId label) { return labels_[label].earliest > time; });
     for (; next != useful_.end() && labels_[*next].latest == time; ++next) here_.push_back(*next);
-    write_nodes(time, paths);
+    write_nodes(time);
   }
-  paths.first_of_layer_.push_back(paths.node_count());
-  paths.first_successor_.push_back(static_cast<std::int32_t>(paths.successors_.size()));
+  written_.first_of_layer_.push_back(written_.node_count());
+  written_.first_successor_.push_back(static_cast<std::int32_t>(written_.successors_.size()));
 }
 
 // A layer.
-void OptimalPathsBuilder::Workspace::write_nodes(Time time, OptimalPaths& paths) {
-  NodeId node = paths.node_count();
-  paths.first_of_layer_.push_back(node);
+void OptimalPathsBuilder::Workspace::write_nodes(Time time) {
+  NodeId node = written_.node_count();
+  written_.first_of_layer_.push_back(node);
   for (const LabelId label : here_) {
-    paths.first_successor_.push_back(static_cast<std::int32_t>(paths.successors_.size()));
-    paths.places_.push_back(place(label));
-    if (!world_.states_are_places()) paths.states_.push_back(state(label));
-    if (time < cost_) write_successors(labels_[label], time, paths);
+    written_.first_successor_.push_back(static_cast<std::int32_t>(written_.successors_.size()));
+    written_.places_.push_back(place(label));
+    if (!world_.states_are_places()) written_.states_.push_back(state(label));
+    if (time < cost_) write_successors(labels_[label], time);
   }
   for (const LabelId label : here_) nodes_[label] = node++;
 }
 
-void OptimalPathsBuilder::Workspace::write_successors(const Label& label, Time time,
-                                                      OptimalPaths& paths) const {
+void OptimalPathsBuilder::Workspace::write_successors(const Label& label, Time time) {
   const Time then = time + 1;
-  if (then <= label.latest) paths.successors_.push_back(nodes_[&label - labels_.data()]);
+  if (then <= label.latest) written_.successors_.push_back(nodes_[&label - labels_.data()]);
   for (std::int32_t i = label.first_move; i < label.end_move; ++i) {
     const Move& move = moves_[i];
     const bool leads_on =
         then < cost_ ? then <= labels_[move.to].latest : nodes_[move.to] != kNoNode;
     if (leads_on && then >= move.first && last_arrival(move, then) == then)
-      paths.successors_.push_back(nodes_[move.to]);
+      written_.successors_.push_back(nodes_[move.to]);
   }
 }
 

@@ -6,24 +6,32 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostNodesKept = 4'000'000;
-constexpr std::size_t kBytesPerNode = 24;  // about
-constexpr std::size_t kBytesPerSet = 176;
+constexpr std::size_t kBytesPerEntry = 80;  // about: of the table, and of a set's owners
+
+std::size_t bytes_of(const PathSets::Set& set) {
+  return kBytesPerEntry + set->bytes();
+}
 
 }  // namespace
 
 PathSets::Set PathSets::find(Situations::Id id) const {
   return parts_.with(parts_.part_of(id), [&](const Part& part) {
-    const auto found = part.find(id);
-    return found == part.end() ? nullptr : found->second;
+    for (const Sets* sets : {&part.young, &part.old})
+      if (const auto found = sets->find(id); found != sets->end()) return found->second;
+    return Set();
   });
 }
 
 void PathSets::add(Situations::Id id, const Set& set) {
   parts_.with(parts_.part_of(id), [&](Part& part) {
-    if (!part.try_emplace(id, set).second) return;
-    ++sets_;
-    nodes_ += static_cast<std::size_t>(set->node_count());
+    if (!part.young.try_emplace(id, set).second) return;
+    const std::size_t bytes = bytes_of(set);
+    part.young_bytes += bytes;
+    young_bytes_ += bytes;
+    if (part.old.erase(id) == 0)
+      bytes_ += bytes;
+    else
+      part.old_bytes -= bytes;
   });
 }
 
@@ -38,16 +46,14 @@ PathSets::Set PathSets::make(PathPlanner& planner, AgentIndex agent, const Agent
 }
 
 void PathSets::trim() {
-  if (nodes_ < kMostNodesKept) return;
+  if (young_bytes_ < most_young_bytes_) return;
   for (std::size_t number = 0; number < Sharded<Part>::kParts; ++number) {
-    Part forgotten = parts_.with(number, [](Part& part) { return std::exchange(part, {}); });
-    for (const auto& [id, set] : forgotten) nodes_ -= static_cast<std::size_t>(set->node_count());
-    sets_ -= forgotten.size();
+    const Sets forgotten = parts_.with(number, [&](Part& part) {
+      bytes_ -= std::exchange(part.old_bytes, part.young_bytes);
+      young_bytes_ -= std::exchange(part.young_bytes, 0);
+      return std::exchange(part.old, std::exchange(part.young, {}));
+    });
   }
-}
-
-std::size_t PathSets::bytes() const {
-  return nodes_ * kBytesPerNode + sets_ * kBytesPerSet;
 }
 
 }  // namespace grove::detail

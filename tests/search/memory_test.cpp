@@ -137,5 +137,31 @@ TEST(Memory, MakesASetOfPathsOnce) {
   EXPECT_EQ(s.planner.optimal_nodes(), nodes);
 }
 
+TEST(PathSets, ForgetWhatWasNotAskedForLately) {
+  TwoWorkers s;
+  const auto set =
+      PathSets::make(s.planner, 0, s.view.order(0), s.view.constraints(0), 2, 1000, s.limits);
+  ASSERT_TRUE(set);
+  PathSets one;
+  one.add(0, set);
+  constexpr int kYoung = 100;
+  PathSets sets(kYoung * one.bytes());
+  const auto add = [&](Situations::Id first, Situations::Id end) {
+    for (Situations::Id id = first; id < end; ++id) sets.add(id, set);
+    sets.trim();
+  };
+  add(0, kYoung);
+  for (Situations::Id id = 0; id < kYoung; ++id) EXPECT_EQ(sets.find(id), set);  // old
+  add(0, 10);                                                                    // young again
+  add(0, 10);
+  EXPECT_EQ(sets.bytes(), kYoung * one.bytes());
+  add(kYoung, 2 * kYoung - 10);
+  for (Situations::Id id = 0; id < 2 * kYoung - 10; ++id)
+    EXPECT_EQ(sets.find(id) != nullptr, id < 10 || id >= kYoung);
+  EXPECT_EQ(sets.bytes(), kYoung * one.bytes());
+  add(2 * kYoung, 4 * kYoung);
+  EXPECT_EQ(sets.bytes(), 2 * kYoung * one.bytes());
+}
+
 }  // namespace memory_test
 }  // namespace grove::detail

@@ -41,9 +41,13 @@ class OptimalPaths {
     return {successors_.data() + first_successor_[node],
             successors_.data() + first_successor_[node + 1]};
   }
+  // Memory held, in bytes; no more than it takes if OptimalPathsBuilder made it.
+  std::size_t bytes() const;
 
  private:
   friend class OptimalPathsBuilder;
+
+  void clear();  // keeps its room
 
   // Layers from the last to the first.
   std::vector<NodeId> first_of_layer_;  // one more at the end, as below
