@@ -15,7 +15,7 @@ void serialize(Archive& archive, Finding& finding) {
 
 template <class Archive>
 void serialize(Archive& archive, AgentSituation& s) {
-  archive(s.tree, s.agent, s.constraints);
+  archive(s.tree, s.agent, s.constraints.bytes);
 }
 
 template <class Archive>

@@ -270,9 +270,9 @@ void Rank::hear(message::Facts& facts) {
   const auto memory = search_.memory();
   const bool has_room = search_.has_room_for_facts();
   for (std::string& bytes : facts.facts) {
-    const Fact fact = message::unpacked(bytes);
-    if (has_room) learn(fact, trees_of_facts_, *memory);
+    Fact fact = message::unpacked(bytes);
     if (!ended_) knowledge_.add(fact.worth(), std::move(bytes), facts.reach);
+    if (has_room) learn(std::move(fact), trees_of_facts_, *memory);
   }
 }
 

@@ -88,6 +88,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   const Clock::time_point begin = Clock::now();
   Member member(problem, options, limits, observer, transport);
   Searching searching(problem, options, limits, member.rank(), transport.rank());
+  const double patience = options.tuning.patience;
   bool said_farewell = false;
   double accounted = 0;
   double heard_at = 0;
@@ -109,6 +110,11 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
       said_farewell = true;
     }
     if (heard) heard_at = now;
+    if (!member.coordinator() && now - heard_at > patience && limits.seconds_left() < -patience)
+      throw std::runtime_error(
+          fmt::format("rank 0 has said nothing for {} s after the limit: it may stand still, and "
+                      "the job ends without an answer",
+                      patience));
     const double rested = seconds();
     if (!heard) sleep(next_look(heard_at, rested + kLeastNap_s) - rested);
   }

@@ -19,9 +19,11 @@
 namespace grove::detail {
 namespace {
 
-std::size_t constraints_in(const Fact& fact) {
+constexpr std::size_t kBytesPerConstraint = 6;  // about
+
+std::size_t bytes_of_constraints(const Fact& fact) {
   std::size_t sum = 0;
-  for (const AgentSituation& s : fact.agents) sum += s.constraints.size();
+  for (const AgentSituation& s : fact.agents) sum += s.constraints.bytes.size();
   return sum;
 }
 
@@ -64,7 +66,8 @@ void require_order(const Fact& fact) {
 }  // namespace
 
 double Fact::worth() const {
-  return (1.0 + excess.expansions) / static_cast<double>(1 + constraints_in(*this));
+  return (1.0 + excess.expansions) /
+         static_cast<double>(kBytesPerConstraint + bytes_of_constraints(*this));
 }
 
 void TreesOfFacts::add(const Tree& tree) {
@@ -92,17 +95,15 @@ std::vector<Fact> facts_of(const News& news, const CommonMemory& memory,
   return facts.all();
 }
 
-void learn(const Fact& fact, const TreesOfFacts& trees, CommonMemory& memory) {
+void learn(Fact fact, const TreesOfFacts& trees, CommonMemory& memory) {
   require_order(fact);
   std::vector<Situations::Id> ids;
   std::vector<AgentIndex> agents;
-  for (const auto& [number, agent, demands] : fact.agents) {
+  for (auto& [number, agent, constraints] : fact.agents) {
     const Tree* tree = trees.numbered(number);
     if (tree == nullptr) return;
     require(agent >= 0 && static_cast<std::size_t>(agent) < tree->orders.size());
-    std::vector<Constraint> constraints = demands;
-    canonical(constraints);
-    ids.push_back(memory.situations.id(agent, *tree->orders[agent], constraints));
+    ids.push_back(memory.situations.id({tree->orders[agent].get(), agent, std::move(constraints)}));
     agents.push_back(agent);
   }
   if (ids.size() == 1)

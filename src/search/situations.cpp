@@ -8,7 +8,6 @@
 
 #include "grove/detail/model/assert.h"
 #include "grove/detail/model/hash.h"
-#include "grove/detail/search/packed_constraints.h"
 
 namespace grove::detail {
 namespace {
@@ -33,19 +32,20 @@ Value taken_from(std::string_view& bytes) {
   return value;
 }
 
-void write_key(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints,
-               std::string& key) {
+// Whose room it keeps: the constraints are to follow.
+std::string& key_begun(AgentIndex agent, const AgentOrder& order) {
+  thread_local std::string key;
   key.clear();
   append(&order, key);
   append(agent, key);
-  pack(constraints, key);
+  return key;
 }
 
 Situation situation_of(std::string_view key) {
   Situation situation;
   situation.order = taken_from<const AgentOrder*>(key);
   situation.agent = taken_from<AgentIndex>(key);
-  situation.constraints = unpacked_constraints(key);
+  situation.constraints.bytes = key;
   return situation;
 }
 
@@ -79,8 +79,18 @@ Situations::Id Situations::id(AgentIndex agent, const AgentOrder& order,
                               std::span<const Constraint> constraints) {
   GROVE_ASSERT(std::ranges::is_sorted(constraints, {}, key_of),
                "constraints are in canonical order");
-  thread_local std::string key;  // keeps its room
-  write_key(agent, order, constraints, key);
+  std::string& key = key_begun(agent, order);
+  pack(constraints, key);
+  return id_of_key(order, key);
+}
+
+Situations::Id Situations::id(const Situation& situation) {
+  std::string& key = key_begun(situation.agent, *situation.order);
+  key += situation.constraints.bytes;
+  return id_of_key(*situation.order, key);
+}
+
+Situations::Id Situations::id_of_key(const AgentOrder& order, std::string_view key) {
   const std::uint64_t hash = hash_of(order, key);
   const std::size_t number = hash >> (64 - Sharded<Part>::kBits);
   const Id at = parts_.with(number, [&](Part& part) {

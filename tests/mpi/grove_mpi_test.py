@@ -281,6 +281,22 @@ class Faults(Program):
             self.run_well([GROVE, "check", instance, "plan.json"])
             (self.folder / "plan.json").unlink()
 
+    def test_a_rank_0_that_never_goes_on(self):
+        """The others end the job, which can go on from its checkpoint."""
+        begin = time.monotonic()
+        running = start(mpirun(3, "solve", self.generate(30, 60, 3), "--omega", 0, "--threads", 1,
+                               "--time-limit", 2, "--tune", "patience=2", "--output", "plan.json"),
+                        self.folder)
+        while len(processes_of(running)) < 3:
+            time.sleep(0.02)
+        time.sleep(0.5)
+        os.kill(processes_of(running)[0], signal.SIGSTOP)
+        said, _ = running.communicate(timeout=60)
+        self.assertGreater(time.monotonic() - begin, 4)
+        self.assertNotEqual(running.returncode, 0)
+        self.assertIn("rank 0 has said nothing for 2 s after the limit", said)
+        self.assertFalse((self.folder / "plan.json").exists())
+
 
 class Memory(Program):
     """What the ranks of a host hold together: distances and tables, by windows of MPI."""

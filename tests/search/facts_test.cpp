@@ -155,7 +155,7 @@ TEST(Facts, RefuseWhatCannotBe) {
 }
 
 TEST(Facts, AreWorthMoreTheLongerTheyTookAndTheFewerConstraintsTheyHave) {
-  const std::vector<Constraint> demands{{3, kNoCell, 1, 2}};
+  const PackedConstraints demands(std::vector<Constraint>{{3, kNoCell, 1, 2}});
   const Fact dear{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 9}};
   const Fact cheap{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 2}};
   const Fact special{{{0, 0, demands}, {0, 1, {}}}, {}, {1, true, 9}};

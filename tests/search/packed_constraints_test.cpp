@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <string_view>
 
 #include "grove/detail/search/situations.h"
 
@@ -13,10 +14,46 @@ namespace grove::detail {
 namespace packed_constraints_test {
 
 std::string packed(std::span<const Constraint> constraints) {
-  std::string bytes;
-  pack(constraints, bytes);
-  return bytes;
+  return PackedConstraints(constraints).bytes;
 }
+
+// Tells the list from its bytes: so no other has the same.
+class Unpacker {
+ public:
+  explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
+
+  std::vector<Constraint> all() {
+    std::vector<Constraint> constraints;
+    Constraint c{.cell = 0};
+    while (!bytes_.empty()) {
+      const std::uint64_t first = number();
+      c.kind = static_cast<ConstraintKind>(first % 8);
+      c.cell = near(c.cell, first / 8);
+      c.from = near_or(c.cell, kNoCell);
+      c.begin = near(c.begin, number());
+      c.end = near_or(c.begin, kNever);
+      constraints.push_back(c);
+    }
+    return constraints;
+  }
+
+ private:
+  std::uint64_t number() {
+    const auto byte = static_cast<unsigned char>(bytes_.at(0));
+    bytes_.remove_prefix(1);
+    return byte < 0x80 ? byte : byte - 0x80 + 0x80 * number();
+  }
+  static std::int32_t near(std::int32_t value, std::uint64_t number) {
+    const auto half = static_cast<std::int64_t>(number / 2);
+    return static_cast<std::int32_t>(value + (number % 2 == 0 ? half : -half - 1));
+  }
+  std::int32_t near_or(std::int32_t value, std::int32_t far) {
+    const std::uint64_t number = this->number();
+    return number == 0 ? far : near(value, number - 1);
+  }
+
+  std::string_view bytes_;
+};
 
 // Near the last one, or anything at all.
 std::int32_t number(std::mt19937& random, std::int32_t often) {
@@ -45,7 +82,7 @@ TEST(PackedConstraints, AreAnyConstraints) {
            number(random, kNever), static_cast<ConstraintKind>(random() % kConstraintKinds)};
     const auto [entry, is_new] = all.emplace(packed(constraints), constraints);
     EXPECT_EQ(entry->second, constraints);
-    EXPECT_EQ(unpacked_constraints(entry->first), constraints);
+    EXPECT_EQ(Unpacker(entry->first).all(), constraints);
   }
 }
 

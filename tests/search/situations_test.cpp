@@ -44,7 +44,10 @@ TEST(Situations, AreTheSameIfAgentOrderAndConstraintsAre) {
     }
     EXPECT_EQ(keys.at(id), key);
     const Situation situation = situations.situation(id);
-    EXPECT_EQ(Key(situation.agent, situation.order, situation.constraints), key);
+    EXPECT_EQ(situation.agent, agent);
+    EXPECT_EQ(situation.order, &order);
+    EXPECT_EQ(situation.constraints, PackedConstraints(constraints));
+    EXPECT_EQ(situations.id(situation), id);
     EXPECT_EQ(situations.known(id).at_least, id);
   }
   EXPECT_GT(keys.size(), 500u);

@@ -7,10 +7,10 @@
 #include <map>
 #include <vector>
 
-#include "grove/detail/planning/constraint.h"
 #include "grove/detail/search/excesses.h"
 #include "grove/detail/search/memory.h"
 #include "grove/detail/search/node.h"
+#include "grove/detail/search/packed_constraints.h"
 #include "grove/detail/search/situations.h"
 
 namespace grove::detail {
@@ -19,7 +19,7 @@ namespace grove::detail {
 struct AgentSituation {
   std::uint32_t tree = 0;
   AgentIndex agent = -1;
-  std::vector<Constraint> constraints;
+  PackedConstraints constraints;  // in canonical order
 
   friend bool operator==(const AgentSituation&, const AgentSituation&) = default;
 };
@@ -55,6 +55,6 @@ std::vector<Fact> facts_of(const News& news, const CommonMemory& memory, const T
 // Adds a fact to what `memory` knows, unless it is of a tree that is not known here. Throws
 // std::invalid_argument, and adds nothing, for what cannot be: no agent, one that is not there, or
 // agents in another order.
-void learn(const Fact& fact, const TreesOfFacts& trees, CommonMemory& memory);
+void learn(Fact fact, const TreesOfFacts& trees, CommonMemory& memory);
 
 }  // namespace grove::detail

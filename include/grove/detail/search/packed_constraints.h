@@ -4,19 +4,23 @@
 
 #include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "grove/detail/planning/constraint.h"
 
 namespace grove::detail {
 
-// Appends `constraints` to `bytes`, each as what it differs in from the one before. Short where
+// Appends `constraints` to `bytes`, each as what it differs in from the one before: short where
 // they are in canonical order (situations.h). Two lists are the same if and only if their bytes
-// are. Throws std::bad_alloc.
+// are.
 void pack(std::span<const Constraint> constraints, std::string& bytes);
 
-// What pack() made these bytes of; they must be what it made, and nothing else.
-std::vector<Constraint> unpacked_constraints(std::string_view bytes);
+// What pack() makes of a list: to be compared, kept and told, never to be taken apart.
+struct PackedConstraints {
+  PackedConstraints() = default;  // none
+  explicit PackedConstraints(std::span<const Constraint> constraints) { pack(constraints, bytes); }
+
+  std::string bytes;
+  friend bool operator==(const PackedConstraints&, const PackedConstraints&) = default;
+};
 
 }  // namespace grove::detail

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "grove/detail/search/node.h"
+#include "grove/detail/search/packed_constraints.h"
 #include "grove/detail/search/sharded.h"
 
 namespace grove::detail {
@@ -19,7 +20,7 @@ namespace grove::detail {
 struct Situation {
   const AgentOrder* order = nullptr;
   AgentIndex agent = -1;
-  std::vector<Constraint> constraints;  // in canonical order
+  PackedConstraints constraints;  // in canonical order
 };
 
 // A *situation* is an agent with its order of visits and a set of constraints. Most nodes of a
@@ -41,6 +42,7 @@ class Situations {
   // The number of a situation. `constraints` must be in canonical order, see canonical(). `order`
   // must outlive this object.
   Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints);
+  Id id(const Situation& situation);
 
   // What has this number.
   Situation situation(Id id) const;
@@ -72,6 +74,8 @@ class Situations {
     void grow();
     std::size_t bytes() const;
   };
+
+  Id id_of_key(const AgentOrder& order, std::string_view key);
 
   Sharded<Part> parts_;  // an Id is the place in a part and the part's number
   std::atomic<std::size_t> bytes_{0};
