@@ -4,15 +4,17 @@
 #include <algorithm>
 
 #include "grove/detail/model/assert.h"
+#include "grove/detail/model/hash.h"
 
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kBytesPerPair = 64;  // about
+constexpr std::size_t kBytesPerPartner = 2 * sizeof(Excesses::Partner);  // about, as below
 constexpr std::size_t kBytesPerGroup = 160;
 
-std::uint64_t key(Excesses::Id first, Excesses::Id second) {
-  return static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint32_t>(second);
+std::uint32_t hash_of(Excesses::Id first, Excesses::Id second) {
+  return static_cast<std::uint32_t>(
+      mixed_in(static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(second)));
 }
 
 }  // namespace
@@ -22,37 +24,78 @@ Excesses::Id Excesses::newest(const std::vector<Id>& situations) {
   return *std::ranges::max_element(situations);
 }
 
-Excesses::Known Excesses::of_pair(Id first, Id second) const {
-  return parts_.with(parts_.part_of(first), [&](const Part& part) {
-    const auto found = part.known.find(key(first, second));
-    return found == part.known.end() ? Known() : found->second;
-  });
+template <class Item>
+std::vector<Item>& Excesses::Lists<Item>::at(Id situation) {
+  const std::size_t place = place_of(situation);
+  if (place >= list_.size()) list_.resize(place + 1, -1);
+  if (list_[place] < 0) {
+    lists_.emplace_back();
+    list_[place] = static_cast<std::int32_t>(lists_.size() - 1);
+  }
+  return lists_[static_cast<std::size_t>(list_[place])];
 }
 
-bool Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
-  return parts_.with(parts_.part_of(first), [&](Part& part) {
-    const auto [entry, is_new] = part.known.try_emplace(key(first, second), known);
-    if (is_new) bytes_ += kBytesPerPair;
-    const Known before = entry->second;
-    entry->second = join(before, known);
-    const bool is_news = is_new || entry->second != before;
-    if (known.excess == 0) return is_news;
-    auto& partners = part.partners[first];
-    const auto same = [&](const Partner& p) { return p.agent == agent && p.situation == second; };
-    const auto listed = std::ranges::find_if(partners, same);
-    if (listed != partners.end())
-      listed->excess = entry->second.excess;
-    else
-      partners.push_back({agent, second, known.excess});
+template <class What>
+bool Excesses::learn(Id under, What what) {
+  return parts_.with(parts_.part_of(under), [&](Part& part) {
+    const std::size_t before = part.bytes();
+    const bool is_news = what(part);
+    bytes_ += part.bytes() - before;
     return is_news;
   });
 }
 
+HashIndex::Number Excesses::Part::find(Id first, Id second) const {
+  return index.find(hash_of(first, second), [&](HashIndex::Number number) {
+    return pairs[number].first == first && pairs[number].second == second;
+  });
+}
+
+std::size_t Excesses::Part::bytes() const {
+  return pairs.capacity() * sizeof(Pair) + index.bytes() + partners.bytes() + groups.bytes() +
+         listed_partners * kBytesPerPartner + listed_groups * kBytesPerGroup;
+}
+
+Excesses::Known Excesses::of_pair(Id first, Id second) const {
+  return parts_.with(parts_.part_of(first), [&](const Part& part) {
+    const HashIndex::Number found = part.find(first, second);
+    return found == HashIndex::kNone ? Known() : part.pairs[found].known;
+  });
+}
+
+bool Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
+  return learn(first, [&](Part& part) {
+    HashIndex::Number at = part.find(first, second);
+    const bool is_new = at == HashIndex::kNone;
+    if (is_new) {
+      part.index.reserve_one();
+      part.pairs.push_back({first, second, {}});
+      at = part.index.add(hash_of(first, second));
+    }
+    const Known before = part.pairs[at].known;
+    const Known now = part.pairs[at].known = join(before, known);
+    if (known.excess > 0) part.list({agent, second, now.excess}, first);
+    return is_new || now != before;
+  });
+}
+
+void Excesses::Part::list(const Partner& partner, Id first) {
+  auto& listed = partners.at(first);
+  const auto known = std::ranges::find_if(listed, [&](const Partner& p) {
+    return p.agent == partner.agent && p.situation == partner.situation;
+  });
+  if (known != listed.end()) {
+    known->excess = partner.excess;
+    return;
+  }
+  listed.push_back(partner);
+  ++listed_partners;
+}
+
 void Excesses::partners(Id first, std::vector<Partner>& partners) const {
   parts_.with(parts_.part_of(first), [&](const Part& part) {
-    const auto found = part.partners.find(first);
-    if (found != part.partners.end())
-      partners.insert(partners.end(), found->second.begin(), found->second.end());
+    const auto listed = part.partners.of(first);
+    partners.insert(partners.end(), listed.begin(), listed.end());
   });
 }
 
@@ -69,12 +112,12 @@ bool Excesses::learn_group(const std::vector<AgentIndex>& agents, const std::vec
   GROVE_ASSERT(agents.size() == situations.size() && std::ranges::is_sorted(agents),
                "a group is its agents in ascending order, and their situations");
   const Id under = newest(situations);
-  return parts_.with(parts_.part_of(under), [&](Part& part) {
-    auto& groups = part.groups[under];
+  return learn(under, [&](Part& part) {
+    auto& groups = part.groups.at(under);
     const auto listed = std::ranges::find(groups, situations, &Group::situations);
     if (listed == groups.end()) {
       groups.push_back({agents, situations, known});
-      bytes_ += kBytesPerGroup;
+      ++part.listed_groups;
       return true;
     }
     const Known before = listed->known;

@@ -12,9 +12,6 @@
 namespace grove::detail {
 namespace {
 
-constexpr Situations::Id kFree = -1;
-constexpr std::size_t kFirstSize = 64;
-
 std::size_t place_of(Situations::Id id) {
   return static_cast<std::size_t>(id) / Sharded<int>::kParts;
 }
@@ -123,24 +120,20 @@ bool Situations::learn(Id id, Known learnt) {
   });
 }
 
-Situations::Id Situations::Part::find_or_add(std::uint32_t tag, std::string_view key_sought) {
-  if (4 * entries.size() >= 3 * table.size()) grow();
-  const std::size_t mask = table.size() - 1;
-  std::size_t at = tag & mask;
-  for (; table[at].entry != kFree; at = (at + 1) & mask)
-    if (table[at].tag == tag && key(table[at].entry) == key_sought) return table[at].entry;
-  const auto id = static_cast<Id>(entries.size());
+Situations::Id Situations::Part::find_or_add(std::uint32_t hash, std::string_view sought) {
+  const Id found = index.find(hash, [&](Id entry) { return key(entry) == sought; });
+  if (found != HashIndex::kNone) return found;
   const auto first = static_cast<std::uint32_t>(keys.size());
   GROVE_ASSERT(first == keys.size(), "long before that a memory is full, and another one begun");
+  index.reserve_one();
   entries.push_back({first, {}});
   try {
-    keys += key_sought;
+    keys += sought;
   } catch (...) {
     entries.pop_back();
     throw;
   }
-  table[at] = {tag, id};
-  return id;
+  return index.add(hash);
 }
 
 std::string_view Situations::Part::key(Id entry) const {
@@ -149,20 +142,8 @@ std::string_view Situations::Part::key(Id entry) const {
   return std::string_view(keys).substr(entries[at].first, end - entries[at].first);
 }
 
-void Situations::Part::grow() {
-  std::vector<Slot> larger(std::max(kFirstSize, 2 * table.size()), Slot{0, kFree});
-  const std::size_t mask = larger.size() - 1;
-  for (const Slot& slot : table) {
-    if (slot.entry == kFree) continue;
-    std::size_t at = slot.tag & mask;
-    while (larger[at].entry != kFree) at = (at + 1) & mask;
-    larger[at] = slot;
-  }
-  table.swap(larger);
-}
-
 std::size_t Situations::Part::bytes() const {
-  return entries.capacity() * sizeof(Entry) + keys.capacity() + table.capacity() * sizeof(Slot);
+  return entries.capacity() * sizeof(Entry) + keys.capacity() + index.bytes();
 }
 
 }  // namespace grove::detail

@@ -6,9 +6,10 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
+#include <span>
 #include <vector>
 
+#include "grove/detail/search/hash_index.h"
 #include "grove/detail/search/sharded.h"
 #include "grove/detail/search/situations.h"
 
@@ -65,9 +66,7 @@ class Excesses {
   template <class Use>
   void groups_listed_under(Id situation, Use use) const {
     parts_.with(parts_.part_of(situation), [&](const Part& part) {
-      const auto found = part.groups.find(situation);
-      if (found == part.groups.end()) return;
-      for (const Group& group : found->second) use(group);
+      for (const Group& group : part.groups.of(situation)) use(group);
     });
   }
 
@@ -78,11 +77,49 @@ class Excesses {
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:
-  struct Part {
-    std::unordered_map<std::uint64_t, Known> known;         // by both situations
-    std::unordered_map<Id, std::vector<Partner>> partners;  // by the first
-    std::unordered_map<Id, std::vector<Group>> groups;      // by the newest
+  struct Pair {
+    Id first;
+    Id second;
+    Known known;
   };
+  // What is listed under situations of a part, which are numbered one after the other.
+  template <class Item>
+  class Lists {
+   public:
+    std::span<const Item> of(Id situation) const {
+      const std::size_t place = place_of(situation);
+      if (place >= list_.size() || list_[place] < 0) return {};
+      return lists_[static_cast<std::size_t>(list_[place])];
+    }
+    std::vector<Item>& at(Id situation);
+    std::size_t bytes() const {
+      return list_.capacity() * sizeof(std::int32_t) + lists_.capacity() * sizeof(lists_.front());
+    }
+
+   private:
+    static std::size_t place_of(Id situation) {
+      return static_cast<std::size_t>(situation) / Sharded<int>::kParts;
+    }
+
+    std::vector<std::int32_t> list_;  // by place: its number; -1: none
+    std::vector<std::vector<Item>> lists_;
+  };
+  struct Part {
+    std::vector<Pair> pairs;
+    HashIndex index;          // of pairs
+    Lists<Partner> partners;  // by the first
+    Lists<Group> groups;      // by the newest
+    std::size_t listed_partners = 0;
+    std::size_t listed_groups = 0;
+
+    void list(const Partner& partner, Id first);
+    HashIndex::Number find(Id first, Id second) const;
+    std::size_t bytes() const;
+  };
+
+  // Calls what(part), which returns whether that was news, and keeps count of the bytes.
+  template <class What>
+  bool learn(Id under, What what);
 
   Sharded<Part> parts_;  // by the situation that a pair or group is listed under
   std::atomic<std::size_t> bytes_{0};

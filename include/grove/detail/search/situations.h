@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grove/detail/search/hash_index.h"
 #include "grove/detail/search/node.h"
 #include "grove/detail/search/packed_constraints.h"
 #include "grove/detail/search/sharded.h"
@@ -59,19 +60,13 @@ class Situations {
     std::uint32_t first;  // byte of its key
     Known known;
   };
-  // Of a place in the table: what tells most keys apart without a look at them.
-  struct Slot {
-    std::uint32_t tag;
-    Id entry;
-  };
   struct Part {
     std::vector<Entry> entries;
-    std::string keys;         // one after the other
-    std::vector<Slot> table;  // open addressing; a power of two
+    std::string keys;  // one after the other
+    HashIndex index;   // of entries
 
-    Id find_or_add(std::uint32_t tag, std::string_view key);
+    Id find_or_add(std::uint32_t hash, std::string_view key);
     std::string_view key(Id entry) const;
-    void grow();
     std::size_t bytes() const;
   };
 
