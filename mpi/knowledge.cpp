@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kPause_s = 1e-3;   // between two tellings, in the beginning; see pause_at()
 constexpr double kMostPauses = 10;  // whose bytes may be told at one go, after a silence
-constexpr std::size_t kMostWaiting = 4000;
+constexpr std::size_t kMostWaiting = 1000;
+constexpr double kFullRate_s = 1;        // from then on it falls, as one over the time
 constexpr std::size_t kBytesOfSize = 1;  // of a fact, in a message: about
 
 }  // namespace
@@ -44,7 +45,8 @@ std::vector<Knowledge::Parcel> Knowledge::due(double now) {
   std::vector<Parcel> parcels;
   if (waiting_.empty() || now < next_) return parcels;
   const double pause = pause_at(now, kPause_s);
-  allowance_ = std::min(allowance_ + (now - last_) * rate_, kMostPauses * pause * rate_);
+  const double rate = rate_at(now);
+  allowance_ = std::min(allowance_ + (now - last_) * rate, kMostPauses * pause * rate);
   last_ = now;
   next_ = now + pause;
   auto left = static_cast<double>(waiting_.size());
@@ -57,6 +59,12 @@ std::vector<Knowledge::Parcel> Knowledge::due(double now) {
   }
   std::erase_if(waiting_, [](const auto& entry) { return entry.second.empty(); });
   return parcels;
+}
+
+// In the beginning all are at the same nodes. Later each is in a part of the tree of its own, and
+// what it finds out is of less use to others; and memories are finite.
+double Knowledge::rate_at(double now) const {
+  return rate_ * kFullRate_s / std::max(now, kFullRate_s);
 }
 
 message::Facts Knowledge::best_of(Waiting& waiting, double bytes, int reach) {

@@ -25,7 +25,8 @@ class Knowledge {
     message::Facts facts;
   };
 
-  // `rate`: bytes per second that it may tell; 0: nothing.
+  // `rate`: bytes per second that it may tell in the first second, and less and less after it; 0:
+  // nothing.
   Knowledge(int rank, int ranks, double rate) : rank_(rank), ranks_(ranks), rate_(rate) {}
 
   bool is_on() const { return ranks_ > 1 && rate_ > 0; }
@@ -51,6 +52,7 @@ class Knowledge {
   using Waiting = std::vector<Piece>;  // a heap
 
   static void add(const Piece& piece, Waiting& waiting);
+  double rate_at(double now) const;
   message::Facts best_of(Waiting& waiting, double bytes, int reach);
 
   const int rank_;

@@ -20,6 +20,9 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kBytesPerConstraint = 6;  // about
+// That agents cost more together raises bounds; that they do not only saves asking. 128 ranks,
+// room-32-32-4 with 40 agents: a search overhead of 38 % without this, 36 % with it, or with 16.
+constexpr double kWorthOfExcess = 4;
 
 std::size_t bytes_of_constraints(const Fact& fact) {
   std::size_t sum = 0;
@@ -66,8 +69,8 @@ void require_order(const Fact& fact) {
 }  // namespace
 
 double Fact::worth() const {
-  return (1.0 + excess.expansions) /
-         static_cast<double>(kBytesPerConstraint + bytes_of_constraints(*this));
+  const double dearness = (1.0 + excess.expansions) * (excess.excess > 0 ? kWorthOfExcess : 1);
+  return dearness / static_cast<double>(kBytesPerConstraint + bytes_of_constraints(*this));
 }
 
 void TreesOfFacts::add(const Tree& tree) {

@@ -30,8 +30,8 @@ struct Fact {
   Situations::Known cost;              // of one agent,
   Excesses::Known excess;              // of several
 
-  // How much there is to gain by telling it: what took long to find out, and comes up again, as
-  // few constraints do more often than many.
+  // How much there is to gain by telling it: what took long to find out, raises a bound, and comes
+  // up again, as few constraints do more often than many.
   double worth() const;
 };
 
