@@ -10,7 +10,9 @@ void SimulatedWorker::begin(double now, Expander& expander) {
   if (!turn_) return;
   const double before = expander.whole_work();
   const double before_s = processor_time();
+  expander.exchange(kept_);
   worker_.perform(*turn_, expander);
+  expander.exchange(kept_);
   Worker::publish(*turn_);  // nobody else on this rank asks before this turn has ended
   const double processor_s = processor_time() - before_s;
   const double work = expander.whole_work() - before + static_cast<double>(turn_->lagrangian.work);

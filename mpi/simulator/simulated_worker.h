@@ -26,7 +26,7 @@ class SimulatedWorker {
   SimulatedWorker(Worker& worker, const Machine& machine) : worker_(worker), machine_(machine) {}
 
   // Begins a turn if there is anything to do: it is busy then. The expander is any one of the same
-  // problem.
+  // problem, and used as if it were this worker's own.
   void begin(double now, Expander& expander);
   bool busy() const { return turn_.has_value(); }
   // Of the present turn, or the last.
@@ -43,6 +43,7 @@ class SimulatedWorker {
   Worker& worker_;
   const Machine& machine_;
   std::optional<Worker::Turn> turn_;  // none: not busy
+  NodeView::Kept kept_;               // as in the view of an expander of its own
   double began_ = 0;
   double busy_until_ = 0;
   Tally tally_;

@@ -6,6 +6,11 @@
 
 namespace grove::detail {
 
+std::int64_t CommonMemory::next_number() {
+  static std::atomic<std::int64_t> next{1};
+  return next++;
+}
+
 void CommonMemory::learn(const FoundOut& found) {
   const bool keeps = keeps_news_;
   News news;
@@ -33,7 +38,6 @@ void Memory::turn_to(std::shared_ptr<CommonMemory> common) {
   if (common == common_) return;
   found_ = {};
   common_ = std::move(common);
-  ++numbering_;
 }
 
 Situations::Known Memory::known(Id id) const {

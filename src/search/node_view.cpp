@@ -28,14 +28,14 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
 // What is demanded of most agents is what was demanded at the last node.
 void NodeView::look_at_constraints() {
   node_->constraints(demands_);
-  for (auto* by_agent : {&last_demands_, &constraints_}) by_agent->resize(demands_.size());
-  situations_.resize(demands_.size());
+  for (auto* by_agent : {&kept_.demands, &kept_.constraints}) by_agent->resize(demands_.size());
+  kept_.situations.resize(demands_.size());
   for (const AgentIndex agent : scope_) {
-    if (demands_[agent] == last_demands_[agent]) continue;
-    constraints_[agent] = demands_[agent];
-    canonical(constraints_[agent]);
-    situations_[agent] = {};
-    std::swap(demands_[agent], last_demands_[agent]);  // last, for there may be no memory
+    if (demands_[agent] == kept_.demands[agent]) continue;
+    kept_.constraints[agent] = demands_[agent];
+    canonical(kept_.constraints[agent]);
+    kept_.situations[agent] = {};
+    std::swap(demands_[agent], kept_.demands[agent]);  // last, for there may be no memory
   }
 }
 
@@ -46,15 +46,15 @@ void NodeView::find_conflicts() {
 
 Situations::Id NodeView::situation(AgentIndex agent) {
   GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
-  KnownSituation& known = situations_[agent];
+  Kept::KnownSituation& known = kept_.situations[agent];
   const AgentOrder& order = this->order(agent);
   if (known.order != &order || known.numbering != memory_.numbering())
-    known = {&order, memory_.numbering(), memory_.id(agent, order, constraints_[agent])};
+    known = {&order, memory_.numbering(), memory_.id(agent, order, kept_.constraints[agent])};
   return known.id;
 }
 
 std::span<const Constraint> NodeView::constraints_with(AgentIndex agent, const Constraint& more) {
-  extended_ = constraints_[agent];
+  extended_ = kept_.constraints[agent];
   add_to_canonical(extended_, more);
   return extended_;
 }

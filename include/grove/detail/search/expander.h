@@ -93,6 +93,8 @@ class Expander {
   // Goes on with another memory, perhaps an empty one.
   void turn_to(std::shared_ptr<CommonMemory> memory) { memory_.turn_to(std::move(memory)); }
   const std::shared_ptr<CommonMemory>& memory() const { return memory_.common(); }
+  // As NodeView::exchange.
+  void exchange(NodeView::Kept& kept) { view_.exchange(kept); }
 
  private:
   struct Leaving;

@@ -55,6 +55,8 @@ struct CommonMemory {
   Excesses excesses;
   // What is found out may have to be forgotten again before it is of use.
   const bool follows_another = false;
+  // Of this one alone among all that there were in this process.
+  const std::int64_t number = next_number();
 
   // Adds this. Workers may do so at the same time: it does not matter who is first.
   void learn(const FoundOut& found);
@@ -66,6 +68,8 @@ struct CommonMemory {
   std::size_t bytes() const { return situations.bytes() + path_sets.bytes() + excesses.bytes(); }
 
  private:
+  static std::int64_t next_number();
+
   std::atomic<bool> keeps_news_{false};
   std::mutex news_mutex_;
   News news_;
@@ -91,7 +95,7 @@ class Memory {
   void turn_to(std::shared_ptr<CommonMemory> common);
   const std::shared_ptr<CommonMemory>& common() const { return common_; }
   // Changes with the common memory: numbers of situations are good as long as this is the same.
-  std::int64_t numbering() const { return numbering_; }
+  std::int64_t numbering() const { return common_->number; }
 
   // As those of Situations.
   Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints) {
@@ -133,7 +137,6 @@ class Memory {
  private:
   PathPlanner& planner_;
   std::shared_ptr<CommonMemory> common_;
-  std::int64_t numbering_ = 0;
   const std::int64_t most_set_nodes_;
   std::int64_t asked_ = 0;
   mutable std::int64_t groups_asked_ = 0;

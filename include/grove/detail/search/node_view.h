@@ -20,6 +20,21 @@ namespace grove::detail {
 // the node demands of them. Workspace of one thread.
 class NodeView {
  public:
+  // What it keeps of agents from one node to the next, where most are asked for the same.
+  class Kept {
+    friend class NodeView;
+
+    struct KnownSituation {
+      const AgentOrder* order = nullptr;  // null: not known
+      std::int64_t numbering = 0;         // of the memory
+      Situations::Id id = 0;
+    };
+    // By AgentIndex. Those of agents in scope are of this node, those of others of an earlier one.
+    std::vector<std::vector<Constraint>> constraints;  // canonical
+    std::vector<std::vector<Constraint>> demands;      // as the node lists them
+    std::vector<KnownSituation> situations;
+  };
+
   // All must outlive this; `memory` may be shared with others of the same thread.
   NodeView(const Problem& problem, const SearchOptions& options, Memory& memory);
 
@@ -27,6 +42,9 @@ class NodeView {
   void enter(const NodePtr& node, std::span<const AgentIndex> scope);
   // Lets the node go.
   void leave() { node_ = nullptr; }
+  // Between two nodes: one view can serve several workers as if each had its own, if it is given
+  // what it kept for each in turn.
+  void exchange(Kept& kept) { std::swap(kept, kept_); }
 
   const NodePtr& node() const { return node_; }
   std::span<const AgentIndex> scope() const { return scope_; }
@@ -35,7 +53,7 @@ class NodeView {
   const AgentOrder& order(AgentIndex agent) const { return *node_->tree().orders[agent]; }
   std::span<const Constraint> constraints(AgentIndex agent) const {
     GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
-    return constraints_[agent];
+    return kept_.constraints[agent];
   }
   Situations::Id situation(AgentIndex agent);
   // The same with one constraint more, in canonical order; until the next call.
@@ -63,12 +81,6 @@ class NodeView {
   std::int64_t steps() const { return steps_; }
 
  private:
-  struct KnownSituation {
-    const AgentOrder* order = nullptr;  // null: not known
-    std::int64_t numbering = 0;         // of the memory
-    Situations::Id id = 0;
-  };
-
   bool is_in_scope(AgentIndex agent) const { return std::ranges::binary_search(scope_, agent); }
   void look_at_constraints();
   void find_conflicts();
@@ -81,10 +93,7 @@ class NodeView {
   NodePtr node_;
   std::vector<AgentIndex> scope_;
   std::vector<Path> paths_;  // by AgentIndex
-  // By AgentIndex. Those of agents in scope are of this node, those of others of an earlier one.
-  std::vector<std::vector<Constraint>> constraints_;   // canonical
-  std::vector<std::vector<Constraint>> last_demands_;  // as the node lists them
-  std::vector<KnownSituation> situations_;
+  Kept kept_;
   std::vector<std::vector<Constraint>> demands_;
   std::vector<Conflict> conflicts_;
   std::vector<AgentIndex> rerouted_;
