@@ -6,6 +6,8 @@
 // before it which value it stands for; so the list can be told from its bytes, which the test does.
 #include "grove/detail/search/packed_constraints.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace grove::detail {
@@ -19,9 +21,12 @@ std::uint64_t unsigned_of(std::int64_t number) {
   return static_cast<std::uint64_t>(number) << 1 ^ static_cast<std::uint64_t>(number >> 63);
 }
 
-void put(std::uint64_t number, std::string& bytes) {
-  for (; number >= 0x80; number >>= 7) bytes.push_back(static_cast<char>(number | 0x80));
-  bytes.push_back(static_cast<char>(number));
+constexpr std::size_t kMostBytes = 10;  // of a number
+
+char* put(std::uint64_t number, char* to) {
+  for (; number >= 0x80; number >>= 7) *to++ = static_cast<char>(number | 0x80);
+  *to++ = static_cast<char>(number);
+  return to;
 }
 
 // The difference from what it is near to, or 0 for one value that is often there and far from all.
@@ -34,11 +39,14 @@ std::uint64_t near_or(std::int32_t value, std::int32_t near, std::int32_t far) {
 void pack(std::span<const Constraint> constraints, std::string& bytes) {
   Constraint last{.cell = 0};
   for (const Constraint& c : constraints) {
+    std::array<char, 4 * kMostBytes> packed;
+    char* end = packed.data();
     const auto kind = static_cast<std::uint64_t>(c.kind);
-    put(unsigned_of(std::int64_t{c.cell} - last.cell) * kKinds + kind, bytes);
-    put(near_or(c.from, c.cell, kNoCell), bytes);
-    put(unsigned_of(std::int64_t{c.begin} - last.begin), bytes);
-    put(near_or(c.end, c.begin, kNever), bytes);
+    end = put(unsigned_of(std::int64_t{c.cell} - last.cell) * kKinds + kind, end);
+    end = put(near_or(c.from, c.cell, kNoCell), end);
+    end = put(unsigned_of(std::int64_t{c.begin} - last.begin), end);
+    end = put(near_or(c.end, c.begin, kNever), end);
+    bytes.append(packed.data(), end);
     last = c;
   }
 }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <deque>
+
 #include "grove/detail/search/sequence_forest.h"
 #include "grove/detail/search/single_tree.h"
 #include "tests/primal/crowd.h"
@@ -140,6 +143,59 @@ TEST(Expander, IsAPureFunctionOfTheNode) {
     first.children[k]->paths(s.problem, a);
     again.children[k]->paths(s.problem, b);
     EXPECT_EQ(a, b);
+  }
+}
+
+// Two workers, each with a memory, who expand the nodes of a crowd's tree in turn.
+TEST(Expander, ServesTwoWorkersAsIfEachHadItsOwn) {
+  const Instance instance =
+      testing::random_crowd({.size = 10, .obstacles = 25, .agents = 12, .tasks = 14}, 1);
+  const Limits limits;
+  const Problem problem(instance, limits);
+  AgentStopsStore stops(instance, problem.distances);
+  NodePool pool;
+  SingleTree forest(problem, stops, pool, limits);
+  const NodePtr root = forest.next_root();
+  struct Worker {
+    std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>();
+    NodeView::Kept kept;
+  };
+  // The expander and what is kept there of worker 0 or 1.
+  const auto situations_asked = [&](auto expander_of, bool exchanges) {
+    std::array<Worker, 2> workers;
+    std::vector<NodePtr> nodes{root};
+    for (std::size_t i = 0; i < nodes.size() && i < 40; ++i) {
+      Worker& worker = workers[i % 2];
+      Expander& expander = expander_of(i % 2);
+      expander.turn_to(worker.memory);
+      if (exchanges) expander.exchange(worker.kept);
+      Expansion expansion;
+      do {
+        expansion = expander.expand(nodes[i], kInfiniteCost, limits);
+        expander.publish();
+      } while (expansion.unfinished);
+      if (exchanges) expander.exchange(worker.kept);
+      for (NodePtr& child : expansion.children) nodes.push_back(std::move(child));
+    }
+    return std::pair(
+        nodes.size(),
+        expander_of(0).counts().situations +
+            (&expander_of(0) == &expander_of(1) ? 0 : expander_of(1).counts().situations));
+  };
+  const SearchOptions options{Techniques::usual(), 0};
+  std::deque<Expander> own;
+  for (int i = 0; i < 2; ++i) own.emplace_back(problem, stops, options);
+  const auto with_own = situations_asked([&](std::size_t i) -> Expander& { return own[i]; }, false);
+  EXPECT_GT(with_own.first, 50u) << "too few nodes to be a test";
+  for (const bool exchanges : {true, false}) {
+    Expander one(problem, stops, options);
+    const auto with_one =
+        situations_asked([&](std::size_t) -> Expander& { return one; }, exchanges);
+    EXPECT_EQ(with_one.first, with_own.first);
+    if (exchanges)
+      EXPECT_EQ(with_one.second, with_own.second);
+    else
+      EXPECT_GT(with_one.second, with_own.second);
   }
 }
 
