@@ -4,6 +4,7 @@
 
     benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]   three hard instances: simulated.csv
     benchmarks/scaling.py hours --ranks 1,128             instances of hours: hours.csv
+    benchmarks/scaling.py weak                            more ranks for more work: weak.csv
     benchmarks/scaling.py bound --maps FOLDER                 if messages cost nothing: bound.csv
     benchmarks/scaling.py compare --maps FOLDER               2 ranks, also measured: compared.csv
     benchmarks/scaling.py draw                                scaling.png from these; needs matplotlib
@@ -40,11 +41,14 @@ WAREHOUSE = "roadmap --kind warehouse"
 HOURS = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf", OPEN, 60, None, 1),
          DrawnCase("open-40-40", OPEN, 40, 40, 1), DrawnCase("rooms-25-60-mg", ROOMS, 25, 60, 1, mg=True),
          DrawnCase("warehouse-100-200", WAREHOUSE, 100, 200, 1)]
+# More and more of the same, for more and more ranks.
+WEAK = [DrawnCase(f"rooms-{agents}-mapf", ROOMS, agents, None, 1) for agents in (40, 43, 45, 50)]
 # Seconds of one core: to be measured here.
 SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
          Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]
 RANKS = [1, 2, 16, 128, 1024, 4096]
 COST_PER_WORK = 1.3e-7  # seconds; see results/scaling/README.md
+NO_LIMIT = ["--time-limit", 40000]
 FREE_MESSAGES = ["--latency", 0, "--message-cost", 0, "--bandwidth", 1e15, "--poll", 0]
 OPTIMAL = ["--omega", 0]
 TREE_ONLY = ["--threads", 1, "--without", "primal,configurations"]
@@ -59,8 +63,9 @@ def until_bound_of(plan):
 def prepared(case, a, folder):
     """How a program is told of the case, with a plan to begin with: the one that is kept, or an optimal one."""
     instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
-    if isinstance(case, DrawnCase):
-        return [*instance, *until_bound_of(HERE / f"data/hours/{case}.plan.json")]
+    kept = HERE / f"data/hours/{case}.plan.json"
+    if kept.exists():
+        return [*instance, *until_bound_of(kept)]
     plan = folder / "start.json"
     optimum([a.bin / "grove", "solve", *instance, *OPTIMAL, "--time-limit", a.time_limit], plan)
     return [*instance, *OPTIMAL, "--start", plan]
@@ -103,7 +108,7 @@ def merge(path, rows):
     def key(row):
         return order.index(row["instance"]), int(row.get("ranks", 0))
 
-    order = [str(case) for case in HARD + SHORT + HOURS]
+    order = [str(case) for case in HARD + SHORT + HOURS + WEAK]
     others = read(path) if path.exists() else []
     new = {key(row) for row in rows}
     write(path, sorted([row for row in others if key(row) not in new] + rows, key=key))
@@ -126,7 +131,23 @@ def simulate(a):
 
 
 def hours(a):
-    study(HOURS, a.output / "hours.csv", ("--time-limit", 40000), a)
+    study(HOURS, a.output / "hours.csv", NO_LIMIT, a)
+
+
+def ranks_for(alone, seconds):
+    """So many that each has about so many seconds of what one rank does."""
+    return max(2, round(float(alone["wall_s"]) / seconds))
+
+
+def weak(a):
+    for case in chosen(WEAK, a):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            problem = prepared(case, a, folder)
+            alone, = simulated(case, problem, [1], a, folder, NO_LIMIT)
+            rows = simulated(case, problem, [ranks_for(alone, a.seconds)], a, folder, NO_LIMIT)
+        merge(a.output / "weak.csv", [alone, *rows])
+        print(f"{case}: simulated", flush=True)
 
 
 def bound(a):
@@ -192,6 +213,17 @@ def simulated_table(rows, free):
     return tables.table(head, lines)
 
 
+def weak_table(rows):
+    head = ["instance", "nodes", "one rank", "ranks", "time", "efficiency", "search overhead", "rank 0 talks"]
+    lines = []
+    for alone, many in zip(rows[::2], rows[1::2]):
+        lines.append([alone["instance"], f"{int(alone['nodes']):,}", f"{float(alone['wall_s']):.3g} s", many["ranks"],
+                      f"{float(many['wall_s']):.3g} s", f"**{percent(many['efficiency'])}**",
+                      f"{100 * float(many['expanding_overhead']):+.1f} %",
+                      percent(many["coordinator_talking_share"])])
+    return tables.table(head, lines)
+
+
 def compared_table(rows):
     head = ["instance", "nodes, 1 rank", "measured", "simulated", "nodes, 2 ranks", "measured",
             "simulated", "speed-up measured", "simulated"]
@@ -208,6 +240,10 @@ def compared_table(rows):
 
 def print_tables(a):
     print(simulated_table(read(a.output / "simulated.csv"), read(a.output / "bound.csv")))
+    print()
+    print(simulated_table(read(a.output / "hours.csv"), []))
+    print()
+    print(weak_table(read(a.output / "weak.csv")))
     print()
     print(compared_table(read(a.output / "compared.csv")))
 
@@ -276,20 +312,21 @@ def draw_shares(panel, name, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["simulate", "hours", "bound", "compare", "draw", "tables"])
+    parser.add_argument("what", choices=["simulate", "hours", "weak", "bound", "compare", "draw", "tables"])
     parser.add_argument("--ranks", type=lambda text: [int(word) for word in text.split(",")],
                         default=RANKS, help="whole numbers with commas; begin with 1")
     parser.add_argument("--only", default="", help="instances whose name contains this")
     parser.add_argument("--repeat", type=int, default=3, help="measurements of each; the median counts")
     parser.add_argument("--jobs", type=int, default=1, help="simulations at a time")
     parser.add_argument("--cost-per-work", type=float, default=COST_PER_WORK)
+    parser.add_argument("--seconds", type=float, default=2.5, help="weak: of one rank's time, for each rank")
     parser.add_argument("--memory-limit", type=float, default=8, help="gigabytes for a simulation")
     parser.add_argument("--time-limit", type=float, default=600,
                         help="seconds in which the plan to begin with must be found")
     parser.add_argument("--output", type=Path, default=HERE / "results/scaling")
     add_folders(parser)
     a = parser.parse_args()
-    {"simulate": simulate, "hours": hours, "bound": bound, "compare": compare, "draw": draw,
+    {"simulate": simulate, "hours": hours, "weak": weak, "bound": bound, "compare": compare, "draw": draw,
      "tables": print_tables}[a.what](a)
 
 

@@ -63,6 +63,10 @@ class Hours(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
+    def test_ranks_grow_with_the_work(self):
+        self.assertEqual([scaling.ranks_for({"wall_s": str(alone)}, 2.5) for alone in (0.1, 3, 10, 320)],
+                         [2, 2, 4, 128])
+
     def test_rows_of_an_instance_and_a_number_of_ranks_are_replaced(self):
         with tempfile.TemporaryDirectory() as name:
             path = pathlib.Path(name) / "rows.csv"
