@@ -7,6 +7,7 @@
     benchmarks/scaling.py weak                            more ranks for more work: weak.csv
     benchmarks/scaling.py bound --maps FOLDER                 if messages cost nothing: bound.csv
     benchmarks/scaling.py compare --maps FOLDER               2 ranks, also measured: compared.csv
+    benchmarks/scaling.py processor --maps FOLDER             1 to 8 ranks, by processor time: processor.csv
     benchmarks/scaling.py draw                                scaling.png from these; needs matplotlib
     benchmarks/scaling.py tables                              the tables in Markdown, to stdout
 
@@ -20,6 +21,7 @@ import csv
 import json
 import math
 import os
+import resource
 import statistics
 import tempfile
 from pathlib import Path
@@ -47,6 +49,7 @@ WEAK = [DrawnCase(f"rooms-{agents}-mapf", ROOMS, agents, None, 1) for agents in 
 SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
          Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]
 RANKS = [1, 2, 16, 128, 1024, 4096]
+PROCESSOR_RANKS = [1, 2, 4, 8]
 COST_PER_WORK = 1.3e-7  # seconds; see results/scaling/README.md
 NO_LIMIT = ["--time-limit", 40000]
 FREE_MESSAGES = ["--latency", 0, "--message-cost", 0, "--bandwidth", 1e15, "--poll", 0]
@@ -175,6 +178,38 @@ def compare(a):
         print(f"{case}: compared, load {os.getloadavg()[0]:.1f}", flush=True)
 
 
+def processor_time(command):
+    """Seconds of all processes."""
+    def used():
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+
+    before = used()
+    run(command)
+    return used() - before
+
+
+def by_processor(ranks, problem, a, folder):
+    """Processor seconds of the search of so many ranks, the median, less what they take without a search."""
+    solve = [*MPIRUN, "--oversubscribe", "--bind-to", "none", "-np", ranks, a.bin / "grove-mpi", "solve",
+             *problem, *TREE_ONLY, "--quiet", "--output", folder / "plan.json"]
+    return statistics.median(processor_time(solve) - processor_time([*solve, "--time-limit", 0.001])
+                             for _ in range(a.repeat))
+
+
+def processor(a):
+    """Where there are more ranks than cores: all ranks together, by processor time."""
+    for case in chosen(SHORT, a):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            problem = prepared(case, a, folder)
+            rows = [{"instance": str(case), "ranks": row["ranks"], "simulated_s": row["expanding_s"],
+                     "processor_s": f"{by_processor(row['ranks'], problem, a, folder):.3f}"}
+                    for row in simulated(case, problem, PROCESSOR_RANKS, a, folder)]
+        merge(a.output / "processor.csv", rows)
+        print(f"{case}: measured, load {os.getloadavg()[0]:.1f}", flush=True)
+
+
 def shares(row):
     """What became of the workers' time in a run: shares that sum to 1.
 
@@ -238,6 +273,22 @@ def compared_table(rows):
     return tables.table(head, lines)
 
 
+def processor_table(rows):
+    """How much more all ranks together take than one."""
+    def growth(instance, column):
+        times = [float(row[column]) for row in rows if row["instance"] == instance]
+        return [f"{100 * (time / times[0] - 1):+.0f} %" for time in times[1:]]
+
+    head = ["instance", "one rank"] + [f"{ranks} ranks{how}" for ranks in PROCESSOR_RANKS[1:]
+                                       for how in ("", ", simulated")]
+    lines = []
+    for instance in dict.fromkeys(row["instance"] for row in rows):
+        alone = next(row for row in rows if row["instance"] == instance)
+        both = zip(growth(instance, "processor_s"), growth(instance, "simulated_s"))
+        lines.append([instance, f"{float(alone['processor_s']):.2f} s", *[text for pair in both for text in pair]])
+    return tables.table(head, lines)
+
+
 def print_tables(a):
     print(simulated_table(read(a.output / "simulated.csv"), read(a.output / "bound.csv")))
     print()
@@ -246,6 +297,8 @@ def print_tables(a):
     print(weak_table(read(a.output / "weak.csv")))
     print()
     print(compared_table(read(a.output / "compared.csv")))
+    print()
+    print(processor_table(read(a.output / "processor.csv")))
 
 
 def draw(a):
@@ -312,7 +365,8 @@ def draw_shares(panel, name, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["simulate", "hours", "weak", "bound", "compare", "draw", "tables"])
+    parser.add_argument("what", choices=["simulate", "hours", "weak", "bound", "compare", "processor", "draw",
+                                         "tables"])
     parser.add_argument("--ranks", type=lambda text: [int(word) for word in text.split(",")],
                         default=RANKS, help="whole numbers with commas; begin with 1")
     parser.add_argument("--only", default="", help="instances whose name contains this")
@@ -326,8 +380,8 @@ def main():
     parser.add_argument("--output", type=Path, default=HERE / "results/scaling")
     add_folders(parser)
     a = parser.parse_args()
-    {"simulate": simulate, "hours": hours, "weak": weak, "bound": bound, "compare": compare, "draw": draw,
-     "tables": print_tables}[a.what](a)
+    {"simulate": simulate, "hours": hours, "weak": weak, "bound": bound, "compare": compare,
+     "processor": processor, "draw": draw, "tables": print_tables}[a.what](a)
 
 
 if __name__ == "__main__":

@@ -21,12 +21,18 @@
 
 namespace grove::detail {
 
+namespace {
+
+constexpr auto kLongestPause = std::chrono::milliseconds(500);
+
+}  // namespace
+
 Gathering::Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport,
                      Children& children)
     : checkpoints_(checkpoints),
       run_(run),
       transport_(transport),
-      children_(children.count()),
+      children_(children),
       trees_(run.trees().count()) {
   children.tell_all(message::Gather{});
 }
@@ -47,7 +53,7 @@ void Gathering::write(Write what) {
 
 void Gathering::handle(const message::Gathered& gathered) {
   evicted_bound_ = std::min(evicted_bound_, gathered.evicted_bound);
-  if (++looked_ < children_) return;
+  if (++looked_ < children_.count()) return;
   write([&] {
     writer_ = std::make_unique<CheckpointWriter>(checkpoints_.directory,
                                                  run_.checkpoint_header(trees_, evicted_bound_));
@@ -55,7 +61,15 @@ void Gathering::handle(const message::Gathered& gathered) {
   ask_next();
 }
 
+// Who has sent its part, or is still to be asked, would take rank 0 for one that stands still.
+void Gathering::give_sign_of_life() {
+  if (Clock::now() - said_ < kLongestPause) return;
+  children_.tell_all(message::Alive{});
+  said_ = Clock::now();
+}
+
 void Gathering::handle(message::Part&& part) {
+  give_sign_of_life();
   write([&] {
     for (NodeRecord& node : part.nodes) {
       if (node.tree >= trees_) continue;

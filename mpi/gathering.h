@@ -33,6 +33,7 @@ class Gathering {
   using Clock = std::chrono::steady_clock;
 
   void ask_next();
+  void give_sign_of_life();
   // Calls `what`, which may fail; then nothing more is written.
   template <class Write>
   void write(Write what);
@@ -40,10 +41,11 @@ class Gathering {
   const Checkpoints& checkpoints_;
   RunState& run_;
   Transport& transport_;
-  const int children_;
+  Children& children_;
   const Clock::time_point begin_ = Clock::now();
-  const std::int64_t trees_;  // that count as instantiated
-  int looked_ = 0;            // children
+  Clock::time_point said_ = begin_;  // to all
+  const std::int64_t trees_;         // that count as instantiated
+  int looked_ = 0;                   // children
   Cost evicted_bound_ = kInfiniteCost;
   int asked_ = -1;  // the rank that sends
   bool done_ = false;

@@ -15,6 +15,9 @@ namespace {
 constexpr double kPause_s = 1e-3;   // between two tellings, in the beginning; see pause_at()
 constexpr double kMostPauses = 10;  // whose bytes may be told at one go, after a silence
 constexpr std::size_t kMostWaiting = 1000;
+// Bytes. A fact that is longer than what may be told at one go would hold up all others.
+constexpr std::size_t kLongest = 1000;
+constexpr double kLeastAtOnce = 16e3;    // that may be saved up, to log2 of the ranks others
 constexpr double kFullRate_s = 1;        // from then on it falls, as one over the time
 constexpr std::size_t kBytesOfSize = 1;  // of a fact, in a message: about
 
@@ -26,7 +29,7 @@ void Knowledge::add(const Fact& fact) {
 
 void Knowledge::add(double worth, std::string fact, int reach) {
   reach = std::min(reach, ranks_);
-  if (reach <= 1) return;
+  if (reach <= 1 || fact.size() > kLongest) return;
   const Piece piece{worth, std::make_shared<const std::string>(std::move(fact))};
   for (int n = reach; n > 1; n = (n + 1) / 2) add(piece, waiting_[n]);
 }
@@ -46,7 +49,8 @@ std::vector<Knowledge::Parcel> Knowledge::due(double now) {
   if (waiting_.empty() || now < next_) return parcels;
   const double pause = pause_at(now, kPause_s);
   const double rate = rate_at(now);
-  allowance_ = std::min(allowance_ + (now - last_) * rate, kMostPauses * pause * rate);
+  const double most = std::max(kMostPauses * pause * rate, kLeastAtOnce);
+  allowance_ = std::min(allowance_ + (now - last_) * rate, most);
   last_ = now;
   next_ = now + pause;
   auto left = static_cast<double>(waiting_.size());

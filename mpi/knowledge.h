@@ -31,7 +31,7 @@ class Knowledge {
 
   bool is_on() const { return ranks_ > 1 && rate_ > 0; }
 
-  // One that was found out here.
+  // One that was found out here. Those of more than a thousand bytes are not told.
   void add(const Fact& fact);
   // One, packed, of this worth, that the next `reach` - 1 ranks are to be told.
   void add(double worth, std::string fact, int reach);

@@ -176,6 +176,9 @@ struct Part {
   bool last = false;
 };
 
+// To all below, while a checkpoint is written: rank 0 does not stand still.
+struct Alive {};
+
 // To all below: it is over; say farewell.
 struct End {};
 
@@ -184,11 +187,10 @@ struct Goodbye {
   std::map<std::int32_t, std::int64_t> messages;
 };
 
-using Message =
-    std::variant<Status, Found, Gathered, Part, Account, Farewell,  // up
-                 Batch, AskPrices, Prices, Facts,                   // from rank to rank
-                 NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More, End,
-                 Goodbye>;  // down
+using Message = std::variant<Status, Found, Gathered, Part, Account, Farewell,  // up
+                             Batch, AskPrices, Prices, Facts,                   // from rank to rank
+                             NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More,
+                             Alive, End, Goodbye>;  // down
 
 struct Addressed {
   int level = 0;  // whom it is for, on the rank that it has come to; see Post

@@ -91,6 +91,7 @@ void Rank::handle(int from, message::Message&& message) {
                  },
                  [&](message::BeginAnew& anew) { begin_anew(anew.proven); },
                  [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
+                 [](message::Alive&) {},
                  [&](message::End&) {
                    ended_ = true;
                    superior_.end_reports();

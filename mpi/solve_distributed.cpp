@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -73,6 +74,23 @@ class Searching {
   std::jthread thread_;  // the first to go
 };
 
+// For how long nothing was heard. Of a time in which this process did not run hardly anything
+// counts: what came meanwhile is still to be heard.
+class Silence {
+ public:
+  void go_on(double now, bool heard) {
+    seconds_ = heard ? 0 : seconds_ + std::min(now - last_, kMostAtOnce_s);
+    last_ = now;
+  }
+  double seconds() const { return seconds_; }
+
+ private:
+  static constexpr double kMostAtOnce_s = 0.1;
+
+  double seconds_ = 0;
+  double last_ = 0;
+};
+
 }  // namespace
 
 SilentRanks::SilentRanks(Solution found, std::int64_t count)
@@ -89,6 +107,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   Member member(problem, options, limits, observer, transport);
   Searching searching(problem, options, limits, member.rank(), transport.rank());
   const double patience = options.tuning.patience;
+  Silence silence;
   bool said_farewell = false;
   double accounted = 0;
   double heard_at = 0;
@@ -110,7 +129,8 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
       said_farewell = true;
     }
     if (heard) heard_at = now;
-    if (!member.coordinator() && now - heard_at > patience && limits.seconds_left() < -patience)
+    silence.go_on(now, heard);
+    if (!member.coordinator() && std::min(silence.seconds(), -limits.seconds_left()) > patience)
       throw std::runtime_error(
           fmt::format("rank 0 has said nothing for {} s after the limit: it may stand still, and "
                       "the job ends without an answer",

@@ -26,10 +26,11 @@ struct SilentRanks : std::runtime_error {
 // Solves with all ranks of `transport`, each of which calls this with the same problem and options
 // but for its own number of threads; the calling thread speaks, others search. Rank 0 returns the
 // answer, the others nothing. The limits of rank 0 are the run's, but any rank's limits may stop
-// it. `meanwhile` is called every few milliseconds. `observer` hears of the run on rank 0; of single
-// nodes it hears of roots only. `options.deterministic` must not be set. Throws what solve() does.
-// Rank 0 throws SilentRanks; the others then wait for this rank, until their process is ended from
-// outside. They throw std::runtime_error if it is rank 0 that stands still (--tune patience).
+// it. `meanwhile` is called every few milliseconds. `observer` hears of the run on rank 0; of
+// single nodes it hears of roots only. `options.deterministic` must not be set. Throws what solve()
+// does. Rank 0 throws SilentRanks; the others then wait for this rank, until their process is ended
+// from outside. They throw std::runtime_error if they have heard nothing for `--tune patience`,
+// that long after the time limit: rank 0 stands still.
 std::optional<Solution> solve_distributed(const Problem& problem, const SolveOptions& options,
                                           const Limits& limits, Transport& transport,
                                           RunObserver& observer,

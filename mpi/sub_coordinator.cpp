@@ -60,6 +60,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
             gathered_ = {};
             children_.tell_all(gather);
           },
+          [&](message::Alive& alive) { children_.tell_all(alive); },
           [&](message::End& end) {
             ending_ = true;
             superior_.end_reports();

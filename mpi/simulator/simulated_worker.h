@@ -43,7 +43,7 @@ class SimulatedWorker {
   Worker& worker_;
   const Machine& machine_;
   std::optional<Worker::Turn> turn_;  // none: not busy
-  NodeView::Kept kept_;               // as in the view of an expander of its own
+  Expander::Kept kept_;               // as an expander of its own would
   double began_ = 0;
   double busy_until_ = 0;
   Tally tally_;

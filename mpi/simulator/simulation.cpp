@@ -2,8 +2,8 @@
 // Discrete events. A rank has a worker and a talker; an event is that one of them is due, and what
 // it does then makes others due. One thread plays all ranks with the engine's own coordinator,
 // ranks, nodes and workers, and one expander serves them all, which turns to the memory of the rank
-// whose turn it is: what a rank has found out about agents, pairs and groups is its own, but for
-// what goes along with a batch about the pairs and groups at its nodes.
+// whose turn it is, and to the agents as they were at that rank's last node: what a rank has found
+// out is its own, but for what others tell it.
 //
 // The talker looks at the network every so often, but that matters only if there is a message or
 // something new to say. So each cause of talk asks for the next look that there would be.

@@ -13,8 +13,8 @@ constexpr std::size_t kBytesPerPartner = 2 * sizeof(Excesses::Partner);  // abou
 constexpr std::size_t kBytesPerGroup = 160;
 
 std::uint32_t hash_of(Excesses::Id first, Excesses::Id second) {
-  return static_cast<std::uint32_t>(
-      mixed_in(static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(second)));
+  const auto both = static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint32_t>(second);
+  return static_cast<std::uint32_t>(mixed_in(0, both));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ PathSets::Set PathSets::make(PathPlanner& planner, AgentIndex agent, const Agent
 }
 
 void PathSets::trim() {
-  if (young_bytes_ < most_young_bytes_) return;
+  if (young_bytes_ < most_young_bytes_ || trimming_.exchange(true)) return;
   for (std::size_t number = 0; number < Sharded<Part>::kParts; ++number) {
     const Sets forgotten = parts_.with(number, [&](Part& part) {
       bytes_ -= std::exchange(part.old_bytes, part.young_bytes);
@@ -54,6 +54,7 @@ void PathSets::trim() {
       return std::exchange(part.old, std::exchange(part.young, {}));
     });
   }
+  trimming_ = false;
 }
 
 }  // namespace grove::detail

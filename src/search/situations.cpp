@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <tuple>
 
 #include "grove/detail/model/assert.h"
@@ -29,7 +28,7 @@ Value taken_from(std::string_view& bytes) {
   return value;
 }
 
-// Whose room it keeps: the constraints are to follow.
+// The beginning of a key: its constraints are to follow. The calling thread's, until it asks again.
 std::string& key_begun(AgentIndex agent, const AgentOrder& order) {
   thread_local std::string key;
   key.clear();

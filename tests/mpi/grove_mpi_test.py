@@ -282,7 +282,7 @@ class Faults(Program):
             (self.folder / "plan.json").unlink()
 
     def test_a_rank_0_that_never_goes_on(self):
-        """The others end the job, which can go on from its checkpoint."""
+        """The others end the job."""
         begin = time.monotonic()
         running = start(mpirun(3, "solve", self.generate(30, 60, 3), "--omega", 0, "--threads", 1,
                                "--time-limit", 2, "--tune", "patience=2", "--output", "plan.json"),

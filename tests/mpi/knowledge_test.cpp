@@ -95,7 +95,8 @@ TEST(Knowledge, SaysLessLaterInARun) {
   constexpr double kRate = 1e5;
   const auto said_in_a_second_after = [&](double begin) {
     Knowledge knowledge(0, 2, kRate);
-    knowledge.due(begin);
+    add_facts(2000, knowledge);
+    knowledge.due(begin);  // what was saved up
     double said = 0;
     for (double now = begin; now < begin + 1; now += 1e-3) {
       add_facts(10, knowledge);
@@ -106,6 +107,23 @@ TEST(Knowledge, SaysLessLaterInARun) {
   };
   EXPECT_NEAR(said_in_a_second_after(0), kRate, kRate / 10);
   EXPECT_NEAR(said_in_a_second_after(100), kRate / 100, kRate / 500);
+}
+
+// However little may be said: what does not fit now fits later, or nobody waits for it.
+TEST(Knowledge, IsNotHeldUpByALongFact) {
+  for (const int constraints : {150, 20'000}) {
+    Knowledge knowledge(0, 2, 1e6);
+    knowledge.due(36'000);
+    Fact dear;
+    dear.agents.emplace_back(0, 0, PackedConstraints(std::vector<Constraint>(constraints)));
+    dear.excess = {1, true, 1'000'000'000};
+    knowledge.add(dear);
+    add_facts(100, knowledge);
+    std::size_t count = 0;
+    for (double now = 36'000; now < 43'200; now += 10)
+      for (const auto& parcel : knowledge.due(now)) count += parcel.facts.facts.size();
+    EXPECT_GE(count, 100u);
+  }
 }
 
 // What is worth least is given up when too much waits.

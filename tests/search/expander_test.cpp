@@ -158,7 +158,7 @@ TEST(Expander, ServesTwoWorkersAsIfEachHadItsOwn) {
   const NodePtr root = forest.next_root();
   struct Worker {
     std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>();
-    NodeView::Kept kept;
+    Expander::Kept kept;
   };
   // The expander and what is kept there of worker 0 or 1.
   const auto situations_asked = [&](auto expander_of, bool exchanges) {

@@ -154,12 +154,14 @@ TEST(Facts, RefuseWhatCannotBe) {
   refuses({{{4, 0, {}}}, {-3, true}, {}});
 }
 
-TEST(Facts, AreWorthMoreTheLongerTheyTookAndTheFewerConstraintsTheyHave) {
+TEST(Facts, AreWorthMoreTheLongerTheyTookTheFewerConstraintsTheyHaveAndIfTheyRaiseBounds) {
   const PackedConstraints demands(std::vector<Constraint>{{3, kNoCell, 1, 2}});
   const Fact dear{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 9}};
   const Fact cheap{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 2}};
   const Fact special{{{0, 0, demands}, {0, 1, {}}}, {}, {1, true, 9}};
+  const Fact harmless{{{0, 0, {}}, {0, 1, {}}}, {}, {0, true, 9}};
   EXPECT_GT(dear.worth(), cheap.worth());
+  EXPECT_GT(dear.worth(), harmless.worth());
   EXPECT_GT(dear.worth(), special.worth());
 }
 

@@ -56,6 +56,8 @@ class Dependencies {
   std::int64_t expansions() const { return expansions_; }
   std::int64_t joint_pairs() const { return pair_dependency_.pairs(); }
   std::int64_t steps() const { return pair_view_.steps(); }
+  // As NodeView::exchange, of the view of pairs and groups.
+  void exchange(NodeView::Kept& kept) { pair_view_.exchange(kept); }
   // By joint search.
   const JointGroups& joint_groups() const { return joint_groups_; }
   std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }

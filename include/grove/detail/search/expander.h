@@ -93,8 +93,15 @@ class Expander {
   // Goes on with another memory, perhaps an empty one.
   void turn_to(std::shared_ptr<CommonMemory> memory) { memory_.turn_to(std::move(memory)); }
   const std::shared_ptr<CommonMemory>& memory() const { return memory_.common(); }
-  // As NodeView::exchange.
-  void exchange(NodeView::Kept& kept) { view_.exchange(kept); }
+  // What it keeps of agents from node to node; see NodeView::exchange.
+  struct Kept {
+    NodeView::Kept of_nodes;
+    NodeView::Kept of_groups;
+  };
+  void exchange(Kept& kept) {
+    view_.exchange(kept.of_nodes);
+    dependencies_.exchange(kept.of_groups);
+  }
 
  private:
   struct Leaving;

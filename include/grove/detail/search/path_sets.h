@@ -57,6 +57,7 @@ class PathSets {
   Sharded<Part> parts_;
   std::atomic<std::size_t> bytes_{0};
   std::atomic<std::size_t> young_bytes_{0};
+  std::atomic<bool> trimming_{false};
 };
 
 }  // namespace grove::detail
