@@ -132,7 +132,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
     silence.go_on(now, heard);
     if (!member.coordinator() && std::min(silence.seconds(), -limits.seconds_left()) > patience)
       throw std::runtime_error(
-          fmt::format("rank 0 has said nothing for {} s after the limit: it may stand still, and "
+          fmt::format("rank 0 has said nothing for {} s after the limit: it stands still, and "
                       "the job ends without an answer",
                       patience));
     const double rested = seconds();
