@@ -72,6 +72,7 @@ class Rank {
   bool is_early(const message::Batch& batch) const;
   void give(const message::Order& order);
   bool keeps_next() const;
+  void others_wait();
   void release(const message::Release& release);
   void accept(const message::Entrust& entrusted);
   void gather();
@@ -115,7 +116,8 @@ class Rank {
     std::map<std::int64_t, std::vector<NodePtr>> custody;  // by the number of the batch
   };
   std::map<int, Peer> peers_;
-  std::int64_t in_custody_ = 0;  // nodes
+  std::int64_t in_custody_ = 0;   // nodes
+  std::int64_t hasty_until_ = 0;  // that so many nodes have been expanded here
   std::int64_t nodes_sent_ = 0;
   std::int64_t facts_sent_ = 0;
 

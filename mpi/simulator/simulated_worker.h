@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "grove/detail/engine/worker.h"
+#include "mpi/simulator/equal_sets.h"
 #include "mpi/simulator/machine.h"
 
 namespace grove::detail {
@@ -22,8 +23,9 @@ class SimulatedWorker {
     double first_turn_s = 0;  // if any: when it began
   };
 
-  // Both must outlive this.
-  SimulatedWorker(Worker& worker, const Machine& machine) : worker_(worker), machine_(machine) {}
+  // All must outlive this. `sets`: of all workers.
+  SimulatedWorker(Worker& worker, const Machine& machine, EqualSets& sets)
+      : worker_(worker), machine_(machine), sets_(sets) {}
 
   // Begins a turn if there is anything to do: it is busy then. The expander is any one of the same
   // problem, and used as if it were this worker's own.
@@ -42,6 +44,7 @@ class SimulatedWorker {
  private:
   Worker& worker_;
   const Machine& machine_;
+  EqualSets& sets_;
   std::optional<Worker::Turn> turn_;  // none: not busy
   Expander::Kept kept_;               // as an expander of its own would
   double began_ = 0;

@@ -58,6 +58,7 @@ struct Setting {
   Talk talk;
   SimulatedNetwork network;
   AgentStopsStore stops;
+  EqualSets sets;
 };
 
 struct SimulatedRank {
@@ -67,7 +68,7 @@ struct SimulatedRank {
                setting.stops),
         worker(setting.problem, setting.options, setting.limits, member.rank().search(),
                setting.stops, rank),
-        player(worker, setting.machine),
+        player(worker, setting.machine, setting.sets),
         heard_at(setting.machine.poll *
                  (rank * kGoldenRatio - std::floor(rank * kGoldenRatio) - 1)) {}
 

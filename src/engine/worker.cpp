@@ -82,7 +82,11 @@ std::optional<Worker::Turn> Worker::choose() {
     if (auto turn = lagrangian()) return turn;
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
   if (has_primal && share_->may_begin() && share_->due(primal())) return one(Job::kPrimal);
-  if (NodePtr node = shared_.take()) return one(Job::kExpand, std::move(node));
+  if (NodePtr node = shared_.take()) {
+    auto turn = one(Job::kExpand, std::move(node));
+    turn->haste = shared_.haste();
+    return turn;
+  }
   if (NodePtr node = shared_.unfinished(); node && node != helped_)
     return one(Job::kHelp, std::move(node));
   if (has_primal && !shared_.over() && !primal().optimal()) return one(Job::kPrimal);
@@ -129,8 +133,9 @@ void Worker::perform(Turn& turn, Expander& by) {
 }
 
 void Worker::expand(Turn& turn, Expander& by) const {
-  weigh(turn, by,
-        [&] { turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_); });
+  weigh(turn, by, [&] {
+    turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_, turn.haste);
+  });
 }
 
 void Worker::help(Turn& turn, Expander& by) {

@@ -29,6 +29,7 @@
 
 #include <algorithm>
 
+#include "grove/detail/model/hash.h"
 #include "grove/detail/planning/bucket_queue.h"
 #include "grove/detail/planning/safe_intervals.h"
 #include "label_planes.h"
@@ -122,6 +123,16 @@ std::size_t OptimalPaths::bytes() const {
   const auto bytes_of = [](const auto& list) { return list.capacity() * sizeof(list.front()); };
   return sizeof(OptimalPaths) + bytes_of(first_of_layer_) + bytes_of(places_) + bytes_of(states_) +
          bytes_of(first_successor_) + bytes_of(successors_);
+}
+
+std::uint64_t OptimalPaths::hash() const {
+  std::uint64_t hash = first_of_layer_.size();
+  for (const auto* numbers : {&first_of_layer_, &first_successor_, &successors_})
+    for (const std::int32_t number : *numbers)
+      hash = mixed_in(hash, static_cast<std::uint64_t>(number));
+  for (NodeId node = 0; node < node_count(); ++node)
+    hash = mixed_in(hash, static_cast<std::uint64_t>(state(node)));
+  return hash;
 }
 
 void OptimalPaths::clear() {

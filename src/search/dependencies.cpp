@@ -42,6 +42,9 @@
 //
 // *Joint search.* Where that search ends without a result, for want of expansions, A* over the
 // joint states of the pair or group goes on (joint_groups.cpp).
+//
+// *Haste.* Fewer statements make a lower bound, and as true a one. Where others wait for nodes,
+// only those count that are known.
 #include "grove/detail/search/dependencies.h"
 
 #include <algorithm>
@@ -67,18 +70,15 @@ Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
       situation_(static_cast<std::size_t>(agents_)) {}
 
 Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
-                                               const Limits& limits, Cost& bound) {
+                                               Haste haste, const Limits& limits, Cost& bound) {
   bound = cutoff;
   const Cost slack = cutoff - node->cost() - 1;
   if (slack < 0) return Outcome::kDone;
   look_at(view);
-  // What had to be forgotten once may be again: then nothing is left for later.
-  give_up_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
-                                                  : work() + tuning_.bound_work;
-  Outcome outcome = solve_conflicting(view, slack, 0, limits);
-  if (outcome == Outcome::kDone && techniques_.has(Technique::kClusters))
-    outcome = solve_groups(view, slack, limits);
-  if (outcome != Outcome::kDone) return outcome;
+  if (haste == Haste::kNone) {
+    const Outcome outcome = find_out(view, slack, limits);
+    if (outcome != Outcome::kDone) return outcome;
+  }
   std::vector<GroupExcess> statements;
   collect(statements);
   const auto dearest = std::ranges::max_element(statements, {}, &GroupExcess::excess);
@@ -90,6 +90,15 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& vi
         std::min(cutoff, node->cost() + covering_bound(statements, tuning_.covering_steps, limits));
   if (proof_ != nullptr && bound > node->bound()) write_down_bound(view, statements, bound);
   return Outcome::kDone;
+}
+
+Dependencies::Outcome Dependencies::find_out(NodeView& view, Cost slack, const Limits& limits) {
+  // What had to be forgotten once may be again: then nothing is left for later.
+  give_up_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
+                                                  : work() + tuning_.bound_work;
+  const Outcome outcome = solve_conflicting(view, slack, 0, limits);
+  if (outcome != Outcome::kDone || !techniques_.has(Technique::kClusters)) return outcome;
+  return solve_groups(view, slack, limits);
 }
 
 bool Dependencies::help(const NodePtr& node, NodeView& view, Cost cutoff, double share,

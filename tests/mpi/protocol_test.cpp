@@ -123,6 +123,32 @@ TEST(RankAlone, AtANodeGivesItsNextOneToAnIdleRankOnly) {
   EXPECT_TRUE(given.spare.empty());
 }
 
+TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
+  RankAlone r;
+  SharedSearch& search = r.rank.search();
+  const NodePtr root = r.new_root();
+  r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
+  const auto give = [&](std::size_t nodes) {
+    r.rank.handle(0, message::Entrust{std::vector(nodes, record_of(*root)), kInfiniteCost});
+  };
+  const auto expand = [&] {
+    search.finish(search.take(), {}, 0);
+    r.rank.speak(r.now += 10);
+  };
+  give(20);
+  EXPECT_EQ(search.haste(), Haste::kOthersWait) << "it is the beginning";
+  for (int i = 0; i < 5; ++i) expand();
+  EXPECT_EQ(search.haste(), Haste::kNone);
+  r.rank.handle(0, message::Order{2, 1, false});
+  EXPECT_EQ(search.haste(), Haste::kNone);
+  r.rank.handle(0, message::Order{2, 1, true});
+  EXPECT_EQ(search.haste(), Haste::kOthersWait);
+  expand();
+  EXPECT_EQ(search.haste(), Haste::kOthersWait);
+  for (int i = 0; i < 5; ++i) expand();
+  EXPECT_EQ(search.haste(), Haste::kNone);
+}
+
 TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
   Setting s;
   Outbox transport(0, 2);

@@ -9,10 +9,12 @@
 
 #include "grove/detail/model/check.h"
 #include "mpi/simulator/busy_profile.h"
+#include "mpi/simulator/equal_sets.h"
 #include "mpi/simulator/scaling_table.h"
 #include "mpi/simulator/simulation.h"
 #include "mpi/simulator/timed_transport.h"
 #include "tests/primal/crowd.h"
+#include "tests/search/node_at_hand.h"
 
 namespace grove::detail {
 namespace simulator_test {
@@ -216,6 +218,28 @@ TEST(BusyProfile, KeepsTheSumsHoweverLongItGets) {
   EXPECT_NEAR(late[0], 1.25e-2, 1e-4);
   EXPECT_NEAR(late[5], 0, 1e-9);
   EXPECT_NEAR(late[9], 1, 1e-3);
+}
+
+TEST(EqualSets, HoldEachOnceAsLongAsItIsInUse) {
+  const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 2, .tasks = 0}, 1);
+  testing::NodeAtHand s(instance);
+  const auto made = [&](AgentIndex agent, Time later) {
+    return PathSets::make(s.planner, agent, s.view.order(agent), {}, s.view.cost_of(agent) + later,
+                          1000, s.limits);
+  };
+  EqualSets sets;
+  const PathSets::Set first = sets.one_of(made(0, 0));
+  PathSets::Set longer = sets.one_of(made(0, 1));
+  EXPECT_EQ(sets.one_of(made(0, 0)), first);
+  EXPECT_EQ(sets.one_of(made(0, 1)), longer);
+  EXPECT_NE(*first, *longer);
+  EXPECT_EQ(sets.size(), 2u);
+  const std::weak_ptr<const OptimalPaths> watched = longer;
+  longer.reset();
+  EXPECT_TRUE(watched.expired());
+  for (Time later = 2; later < 3000; ++later) sets.one_of(made(1, later % 20));
+  EXPECT_LE(sets.size(), 1001u);
+  EXPECT_EQ(sets.one_of(made(0, 0)), first);
 }
 
 TEST(TimedTransport, MessagesLeaveOneAfterTheOther) {

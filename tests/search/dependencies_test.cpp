@@ -16,9 +16,10 @@ struct Bounded : NodeAtHand {
   using NodeAtHand::NodeAtHand;
 
   // By how much the bound is above the root's cost.
-  Cost excess(Cost cutoff = kInfiniteCost) {
+  Cost excess(Cost cutoff = kInfiniteCost, Haste haste = Haste::kNone) {
     Cost bound = -1;
-    EXPECT_EQ(dependencies.find_bound(view.node(), view, cutoff, limits, bound), Outcome::kDone);
+    EXPECT_EQ(dependencies.find_bound(view.node(), view, cutoff, haste, limits, bound),
+              Outcome::kDone);
     return bound - root->cost();
   }
   std::vector<Split> splits() {
@@ -41,6 +42,14 @@ TEST(Dependencies, KnowWhatAPairCostsMore) {
   EXPECT_GT(work, 0);
   EXPECT_EQ(s.excess(), 3);  // remembered
   EXPECT_EQ(s.dependencies.expansions(), work);
+}
+
+TEST(Dependencies, InHasteSayOnlyWhatIsKnown) {
+  Bounded s(kDoor, kHeadOn);
+  EXPECT_EQ(s.excess(kInfiniteCost, Haste::kOthersWait), 0);
+  EXPECT_EQ(s.dependencies.expansions(), 0);
+  EXPECT_EQ(s.excess(), 3) << "it was left for later";
+  EXPECT_EQ(s.excess(kInfiniteCost, Haste::kOthersWait), 3);
 }
 
 TEST(Dependencies, SayNothingOfAgentsThatGoRoundEachOther) {
@@ -128,7 +137,7 @@ TEST(Dependencies, StopAtALimit) {
   Bounded s(kDoor, kHeadOn);
   s.limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
   Cost bound = -1;
-  EXPECT_EQ(s.dependencies.find_bound(s.root, s.view, kInfiniteCost, s.limits, bound),
+  EXPECT_EQ(s.dependencies.find_bound(s.root, s.view, kInfiniteCost, Haste::kNone, s.limits, bound),
             Outcome::kStopped);
 }
 

@@ -36,6 +36,7 @@ class Worker {
 
     Job job;
     NodePtr node;                          // to expand or to help with
+    Haste haste = Haste::kNone;            // with which to expand it
     std::shared_ptr<CommonMemory> memory;  // to do so with
     FoundOut found;
     Expansion expansion;

@@ -44,6 +44,11 @@ class OptimalPaths {
   // Memory held, in bytes; no more than it takes if OptimalPathsBuilder made it.
   std::size_t bytes() const;
 
+  // The same graph, its nodes numbered in the same way.
+  friend bool operator==(const OptimalPaths&, const OptimalPaths&) = default;
+  // The same for equal ones, on every machine.
+  std::uint64_t hash() const;
+
  private:
   friend class OptimalPathsBuilder;
 

@@ -73,7 +73,8 @@ class Expander {
   // Holds no node afterwards: how much memory nodes take would depend on who expanded which last.
   // `cutoff`: plans that cost so much or more are of no interest (the incumbent's cost;
   // kInfiniteCost: all are).
-  Expansion expand(const NodePtr& node, Cost cutoff, const Limits& limits);
+  Expansion expand(const NodePtr& node, Cost cutoff, const Limits& limits,
+                   Haste haste = Haste::kNone);
 
   // Finds out some of what a worker needs that has come back with `node` unfinished, beginning at
   // this `share` in [0, 1) of it; to publish it is all. False: nothing was left to do.

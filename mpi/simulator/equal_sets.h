@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Sets of optimal paths that many simulated ranks made, each once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+
+#include "grove/detail/search/path_sets.h"
+
+namespace grove::detail {
+
+// Each rank makes the sets that it needs for itself, and most need the same. What is equal need not
+// be in memory twice: half of what a thousand ranks hold otherwise. Of one thread.
+class EqualSets {
+ public:
+  // One that is equal, if it is still in use; this one otherwise.
+  PathSets::Set one_of(const PathSets::Set& set);
+
+  std::size_t size() const { return sets_.size(); }
+
+ private:
+  void forget_unused();
+
+  std::unordered_multimap<std::uint64_t, std::weak_ptr<const OptimalPaths>> sets_;  // by hash
+  std::size_t many_ = 1000;
+};
+
+}  // namespace grove::detail
