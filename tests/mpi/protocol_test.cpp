@@ -123,6 +123,27 @@ TEST(RankAlone, AtANodeGivesItsNextOneToAnIdleRankOnly) {
   EXPECT_TRUE(given.spare.empty());
 }
 
+TEST(RankAlone, SaysMoreRarelyWhatCanWaitTheLongerARunTakes) {
+  RankAlone r;
+  const NodePtr root = r.new_root();
+  r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
+  r.rank.handle(0, message::Entrust{std::vector(300, record_of(*root)), kInfiniteCost});
+  const auto statuses_from = [&](double begin) {
+    r.rank.speak(begin);
+    r.transport.take();
+    for (int ms = 1; ms <= 100; ++ms) {
+      r.rank.search().finish(r.rank.search().take(), {}, 0);
+      r.rank.speak(begin + 1e-3 * ms);
+    }
+    return r.transport.sent<message::Status>(0).size();
+  };
+  const auto soon = statuses_from(0);
+  const auto late = statuses_from(100);
+  EXPECT_GE(soon, 20u);
+  EXPECT_GE(late, 2u);
+  EXPECT_LE(late, 10u);
+}
+
 TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
   RankAlone r;
   SharedSearch& search = r.rank.search();
