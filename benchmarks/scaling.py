@@ -42,7 +42,7 @@ ROOMS = "map rooms --width 32 --height 32 --seed 1"
 WAREHOUSE = "roadmap --kind warehouse"
 HOURS = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf", OPEN, 60, None, 1),
          DrawnCase("open-40-40", OPEN, 40, 40, 1), DrawnCase("rooms-25-60-mg", ROOMS, 25, 60, 1, mg=True),
-         DrawnCase("warehouse-100-200", WAREHOUSE, 100, 200, 1)]
+         DrawnCase("rooms-25-50-mg", ROOMS, 25, 50, 1, mg=True), DrawnCase("warehouse-100-200", WAREHOUSE, 100, 200, 1)]
 # More and more of the same, for more and more ranks.
 WEAK = [DrawnCase(f"rooms-{agents}-mapf", ROOMS, agents, None, 1) for agents in (40, 43, 45, 50)]
 # Seconds of one core: to be measured here.
