@@ -67,6 +67,7 @@
 // that last word, by the same ways.
 #include "mpi/coordinator.h"
 
+#include <algorithm>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -203,18 +204,22 @@ void Coordinator::leave(const message::Farewell& said) {
   if (++farewells_ == children_.count()) children_.say_goodbye({farewell_.messages});
 }
 
-// What is known of a rank that stands still goes on to hold.
+// What is known of a rank that stands still goes on to hold. Until the limit there may have been
+// nothing to say. This rank does not stand still: its worker may be in the midst of something.
 std::int64_t Coordinator::give_up_the_silent() {
-  if (ended() || !limits_.stop_requested() || Clock::now() - heard_at_ < kLongSilence) return 0;
-  heard_at_ = Clock::now();
+  if (ended() || !limits_.stop_requested()) return 0;
+  const Clock::time_point now = Clock::now();
+  if (!stopped_at_) stopped_at_ = now;
+  if (now - std::max(heard_at_, *stopped_at_) < kLongSilence) return 0;
   if (gathering_) {
     run_.announcements().checkpoint({.failure = "a rank says nothing any more"});
     gathering_.reset();
     gathered_at_end_ = true;
-  } else if (ending_) {
-    return transport_.ranks() - std::ssize(farewell_.survey.ranks);
+    return 0;
   }
-  return 0;
+  if (!ending_ || now - *stopped_at_ < 2 * kLongSilence) return 0;
+  const auto& said = farewell_.survey.ranks;
+  return transport_.ranks() - std::ssize(said) - (said.contains(0) ? 0 : 1);
 }
 
 Solution Coordinator::conclude() {

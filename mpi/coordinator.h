@@ -39,9 +39,9 @@ class Coordinator {
   Cost lower_bound() { return run_.ledger().lower_bound(); }
   // Have all ranks said farewell?
   bool ended() const { return farewells_ == children_.count(); }
-  // If a limit has struck, and somebody who is waited for has said nothing for too long: gives up a
-  // checkpoint that was being made; if there was none, says how many ranks have not said farewell,
-  // themselves or by who speaks for them. Else 0.
+  // If a limit has struck, and somebody who is waited for has said nothing for too long since then:
+  // gives up a checkpoint that was being made; if there was none, says how many ranks but this one
+  // have not said farewell, themselves or by who speaks for them. Else 0.
   std::int64_t give_up_the_silent();
   // When ended(), or without those ranks: the answer.
   Solution conclude();
@@ -84,7 +84,8 @@ class Coordinator {
   bool restored_ = true;  // nothing of a checkpoint is missing
   bool gathered_at_end_ = false;
   bool ending_ = false;
-  Clock::time_point heard_at_ = Clock::now();  // anybody, last
+  Clock::time_point heard_at_ = Clock::now();    // anybody, last
+  std::optional<Clock::time_point> stopped_at_;  // when a limit was first seen to have struck
   int farewells_ = 0;
   message::Farewell farewell_;     // of those that have said it
   std::map<int, Survey> surveys_;  // by rank, before the farewells; the last one

@@ -317,7 +317,7 @@ Survey Rank::survey(Stats counts) const {
 }
 
 void Rank::account_for(Stats counts) {
-  if (!ended_) superior_.tell(message::Account{survey(std::move(counts))});
+  superior_.tell(message::Account{survey(std::move(counts))});
 }
 
 // Limits may strike just when a plan was found.

@@ -53,7 +53,7 @@ class Rank {
                   : std::min(superior_.reports_at(), knowledge_.speaks_at());
   }
 
-  // Tells what has been done so far, workers' counts among it.
+  // Until the farewell: tells what has been done so far, workers' counts among it.
   void account_for(Stats counts);
   // Is it time for workers to end? Then, when they have, say farewell: what they counted.
   bool ended() const { return ended_; }

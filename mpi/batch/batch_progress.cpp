@@ -34,7 +34,7 @@ ProgressText progress_text(const BatchState& state) {
   std::string text = fmt::format("{}/{} done: {} solved", state.done(), state.total, state.solved);
   if (state.limited > 0) text += fmt::format(", {} at a limit", state.limited);
   if (state.failed > 0) text += fmt::format(", {} failed", state.failed);
-  text += fmt::format("; {} gone", duration_text(state.elapsed_s));
+  text += fmt::format("; {} elapsed", duration_text(state.elapsed_s));
   if (state.ending && state.under_way > 0)
     text += fmt::format(", ending: {} under way", state.under_way);
   if (state.ending && state.under_way == 0)

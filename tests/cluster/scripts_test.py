@@ -141,6 +141,15 @@ timeout -s KILL 2 "{program("GROVE_MPI")}" "$@" --checkpoint-interval 0.2''')
         bad = self.run_script("preempt.sbatch", "--restarts", hard, code=2)
         self.assertEqual(bad, f"preempt.sbatch: --restarts '{hard}': expected a whole number\n")
 
+    def test_an_answer_without_a_rank_that_stood_still_is_one(self):
+        silent = self.executable("silent", f'''echo >>runs
+"{program("GROVE_MPI")}" "$@"
+for log in *.log; do echo "Warning: 1 of 2 ranks said nothing when all was to end: ..." >>"$log"; done
+exit 137''')
+        said = self.run_script("preempt.sbatch", hard_instance(self.folder), "--time-limit", "1", grove_mpi=silent)
+        self.assertNotIn("restart", said)
+        self.assertEqual((self.folder / "runs").read_text().count("\n"), 1)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -66,10 +66,11 @@ std::vector<std::string> warnings(const Crew& crew) {
     threads += crew.threads[rank];
     cores = crew.machines[rank];
     if (!crew.unshared[rank].empty()) unshared[crew.hosts[rank]] = crew.unshared[rank];
-    if (crew.threads[rank] > crew.cores[rank])
+    if (crew.threads[rank] > crew.cores[rank] && crew.cores[rank] < crew.machines[rank])
       found.push_back(fmt::format(
-          "rank {} has {} threads and may use {} of {} cores; see mpirun's --bind-to none", rank,
-          crew.threads[rank], crew.cores[rank], crew.machines[rank]));
+          "rank {} has {} threads and may use {} of {} cores; see mpirun's --bind-to none, or "
+          "srun's --cpus-per-task",
+          rank, crew.threads[rank], crew.cores[rank], crew.machines[rank]));
   }
   for (const auto& [name, counts] : by_host) {
     const auto [threads, cores] = counts;
@@ -77,8 +78,8 @@ std::vector<std::string> warnings(const Crew& crew) {
       found.push_back(fmt::format("host {} has {} cores for {} threads", name, cores, threads));
     else if (threads < cores)
       found.push_back(fmt::format(
-          "host {} has {} cores and {} will be used; for more see --threads and mpirun's "
-          "--bind-to none",
+          "host {} has {} cores and {} will be used; for more see --threads, mpirun's --bind-to "
+          "none and srun's --cpus-per-task",
           name, cores, threads));
   }
   for (const auto& [name, why] : unshared)

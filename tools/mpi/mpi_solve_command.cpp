@@ -119,9 +119,9 @@ class Run {
   }
 
   std::string without_text() {
-    return fmt::format("{} of {} ranks said nothing after the limit: the job ends without them{}",
-                       missing_, session_.ranks(),
-                       proof_->log() == nullptr ? "" : ", and without a certificate");
+    return fmt::format(
+        "{} of {} ranks said nothing when all was to end: the job ends without them{}", missing_,
+        session_.ranks(), proof_->log() == nullptr ? "" : ", and without a certificate");
   }
 
   // All search or none does: rank 0 then says what there is to say.
