@@ -66,7 +66,7 @@ void BenchState::count(const batch::Row& row) {
 
 batch::ProgressText progress_text(const BenchState& state) {
   const int total = state.work.done + state.work.left;
-  std::string line = fmt::format("{}/{} done; {} gone", state.work.done, total,
+  std::string line = fmt::format("{}/{} done; {} elapsed", state.work.done, total,
                                  batch::duration_text(state.elapsed_s));
   if (const auto left = batch::seconds_left(state.work); left && *left > 0)
     line += fmt::format(", about {} left", batch::duration_text(*left));

@@ -67,18 +67,20 @@ TEST(SecondsLeft, AreNotKnownBeforeTheFirstIsDone) {
 TEST(ProgressTexts, SayWhatThereIs) {
   BatchState state = some_state();
   EXPECT_EQ(progress_text(state).line,
-            "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, about 4:42 left");
+            "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 elapsed, about 4:42 left");
   state.ending = true;
-  EXPECT_EQ(progress_text(state).line,
-            "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, ending: 2 under way, about "
-            "0:06 left");
+  EXPECT_EQ(
+      progress_text(state).line,
+      "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 elapsed, ending: 2 under way, about "
+      "0:06 left");
   state.under_way = 0;
-  EXPECT_EQ(progress_text(state).line,
-            "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 gone, 94 left for another run");
+  EXPECT_EQ(
+      progress_text(state).line,
+      "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 elapsed, 94 left for another run");
   BatchState first;
   first.total = 2;
   first.under_way = 1;
-  EXPECT_EQ(progress_text(first).line, "0/2 done: 0 solved; 0:00 gone");
+  EXPECT_EQ(progress_text(first).line, "0/2 done: 0 solved; 0:00 elapsed");
 }
 
 std::string shown(bool terminal, const std::vector<double>& times) {
@@ -98,14 +100,14 @@ std::string shown(bool terminal, const std::vector<double>& times) {
 
 TEST(Progress, OnATerminalIsDrawnAgainAndAgain) {
   EXPECT_EQ(shown(true, {0, 0.1, 0.15, 5}),
-            "\r0/1 done: 0 solved; 0:00 gone\033[K\r0/1 done: 0 solved; 0:05 gone\033[K"
-            "\r1/1 done: 1 solved; 0:05 gone\033[K\n");
+            "\r0/1 done: 0 solved; 0:00 elapsed\033[K\r0/1 done: 0 solved; 0:05 elapsed\033[K"
+            "\r1/1 done: 1 solved; 0:05 elapsed\033[K\n");
 }
 
 TEST(Progress, ElsewhereIsALineNowAndThen) {
   EXPECT_EQ(shown(false, {0, 1, 10, 29, 31, 32, 60, 61.5}),
-            "0/1 done: 0 solved; 0:00 gone\n0/1 done: 0 solved; 0:31 gone\n"
-            "0/1 done: 0 solved; 1:02 gone\n1/1 done: 1 solved; 1:02 gone\n");
+            "0/1 done: 0 solved; 0:00 elapsed\n0/1 done: 0 solved; 0:31 elapsed\n"
+            "0/1 done: 0 solved; 1:02 elapsed\n1/1 done: 1 solved; 1:02 elapsed\n");
 }
 
 }  // namespace batch_progress_test

@@ -30,7 +30,7 @@ BenchState counted() {
 
 TEST(BenchProgress, SaysHowFarAndHowGood) {
   EXPECT_EQ(progress_text(counted()).line,
-            "4/10 done; 1:05 gone, about 0:08 left; solved: auto 3/3, paper 0/1; 1 error");
+            "4/10 done; 1:05 elapsed, about 0:08 left; solved: auto 3/3, paper 0/1; 1 error");
   EXPECT_EQ(progress_text(counted()).done, 4);
   EXPECT_EQ(progress_text(counted()).total, 10);
 }
