@@ -30,10 +30,12 @@ class Results(unittest.TestCase):
 
     def test_the_readme_shows_what_the_files_say(self):
         readme = (RESULTS / "README.md").read_text(encoding="utf-8")
-        simulated, free, compared = (scaling.read(RESULTS / f"{name}.csv")
-                                     for name in ("simulated", "bound", "compared"))
-        self.assertIn(scaling.simulated_table(simulated, free), readme)
-        self.assertIn(scaling.compared_table(compared), readme)
+        rows = {name: scaling.read(RESULTS / f"{name}.csv")
+                for name in ("simulated", "bound", "hours", "weak", "compared", "processor")}
+        for table in (scaling.simulated_table(rows["simulated"], rows["bound"]),
+                      scaling.simulated_table(rows["hours"], []), scaling.weak_table(rows["weak"]),
+                      scaling.compared_table(rows["compared"]), scaling.processor_table(rows["processor"])):
+            self.assertIn(table, readme)
 
 
 class Hours(unittest.TestCase):
