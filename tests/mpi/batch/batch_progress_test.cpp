@@ -86,7 +86,7 @@ TEST(ProgressTexts, SayWhatThereIs) {
 std::string shown(bool terminal, const std::vector<double>& times) {
   std::string text;
   ProgressDisplay progress(
-      {.terminal = terminal, .columns = 30, .write = [&](std::string_view t) { text += t; }});
+      {.terminal = terminal, .columns = 40, .write = [&](std::string_view t) { text += t; }});
   BatchState state;
   state.total = 1;
   for (const double time : times) {

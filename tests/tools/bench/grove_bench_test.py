@@ -194,7 +194,7 @@ class Results(Program):
         self.easy(1)
         running = self.start(*self.bench())
         _, err = running.communicate(timeout=PATIENCE_S)
-        self.assertRegex(err, r"2/2 done; \d:\d\d gone; solved: exact 1/1, paper 1/1\n\Z")
+        self.assertRegex(err, r"2/2 done; \d:\d\d elapsed; solved: exact 1/1, paper 1/1\n\Z")
         running = self.start(*self.bench("--quiet"))
         self.assertEqual(running.communicate(timeout=PATIENCE_S)[1], "")
 
