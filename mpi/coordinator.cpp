@@ -58,7 +58,9 @@
 // order in which they come. What rank 0 proves by them goes to the coordinator in its statuses.
 //
 // *Ranks that stand still.* What the latest status of such a rank covers stays covered. So when a
-// limit has struck, and nothing has been heard for long, the coordinator concludes without it.
+// limit has struck, and nothing has been heard for long since then, the coordinator concludes
+// without it. A rank whose worker is in the midst of something tells what it has done so far, again
+// and again, as a sign of life.
 //
 // *Leaving.* After End, and what it was ordered before, a rank says farewell and sends nothing
 // more; a sub-coordinator does when all its children have. The coordinator then tells each rank how
