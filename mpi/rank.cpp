@@ -50,9 +50,9 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       hierarchy_(transport.ranks(), options.tuning.coordinator_children),
       superior_(transport, hierarchy_, {transport.rank(), 0}, first_status(transport.rank())),
       stops_(stops),
+      trees_(problem, stops_, nodes_.pool),
       ledger_(limits, nodes_.frontier),
       search_(options, limits, nodes_, ledger_, elsewhere_, unwatched_),
-      trees_(problem, stops_, nodes_.pool),
       knowledge_(transport.rank(), transport.ranks(),
                  options.tuning.knowledge_rate * kBytesPerMegabyte) {
   if (transport.rank() == 0) search_.lagrangian().set_ranks(transport.ranks());

@@ -96,12 +96,12 @@ class Rank {
   Superior superior_;
   LocalNodes nodes_;
   AgentStopsStore stops_;
+  Trees trees_;  // outlives all that holds nodes of them
   LedgerCopy ledger_;
   TreeSource elsewhere_;    // the coordinator brings trees,
   TurnObserver unwatched_;  // and counts what is done
   SharedSearch search_;
 
-  Trees trees_;
   std::map<std::uint32_t, NodePtr> roots_;  // by the number of the tree
   TreesOfFacts trees_of_facts_;
   Knowledge knowledge_;

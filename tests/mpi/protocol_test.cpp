@@ -123,6 +123,19 @@ TEST(RankAlone, AtANodeGivesItsNextOneToAnIdleRankOnly) {
   EXPECT_TRUE(given.spare.empty());
 }
 
+TEST(RankAlone, MayEndWithANodeUnfinished) {
+  RankAlone r;
+  const NodePtr root = r.new_root();
+  r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
+  r.rank.handle(0, message::Entrust{{record_of(*root)}, kInfiniteCost});
+  Expansion expansion;
+  expansion.unfinished = true;
+  const NodePtr node = r.rank.search().take();
+  r.rank.search().finish(node, std::move(expansion), 0);
+  EXPECT_EQ(r.rank.search().unfinished(), node);
+  r.rank.handle(0, message::Order{2, 1, false});
+}
+
 TEST(RankAlone, SaysMoreRarelyWhatCanWaitTheLongerARunTakes) {
   RankAlone r;
   const NodePtr root = r.new_root();
