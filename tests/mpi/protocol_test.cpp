@@ -130,10 +130,12 @@ TEST(RankAlone, MayEndWithANodeUnfinished) {
   r.rank.handle(0, message::Entrust{{record_of(*root)}, kInfiniteCost});
   Expansion expansion;
   expansion.unfinished = true;
-  const NodePtr node = r.rank.search().take();
-  r.rank.search().finish(node, std::move(expansion), 0);
-  EXPECT_EQ(r.rank.search().unfinished(), node);
-  r.rank.handle(0, message::Order{2, 1, false});
+  r.rank.search().finish(r.rank.search().take(), std::move(expansion), 0);
+  Plan plan;
+  plan.cost = root->bound();
+  r.rank.handle(0, message::Incumbent{plan});
+  EXPECT_EQ(r.rank.nodes().frontier.live(), 0);
+  EXPECT_TRUE(r.rank.search().unfinished()) << "nobody else holds it";
 }
 
 TEST(RankAlone, SaysMoreRarelyWhatCanWaitTheLongerARunTakes) {
