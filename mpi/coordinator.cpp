@@ -83,7 +83,8 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kNodesEntrusted = 200;  // at a time
-// Ranks look at their limits every few milliseconds, and at the network every four at least.
+// Ranks look at their limits every few milliseconds, and at the network every four at least. One
+// whose worker is at a long step has twice that before it is given up, after a checkpoint or not.
 constexpr auto kLongSilence = std::chrono::milliseconds(700);
 
 }  // namespace

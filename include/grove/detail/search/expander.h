@@ -72,7 +72,7 @@ class Expander {
 
   // Holds no node afterwards: how much memory nodes take would depend on who expanded which last.
   // `cutoff`: plans that cost so much or more are of no interest (the incumbent's cost;
-  // kInfiniteCost: all are).
+  // kInfiniteCost: all are). `haste` makes the node's bound weaker, never wrong.
   Expansion expand(const NodePtr& node, Cost cutoff, const Limits& limits,
                    Haste haste = Haste::kNone);
 
