@@ -191,9 +191,15 @@ std::vector<std::vector<AgentIndex>> Dependencies::groups_in_conflict(const Node
     const AgentIndex to = std::min(leader[c.first], leader[c.second]);
     std::ranges::replace(leader, from, to);
   }
-  std::vector<std::vector<AgentIndex>> groups(leader.size());
-  for (AgentIndex agent = 0; agent < agents_; ++agent) groups[leader[agent]].push_back(agent);
-  std::erase_if(groups, [](const auto& group) { return group.size() < 2; });
+  std::vector<AgentIndex> size(leader.size());
+  for (const AgentIndex first : leader) ++size[first];
+  std::vector<std::vector<AgentIndex>> groups;
+  for (AgentIndex first = 0; first < agents_; ++first) {
+    if (size[first] < 2) continue;  // most agents are alone
+    auto& group = groups.emplace_back();
+    for (AgentIndex agent = first; agent < agents_; ++agent)
+      if (leader[agent] == first) group.push_back(agent);
+  }
   return groups;
 }
 
