@@ -17,6 +17,12 @@ namespace grove::detail {
 constexpr double kLongestNap_s = 4e-3;
 constexpr double kShortestNap = 1.0 / 16;  // of the longest
 
+// The longest nap of a rank whose search goes on or `has_ended`: then nothing is left to be
+// disturbed, and the job waits for what is still to be said.
+inline double longest_nap(bool has_ended, double of_who_searches = kLongestNap_s) {
+  return has_ended ? of_who_searches * kShortestNap : of_who_searches;
+}
+
 // The first look at `time` or later, of a rank that heard something last at `heard`. All in seconds
 // of one clock.
 inline double next_look(double heard, double time, double longest_nap = kLongestNap_s) {

@@ -138,7 +138,8 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
                       "the job ends without an answer",
                       patience));
     const double rested = seconds();
-    if (!heard) sleep(next_look(heard_at, rested + kLeastNap_s) - rested);
+    const double nap = longest_nap(member.rank().ended());
+    if (!heard) sleep(next_look(heard_at, rested + kLeastNap_s, nap) - rested);
   }
   if (!member.coordinator()) return std::nullopt;
   if (options.proof != nullptr) member.rank().search().lagrangian().write_down(*options.proof);

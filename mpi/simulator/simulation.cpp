@@ -139,8 +139,9 @@ class Simulation {
   void foresee(double time, int rank, Who who) { agenda_.push({time, serial_++, rank, who}); }
 
   // When its talker can speak or listen, at `time` or later.
-  double first_talk(const SimulatedRank& r, double time) const {
-    if (time > r.talks_until) time = next_look(r.heard_at, time, setting_.machine.poll);
+  double first_talk(SimulatedRank& r, double time) const {
+    const double nap = longest_nap(r.member.rank().ended(), setting_.machine.poll);
+    if (time > r.talks_until) time = next_look(r.heard_at, time, nap);
     return std::max(time, r.talks_until);
   }
 

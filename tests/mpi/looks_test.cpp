@@ -25,6 +25,12 @@ TEST(Looks, AreNeverBeforeTheirTime) {
   EXPECT_EQ(next_look(3, 9, 0), 9) << "without naps";
 }
 
+TEST(Looks, AreFrequentWhenTheSearchHasEnded) {
+  EXPECT_EQ(longest_nap(false, 16), 16);
+  for (double elapsed = 0; elapsed < 100; elapsed += 0.37)
+    EXPECT_LE(next_look(0, elapsed, longest_nap(true, 16)), elapsed + 1 + 1e-9);
+}
+
 TEST(Pauses, GrowWithTheRunUpToABound) {
   EXPECT_EQ(pause_at(0, 2e-3), 2e-3);
   EXPECT_EQ(pause_at(0.1, 2e-3), 2e-3);
