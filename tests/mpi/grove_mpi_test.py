@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """grove-mpi as its users run it, by mpirun."""
+import contextlib
 import csv
 import json
 import os
@@ -238,6 +239,18 @@ class Checkpoints(Program):
         self.assertIn("stopped by: interrupt", said)
 
 
+THREADS_OF_MPI = 3  # that a rank has before any searches: the one that speaks, and two of Open MPI
+
+
+def threads_of(process):
+    return len(os.listdir(f"/proc/{process}/task"))
+
+
+def end_process(process):
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(process, signal.SIGKILL)
+
+
 class Faults(Program):
     def test_killed_ranks(self):
         killed = kill_and_resume.check(self.generate(18, 30, 8), kills=2, seed=1, most_seconds=1.5)
@@ -258,6 +271,18 @@ class Faults(Program):
         self.assertEqual(self.plan()["status"], "optimal")
         self.run_well([GROVE, "check", instance, "plan.json"])
 
+    def searching_ranks(self, running):
+        """The processes of three ranks, once all search; they do not outlive the test."""
+        ranks = {}
+        while len(ranks) < 3 or not all(threads_of(pid) > THREADS_OF_MPI for pid in ranks.values()):
+            self.assertIsNone(running.poll())
+            time.sleep(0.02)
+            ranks = processes_of(running)
+        for process in (running.pid, *ranks.values()):
+            self.addCleanup(end_process, process)
+        time.sleep(0.2)
+        return ranks
+
     def test_a_rank_that_never_goes_on(self):
         """The job ends soon after its limit, with what is proven."""
         instance = self.generate(30, 60, 3)
@@ -266,10 +291,7 @@ class Faults(Program):
             begin = time.monotonic()
             running = start(mpirun(3, "solve", instance, "--omega", 0, "--threads", 1, "--time-limit",
                                    limit, "--output", "plan.json", *more), self.folder)
-            while len(processes_of(running)) < 3:
-                time.sleep(0.02)
-            time.sleep(1.5)
-            os.kill(processes_of(running)[stopped], signal.SIGSTOP)
+            os.kill(self.searching_ranks(running)[stopped], signal.SIGSTOP)
             said, _ = running.communicate()
             self.assertLess(time.monotonic() - begin, limit + 5, said)  # starting and ending MPI included
             plan = self.plan()
@@ -287,10 +309,7 @@ class Faults(Program):
         running = start(mpirun(3, "solve", self.generate(30, 60, 3), "--omega", 0, "--threads", 1,
                                "--time-limit", 2, "--tune=patience=2", "--output", "plan.json"),
                         self.folder)
-        while len(processes_of(running)) < 3:
-            time.sleep(0.02)
-        time.sleep(0.5)
-        os.kill(processes_of(running)[0], signal.SIGSTOP)
+        os.kill(self.searching_ranks(running)[0], signal.SIGSTOP)
         said, _ = running.communicate(timeout=60)
         self.assertGreater(time.monotonic() - begin, 4)
         self.assertNotEqual(running.returncode, 0)
