@@ -278,7 +278,8 @@ class Faults(Program):
             self.assertIsNone(running.poll())
             time.sleep(0.02)
             ranks = processes_of(running)
-        for process in (running.pid, *ranks.values()):
+        self.addCleanup(running.kill)
+        for process in ranks.values():
             self.addCleanup(end_process, process)
         time.sleep(0.2)
         return ranks
