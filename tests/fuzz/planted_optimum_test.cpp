@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "grove/detail/engine/solve.h"
 #include "grove/detail/search/sequence_forest.h"
 #include "tests/fuzz/claims.h"
@@ -134,19 +136,36 @@ TEST(ObeysAll, ReadsOrdersOffAPath) {
   EXPECT_TRUE(obeys_all(instance, 0, SequenceClass({}, 1), {}, back));
 }
 
-// Solves the cases of so many seeds that have a plan, with the options that `choose` makes of each,
-// and shows `look` every answer with the optimum that was followed.
+// Interrupts its search after so many expansions: a limit that says the same on any machine.
+class InterruptingOptimum : public PlantedOptimum {
+ public:
+  InterruptingOptimum(const Instance& instance, Plan optimum, int expansions)
+      : PlantedOptimum(instance, std::move(optimum)), expansions_left_(expansions) {}
+
+  void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override {
+    PlantedOptimum::on_expanded(node, expansion, worker);
+    if (--expansions_left_ <= 0) enough_.store(true, std::memory_order_relaxed);
+  }
+  const std::atomic<bool>& enough() const { return enough_; }
+
+ private:
+  int expansions_left_;
+  std::atomic<bool> enough_{false};
+};
+
+// Solves the cases of so many seeds that have a plan, each for so many expansions at most, with the
+// options that `choose` makes of each, and shows `look` every answer with the optimum that was
+// followed.
 template <class Choose, class Look>
-void follow_optima(std::uint64_t seeds, std::chrono::milliseconds patience, Choose choose,
-                   Look look) {
+void follow_optima(std::uint64_t seeds, int expansions, Choose choose, Look look) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const FuzzCase fuzz_case = random_case(seed);
     const Instance instance = fuzz_case.instance.build();
     const auto truth = oracle::solve_jointly(instance);
     if (!truth.plan) continue;
-    PlantedOptimum planted(instance, *truth.plan);
+    InterruptingOptimum planted(instance, *truth.plan, expansions);
     Limits limits;
-    limits.set_deadline(Limits::Clock::now() + patience);
+    limits.watch_interrupt(&planted.enough());
     SolveOptions options = choose(fuzz_case.options);
     options.audit = true;
     const Solution solution = solve(instance, options, limits, &planted);
@@ -159,7 +178,7 @@ void follow_optima(std::uint64_t seeds, std::chrono::milliseconds patience, Choo
 TEST(PlantedOptimum, SurvivesWholeSearches) {
   std::size_t followed = 0;
   follow_optima(
-      150, std::chrono::milliseconds(100),
+      150, 1000,
       [](const SolveOptions& random) {
         SolveOptions options;
         options.omega = random.omega;
@@ -175,7 +194,7 @@ TEST(PlantedOptimum, SurvivesWholeSearches) {
 TEST(PlantedOptimum, SurvivesSplitsOfSequenceClasses) {
   std::size_t followed = 0;
   follow_optima(
-      600, std::chrono::milliseconds(50),
+      600, 1000,
       [](const SolveOptions&) {
         SolveOptions options;
         options.techniques = {Technique::kStrongBranching, Technique::kSequenceSplits};
@@ -194,7 +213,7 @@ TEST(PlantedOptimum, SurvivesSearchesThatGiveNodesUp) {
   int asked = 0;
   int optimal = 0;
   follow_optima(
-      400, std::chrono::milliseconds(100),
+      400, 1000,
       [](const SolveOptions& random) {
         SolveOptions options;
         options.policy = random.policy;
