@@ -303,10 +303,9 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) {
     for (const Excesses::Partner& b : partners_)
       if (situation_[b.agent] == b.situation) statements.push_back({{a, b.agent}, b.excess});
   }
-  for (const Situations::Id situation : situation_)
-    memory_.groups_listed_under(situation, [&](const Excesses::Group& group) {
-      if (group.known.excess > 0 && group.is_in(situation_))
-        statements.push_back({group.agents, group.known.excess});
+  for (AgentIndex agent = 0; agent < agents_; ++agent)
+    memory_.groups_at(agent, situation_, [&](const Excesses::Group& group) {
+      if (group.known.excess > 0) statements.push_back({group.agents, group.known.excess});
     });
   std::ranges::sort(statements, [](const GroupExcess& s, const GroupExcess& t) {
     return s.agents != t.agents ? s.agents < t.agents : s.excess > t.excess;

@@ -2,6 +2,9 @@
 #include "grove/detail/search/excesses.h"
 
 #include <algorithm>
+#include <functional>
+#include <tuple>
+#include <utility>
 
 #include "grove/detail/model/assert.h"
 #include "grove/detail/model/hash.h"
@@ -19,9 +22,12 @@ std::uint32_t hash_of(Excesses::Id first, Excesses::Id second) {
 
 }  // namespace
 
-// Situations are numbered as they come up, in each part of their table.
-Excesses::Id Excesses::newest(const std::vector<Id>& situations) {
-  return *std::ranges::max_element(situations);
+std::array<std::size_t, 2> Excesses::rarest_two(const std::vector<Id>& situations) const {
+  std::vector<std::tuple<std::size_t, Id, std::size_t>> members;
+  for (std::size_t place = 0; place < situations.size(); ++place)
+    members.emplace_back(situations_.constraint_bytes(situations[place]), situations[place], place);
+  std::ranges::partial_sort(members, members.begin() + 2, std::greater());
+  return {std::get<2>(members[0]), std::get<2>(members[1])};
 }
 
 template <class Item>
@@ -53,7 +59,7 @@ HashIndex::Number Excesses::Part::find(Id first, Id second) const {
 
 std::size_t Excesses::Part::bytes() const {
   return pairs.capacity() * sizeof(Pair) + index.bytes() + partners.bytes() + groups.bytes() +
-         listed_partners * kBytesPerPartner + listed_groups * kBytesPerGroup;
+         listed_partners * kBytesPerPartner + all_groups.size() * kBytesPerGroup;
 }
 
 Excesses::Known Excesses::of_pair(Id first, Id second) const {
@@ -99,30 +105,41 @@ void Excesses::partners(Id first, std::vector<Partner>& partners) const {
   });
 }
 
+// -1: it is not there.
+std::int32_t Excesses::Part::find_group(Id rarest, Id next,
+                                        const std::vector<Id>& situations) const {
+  for (const ListedGroup& listed : groups.of(rarest))
+    if (listed.situation == next && all_groups[listed.number].situations == situations)
+      return listed.number;
+  return -1;
+}
+
 Excesses::Known Excesses::of_group(const std::vector<Id>& situations) const {
-  Known known;
-  groups_listed_under(newest(situations), [&](const Group& group) {
-    if (group.situations == situations) known = group.known;
+  const auto [rarest, next] = rarest_two(situations);
+  return parts_.with(parts_.part_of(situations[rarest]), [&](const Part& part) {
+    const auto found = part.find_group(situations[rarest], situations[next], situations);
+    return found < 0 ? Known() : part.all_groups[found].known;
   });
-  return known;
 }
 
 bool Excesses::learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                            Known known) {
-  GROVE_ASSERT(agents.size() == situations.size() && std::ranges::is_sorted(agents),
-               "a group is its agents in ascending order, and their situations");
-  const Id under = newest(situations);
+  GROVE_ASSERT(
+      agents.size() > 2 && agents.size() == situations.size() && std::ranges::is_sorted(agents),
+      "a group is its agents in ascending order, and their situations");
+  const auto [rarest, next] = rarest_two(situations);
+  const Id under = situations[rarest];
   return learn(under, [&](Part& part) {
-    auto& groups = part.groups.at(under);
-    const auto listed = std::ranges::find(groups, situations, &Group::situations);
-    if (listed == groups.end()) {
-      groups.push_back({agents, situations, known});
-      ++part.listed_groups;
+    const auto found = part.find_group(under, situations[next], situations);
+    if (found < 0) {
+      const auto number = static_cast<std::int32_t>(part.all_groups.size());
+      part.all_groups.push_back({agents, situations, known});
+      part.groups.at(under).push_back({agents[next], situations[next], number});
       return true;
     }
-    const Known before = listed->known;
-    listed->known = join(before, known);
-    return listed->known != before;
+    Known& now = part.all_groups[found].known;
+    const Known before = std::exchange(now, join(now, known));
+    return now != before;
   });
 }
 

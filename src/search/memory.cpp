@@ -77,10 +77,10 @@ void Memory::partners(Id first, std::vector<Excesses::Partner>& partners) const 
 }
 
 Excesses::Known Memory::of_group(const std::vector<Id>& situations) const {
-  Excesses::Known known;
-  groups_listed_under(Excesses::newest(situations), [&](const Excesses::Group& group) {
+  ++groups_asked_;
+  Excesses::Known known = common_->excesses.of_group(situations);
+  for (const Excesses::Group& group : found_.groups)
     if (group.situations == situations) known = Excesses::join(known, group.known);
-  });
   return known;
 }
 

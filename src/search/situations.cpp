@@ -11,6 +11,9 @@
 namespace grove::detail {
 namespace {
 
+// Of a key: see key_begun().
+constexpr std::size_t kBytesBeforeConstraints = sizeof(const AgentOrder*) + sizeof(AgentIndex);
+
 std::size_t place_of(Situations::Id id) {
   return static_cast<std::size_t>(id) / Sharded<int>::kParts;
 }
@@ -96,6 +99,12 @@ Situations::Id Situations::id_of_key(const AgentOrder& order, std::string_view k
     return id;
   });
   return at << Sharded<Part>::kBits | static_cast<Id>(number);
+}
+
+std::size_t Situations::constraint_bytes(Id id) const {
+  return parts_.with(parts_.part_of(id), [&](const Part& part) {
+    return part.key(static_cast<Id>(place_of(id))).size() - kBytesBeforeConstraints;
+  });
 }
 
 Situations::Known Situations::known(Id id) const {

@@ -21,7 +21,8 @@ std::vector<Excesses::Partner> partners_of(const auto& memory, Situations::Id id
 }
 
 TEST(Excesses, KeepTheStrongerStatement) {
-  Excesses excesses;
+  const Situations situations;
+  Excesses excesses(situations);
   EXPECT_TRUE(same(excesses.of_pair(3, 5), Known()));
   excesses.learn_pair(3, 5, 1, {2, false, 16});
   excesses.learn_pair(3, 5, 1, {1, true, 4});
@@ -31,7 +32,8 @@ TEST(Excesses, KeepTheStrongerStatement) {
 }
 
 TEST(Excesses, ListPartnersThatCostMoreOnce) {
-  Excesses excesses;
+  const Situations situations;
+  Excesses excesses(situations);
   excesses.learn_pair(3, 5, 1, {0, true, 1});
   EXPECT_TRUE(partners_of(excesses, 3).empty());
   excesses.learn_pair(3, 6, 2, {1, false, 1});
@@ -45,34 +47,101 @@ TEST(Excesses, ListPartnersThatCostMoreOnce) {
   EXPECT_TRUE(partners_of(excesses, 6).empty());
 }
 
-TEST(Excesses, KnowGroupsBySituations) {
-  Excesses excesses;
-  excesses.learn_group({0, 2, 4}, {10, 12, 14}, {1, false, 8});
-  const std::size_t bytes = excesses.bytes();
-  excesses.learn_group({0, 2, 4}, {10, 12, 14}, {3, false, 2});
-  EXPECT_EQ(excesses.bytes(), bytes);
-  EXPECT_TRUE(same(excesses.of_group({10, 12, 14}), {3, false, 8}));
-  EXPECT_TRUE(same(excesses.of_group({10, 12, 15}), Known()));
-  excesses.learn_group({0, 2, 4}, {10, 12, 15}, {1, true, 1});
-  EXPECT_GT(excesses.bytes(), bytes);
-  EXPECT_TRUE(same(excesses.of_group({10, 12, 14}), {3, false, 8}));
-  EXPECT_TRUE(same(excesses.of_group({10, 12, 15}), {1, true, 1}));
+// Situations of agents under so many constraints, of which there are several kinds.
+class Numbered : public ::testing::Test {
+ protected:
+  using Id = Situations::Id;
+
+  Id id(AgentIndex agent, int constraints, Cell kind = 0) {
+    std::vector<Constraint> list;
+    for (int i = 0; i < constraints; ++i) list.push_back({kind, kNoCell, i, i});
+    canonical(list);
+    return situations_.id(agent, order_, list);
+  }
+  std::vector<Excesses::Group> groups_at(const std::vector<Id>& now) const {
+    std::vector<Excesses::Group> groups;
+    for (AgentIndex agent = 0; agent < std::ssize(now); ++agent)
+      excesses_.groups_at(agent, now, [&](const auto& group) { groups.push_back(group); });
+    return groups;
+  }
+
+  const AgentOrder order_;
+  Situations situations_;
+  Excesses excesses_{situations_};
+};
+
+using Groups = Numbered;
+
+TEST_F(Groups, AreKnownBySituations) {
+  const std::vector<Id> some{id(0, 1), id(2, 0), id(4, 2)};
+  const std::vector<Id> others{id(0, 1), id(2, 0), id(4, 3)};
+  EXPECT_TRUE(excesses_.learn_group({0, 2, 4}, some, {1, false, 8}));
+  const std::size_t bytes = excesses_.bytes();
+  EXPECT_TRUE(excesses_.learn_group({0, 2, 4}, some, {3, false, 2}));
+  EXPECT_FALSE(excesses_.learn_group({0, 2, 4}, some, {2, false, 2}));
+  EXPECT_EQ(excesses_.bytes(), bytes);
+  EXPECT_TRUE(same(excesses_.of_group(some), {3, false, 8}));
+  EXPECT_TRUE(same(excesses_.of_group(others), Known()));
+  excesses_.learn_group({0, 2, 4}, others, {1, true, 1});
+  EXPECT_GT(excesses_.bytes(), bytes);
+  EXPECT_TRUE(same(excesses_.of_group(some), {3, false, 8}));
+  EXPECT_TRUE(same(excesses_.of_group(others), {1, true, 1}));
 }
 
-TEST(Excesses, ListGroupsUnderTheirNewestSituation) {
-  Excesses excesses;
-  excesses.learn_group({0, 2, 4}, {10, 32, 14}, {1, false, 8});
-  excesses.learn_group({1, 2, 3}, {11, 32, 13}, {2, false, 8});
-  excesses.learn_group({1, 2, 3}, {11, 12, 33}, {3, false, 8});
-  std::vector<Excesses::Group> listed;
-  for (const Situations::Id id : {10, 11, 12, 13, 14, 32})
-    excesses.groups_listed_under(id, [&](const auto& group) { listed.push_back(group); });
-  ASSERT_EQ(listed.size(), 2u);
-  EXPECT_EQ(listed[0].agents, (std::vector<AgentIndex>{0, 2, 4}));
-  EXPECT_EQ(listed[1].agents, (std::vector<AgentIndex>{1, 2, 3}));
-  EXPECT_EQ(listed[1].known.excess, 2);
-  EXPECT_TRUE(listed[0].is_in({10, 0, 32, 0, 14}));
-  EXPECT_FALSE(listed[0].is_in({10, 0, 32, 0, 15}));
+TEST_F(Groups, AreFoundWhereAllAreInTheirSituationsOnce) {
+  const Id constrained = id(2, 2);
+  excesses_.learn_group({0, 2, 3}, {id(0, 0), constrained, id(3, 1)}, {1, false, 8});
+  excesses_.learn_group({1, 2, 3}, {id(1, 0), constrained, id(3, 0)}, {2, false, 8});
+  excesses_.learn_group({0, 1, 2}, {id(0, 0), id(1, 0), id(2, 0)}, {3, false, 8});
+  const auto now = [&](int of_1, int of_3) {
+    return std::vector<Id>{id(0, 0), id(1, of_1), constrained, id(3, of_3)};
+  };
+  EXPECT_EQ(groups_at(now(1, 2)).size(), 0u);
+  EXPECT_EQ(groups_at(now(1, 0)).size(), 0u);
+  const auto one = groups_at(now(1, 1));
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].agents, (std::vector<AgentIndex>{0, 2, 3}));
+  const auto other = groups_at(now(0, 0));
+  ASSERT_EQ(other.size(), 1u);
+  EXPECT_EQ(other[0].agents, (std::vector<AgentIndex>{1, 2, 3}));
+  EXPECT_EQ(other[0].known.excess, 2);
+}
+
+// However many there are of an agent in a situation that all nodes have, who asks looks at those
+// whose rarest two are there.
+TEST_F(Groups, AreListedUnderTheRarest) {
+  for (int kind = 0; kind < 50; ++kind)
+    excesses_.learn_group({0, 1, 2}, {id(0, 0), id(1, 1, kind), id(2, 2, kind)}, {1, false, 1});
+  const auto looked_at = [&](const std::vector<Id>& now) {
+    std::int64_t sum = 0;
+    for (AgentIndex agent = 0; agent < std::ssize(now); ++agent)
+      sum += excesses_.groups_at(agent, now, [](const auto&) {});
+    return sum;
+  };
+  EXPECT_EQ(looked_at({id(0, 0), id(1, 0), id(2, 0)}), 0);
+  EXPECT_EQ(looked_at({id(0, 0), id(1, 1, 7), id(2, 2, 8)}), 0);
+  EXPECT_EQ(looked_at({id(0, 0), id(1, 1, 7), id(2, 2, 7)}), 1);
+  EXPECT_EQ(looked_at({id(0, 5), id(1, 1, 7), id(2, 2, 7)}), 1);
+}
+
+// What is told by others comes in another order.
+TEST_F(Groups, AreTheSameWhateverTheOrderInWhichTheyWereNumbered) {
+  const std::vector<int> demands{3, 0, 2, 1};
+  for (int last = 0; last < 4; ++last) {
+    Situations situations;
+    Excesses excesses(situations);
+    std::vector<Id> now(4);
+    for (int i = 0; i < 4; ++i) {
+      const AgentIndex agent = (last + 1 + i) % 4;
+      std::vector<Constraint> list;
+      for (int c = 0; c < demands[static_cast<std::size_t>(agent)]; ++c)
+        list.push_back({0, kNoCell, c, c});
+      now[static_cast<std::size_t>(agent)] = situations.id(agent, order_, list);
+    }
+    excesses.learn_group({0, 1, 2, 3}, now, {1, false, 1});
+    for (AgentIndex agent = 0; agent < 4; ++agent)
+      EXPECT_EQ(excesses.groups_at(agent, now, [](const auto&) {}), agent == 0 ? 1 : 0);
+  }
 }
 
 struct TwoWorkers : testing::NodeAtHand {
@@ -87,16 +156,19 @@ struct TwoWorkers : testing::NodeAtHand {
 TEST(Memory, IsTheWorkersOwnUntilItIsCommon) {
   TwoWorkers s;
   const Situations::Id id = s.view.situation(0);
+  std::vector<Situations::Id> trio;
+  for (AgentIndex agent = 0; agent < 3; ++agent)
+    trio.push_back(s.memory.id(agent, s.view.order(0), {}));
   s.memory.learn(id, {7, true});
   s.memory.learn_pair(1, 2, 1, {3, true, 1});
-  s.memory.learn_group({0, 1, 2}, {1, 2, 3}, {5, false, 1});
+  s.memory.learn_group({0, 1, 2}, trio, {5, false, 1});
   EXPECT_EQ(s.memory.known(id).at_least, 7);
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
-  EXPECT_EQ(s.memory.of_group({1, 2, 3}).excess, 5);
+  EXPECT_EQ(s.memory.of_group(trio).excess, 5);
   EXPECT_EQ(partners_of(s.memory, 1).size(), 1u);
   EXPECT_EQ(s.other.known(id).at_least, 0);
   EXPECT_EQ(s.other.of_pair(1, 2).excess, 0);
-  EXPECT_EQ(s.other.of_group({1, 2, 3}).excess, 0);
+  EXPECT_EQ(s.other.of_group(trio).excess, 0);
   EXPECT_TRUE(partners_of(s.other, 1).empty());
 
   const FoundOut found = s.memory.take_found();
@@ -105,7 +177,7 @@ TEST(Memory, IsTheWorkersOwnUntilItIsCommon) {
   for (const Memory* memory : {&s.memory, &s.other}) {
     EXPECT_EQ(memory->known(id).at_least, 7);
     EXPECT_EQ(memory->of_pair(1, 2).excess, 3);
-    EXPECT_EQ(memory->of_group({1, 2, 3}).excess, 5);
+    EXPECT_EQ(memory->of_group(trio).excess, 5);
     EXPECT_EQ(partners_of(*memory, 1).size(), 1u);
   }
 }

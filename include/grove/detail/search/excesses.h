@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,9 @@ namespace grove::detail {
 // By how much pairs and groups of agents in given situations cost more together than each alone.
 // Groups are named by their agents in ascending order and by the situations of these. All methods
 // may be called from any thread.
+//
+// A group is *listed* under its rarest situation: few nodes ask for what is listed there. With it
+// stands the next rarest, for most groups that are not at a node differ from it in that already.
 class Excesses {
  public:
   using Id = Situations::Id;
@@ -34,10 +38,10 @@ class Excesses {
     std::vector<Id> situations;
     Known known;
 
-    // `situations_now`, by AgentIndex: are these agents in these situations?
-    bool is_in(const std::vector<Id>& situations_now) const {
+    // `now`: the situations of all agents, by AgentIndex.
+    bool is_at(const std::vector<Id>& now) const {
       return std::ranges::equal(situations, agents, {}, {},
-                                [&](AgentIndex agent) { return situations_now[agent]; });
+                                [&](AgentIndex agent) { return now[agent]; });
     }
   };
   // The other agent of a pair that costs more.
@@ -52,6 +56,9 @@ class Excesses {
     return {std::max(a.excess, b.excess), a.exact || b.exact, std::max(a.expansions, b.expansions)};
   }
 
+  // Of situations with these numbers, which must outlive this.
+  explicit Excesses(const Situations& situations) : situations_(situations) {}
+
   Known of_pair(Id first, Id second) const;
   // The agent is the second one. True, here and below: it was news.
   bool learn_pair(Id first, Id second, AgentIndex agent, Known known);
@@ -61,17 +68,23 @@ class Excesses {
   Known of_group(const std::vector<Id>& situations) const;
   bool learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    Known known);
-  // Calls use(group) for each group listed under a situation: it is the newest of the group's, the
-  // one that is in the fewest groups. `use` must not call this object, and copies what it keeps.
+  // Calls use(group) for each group that is listed under the situation of `agent` among `now`, by
+  // AgentIndex, and is at a node with these. `use` must not call this object, and copies what it
+  // keeps. Returns how many groups were looked at in full.
   template <class Use>
-  void groups_listed_under(Id situation, Use use) const {
+  std::int64_t groups_at(AgentIndex agent, const std::vector<Id>& now, Use use) const {
+    const Id situation = now[agent];
+    std::int64_t looked_at = 0;
     parts_.with(parts_.part_of(situation), [&](const Part& part) {
-      for (const Group& group : part.groups.of(situation)) use(group);
+      for (const ListedGroup& listed : part.groups.of(situation)) {
+        if (now[listed.agent] != listed.situation) continue;
+        ++looked_at;
+        const Group& group = part.all_groups[listed.number];
+        if (group.is_at(now)) use(group);
+      }
     });
+    return looked_at;
   }
-
-  // The situation that a group is listed under.
-  static Id newest(const std::vector<Id>& situations);
 
   // Memory held, in bytes (about).
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
@@ -104,16 +117,22 @@ class Excesses {
     std::vector<std::int32_t> list_;  // by place: its number; -1: none
     std::vector<std::vector<Item>> lists_;
   };
+  struct ListedGroup {
+    AgentIndex agent;  // that is in the next rarest situation
+    Id situation;
+    std::int32_t number;
+  };
   struct Part {
     std::vector<Pair> pairs;
     HashIndex index;          // of pairs
     Lists<Partner> partners;  // by the first
-    Lists<Group> groups;      // by the newest
+    std::vector<Group> all_groups;
+    Lists<ListedGroup> groups;  // by the rarest
     std::size_t listed_partners = 0;
-    std::size_t listed_groups = 0;
 
     void list(const Partner& partner, Id first);
     HashIndex::Number find(Id first, Id second) const;
+    std::int32_t find_group(Id rarest, Id next, const std::vector<Id>& situations) const;
     std::size_t bytes() const;
   };
 
@@ -121,6 +140,12 @@ class Excesses {
   template <class What>
   bool learn(Id under, What what);
 
+  // The places of a group's rarest situation and of the next: those with the most constraints. (Not
+  // those that came up last, which are not the rarest where others tell of them.) Of equal ones the
+  // newest.
+  std::array<std::size_t, 2> rarest_two(const std::vector<Id>& situations) const;
+
+  const Situations& situations_;
   Sharded<Part> parts_;  // by the situation that a pair or group is listed under
   std::atomic<std::size_t> bytes_{0};
 };

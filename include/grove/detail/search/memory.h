@@ -52,7 +52,7 @@ struct CommonMemory {
 
   Situations situations;
   PathSets path_sets;
-  Excesses excesses;
+  Excesses excesses{situations};
   // What is found out may have to be forgotten again before it is of use.
   const bool follows_another = false;
   // Of this one alone among all that there were in this process.
@@ -124,14 +124,10 @@ class Memory {
   void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    Excesses::Known known);
   template <class Use>
-  void groups_listed_under(Id situation, Use use) const {
-    const auto counted = [&](const Excesses::Group& group) {
-      ++groups_asked_;
-      use(group);
-    };
-    common_->excesses.groups_listed_under(situation, counted);
+  void groups_at(AgentIndex agent, const std::vector<Id>& now, Use use) const {
+    groups_asked_ += common_->excesses.groups_at(agent, now, use);
     for (const Excesses::Group& group : found_.groups)
-      if (Excesses::newest(group.situations) == situation) counted(group);
+      if (group.agents.front() == agent && group.is_at(now)) use(group);
   }
 
  private:

@@ -48,6 +48,9 @@ class Situations {
   // What has this number.
   Situation situation(Id id) const;
 
+  // The bytes of its constraints, packed: the more there are, the fewer nodes have this situation.
+  std::size_t constraint_bytes(Id id) const;
+
   Known known(Id id) const;
   // Adds what was found out; the stronger statement stays. True: it was news.
   bool learn(Id id, Known known);
