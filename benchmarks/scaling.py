@@ -249,6 +249,20 @@ def simulated_table(rows, free):
     return tables.table(head, lines)
 
 
+def earlier_table(earlier, now):
+    """What an earlier version took, beside this one where that was simulated as well."""
+    present = {(row["instance"], row["ranks"]): row for row in now}
+    head = ["instance", "ranks", "time", "now", "efficiency", "now", "search overhead", "now"]
+    lines = []
+    for before in earlier:
+        both = [before, present.get((before["instance"], before["ranks"]))]
+        lines.append([before["instance"], f"{int(before['ranks']):,}"] + [
+            shown(row) if row else "" for shown in (
+                lambda row: f"{float(row['wall_s']):.3g} s", lambda row: percent(row["efficiency"]),
+                lambda row: f"{100 * float(row['expanding_overhead']):+.1f} %") for row in both])
+    return tables.table(head, lines)
+
+
 def weak_table(rows):
     head = ["instance", "nodes", "one rank", "ranks", "time", "efficiency", "search overhead", "rank 0 talks"]
     lines = []
@@ -294,6 +308,9 @@ def print_tables(a):
     print(simulated_table(read(a.output / "simulated.csv"), read(a.output / "bound.csv")))
     print()
     print(simulated_table(read(a.output / "hours.csv"), []))
+    print()
+    print(earlier_table(read(a.output / "earlier.csv"),
+                        read(a.output / "simulated.csv") + read(a.output / "hours.csv")))
     print()
     print(weak_table(read(a.output / "weak.csv")))
     print()

@@ -31,9 +31,10 @@ class Results(unittest.TestCase):
     def test_the_readme_shows_what_the_files_say(self):
         readme = (RESULTS / "README.md").read_text(encoding="utf-8")
         rows = {name: scaling.read(RESULTS / f"{name}.csv")
-                for name in ("simulated", "bound", "hours", "weak", "compared", "processor")}
+                for name in ("simulated", "bound", "hours", "earlier", "weak", "compared", "processor")}
         for table in (scaling.simulated_table(rows["simulated"], rows["bound"]),
-                      scaling.simulated_table(rows["hours"], []), scaling.weak_table(rows["weak"]),
+                      scaling.simulated_table(rows["hours"], []),
+                      scaling.earlier_table(rows["earlier"], rows["simulated"] + rows["hours"]), scaling.weak_table(rows["weak"]),
                       scaling.compared_table(rows["compared"]), scaling.processor_table(rows["processor"])):
             self.assertIn(table, readme)
 
