@@ -228,6 +228,10 @@ def shares(row):
             "waiting later, and at the end": max(0.0, idle - first)}
 
 
+def overhead(row):
+    return f"{100 * float(row['expanding_overhead']):+.1f} %"
+
+
 def percent(share):
     return f"{100 * float(share):.1f} %"
 
@@ -243,7 +247,7 @@ def simulated_table(rows, free):
         lines.append([row["instance"], f"{int(row['ranks']):,}", f"{float(row['wall_s']):.3g} s",
                       f"{float(row['speed_up']):.1f}", f"**{percent(row['efficiency'])}**",
                       percent(free_one) if free_one else "",
-                      f"{int(row['nodes']):,}", f"{100 * float(row['expanding_overhead']):+.1f} %",
+                      f"{int(row['nodes']):,}", overhead(row),
                       percent(first), percent(later), f"{float(row['messages_per_node']):.2f}",
                       percent(row["coordinator_talking_share"])])
     return tables.table(head, lines)
@@ -259,7 +263,7 @@ def earlier_table(earlier, now):
         lines.append([before["instance"], f"{int(before['ranks']):,}"] + [
             shown(row) if row else "" for shown in (
                 lambda row: f"{float(row['wall_s']):.3g} s", lambda row: percent(row["efficiency"]),
-                lambda row: f"{100 * float(row['expanding_overhead']):+.1f} %") for row in both])
+                overhead) for row in both])
     return tables.table(head, lines)
 
 
@@ -269,7 +273,7 @@ def weak_table(rows):
     for alone, many in zip(rows[::2], rows[1::2]):
         lines.append([alone["instance"], f"{int(alone['nodes']):,}", f"{float(alone['wall_s']):.3g} s", many["ranks"],
                       f"{float(many['wall_s']):.3g} s", f"**{percent(many['efficiency'])}**",
-                      f"{100 * float(many['expanding_overhead']):+.1f} %",
+                      overhead(many),
                       percent(many["coordinator_talking_share"])])
     return tables.table(head, lines)
 
