@@ -34,7 +34,7 @@ than this one has. It really solves the instance, once for each number of ranks:
 plays all ranks in turn, with the engine's own code, on a simulated clock. An expansion, or a
 price for the Lagrangian bound, takes as long as its work takes on this processor, a message
 what the network's figures below say.
-So few ranks take about as long to simulate as one thread takes to solve, 128 two to four times
+So few ranks take about as long to simulate as one thread takes to solve, 128 two to five times
 as long, 1,024 up to fifteen times.
 )";
 

@@ -48,7 +48,7 @@ TEST(Excesses, ListPartnersThatCostMoreOnce) {
 }
 
 // Situations of agents under so many constraints, of which there are several kinds.
-class Numbered : public ::testing::Test {
+class Groups : public ::testing::Test {
  protected:
   using Id = Situations::Id;
 
@@ -69,8 +69,6 @@ class Numbered : public ::testing::Test {
   Situations situations_;
   Excesses excesses_{situations_};
 };
-
-using Groups = Numbered;
 
 TEST_F(Groups, AreKnownBySituations) {
   const std::vector<Id> some{id(0, 1), id(2, 0), id(4, 2)};

@@ -38,7 +38,7 @@ class Excesses {
     std::vector<Id> situations;
     Known known;
 
-    // `now`: the situations of all agents, by AgentIndex.
+    // `now`, by AgentIndex: are these agents in these situations?
     bool is_at(const std::vector<Id>& now) const {
       return std::ranges::equal(situations, agents, {}, {},
                                 [&](AgentIndex agent) { return now[agent]; });

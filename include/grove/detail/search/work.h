@@ -18,7 +18,8 @@ inline constexpr std::int64_t kStatesPriced = 5;  // to one unit: of a distance 
 // By regression on the processor time of single ones: on six instances of 10 to 80 agents a unit
 // takes 0.11 to 0.26 microseconds, and the correlation is 0.65 to 1.00. (Of what is weighed: 0.22
 // to 0.62, and 0.49 to 0.99. It leaves the sets of optimal paths out; they are most of what a
-// worker does that knows little yet.)
+// worker does that knows little yet.) A group is one that was looked at in full; its rate is from
+// when all in a list were.
 inline constexpr double kPerOptimalNode = 0.55;
 inline constexpr double kPerJointPair = 0.85;
 inline constexpr double kPerSituation = 2;
