@@ -113,7 +113,18 @@ bool Dependencies::help(const NodePtr& node, NodeView& view, Cost cutoff, double
 }
 
 void Dependencies::look_at(NodeView& view) {
-  for (AgentIndex agent = 0; agent < agents_; ++agent) situation_[agent] = view.situation(agent);
+  for (AgentIndex agent = 0; agent < agents_; ++agent) {
+    situation_[agent] = view.situation(agent);
+    GROVE_ASSERT(may_cost(agent, view.cost_of(agent)),
+                 "an agent's path at a node is a cheapest one in its situation");
+  }
+}
+
+// What a pair or group costs more is more than its agents' paths at the node where that was found
+// out; it counts at others because they cost the same there.
+bool Dependencies::may_cost(AgentIndex agent, Time cost) const {
+  const Situations::Known known = memory_.known(situation_[agent]);
+  return known.exact ? cost == known.at_least : cost >= known.at_least;
 }
 
 // Looks into every pair that conflicts at the node.
@@ -303,10 +314,9 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) {
     for (const Excesses::Partner& b : partners_)
       if (situation_[b.agent] == b.situation) statements.push_back({{a, b.agent}, b.excess});
   }
-  for (AgentIndex agent = 0; agent < agents_; ++agent)
-    memory_.groups_at(agent, situation_, [&](const Excesses::Group& group) {
-      if (group.known.excess > 0) statements.push_back({group.agents, group.known.excess});
-    });
+  memory_.groups_at(situation_, [&](const Excesses::Group& group) {
+    if (group.known.excess > 0) statements.push_back({group.agents, group.known.excess});
+  });
   std::ranges::sort(statements, [](const GroupExcess& s, const GroupExcess& t) {
     return s.agents != t.agents ? s.agents < t.agents : s.excess > t.excess;
   });

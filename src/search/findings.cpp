@@ -65,12 +65,11 @@ class Collector {
           findings.push_back(
               {place, {static_cast<AgentIndex>(a), static_cast<AgentIndex>(b)}, known});
       }
-    for (std::size_t a = 0; a < ids.size(); ++a)
-      memory_.excesses.groups_at(static_cast<AgentIndex>(a), ids, [&](const auto& group) {
-        if (says_something(group.known) &&
-            std::ranges::any_of(group.agents, [&](AgentIndex agent) { return is_new_[agent]; }))
-          findings.push_back({place, group.agents, group.known});
-      });
+    memory_.excesses.groups_at(ids, [&](const auto& group) {
+      if (says_something(group.known) &&
+          std::ranges::any_of(group.agents, [&](AgentIndex agent) { return is_new_[agent]; }))
+        findings.push_back({place, group.agents, group.known});
+    });
   }
 
  private:

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/search/node_at_hand.h"
 
 namespace grove::detail {
@@ -18,6 +20,12 @@ std::vector<Excesses::Partner> partners_of(const auto& memory, Situations::Id id
   std::vector<Excesses::Partner> partners;
   memory.partners(id, partners);
   return partners;
+}
+
+std::vector<Excesses::Group> groups_at(const auto& memory, const std::vector<Situations::Id>& now) {
+  std::vector<Excesses::Group> groups;
+  memory.groups_at(now, [&](const Excesses::Group& group) { groups.push_back(group); });
+  return groups;
 }
 
 TEST(Excesses, KeepTheStrongerStatement) {
@@ -58,12 +66,6 @@ class Groups : public ::testing::Test {
     canonical(list);
     return situations_.id(agent, order_, list);
   }
-  std::vector<Excesses::Group> groups_at(const std::vector<Id>& now) const {
-    std::vector<Excesses::Group> groups;
-    for (AgentIndex agent = 0; agent < std::ssize(now); ++agent)
-      excesses_.groups_at(agent, now, [&](const auto& group) { groups.push_back(group); });
-    return groups;
-  }
 
   const AgentOrder order_;
   Situations situations_;
@@ -94,37 +96,61 @@ TEST_F(Groups, AreFoundWhereAllAreInTheirSituationsOnce) {
   const auto now = [&](int of_1, int of_3) {
     return std::vector<Id>{id(0, 0), id(1, of_1), constrained, id(3, of_3)};
   };
-  EXPECT_EQ(groups_at(now(1, 2)).size(), 0u);
-  EXPECT_EQ(groups_at(now(1, 0)).size(), 0u);
-  const auto one = groups_at(now(1, 1));
+  EXPECT_EQ(groups_at(excesses_, now(1, 2)).size(), 0u);
+  EXPECT_EQ(groups_at(excesses_, now(1, 0)).size(), 0u);
+  const auto one = groups_at(excesses_, now(1, 1));
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].agents, (std::vector<AgentIndex>{0, 2, 3}));
-  const auto other = groups_at(now(0, 0));
+  const auto other = groups_at(excesses_, now(0, 0));
   ASSERT_EQ(other.size(), 1u);
   EXPECT_EQ(other[0].agents, (std::vector<AgentIndex>{1, 2, 3}));
   EXPECT_EQ(other[0].known.excess, 2);
+}
+
+// The rarest two, of which lists know, are those of agents 1 and 3.
+TEST_F(Groups, ThatDifferInAnotherAgentOnlyAreKeptApart) {
+  for (AgentIndex differs : {0, 2, 4}) {
+    const auto at = [&](Cell kind) {
+      std::vector<Id> ids;
+      for (AgentIndex agent = 0; agent < 5; ++agent)
+        ids.push_back(id(agent, agent % 2 == 1 ? 3 : 1, agent == differs ? kind : 0));
+      return ids;
+    };
+    Excesses excesses(situations_);
+    excesses.learn_group({0, 1, 2, 3, 4}, at(1), {1, false, 8});
+    excesses.learn_group({0, 1, 2, 3, 4}, at(2), {2, false, 8});
+    for (int kind : {1, 2}) {
+      EXPECT_EQ(excesses.of_group(at(kind)).excess, kind);
+      const auto found = groups_at(excesses, at(kind));
+      ASSERT_EQ(found.size(), 1u);
+      EXPECT_EQ(found[0].known.excess, kind);
+    }
+    EXPECT_EQ(excesses.of_group(at(3)).excess, 0);
+    EXPECT_TRUE(groups_at(excesses, at(3)).empty());
+  }
 }
 
 // However many there are of an agent in a situation that all nodes have, who asks looks at those
 // whose rarest two are there.
 TEST_F(Groups, AreListedUnderTheRarest) {
   for (int kind = 0; kind < 50; ++kind)
-    excesses_.learn_group({0, 1, 2}, {id(0, 0), id(1, 1, kind), id(2, 2, kind)}, {1, false, 1});
+    excesses_.learn_group({0, 1, 2}, {id(0, 0), id(1, 1, kind), id(2, 2, kind)}, {kind, false, 1});
   const auto looked_at = [&](const std::vector<Id>& now) {
-    std::int64_t sum = 0;
-    for (AgentIndex agent = 0; agent < std::ssize(now); ++agent)
-      sum += excesses_.groups_at(agent, now, [](const auto&) {});
-    return sum;
+    return excesses_.groups_at(now, [](const auto&) {});
   };
   EXPECT_EQ(looked_at({id(0, 0), id(1, 0), id(2, 0)}), 0);
   EXPECT_EQ(looked_at({id(0, 0), id(1, 1, 7), id(2, 2, 8)}), 0);
   EXPECT_EQ(looked_at({id(0, 0), id(1, 1, 7), id(2, 2, 7)}), 1);
   EXPECT_EQ(looked_at({id(0, 5), id(1, 1, 7), id(2, 2, 7)}), 1);
+  const auto found = groups_at(excesses_, {id(0, 0), id(1, 1, 7), id(2, 2, 7)});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].known.excess, 7);
 }
 
 // What is told by others comes in another order.
 TEST_F(Groups, AreTheSameWhateverTheOrderInWhichTheyWereNumbered) {
   const std::vector<int> demands{3, 0, 2, 1};
+  const std::vector<Constraint> elsewhere{{7, kNoCell, 0, 0}};
   for (int last = 0; last < 4; ++last) {
     Situations situations;
     Excesses excesses(situations);
@@ -137,8 +163,12 @@ TEST_F(Groups, AreTheSameWhateverTheOrderInWhichTheyWereNumbered) {
       now[static_cast<std::size_t>(agent)] = situations.id(agent, order_, list);
     }
     excesses.learn_group({0, 1, 2, 3}, now, {1, false, 1});
-    for (AgentIndex agent = 0; agent < 4; ++agent)
-      EXPECT_EQ(excesses.groups_at(agent, now, [](const auto&) {}), agent == 0 ? 1 : 0);
+    for (std::size_t other = 0; other < 4; ++other) {
+      std::vector<Id> differing = now;
+      differing[other] = situations.id(static_cast<AgentIndex>(other), order_, elsewhere);
+      const bool is_of_the_rarest_two = other == 0 || other == 2;
+      EXPECT_EQ(excesses.groups_at(differing, [](const auto&) {}), is_of_the_rarest_two ? 0 : 1);
+    }
   }
 }
 
@@ -157,16 +187,21 @@ TEST(Memory, IsTheWorkersOwnUntilItIsCommon) {
   std::vector<Situations::Id> trio;
   for (AgentIndex agent = 0; agent < 3; ++agent)
     trio.push_back(s.memory.id(agent, s.view.order(0), {}));
+  std::vector<Situations::Id> elsewhere = trio;
+  elsewhere[2] = s.memory.id(2, s.view.order(0), std::array{Constraint{1, kNoCell, 0, 0}});
   s.memory.learn(id, {7, true});
   s.memory.learn_pair(1, 2, 1, {3, true, 1});
   s.memory.learn_group({0, 1, 2}, trio, {5, false, 1});
   EXPECT_EQ(s.memory.known(id).at_least, 7);
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
   EXPECT_EQ(s.memory.of_group(trio).excess, 5);
+  EXPECT_EQ(groups_at(s.memory, trio).size(), 1u);
+  EXPECT_TRUE(groups_at(s.memory, elsewhere).empty());
   EXPECT_EQ(partners_of(s.memory, 1).size(), 1u);
   EXPECT_EQ(s.other.known(id).at_least, 0);
   EXPECT_EQ(s.other.of_pair(1, 2).excess, 0);
   EXPECT_EQ(s.other.of_group(trio).excess, 0);
+  EXPECT_TRUE(groups_at(s.other, trio).empty());
   EXPECT_TRUE(partners_of(s.other, 1).empty());
 
   const FoundOut found = s.memory.take_found();
@@ -176,6 +211,8 @@ TEST(Memory, IsTheWorkersOwnUntilItIsCommon) {
     EXPECT_EQ(memory->known(id).at_least, 7);
     EXPECT_EQ(memory->of_pair(1, 2).excess, 3);
     EXPECT_EQ(memory->of_group(trio).excess, 5);
+    EXPECT_EQ(groups_at(*memory, trio).size(), 1u);
+    EXPECT_TRUE(groups_at(*memory, elsewhere).empty());
     EXPECT_EQ(partners_of(*memory, 1).size(), 1u);
   }
 }

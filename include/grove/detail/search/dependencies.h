@@ -77,6 +77,7 @@ class Dependencies {
   };
 
   void look_at(NodeView& view);
+  bool may_cost(AgentIndex agent, Time cost) const;
   Outcome find_out(NodeView& view, Cost slack, const Limits& limits);
   Known known(AgentIndex a, AgentIndex b) const {
     return memory_.of_pair(situation_[a], situation_[b]);

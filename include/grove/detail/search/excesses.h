@@ -68,21 +68,21 @@ class Excesses {
   Known of_group(const std::vector<Id>& situations) const;
   bool learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    Known known);
-  // Calls use(group) for each group that is listed under the situation of `agent` among `now`, by
-  // AgentIndex, and is at a node with these. `use` must not call this object, and copies what it
-  // keeps. Returns how many groups were looked at in full.
+  // Calls use(group) once for each group that is at a node with the situations `now`, by
+  // AgentIndex. `use` must not call this object, and copies what it keeps. Returns how many groups
+  // were looked at in full.
   template <class Use>
-  std::int64_t groups_at(AgentIndex agent, const std::vector<Id>& now, Use use) const {
-    const Id situation = now[agent];
+  std::int64_t groups_at(const std::vector<Id>& now, Use use) const {
     std::int64_t looked_at = 0;
-    parts_.with(parts_.part_of(situation), [&](const Part& part) {
-      for (const ListedGroup& listed : part.groups.of(situation)) {
-        if (now[listed.agent] != listed.situation) continue;
-        ++looked_at;
-        const Group& group = part.all_groups[listed.number];
-        if (group.is_at(now)) use(group);
-      }
-    });
+    for (const Id situation : now)
+      parts_.with(parts_.part_of(situation), [&](const Part& part) {
+        for (const ListedGroup& listed : part.groups.of(situation)) {
+          if (now[listed.agent] != listed.situation) continue;
+          ++looked_at;
+          const Group& group = part.all_groups[listed.number];
+          if (group.is_at(now)) use(group);
+        }
+      });
     return looked_at;
   }
 

@@ -53,8 +53,8 @@ class TreesOfFacts {
 std::vector<Fact> facts_of(const News& news, const CommonMemory& memory, const TreesOfFacts& trees);
 
 // Adds a fact to what `memory` knows, unless it is of a tree that is not known here. Throws
-// std::invalid_argument, and adds nothing, for what cannot be: no agent, one that is not there, or
-// agents in another order.
+// std::invalid_argument, and learns nothing, for what cannot be: no agent, one that is not there,
+// or agents in another order.
 void learn(Fact fact, const TreesOfFacts& trees, CommonMemory& memory);
 
 }  // namespace grove::detail

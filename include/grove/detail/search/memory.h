@@ -124,10 +124,10 @@ class Memory {
   void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    Excesses::Known known);
   template <class Use>
-  void groups_at(AgentIndex agent, const std::vector<Id>& now, Use use) const {
-    groups_asked_ += common_->excesses.groups_at(agent, now, use);
+  void groups_at(const std::vector<Id>& now, Use use) const {
+    groups_asked_ += common_->excesses.groups_at(now, use);
     for (const Excesses::Group& group : found_.groups)
-      if (group.agents.front() == agent && group.is_at(now)) use(group);
+      if (group.is_at(now)) use(group);
   }
 
  private:
