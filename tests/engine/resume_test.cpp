@@ -46,6 +46,14 @@ class Interrupter : public RunObserver {
   std::int64_t left_;
 };
 
+Solution solve_for(const Instance& instance, const SolveOptions& options,
+                   Interrupter& interrupter) {
+  Limits limits;
+  limits.watch_interrupt(&interrupter.interrupted);
+  limits.set_deadline(Limits::Clock::now() + std::chrono::seconds(20));
+  return solve(instance, options, limits, &interrupter);
+}
+
 // Goes on from the checkpoint in `folder`, if there is one, for so many expansions.
 Solution go_on(const Instance& instance, SolveOptions options, const std::filesystem::path& folder,
                std::int64_t expansions) {
@@ -57,20 +65,16 @@ Solution go_on(const Instance& instance, SolveOptions options, const std::filesy
     options.resume = reader.get();
   }
   Interrupter interrupter(expansions);
-  Limits limits;
-  limits.watch_interrupt(&interrupter.interrupted);
-  limits.set_deadline(Limits::Clock::now() + std::chrono::seconds(20));
-  Solution solution = solve(instance, options, limits, &interrupter);
+  Solution solution = solve_for(instance, options, interrupter);
   EXPECT_GT(interrupter.written, 0);
   return solution;
 }
 
 // Stops every so often and goes on, each time with another number of threads; the bound never
-// falls.
+// falls. But for instances that 200 expansions do not solve.
 void expect_same_optimum(const Instance& instance, SolveOptions options, int& resumed) {
-  Limits limits;
-  limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(150));
-  const Solution truth = solve(instance, options, limits);
+  Interrupter enough(200);
+  const Solution truth = solve_for(instance, options, enough);
   if (truth.status != Status::kOptimal) return;
   const TemporaryDirectory folder;
   Cost bound = 0;
