@@ -224,11 +224,11 @@ class Checkpoints(Program):
 
     def test_on_request(self):
         running = start(mpirun(2, "solve", self.generate(18, 30, 8), "--omega", 0, "--threads", 1,
-                               "--checkpoint", "kept", "--time-limit", 5), self.folder)
+                               "--checkpoint", "kept", "--time-limit", 30), self.folder)
         time.sleep(1)
         self.assertFalse((self.folder / "kept/checkpoint.grove").exists())
         running.send_signal(signal.SIGUSR1)
-        deadline = time.monotonic() + 4
+        deadline = time.monotonic() + 20
         while not (self.folder / "kept/checkpoint.grove").exists():
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
