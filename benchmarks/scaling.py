@@ -3,7 +3,7 @@
 """How the distributed search scales: simulated with up to thousands of ranks, and checked with real ones.
 
     benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]   three hard instances: simulated.csv
-    benchmarks/scaling.py hours --ranks 1,128             instances of hours: hours.csv
+    benchmarks/scaling.py hours --ranks 1,128             instances of minutes: hours.csv
     benchmarks/scaling.py weak                            more ranks for more work: weak.csv
     benchmarks/scaling.py bound --maps FOLDER                 if messages cost nothing: bound.csv
     benchmarks/scaling.py compare --maps FOLDER               2 ranks, also measured: compared.csv
@@ -23,6 +23,7 @@ import math
 import os
 import resource
 import statistics
+import sys
 import tempfile
 from pathlib import Path
 
@@ -36,7 +37,7 @@ HERE = Path(__file__).resolve().parent
 # ranks expand more; larger ones would take hours.
 HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
         Case("room-32-32-4", 40, None, 4)]
-# One core needs minutes to hours and 10^6 nodes or more for each; data/hours has the plans to begin with.
+# One core needs minutes and 10^6 nodes or more for each; data/hours has the plans to begin with.
 OPEN = "map random --width 32 --height 32 --obstacles 0.2 --seed 1"
 ROOMS = "map rooms --width 32 --height 32 --seed 1"
 WAREHOUSE = "roadmap --kind warehouse"
@@ -76,12 +77,16 @@ def prepared(case, a, folder):
 
 
 def simulated(case, problem, ranks, a, folder, machine=()):
-    """A row per number of ranks."""
+    """A row per number of ranks, but for those that did not end within the limits."""
     table = folder / "table.csv"
     run([a.bin / "grove-sim", *problem, "--ranks", ",".join(map(str, ranks)), "--cost-per-work",
          a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table, *machine])
     with table.open(encoding="utf-8", newline="") as file:
-        return [{"instance": str(case), **row} for row in csv.DictReader(file)]
+        rows = [{"instance": str(case), **row} for row in csv.DictReader(file)]
+    for row in rows:
+        if row["status"] == "unfinished":
+            print(f"{case}: {row['ranks']} ranks did not end within the limits (--memory-limit): no row", flush=True)
+    return [row for row in rows if row["status"] != "unfinished"]
 
 
 def measured(before, problem, a, folder):
@@ -104,7 +109,11 @@ def read(path):
 
 
 def chosen(cases, a):
-    return [case for case in cases if a.only in str(case)]
+    found = [case for case in cases if a.only in str(case)]
+    if not found:
+        sys.exit(f"scaling.py: error: --only: found '{a.only}'; expected a part of one of "
+                 f"{', '.join(map(str, cases))}")
+    return found
 
 
 def merge(path, rows):
@@ -126,8 +135,9 @@ def study(cases, output, machine, a):
 
     with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
         for rows in pool.map(rows_of, chosen(cases, a)):
-            merge(output, rows)
-            print(f"{rows[0]['instance']}: simulated", flush=True)
+            if rows:
+                merge(output, rows)
+                print(f"{rows[0]['instance']}: simulated", flush=True)
 
 
 def simulate(a):
@@ -384,12 +394,16 @@ def draw_shares(panel, name, rows):
     panel.tick_params(axis="x", rotation=45)
 
 
+def whole_numbers(text):
+    return [int(word) for word in text.split(",")]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=["simulate", "hours", "weak", "bound", "compare", "processor", "draw",
                                          "tables"])
-    parser.add_argument("--ranks", type=lambda text: [int(word) for word in text.split(",")],
+    parser.add_argument("--ranks", type=whole_numbers,
                         default=RANKS, help="whole numbers with commas; begin with 1")
     parser.add_argument("--only", default="", help="instances whose name contains this")
     parser.add_argument("--repeat", type=int, default=3, help="measurements of each; the median counts")

@@ -58,6 +58,8 @@ so begin with a good one: --start, or what the search for plans finds in --prima
 --omega 0 and an optimal plan what must be expanded is nearly fixed, and what is seen is
 scaling; else luck as well. The time to read the instance and to start ranks is left out.
 
+A run that a limit struck is unfinished: its row says of it only how far it came.
+
 Without --cost-per-work the run of one rank is timed, and its mean time per unit of work
 (about one label of the low level) is what work costs in the others. Given the figure, all
 is repeatable.
@@ -137,6 +139,7 @@ class Study {
       : a_(arguments),
         options_(options_of_one_search(a_.solve)),
         loaded_(a_.solve.instance.load()) {
+    require_fit(a_.solve, loaded_.instance, options_);
     for (const auto& file : {a_.solve.output, a_.profile}) {
       if (file.empty()) continue;
       require_distinct_files(file, a_.solve.instance.path(), "the instance");
@@ -157,7 +160,7 @@ class Study {
     begin_with_plan(problem);
     print_line(scaling_header());
     const SimulatedRun alone = simulated(problem, 1);
-    calibrate(alone);
+    if (!calibrate(alone)) return;
     for (const std::int64_t ranks : a_.ranks) {
       if (interrupted) break;
       if (ranks == 1)
@@ -192,21 +195,26 @@ class Study {
     }
     const SimulatedRun::Rank& first = run.ranks.front();
     note(fmt::format(
-        "{} ranks simulated in {:.1f} s, {:.0f} MB; expansions took {:.2f} s here, {:.2f} s by "
-        "their work; "
-        "rank 0 {:.1f} us here for a message that it sent or received, {:.1f} as simulated",
-        ranks, seconds_since(start), static_cast<double>(peak_resident_bytes()) / 1e6, processor_s,
-        busy_s,
+        "{} {}simulated in {:.1f} s, {:.0f} MB; expansions took {:.2f} s here, {:.2f} s by their "
+        "work; rank 0 {:.1f} us here for a message that it sent or received, {:.1f} as simulated",
+        ranks == 1 ? "1 rank" : fmt::format("{} ranks", ranks), run.ended ? "" : "not to the end, ",
+        seconds_since(start), static_cast<double>(peak_resident_bytes()) / 1e6, processor_s, busy_s,
         1e6 * first.talking_processor_s / static_cast<double>(first.received + first.messages + 1),
         1e6 * first.talking_s / static_cast<double>(first.received + first.messages + 1)));
     return run;
   }
 
-  void calibrate(const SimulatedRun& alone) {
-    if (a_.machine.seconds_per_work > 0) return;
+  // False: the limits left no time to find out what work costs.
+  bool calibrate(const SimulatedRun& alone) {
+    if (a_.machine.seconds_per_work > 0) return true;
     const SimulatedWorker::Tally& tally = alone.ranks.front().worker;
+    if (tally.work <= 0) {
+      note("nothing was expanded within the limits; expected more, or --cost-per-work");
+      return false;
+    }
     a_.machine.seconds_per_work = tally.processor_s / tally.work;
     note(fmt::format("--cost-per-work {:.4g}", a_.machine.seconds_per_work));
+    return true;
   }
 
   void report(const SimulatedRun& run, const SimulatedRun& alone) {

@@ -18,6 +18,7 @@ from mpi_program import (DATA, ENVIRONMENT, GROVE, GROVE_MPI, held_by, mpirun, p
                          run, start)
 
 EASY = DATA / "rooms-32x32_n10_m30.cts.json"
+ONE_WAY = DATA / "yard.cts.json"
 
 
 class Program(unittest.TestCase):
@@ -123,6 +124,11 @@ class Refusals(Program):
         self.refuses(mpirun(2, "solve", EASY, "--omega", "-1"), "--omega")
         self.refuses(mpirun(2, "solve", EASY, "--deterministic"), "--deterministic")
         self.refuses(mpirun(2, "solve", EASY, "--output", "no/such/folder/plan.json"), "no/such")
+        self.refuses(mpirun(2, "solve", EASY, "--resume", "auto"), "--resume", "--checkpoint")
+
+    def test_a_method_that_is_not_for_the_instance(self):
+        self.refuses(mpirun(2, "solve", ONE_WAY, "--method", "hcbs"), ONE_WAY.name, "method hcbs", "one way")
+        self.refuses(mpirun(2, "solve", EASY, "--method", "cts-cbs-a"), "cts-cbs-a")
 
     def test_ranks_that_were_asked_for_different_things(self):
         one = ["mpirun", "--oversubscribe", "-np", 1, GROVE_MPI, "solve", EASY, "--seed", 1]
@@ -453,6 +459,12 @@ class Batches(Program):
         self.assertEqual(set(after), {"i0", "i1", "i2", "later"})
         self.assertEqual({name: after[name] for name in before}, before)
         self.refuses(mpirun(2, *self.batch("--seed", 5)), "seed")
+
+    def test_a_method_that_is_not_for_an_instance(self):
+        (self.folder / "instances").write_text(f"{ONE_WAY}\n", encoding="utf-8")
+        self.run_well(mpirun(2, *self.batch("--method", "hcbs", "--ranks-per-instance", 2)))
+        row, = self.rows().values()
+        self.assertIn("one way", row["error"])
 
     def test_input_is_complained_about_once(self):
         self.refuses(mpirun(2, *self.batch()), "instances")

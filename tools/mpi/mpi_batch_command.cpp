@@ -16,6 +16,7 @@
 
 #include "grove/detail/batch/folder.h"
 #include "grove/detail/batch/manifest.h"
+#include "grove/detail/engine/method.h"
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/engine/solve.h"
 #include "grove/detail/io/plan_file.h"
@@ -179,6 +180,7 @@ class BatchRun {
     std::string error;
     try {
       loaded = batch::load(entry);
+      require_fit(method_of(a_.solve), loaded->instance, options_);
     } catch (const std::exception& failure) {
       error = failure.what();
     }

@@ -54,7 +54,10 @@ class Run {
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
     if (a_.instance.is_standard_input()) share_standard_input();
-    together(session_, [&] { loaded_.emplace(a_.instance.load(is_first())); });
+    together(session_, [&] {
+      loaded_.emplace(a_.instance.load(is_first()));
+      require_fit(a_, loaded_->instance, options_);
+    });
     require_same(session_, "an instance of fingerprint",
                  fmt::format("{:016x}", fingerprint(loaded_->instance)));
     set_limits(limits_, a_, start_);

@@ -4,23 +4,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <exception>
 #include <utility>
 #include <vector>
 
 namespace grove::detail {
 
 void together(const MpiSession& session, const std::function<void()>& what) {
-  std::optional<InputError> mine;
+  std::exception_ptr mine;
+  std::string why;
   try {
     what();
   } catch (const InputError& error) {
-    mine = error;
+    mine = std::current_exception();
+    why = error.what();
+  } catch (const CLI::ValidationError& error) {
+    mine = std::current_exception();
+    why = error.what();
   }
-  const std::vector<std::string> all = session.gather(mine ? mine->what() : "");
+  const std::vector<std::string> all = session.gather(why);
   const auto failed = std::ranges::find_if(all, [](const auto& text) { return !text.empty(); });
   if (failed == all.end()) return;
-  if (mine && std::ranges::count(all, mine->what()) == session.ranks()) throw *mine;
+  if (std::ranges::count(all, why) == session.ranks()) std::rethrow_exception(mine);
   throw InputError(fmt::format("rank {}", failed - all.begin()), "", *failed);
 }
 

@@ -12,9 +12,9 @@
 
 namespace grove::detail {
 
-// All ranks: calls `what`, and throws InputError on all of them if it threw InputError on any, with
-// the text of the first, and which rank that is unless all say the same. CLI::ValidationError is
-// the same on all, for they have the same command line.
+// All ranks: calls `what`, and throws on all of them if it threw InputError or CLI::ValidationError
+// on any: what all threw if they say the same, else InputError with the text of the first and which
+// rank that is.
 void together(const MpiSession& session, const std::function<void()>& what);
 
 // Whether all ranks accept their command lines, which may not be the same, nor the programs that

@@ -62,28 +62,27 @@ void start_from_incumbent(const std::filesystem::path& file, const Instance& ins
 }  // namespace
 
 void add_checkpoint_options(CLI::App& app, CheckpointArguments& a) {
-  app.add_option("--checkpoint", a.directory,
-                 "write the state of the search to this folder now and then, on SIGUSR1 and at the "
-                 "end, so that a later run can go on from it; and the best plan, before it is "
-                 "announced")
-      ->type_name("DIR");
+  CLI::Option* checkpoint =
+      app.add_option("--checkpoint", a.directory,
+                     "write the state of the search to this folder now and then, on SIGUSR1 and at "
+                     "the end, past the time limit if need be, so that a later run can go on from "
+                     "it; and the best plan, before it is announced")
+          ->type_name("DIR");
   add_number(app, "--checkpoint-interval", a.interval_s, kShortestInterval_s, kLongestInterval_s,
              "the time between two checkpoints")
-      ->type_name("S");
+      ->type_name("S")
+      ->needs(checkpoint);
   app.add_option("--resume", a.resume,
                  "what to do about a checkpoint in that folder: go on from it (auto; without one, "
                  "begin), or begin anew (never). With neither, finding one is an error")
       ->type_name("auto|never")
-      ->check(one_of({"auto", "never"}));
+      ->check(one_of({"auto", "never"}))
+      ->needs(checkpoint);
 }
 
 CheckpointFolder prepare_checkpoints(const CheckpointArguments& a, const Instance& instance,
                                      SolveOptions& options) {
-  if (a.directory.empty()) {
-    if (!a.resume.empty())
-      throw CLI::ValidationError("--resume", "expected --checkpoint DIR to go with it");
-    return {};
-  }
+  if (a.directory.empty()) return {};
   make_folder(a.directory);
   CheckpointFolder folder{lock_folder(a.directory), nullptr};
   options.checkpoints = {a.directory, a.interval_s, &checkpoint_asked};

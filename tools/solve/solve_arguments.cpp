@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "grove/detail/io/input_error.h"
 #include "tools/common/options.h"
 #include "tools/common/parse_error.h"
 #include "tools/common/signals.h"
@@ -126,7 +127,8 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
          "--method", a.method,
          "auto: Grove's search, as the other options say. To compare with: plain CBS with the low "
          "level of optimal-cbs, hcbs or mgcbs; s-cbs, CTS-CBS with omega inf and policy fixed. For "
-         "agents without a goal: cts-cbs-a, which is auto; cts-cbs-b, one task of each is made its "
+         "agents without a goal ('grove solve' alone): cts-cbs-a, which is auto; cts-cbs-b, one "
+         "task of each is made its "
          "goal; cts-cbs-c, cts-cbs-a for two thirds of the time, then cts-cbs-b. The paper's are "
          "those with --policy fixed")
       ->type_name("METHOD")
@@ -302,6 +304,14 @@ SolveOptions options_of_one_search(const SolveArguments& a) {
                                "is for 'grove solve' alone; expected another method (cts-cbs-a is "
                                "what auto does)");
   return solve_options(a);
+}
+
+void require_fit(const SolveArguments& a, const Instance& instance, const SolveOptions& options) {
+  try {
+    require_fit(method_of(a), instance, options);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(a.instance.name(), "", error.what());
+  }
 }
 
 void set_limits(Limits& limits, const SolveArguments& a,

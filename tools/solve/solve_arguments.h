@@ -68,6 +68,9 @@ Omega omega_of(const SolveArguments& arguments);
 SolveOptions solve_options(const SolveArguments& arguments);
 // The same for programs that run solve()'s search themselves: not for all methods.
 SolveOptions options_of_one_search(const SolveArguments& arguments);
+// Throws InputError if the method is not for this instance, or not with this start plan.
+void require_fit(const SolveArguments& arguments, const Instance& instance,
+                 const SolveOptions& options);
 // The limits of a run that began at `start`.
 void set_limits(Limits& limits, const SolveArguments& arguments,
                 std::chrono::steady_clock::time_point start);

@@ -3,11 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "grove/detail/engine/method.h"
-#include "grove/detail/io/input_error.h"
 #include "tools/common/commands.h"
 #include "tools/common/signals.h"
 #include "tools/solve/incumbent_files.h"
@@ -32,15 +30,6 @@ Examples:
   grove solve INSTANCE.cts.json --omega 0 --time-limit 60 --output plan.json
   grove solve room-32-32-4-random-1.scen --agents 20)";
 
-void expect_fit(Method method, const Instance& instance, const SolveOptions& options,
-                const std::string& path) {
-  try {
-    require_fit(method, instance, options);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(path, "", error.what());
-  }
-}
-
 void run_solve(const CLI::App& app, SolveArguments& a) {
   const Clock::time_point start = Clock::now();
   stop_on_signals();
@@ -48,7 +37,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   const LoadedInstance loaded = a.instance.load();
   prepare_outputs(a, loaded);
   if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
-  expect_fit(method_of(a), loaded.instance, options, a.instance.name());
+  require_fit(a, loaded.instance, options);
   const CheckpointFolder checkpoints = prepare_checkpoints(a.checkpoints, loaded.instance, options);
   if (!checkpoints.resumed) ProofOutput::remove_old(a);
   ProofOutput proof(a);
