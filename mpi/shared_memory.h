@@ -16,7 +16,8 @@ class SharedMemory {
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
 
-  // The same bytes for all members, if at other addresses. Empty: there is none.
+  // The same bytes for all members, if at other addresses, all of them multiples of
+  // SharedArrays::kAlignment. Empty: there is none.
   std::span<std::byte> bytes() const { return bytes_; }
   int member() const { return member_; }
   int members() const { return members_; }

@@ -10,6 +10,8 @@
 #include "grove/detail/model/shared_arrays.h"
 
 #include <chrono>
+#include <cstdint>
+#include <stdexcept>
 #include <thread>
 
 #include "grove/detail/model/assert.h"
@@ -65,8 +67,8 @@ SharedArrays::SharedArrays(std::span<std::byte> memory, const ArrayLayout& layou
                            int members)
     : memory_(memory), member_(member), members_(members) {
   GROVE_ASSERT(memory.size() >= bytes(layout), "there is room for all arrays");
-  GROVE_ASSERT(reinterpret_cast<std::uintptr_t>(memory.data()) % kAlignment == 0,
-               "arrays of whatever type may begin there");
+  if (reinterpret_cast<std::uintptr_t>(memory.data()) % kAlignment != 0)
+    throw std::invalid_argument("memory for arrays must begin at a multiple of kAlignment");
   std::size_t begin = zero_bytes(layout);
   std::size_t flag = 0;
   for (std::size_t kind = 0; kind < layout.size(); ++kind)

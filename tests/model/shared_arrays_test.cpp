@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstring>
 #include <memory>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -103,6 +105,13 @@ TEST(SharedArrays, MembersBeginInDifferentPlaces) {
   EXPECT_EQ(memory.of(0, 4).first_of(10), 0U);
   EXPECT_EQ(memory.of(1, 4).first_of(10), 2U);
   EXPECT_EQ(memory.of(3, 4).first_of(10), 7U);
+}
+
+TEST(SharedArrays, RefuseMemoryThatDoesNotBeginWhereArraysMay) {
+  alignas(SharedArrays::kAlignment) std::array<std::byte, 2 * SharedArrays::kAlignment> bytes{};
+  const std::span<std::byte> memory(bytes);
+  EXPECT_NO_THROW(SharedArrays(memory, {}, 0, 1));
+  EXPECT_THROW(SharedArrays(memory.subspan(8), {}, 0, 1), std::invalid_argument);
 }
 
 TEST(SharedArrays, OneThatIsNotThereIsNone) {

@@ -90,8 +90,8 @@ class SharedArrays {
   static std::size_t bytes(const ArrayLayout& layout);
   static std::size_t zero_bytes(const ArrayLayout& layout);
 
-  // `memory` begins at a multiple of kAlignment and must outlive this. All members give the same
-  // layout, and numbers from 0 to `members` - 1.
+  // `memory` begins at a multiple of kAlignment, else throws std::invalid_argument, and must outlive
+  // this. All members give the same layout, and numbers from 0 to `members` - 1.
   SharedArrays(std::span<std::byte> memory, const ArrayLayout& layout, int member, int members);
 
   // None where the layout has none.
