@@ -140,10 +140,10 @@ class Solvers(Foreign):
 
     def test_one_that_hangs(self):
         """It knows no time limit, and so is given no grace; what it started dies with it."""
-        row = self.row_of("hangs", limit=0.5)
+        row = self.row_of("hangs", limit=4)  # it is to have started a process by then
         self.assertEqual((row["status"], row["solved"], row["error"], row["runtime_s"]),
-                         ("unknown", False, "time limit", 0.5))
-        self.assertLess(row["wall_s"], 5)
+                         ("unknown", False, "time limit", 4))
+        self.assertLess(row["wall_s"], 9)
         child = Path("/proc") / (self.folder / "pids").read_text()
         self.wait_until(lambda: not child.exists() or "\nState:\tZ" in (child / "status").read_text())
 
