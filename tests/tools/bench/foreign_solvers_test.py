@@ -75,7 +75,8 @@ class Solvers(Foreign):
         self.assertIsNone(row["lower_bound"])  # nobody has re-checked that
         self.assertEqual((row["claimed_cost"], row["claimed_lower_bound"], row["solver"]), (14, 14, "fake"))
         self.assertEqual(row["options"], "fake honest")
-        self.assertEqual(row["trace"], f"{row['wall_s']:g}:14:-")
+        seconds, *found = row["trace"].split(":")
+        self.assertEqual((float(seconds), found), (row["wall_s"], ["14", "-"]))
         self.assertEqual((row["runtime_s"], row["first_plan_s"]), (row["wall_s"], row["wall_s"]))
         self.assertGreater(row["peak_memory_mb"], 1)
         self.assertEqual(row["plan_file"], "plans/honest/open-random-1-2.plan.json")
@@ -174,14 +175,14 @@ class Solvers(Foreign):
         self.assertLess(row["peak_memory_mb"], 1000)
 
     def test_an_anytime_one(self):
-        row = self.row_of("anytime", limit=1, adapter="fake-anytime.json")
+        row = self.row_of("anytime", limit=4, adapter="fake-anytime.json")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["error"], row["anytime"]),
                          ("feasible", True, 14, None, True))
         points = [point.split(":") for point in row["trace"].split()]
         self.assertEqual([(cost, bound) for _, cost, bound in points], [("19", "-"), ("16", "-"), ("14", "-")])
         self.assertAlmostEqual(row["first_plan_s"], float(points[0][0]), 5)
         self.assertEqual(row["runtime_s"], row["first_plan_s"])
-        self.assertGreater(row["wall_s"], 1)
+        self.assertGreater(row["wall_s"], 4)
 
     def test_an_anytime_one_that_ends_long_after_its_limit(self):
         adapter = {**ANYTIME, "name": "fake-late", "command": ADAPTER["command"] + " {time_limit}"}
