@@ -158,9 +158,11 @@ def weak(a):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             problem = prepared(case, a, folder)
-            alone, = simulated(case, problem, [1], a, folder, NO_LIMIT)
-            rows = simulated(case, problem, [ranks_for(alone, a.seconds)], a, folder, NO_LIMIT)
-        merge(a.output / "weak.csv", [alone, *rows])
+            alone = simulated(case, problem, [1], a, folder, NO_LIMIT)
+            rows = alone and simulated(case, problem, [ranks_for(alone[0], a.seconds)], a, folder, NO_LIMIT)
+        if not rows:
+            continue  # simulated() has said why
+        merge(a.output / "weak.csv", alone + rows)
         print(f"{case}: simulated", flush=True)
 
 

@@ -160,7 +160,7 @@ class Study {
     begin_with_plan(problem);
     print_line(scaling_header());
     const SimulatedRun alone = simulated(problem, 1);
-    if (!calibrate(alone)) return;
+    calibrate(alone);
     for (const std::int64_t ranks : a_.ranks) {
       if (interrupted) break;
       if (ranks == 1)
@@ -204,17 +204,12 @@ class Study {
     return run;
   }
 
-  // False: the limits left no time to find out what work costs.
-  bool calibrate(const SimulatedRun& alone) {
-    if (a_.machine.seconds_per_work > 0) return true;
+  // What work costs in the other runs; where there was none, each finds out for itself.
+  void calibrate(const SimulatedRun& alone) {
     const SimulatedWorker::Tally& tally = alone.ranks.front().worker;
-    if (tally.work <= 0) {
-      note("nothing was expanded within the limits; expected more, or --cost-per-work");
-      return false;
-    }
+    if (a_.machine.seconds_per_work > 0 || tally.work <= 0) return;
     a_.machine.seconds_per_work = tally.processor_s / tally.work;
     note(fmt::format("--cost-per-work {:.4g}", a_.machine.seconds_per_work));
-    return true;
   }
 
   void report(const SimulatedRun& run, const SimulatedRun& alone) {

@@ -23,6 +23,11 @@ double ratio(double part, double whole) {
   return whole == 0 ? 0 : part / whole;
 }
 
+// By what part it is more than before.
+double growth(double now, double before) {
+  return ratio(now - before, before);
+}
+
 void count_messages(const SimulatedRun& run, ScalingRow& row) {
   double talking_s = 0;
   for (const SimulatedRun::Rank& rank : run.ranks) {
@@ -72,8 +77,8 @@ ScalingRow scaling_row(const SimulatedRun& run, const SimulatedRun& alone) {
     row.speed_up = ratio(alone.wall_s, run.wall_s);
     row.efficiency = row.speed_up / row.ranks;
     row.nodes_overhead =
-        ratio(static_cast<double>(row.nodes), static_cast<double>(nodes_of(alone))) - 1;
-    row.expanding_overhead = ratio(row.expanding_s, expanding_of(alone)) - 1;
+        growth(static_cast<double>(row.nodes), static_cast<double>(nodes_of(alone)));
+    row.expanding_overhead = growth(row.expanding_s, expanding_of(alone));
   }
   count_messages(run, row);
   weigh_loads(run, row);

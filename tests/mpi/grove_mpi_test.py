@@ -471,6 +471,8 @@ class Batches(Program):
 
     def test_input_is_complained_about_once(self):
         self.refuses(mpirun(2, *self.batch()), "instances")
+        self.instances(1)
+        self.refuses(mpirun(2, *self.batch("--ranks-per-instance", 3)), "--ranks-per-instance", "found 3", "at most 2")
 
 
 if __name__ == "__main__":

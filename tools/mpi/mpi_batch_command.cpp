@@ -112,6 +112,10 @@ class BatchRun {
   void run() {
     share_machine(app_, a_.solve, session_);
     options_ = options_of_one_search(a_.solve);
+    if (a_.ranks_per_instance > session_.ranks())
+      throw CLI::ValidationError("--ranks-per-instance",
+                                 fmt::format("found {}; expected at most {}, as there are ranks",
+                                             a_.ranks_per_instance, session_.ranks()));
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
     const batch::Grouping grouping{session_.ranks(), static_cast<int>(a_.ranks_per_instance)};

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The command line of grove-sim: its table, and what it refuses.
+
+    grove_sim_test.py GROVE_SIM
+"""
+import csv
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+GROVE_SIM = Path(sys.argv[1]).resolve()
+DATA = Path(__file__).resolve().parents[2] / "benchmarks/data"
+EASY = DATA / "rooms-32x32_n5_m10.cts.json"
+LONG = DATA / "rooms-32x32_n10_m30.cts.json"
+ONE_WAY = DATA / "yard.cts.json"
+OPTIMAL = ["--omega", 0, "--cost-per-work", 1e-7]
+
+
+class GroveSim(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def run_it(self, *words):
+        return subprocess.run([GROVE_SIM, *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+
+    def rows(self, *words):
+        done = self.run_it(*words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return list(csv.DictReader(done.stdout.splitlines()))
+
+    def refuses(self, *words, because):
+        done = self.run_it(*words)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        for text in because:
+            self.assertIn(text, done.stderr)
+
+    def test_a_row_for_each_number_of_ranks(self):
+        rows = self.rows(LONG, *OPTIMAL, "--ranks", "1,2,5", "--output", "table.csv", "--profile", "profile.csv")
+        self.assertEqual([row["ranks"] for row in rows], ["1", "2", "5"])
+        self.assertGreater(int(rows[0]["nodes"]), 0)
+        self.assertEqual({row["status"] for row in rows}, {"optimal"})
+        self.assertEqual(len({(row["cost"], row["lower_bound"]) for row in rows}), 1)
+        self.assertEqual((float(rows[0]["speed_up"]), float(rows[0]["efficiency"])), (1, 1))
+        for row in rows:
+            ranks, speed_up = int(row["ranks"]), float(rows[0]["wall_s"]) / float(row["wall_s"])
+            self.assertAlmostEqual(float(row["speed_up"]), speed_up, delta=0.001 * speed_up)
+            self.assertAlmostEqual(float(row["efficiency"]), speed_up / ranks, delta=0.001)
+        with (self.folder / "table.csv").open(newline="") as file:
+            self.assertEqual(list(csv.DictReader(file)), rows)
+        with (self.folder / "profile.csv").open(newline="") as file:
+            self.assertEqual({row["ranks"] for row in csv.DictReader(file)}, {"1", "2", "5"})
+
+    def test_one_rank_to_compare_with_has_no_row_unless_asked_for(self):
+        row, = self.rows(EASY, *OPTIMAL, "--ranks", 3)
+        self.assertEqual(row["ranks"], "3")
+
+    def test_given_what_work_costs_it_repeats_itself(self):
+        first, second = (self.rows(LONG, *OPTIMAL, "--ranks", "2,4") for _ in range(2))
+        self.assertEqual(first, second)
+
+    def test_what_a_limit_strikes_is_unfinished(self):
+        rows = self.rows(LONG, *OPTIMAL, "--ranks", "1,2", "--primal-steps", 0, "--time-limit", 0)
+        self.assertEqual([row["status"] for row in rows], ["unfinished"] * 2)
+
+    def test_work_costs_what_it_takes_here(self):
+        done = self.run_it(LONG, "--omega", 0, "--ranks", 1)
+        self.assertRegex(done.stderr, r"grove-sim: --cost-per-work \d")
+
+    def test_where_nothing_is_expanded_there_is_a_table_too(self):
+        rows = self.rows(EASY, "--omega", 1, "--ranks", "1,2", "--output", "table.csv")
+        self.assertEqual([(row["nodes"], float(row["nodes_overhead"])) for row in rows], [("0", 0)] * 2)
+        self.assertTrue((self.folder / "table.csv").exists())
+
+    def test_refusals(self):
+        self.refuses("missing.cts.json", because=["missing.cts.json"])
+        self.refuses(EASY, "--ranks", "0", because=["--ranks"])
+        self.refuses(EASY, "--ranks", "2;3", because=["--ranks"])
+        self.refuses(EASY, "--latency", "-1", because=["--latency"])
+        self.refuses(ONE_WAY, "--method", "hcbs", because=[ONE_WAY.name, "method hcbs", "one way"])
+        self.refuses(EASY, "--method", "cts-cbs-a", because=["cts-cbs-a"])
+        self.refuses(EASY, "--output", "no/such/table.csv", because=["no/such"])
+
+
+if __name__ == "__main__":
+    del sys.argv[1]
+    unittest.main()
