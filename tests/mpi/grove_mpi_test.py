@@ -15,7 +15,7 @@ from pathlib import Path
 
 import kill_and_resume
 from mpi_program import (DATA, ENVIRONMENT, GROVE, GROVE_MPI, held_by, mpirun, plan_of, processes_of,
-                         run, start)
+                         run, searches, start)
 
 EASY = DATA / "rooms-32x32_n10_m30.cts.json"
 ONE_WAY = DATA / "yard.cts.json"
@@ -245,13 +245,6 @@ class Checkpoints(Program):
         self.assertIn("stopped by: interrupt", said)
 
 
-THREADS_OF_MPI = 3  # that a rank has before any searches: the one that speaks, and two of Open MPI
-
-
-def threads_of(process):
-    return len(os.listdir(f"/proc/{process}/task"))
-
-
 def end_process(process):
     with contextlib.suppress(ProcessLookupError):
         os.kill(process, signal.SIGKILL)
@@ -280,7 +273,7 @@ class Faults(Program):
     def searching_ranks(self, running):
         """The processes of three ranks, once all search; they do not outlive the test."""
         ranks = {}
-        while len(ranks) < 3 or not all(threads_of(pid) > THREADS_OF_MPI for pid in ranks.values()):
+        while len(ranks) < 3 or not all(map(searches, ranks.values())):
             self.assertIsNone(running.poll())
             time.sleep(0.02)
             ranks = processes_of(running)

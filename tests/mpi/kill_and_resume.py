@@ -17,7 +17,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from mpi_program import GROVE, GROVE_MPI, mpirun, plan_of, processes_of, run, start
+from mpi_program import GROVE, GROVE_MPI, mpirun, plan_of, processes_of, run, searches, start
 
 PREEMPT = Path(__file__).resolve().parents[2] / "cluster/preempt.sbatch"
 SRUN = """#!/bin/sh
@@ -37,10 +37,11 @@ def undisturbed(instance, folder):
 
 
 def kill_a_rank(running, dice, most_seconds):
-    """So long after they have started, at most."""
-    while not (ranks := processes_of(running)) and running.poll() is None:
+    """So long after they have begun to search, at most. (One that is killed as it connects may leave an
+    mpirun of Open MPI 4 that waits for ever.)"""
+    while not ((ranks := processes_of(running)) and all(map(searches, ranks.values()))) and running.poll() is None:
         time.sleep(0.02)
-    time.sleep(dice.uniform(0.3, most_seconds))
+    time.sleep(dice.uniform(0, most_seconds))
     if running.poll() is None:
         try:
             os.kill(dice.choice(sorted(ranks.values())), signal.SIGKILL)

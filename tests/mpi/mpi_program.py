@@ -57,3 +57,14 @@ def processes_of(process):
         numbers = [variable.split("=")[1] for variable in variables if variable.startswith("OMPI_COMM_WORLD_RANK=")]
         ranks.update({int(numbers[0]): int(pid)} if numbers else processes_of(pid))
     return ranks
+
+
+THREADS_OF_MPI = 3  # that a rank has before any searches: the one that speaks, and two of Open MPI
+
+
+def searches(pid):
+    """Whether this rank has come so far that threads of it search."""
+    try:
+        return len(os.listdir(f"/proc/{pid}/task")) > THREADS_OF_MPI
+    except FileNotFoundError:
+        return False
