@@ -345,7 +345,8 @@ def draw(a):
 
     groups = tables.grouped(read(a.output / "simulated.csv"), "instance")
     figure, panels = pyplot.subplots(1, 1 + len(groups), figsize=(15, 4.8), sharey=True)
-    draw_efficiency(panels[0], groups, tables.grouped(read(a.output / "bound.csv"), "instance"))
+    draw_efficiency(panels[0], groups, tables.grouped(read(a.output / "hours.csv"), "instance"),
+                    tables.grouped(read(a.output / "bound.csv"), "instance"))
     for panel, ((name,), rows) in zip(panels[1:], groups.items()):
         draw_shares(panel, name, rows)
     handles, labels = panels[1].get_legend_handles_labels()
@@ -358,17 +359,21 @@ def text_of(ranks):
     return [f"{int(number):,}" for number in ranks]
 
 
-def draw_efficiency(panel, groups, free):
+def draw_efficiency(panel, groups, longer, free):
+    def draw_line(rows, line, **look):
+        drawn, = panel.plot([int(row["ranks"]) for row in rows],
+                            [float(row["efficiency"]) for row in rows], line, **look)
+        return drawn.get_color()
+
+    for rows in longer.values():
+        draw_line(rows, ".-", color="grey", linewidth=1)
+    panel.plot([], [], ".-", color="grey", linewidth=1, label=f"{len(longer)} that take one rank minutes")
     for (key, rows), marker in zip(groups.items(), "osD"):
-        ranks = [int(row["ranks"]) for row in rows]
-        line, = panel.plot(ranks, [float(row["efficiency"]) for row in rows], marker=marker,
-                           label=f"{key[0]}\n({float(rows[0]['wall_s']):.0f} s by one rank)")
-        bounds = free.get(key, [])
-        panel.plot([int(row["ranks"]) for row in bounds],
-                   [float(row["efficiency"]) for row in bounds], "x--", color=line.get_color(),
-                   linewidth=1)
+        color = draw_line(rows, f"{marker}-", label=f"{key[0]}\n({float(rows[0]['wall_s']):.0f} s by one rank)")
+        draw_line(free.get(key, []), "x--", color=color, linewidth=1)
     panel.plot([], [], "x--", color="black", linewidth=1, label="if messages cost nothing")
     panel.set_xscale("log", base=2)
+    ranks = sorted({int(row["ranks"]) for rows in groups.values() for row in rows})
     panel.set_xticks(ranks, text_of(ranks), rotation=45)
     panel.minorticks_off()
     panel.set_ylim(0, 1.3)
