@@ -21,6 +21,11 @@ EASY = DATA / "rooms-32x32_n10_m30.cts.json"
 ONE_WAY = DATA / "yard.cts.json"
 
 
+def end_process(process):
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(process, signal.SIGKILL)
+
+
 class Program(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -50,6 +55,19 @@ class Program(unittest.TestCase):
 
     def plan(self):
         return plan_of(self.folder / "plan.json")
+
+    def searching_ranks(self, running, count=3):
+        """The processes of so many ranks, once all search; they do not outlive the test."""
+        ranks = {}
+        while len(ranks) < count or not all(map(searches, ranks.values())):
+            self.assertIsNone(running.poll())
+            time.sleep(0.02)
+            ranks = processes_of(running)
+        self.addCleanup(running.kill)
+        for process in ranks.values():
+            self.addCleanup(end_process, process)
+        time.sleep(0.2)
+        return ranks
 
 
 class Answers(Program):
@@ -229,25 +247,20 @@ class Checkpoints(Program):
         self.refuses(mpirun(2, *self.kept()), "kept", "folder")
 
     def test_on_request(self):
-        running = start(mpirun(2, "solve", self.generate(18, 30, 8), "--omega", 0, "--threads", 1,
+        running = start(mpirun(2, "solve", self.generate(30, 60, 3), "--omega", 0, "--threads", 1,
                                "--checkpoint", "kept", "--time-limit", 30), self.folder)
-        time.sleep(1)
+        ranks = self.searching_ranks(running, 2)  # mpirun tells nobody what comes before they are there
         self.assertFalse((self.folder / "kept/checkpoint.grove").exists())
         running.send_signal(signal.SIGUSR1)
         deadline = time.monotonic() + 20
         while not (self.folder / "kept/checkpoint.grove").exists():
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
-        for pid in processes_of(running).values():
+        for pid in ranks.values():
             os.kill(pid, signal.SIGTERM)  # those who end well: mpirun would call it a failure
         said, _ = running.communicate()
         self.assertEqual(running.returncode, 0, said)
         self.assertIn("stopped by: interrupt", said)
-
-
-def end_process(process):
-    with contextlib.suppress(ProcessLookupError):
-        os.kill(process, signal.SIGKILL)
 
 
 class Faults(Program):
@@ -269,19 +282,6 @@ class Faults(Program):
         self.assertEqual(running.returncode, 0, said)
         self.assertEqual(self.plan()["status"], "optimal")
         self.run_well([GROVE, "check", instance, "plan.json"])
-
-    def searching_ranks(self, running):
-        """The processes of three ranks, once all search; they do not outlive the test."""
-        ranks = {}
-        while len(ranks) < 3 or not all(map(searches, ranks.values())):
-            self.assertIsNone(running.poll())
-            time.sleep(0.02)
-            ranks = processes_of(running)
-        self.addCleanup(running.kill)
-        for process in ranks.values():
-            self.addCleanup(end_process, process)
-        time.sleep(0.2)
-        return ranks
 
     def test_a_rank_that_never_goes_on(self):
         """The job ends soon after its limit, with what is proven."""
