@@ -72,13 +72,13 @@ class WhatStays(unittest.TestCase):
             harness = subprocess.Popen(["env", mark, LOCAL_SLURM, "--nodes", "2", "sh", "-c", job],
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             self.addCleanup(harness.kill)
-            wait_until("a job in Slurm", started.exists, 20)
+            wait_until("a job in Slurm", started.exists, 60)
         running = programs_with(mark)
         for program in ("munged", "slurmctld", "slurmd", "srun", "sleep"):
             self.assertIn(program, running)
         harness.send_signal(number)
-        self.assertEqual(harness.wait(timeout=10), -9 if number == signal.SIGKILL else 128 + number)
-        wait_until("all processes gone", lambda: not programs_with(mark), 5)
+        self.assertEqual(harness.wait(timeout=30), -9 if number == signal.SIGKILL else 128 + number)
+        wait_until("all processes gone", lambda: not programs_with(mark), 20)
 
     def test_after_an_interrupt(self):
         self.killed_by(signal.SIGINT)

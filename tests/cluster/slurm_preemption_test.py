@@ -31,7 +31,7 @@ class PreemptScript:
                        "--time-limit", TIME_LIMIT_S, cwd=self.folder).strip()
         self.addCleanup(subprocess.run, ["scancel", self.job], check=False)
         # Without an expansion there would be nothing to go on from.
-        wait_until("a plan and an expansion", lambda: re.search(r"^[A-Z* ] +[1-9]\d*( +\d+){4} ", self.log(), re.M), 30)
+        wait_until("a plan and an expansion", lambda: re.search(r"^[A-Z* ] +[1-9]\d*( +\d+){4} ", self.log(), re.M), 60)
 
     def log(self):
         path = self.folder / "log"
@@ -59,7 +59,7 @@ class PreemptScript:
     def second_run(self, bound_before):
         """The job, which is in the queue once more, goes on where it was."""
         before = len(self.log())
-        wait_until("the second run", lambda: self.starts_again() and self.rows(before), 30)
+        wait_until("the second run", lambda: self.starts_again() and self.rows(before), 60)
         self.assertRegex(self.log()[before:], RESUMED)
         run("scancel", self.job)
         self.wait_until_job_is(30, JobState="CANCELLED")
@@ -82,7 +82,7 @@ class AnUrgentJob(PreemptScript, unittest.TestCase):
     def test_a_checkpoint_on_demand_then_the_place_is_needed(self):
         self.assertEqual(self.checkpoint_files(), [])
         run("scancel", "--signal=USR1", self.job)
-        wait_until("a checkpoint", self.checkpoint_files, 30)
+        wait_until("a checkpoint", self.checkpoint_files, 60)
         self.assertTrue(self.job_is(JobState="RUNNING"))
         self.assertNotRegex(self.log(), RESUMED)
         submit_and_wait("--partition=urgent", "--exclusive", "--output=/dev/null", "--wrap=true",

@@ -37,7 +37,7 @@ def submit_and_wait(*arguments, **options):
     """Calls sbatch; returns the exit codes of the job, or of all jobs of the array, when it has
     ended. (sbatch --wait looks but every few seconds.)"""
     job = run("sbatch", "--parsable", *arguments, **options).strip()
-    wait_until(f"job {job} has ended", lambda: not run("squeue", "--noheader", "--jobs", job), 25)
+    wait_until(f"job {job} has ended", lambda: not run("squeue", "--noheader", "--jobs", job), 60)
     said = run("scontrol", "show", "job", job)
     return [int(code) for code in re.findall(r" ExitCode=(\d+):", said)]
 
