@@ -293,10 +293,10 @@ class Faults(Program):
                                    limit, "--output", "plan.json", *more), self.folder)
             os.kill(self.searching_ranks(running)[stopped], signal.SIGSTOP)
             said, _ = running.communicate()
-            self.assertLess(time.monotonic() - begin, limit + 5, said)  # starting and ending MPI included
+            self.assertLess(time.monotonic() - begin, limit + 20, said)  # starting and ending MPI included
             plan = self.plan()
             self.assertIn(plan["stats"]["silent_ranks"], (1, 2))  # on a busy machine its neighbour may be late
-            self.assertLess(plan["stats"]["wall_s"], limit + 2)
+            self.assertLess(plan["stats"]["wall_s"], limit + 4)  # on a quiet machine two seconds are kept
             self.assertGreater(plan["lower_bound"], 0)
             self.assertRegex(said, "[12] of 3 ranks said nothing when all was to end")
             self.assertEqual("without a certificate" in said, bool(more), said)
