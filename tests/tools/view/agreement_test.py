@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The page and `grove check` agree on every plan: random instances of all kinds, half of their plans broken.
 
-agreement_test.py GROVE VERDICTS [--plans N] [--seed S]   VERDICTS: verdicts.ts, bundled for node
+agreement_test.py GROVE NODE VERDICTS [--plans N] [--seed S]   VERDICTS: verdicts.ts, bundled for node
 """
 
 import argparse
@@ -306,9 +306,9 @@ def is_for_others(plan):
 
 
 class Cases:
-    def __init__(self, grove, verdicts, seed):
+    def __init__(self, grove, node, verdicts, seed):
         self.grove, self.rng = grove, random.Random(seed)
-        self.node = subprocess.Popen(["node", verdicts], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.node = subprocess.Popen([node, verdicts], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.valid = self.invalid = self.unreadable = 0
         self.seen = collections.Counter()
         self.differ = []
@@ -385,12 +385,13 @@ class Cases:
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("grove")
+    parser.add_argument("node")
     parser.add_argument("verdicts")
     parser.add_argument("--plans", type=int, default=150)
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        cases = Cases(arguments.grove, arguments.verdicts, arguments.seed)
+        cases = Cases(arguments.grove, arguments.node, arguments.verdicts, arguments.seed)
         cases.run(arguments.plans, pathlib.Path(folder))
         for instance, plan, text in cases.differ:
             print(f"differ: {instance.read_text()}\n{plan.read_text()}\n{text}", file=sys.stderr)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from pages import CHOSEN, COLLISION, DATA, MOVING, Chromium, NoAnswer, PageTest, main
 
-GL_PAGE = Path(os.environ.get("GROVE_GL_PAGE", "build/release/tests/tools/view/gl_page.js"))
+GL_PAGE = Path(os.environ.get("GROVE_GL_PAGE", "build/release/tests/tools/view/gl_page.mjs"))
 DARK_MOVING = (0x56, 0xB4, 0xE9)
 
 
