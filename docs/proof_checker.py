@@ -23,17 +23,30 @@ def expect(condition, reason):
         raise Refused(reason)
 
 
+def members(pairs):
+    """An object of JSON, no key twice, without remarks."""
+    expect(len(dict(pairs)) == len(pairs), "a key is there twice")
+    return {key: value for key, value in pairs if not key.startswith("_") and key != "$schema"}
+
+
 def read_instance(path):
     """(links of each place, starts, goals, checksum)."""
-    instance = json.loads(path.read_text(encoding="utf-8"))
-    expect(not instance["tasks"] and all("goal" in a and "motion" not in a for a in instance["agents"]), "not classical MAPF")
+    instance = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=members)
+    agents = instance.get("agents", [])
+    # What is dropped could be a constraint, and then the bound would be of another problem.
+    expect(instance.keys() == {"map", "agents", "tasks"} and agents and not instance["tasks"] and
+           all(agent.keys() == {"id", "start", "goal"} for agent in agents), "not classical MAPF alone")
     rows = (path.parent / instance["map"]).read_text(encoding="utf-8").split("\n")[4:]
     rows = [["." if letter in ".GSE" else "@" for letter in row.strip()] for row in rows if row.strip()]
     height, width = len(rows), len(rows[0])
     places = {y * width + x for y in range(height) for x in range(width) if rows[y][x] == "."}
     links = {place: [q for q, near in ((place - width, True), (place + 1, place % width < width - 1), (place + width, True),
                                        (place - 1, place % width > 0)) if near and q in places] for place in places}
-    starts, goals = ([a[key][1] * width + a[key][0] for a in instance["agents"]] for key in ("start", "goal"))
+    cells = [[agent[key] for agent in agents] for key in ("start", "goal")]
+    expect(all(isinstance(cell, list) and [type(x) for x in cell] == [int, int] and 0 <= cell[0] < width and cell[1] * width + cell[0] in places
+               for some in cells for cell in some), "expected passable cells")
+    starts, goals = ([y * width + x for x, y in some] for some in cells)
+    expect(len(set(starts)) == len(starts) and len(set(goals)) == len(goals), "expected distinct starts and goals")
     text = [f"grid {width} {height}", *map("".join, rows), *(f"agent {s} {g} 0" for s, g in zip(starts, goals))]
     checksum = 0xcbf29ce484222325
     for byte in "".join(line + "\n" for line in text).encode():

@@ -44,7 +44,8 @@ def small_checker(instance, certificate):
     """Of docs/proof_checker.py."""
     with tempfile.TemporaryDirectory() as name:
         (Path(name) / "proof").write_text(certificate)
-        return Verdict([sys.executable, SMALL, instance.write(Path(name)), Path(name) / "proof"])
+        path = instance if isinstance(instance, Path) else instance.write(Path(name))
+        return Verdict([sys.executable, SMALL, path, Path(name) / "proof"])
 
 
 def of(following):

@@ -6,6 +6,7 @@
 """
 import ctypes
 import ctypes.util
+import json
 import random
 import tempfile
 import unittest
@@ -151,7 +152,7 @@ class Reader(unittest.TestCase):
             self.ends(good, (2,), "line 2: expected the name and size of the map\n", path, ["--agents", "2", "--map", str(folder / "other.map")])
             text = path.read_text()
             for old, new, says in (("version 1", "version 2", "line 1: expected version 1"), ("\t3\t3\t", "\t3\t4\t", "expected the name and size"),
-                                   ("tiny.map\t3", "tiny.map\t-3", "expected the name and size"), ("\t2.5\n", "\n", "line 2: expected bucket"),
+                                   ("tiny.map\t3", "tiny.map\t-3", "line 2: expected bucket"), ("\t2.5\n", "\n", "line 2: expected bucket"),
                                    (rows[1], rows[1].replace("tiny", "other"), "line 3: expected the map of the rows before"),
                                    (rows[0], rows[0].replace("\t2.5", "\tx"), "line 2: expected bucket"), (rows[1], rows[1].replace("\t3\t3\t1\t", "\t3\t3\t9\t"), "agents 1: expected a passable cell")):
                 path.write_text(text.replace("\n" + old, "\n" + new) if old in rows else text.replace(old, new))
@@ -180,6 +181,125 @@ class Reader(unittest.TestCase):
                          good_map.replace("width 3", "width 99999999999"), good_map.replace("height 3", "height 4000000000"), good_map.replace("width 3", "width 0")):
                 (folder / "tiny.map").write_text(text)
                 self.ends(GOOD, (2,), instance=path)
+
+    def test_instances_that_grove_refuses(self):
+        turning = World(["...", "...", "..."])
+        on_map = Instance(turning, [Agent((0,), 8), Agent((2, "N"), 6, turn=2, goal_heading="S"), Agent((4,))],
+                          [(4, 3, [2]), (1, 0, [0, 1])])
+        on_roads = Instance(World(vertices=3, roads=[(0, 1, 3, False), (1, 2, 1, True), (1, 2, 2, False)]),
+                            [Agent((0,), 1), Agent((2,))], [(1, 0, [0])])
+
+        def refused(instance, change, says, file="tiny.cts.json"):
+            with tempfile.TemporaryDirectory() as name:
+                folder = Path(name)
+                path = instance.write(folder)
+                self.assertNotIn(str(path), checkers.verify(path, "x").text)
+                json_of = json.loads((folder / file).read_text())
+                change(json_of)
+                (folder / file).write_text(json.dumps(json_of))
+                found = checkers.verify(path, "x")
+                self.assertEqual(found.code, 2, found.text)
+                self.assertIn(str(folder / file), found.text)
+                self.assertRegex(found.text, says)
+
+        def put(*path, value):
+            def change(json_of):
+                for key in path[:-1]:
+                    json_of = json_of[key]
+                json_of[path[-1]] = value
+            return change
+
+        cell, vertex = [0, 0], "v0"
+        for where in ((), ("agents", 0), ("tasks", 0)):
+            for key in ("gaol", "Duration", "deadline", "goals", "need", "", "$id", "x" * 10**5):
+                refused(on_map, put(*where, key, value=1), "unknown key")
+        for path, value in (
+                (("roadmap",), "tiny.map"), (("agents",), []), (("agents", 0, "id"), ""), (("agents", 0, "id"), "a\0"),
+                (("agents", 0, "start"), [0.0, 0]), (("agents", 0, "start"), [0, 1e0]), (("agents", 0, "start"), [0, 0, "N"]),
+                (("agents", 0, "start"), [-1, 0]), (("agents", 0, "start"), [2, 0]), (("agents", 0, "goal"), [0, 2]),
+                (("agents", 0, "goal"), [2, 2, "N"]), (("agents", 0, "goal"), None), (("agents", 0, "heading"), "N"),
+                (("agents", 0, "turn_steps"), 1), (("agents", 0, "goal_heading"), "N"), (("agents", 0, "motion"), "turning"),
+                (("agents", 1, "motion"), "rolling"), (("agents", 1, "motion"), "Turning"), (("agents", 1, "motion"), True),
+                (("agents", 1, "turn_steps"), 2.0), (("agents", 1, "turn_steps"), 0), (("agents", 1, "heading"), "S"),
+                (("agents", 1, "start"), [2, 0, "N", "N", 0]), (("agents", 1, "start"), [2, 0, "N", "E", 0]),
+                (("agents", 1, "start"), [2, 0, "N", "S", 1]), (("agents", 1, "start"), [2, 0, "N", "E", 2]),
+                (("agents", 2, "working"), {"task": "t0", "done": 1, "of": 3}), (("agents", 2, "working"), {"task": "t0", "done": 1.0}),
+                (("agents", 2, "working"), {"task": "t0", "done": 3}), (("agents", 2, "working"), {"task": "t1", "done": 0}),
+                (("tasks", 0, "duration"), 3.0), (("tasks", 0, "duration"), -1), (("tasks", 0, "duration"), 65537),
+                (("tasks", 0, "cell"), [1, 1, "N"]), (("tasks", 0, "cell"), [1.0, 1]), (("tasks", 0, "agents"), []),
+                (("tasks", 0, "agents"), ["a2", "a2"]), (("tasks", 0, "agents"), "a2"), (("tasks", 0, "id"), "t1"),
+                (("tasks",), [{"id": f"t{k}", "cell": cell, "agents": ["a0"]} for k in range(65)])):
+            with self.subTest(path=path, value=value):
+                refused(on_map, put(*path, value=value), "expected|unknown")
+        refused(on_map, lambda one: one["agents"][1].pop("goal"), "a goal with its heading")
+        for path, value in (
+                (("map",), "tiny.roadmap.json"), (("agents", 0, "start"), ["v0", "v1", 1, 0, 0]), (("agents", 0, "start"), ["v1", "v2", 1]),
+                (("agents", 0, "start"), ["v0", "v1", 0]), (("agents", 0, "start"), ["v0", "v1", 3]), (("agents", 0, "start"), ["v0", "v1"]),
+                (("agents", 0, "start"), ["v1", "v2", 1, 0]), (("agents", 0, "start"), [0, 0]),
+                (("agents", 0, "goal"), ["v0", "v1", 1]), (("tasks", 0, "cell"), ["v0", "v1", 1])):
+            with self.subTest(path=path, value=value):
+                refused(on_roads, put(*path, value=value), "expected")
+        for path, value in (
+                (("edges", 0, "to"), vertex), (("edges", 0, "steps"), 3.0), (("edges", 0, "steps"), 0), (("edges", 0, "one_way"), 1),
+                (("edges", 0, "bidirectional"), True), (("edges", 0, "capacity"), 1), (("vertices", 0, "at"), [0]),
+                (("vertices", 0, "at"), ["0", 0]), (("vertices", 0, "z"), 1), (("vertices", 0, "id"), ""), (("unit",), "m"), (("vertices",), [])):
+            with self.subTest(path=path, value=value):
+                refused(on_roads, put(*path, value=value), "expected|unknown key", "tiny.roadmap.json")
+
+    def test_remarks_in_instances(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            path = CROSS.write(folder)
+            found = json.loads(path.read_text())
+            for where in (found, *found["agents"], *found["tasks"]):
+                where.update({"_by": {"any": [1.5, None]}, "$schema": "instance.schema.json"})
+            path.write_text(json.dumps(found))
+            self.ends(GOOD, (0,), "^verified: no plan costs less than 5\n", path)
+
+    def test_instances_that_the_small_checker_refuses(self):
+        plain = Instance(World(["...", "..."]), [Agent((0,), 2), Agent((5,), 3)])
+        proof = certificate(plain, "theorem 4", "leaf")
+        with tempfile.TemporaryDirectory() as name:
+            path = plain.write(Path(name))
+            text = path.read_text()
+            self.assertEqual(checkers.small_checker(path, proof).text, "verified: no plan costs less than 4\n")
+            path.write_text(text.replace("{", '{"_note": 1, "$schema": "x", '))
+            self.assertEqual(checkers.small_checker(path, proof).code, 0)
+            for key in ('"gaol": 1', '"Duration": 1', '"motion": "turning"', '"working": {}', '"roadmap": "x"', '"start": [0, 0], "start": [0, 0]'):
+                for place in ("{", '{"id"'):
+                    path.write_text(text.replace(place, "{" + key + ", " + place[1:]))
+                    found = checkers.small_checker(path, proof)
+                    self.assertEqual(found.code, 1, found.text)
+                    self.assertRegex(found.text, "^refused: ")
+            for cell in ("[0.0, 0]", "[0, true]", "[0, -1]", "[3, 0]", "[0, 0, 0]", "[2, 1]", "7"):
+                path.write_text(text.replace('"start": [0, 0]', '"start": ' + cell))
+                self.assertRegex(checkers.small_checker(path, proof).text, "^refused: ")
+
+    def test_numbers_of_json(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            path = CROSS.write(folder)
+            text = path.read_text()
+            for number in ("00", "01", "1.", ".5", "+1", "-", "1e", "1e+", "1e999", "0x1", "NaN", "1_0"):
+                path.write_text(text.replace("{", '{"_": ' + number + ", ", 1))
+                self.ends(GOOD, (2,), "is not JSON", path)
+            for number in ("0", "-0", "10", "-1.5e-3", "1E+2", "123456789012345678901234567890"):
+                path.write_text(text.replace("{", '{"_": ' + number + ", ", 1))
+                self.ends(GOOD, (0,), "^verified: ", path)
+
+    def test_maps_that_are_none(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            path = CROSS.write(folder)
+            good = (folder / "tiny.map").read_text()
+            for text in (good + "...\n", good.replace("...", "...  ", 1), good.replace("height 3", "height +3"), good.replace("height ", "height  "),
+                         good.replace("type octile", "type  octile"), good.replace("map\n", "map x\n"), good.replace("width 3", "height 3")):
+                (folder / "tiny.map").write_text(text)
+                self.ends(GOOD, (2,), "tiny.map: ", path)
+            for text in (good.replace("\n", "\r\n"), good + "\n\n", good.removesuffix("\n"), good.replace("height 3\nwidth 3", "width 3\nheight 3"),
+                         good.replace("height 3", "height 3 \t")):
+                (folder / "tiny.map").write_text(text)
+                self.ends(GOOD, (0,), "^verified: ", path)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //! Instances with their maps and roadmaps (docs/formats.md), places and links, and the checksum of it all (docs/proof.md, 1 and 6).
 use crate::json::Json;
-use std::collections::HashMap;
+use crate::keys;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 pub type Place = u32;
@@ -47,6 +48,7 @@ struct Road {
 
 const HEADINGS: &str = "NESW";
 const MOST_PLACES: u64 = 1 << 26;
+const MOST_TASKS: usize = 64;
 
 fn need<T>(value: Option<T>, at: &str, what: &str) -> Result<T, String> {
     value.ok_or_else(|| format!("{}: expected {}", at, what))
@@ -55,6 +57,9 @@ fn need<T>(value: Option<T>, at: &str, what: &str) -> Result<T, String> {
 fn heading(value: &Json) -> Option<u32> {
     value.text().filter(|text| text.len() == 1).and_then(|text| HEADINGS.find(text)).map(|found| found as u32)
 }
+
+/// A number in digits alone.
+fn whole(word: &str) -> Option<u32> { word.parse().ok().filter(|_| word.bytes().all(|byte| byte.is_ascii_digit())) }
 
 impl World {
     fn of(places: u64, size: (u32, u32)) -> World {
@@ -83,12 +88,13 @@ impl World {
     }
 
     fn map(text: &str, sum: &mut String) -> Result<World, String> {
-        let mut lines = text.lines().map(str::trim_end);
-        let mut head = |name: &str| lines.next().and_then(|line| line.strip_prefix(name)).map(str::trim_start);
-        let octile = head("type").filter(|&name| name == "octile").is_some();
-        let mut number = |name| head(name).and_then(|word| word.parse::<u32>().ok()).filter(|&n| n > 0);
-        let (height, width) = need(number("height").zip(number("width")).filter(|_| octile), "its head", "type octile, height, width")?;
-        need(head("map").filter(|rest| rest.is_empty()), "line 4", "map")?;
+        let mut lines = text.lines();
+        let mut head = || lines.next().map(|line| line.trim_end_matches(|blank| blank == ' ' || blank == '\t')).unwrap_or("");
+        let octile = head() == "type octile";
+        let sides = [head(), head()];
+        let side = |name: &str| sides.iter().find_map(|line| line.strip_prefix(name)).and_then(whole).filter(|&n| n > 0);
+        let (height, width) = need(side("height ").zip(side("width ")).filter(|_| octile), "its head", "type octile, height, width")?;
+        need(Some(()).filter(|_| head() == "map"), "line 4", "map")?;
         let places = need(u64::from(height).checked_mul(u64::from(width)).filter(|&n| n <= MOST_PLACES), "its head", "fewer cells")?;
         let mut world = World::of(places, (width, height));
         *sum += &format!("grid {} {}\n", width, height);
@@ -101,6 +107,7 @@ impl World {
             }
             sum.push('\n');
         }
+        need(Some(()).filter(|_| lines.all(str::is_empty)), "its end", "no more rows")?;
         for cell in (0..places as u32).filter(|&cell| world.passable[cell as usize]).collect::<Vec<_>>() {
             for next in (0..4).filter_map(|heading| world.ahead(cell, heading)).collect::<Vec<_>>() { world.link(cell, next); }
         }
@@ -118,7 +125,7 @@ impl Road {
 fn ids(json: &Json, key: &str) -> Result<HashMap<String, u32>, String> {
     let mut ids = HashMap::new();
     for (number, value) in need(json.get(key).and_then(Json::list), key, "a list")?.iter().enumerate() {
-        let id = value.get("id").and_then(Json::text).filter(|&id| ids.insert(id.to_string(), number as u32).is_none());
+        let id = value.get("id").and_then(Json::text).filter(|&id| !id.is_empty() && ids.insert(id.to_string(), number as u32).is_none());
         need(id, &format!("{} {}", key, number), "an id that no other has")?;
     }
     Ok(ids)
@@ -133,7 +140,13 @@ struct Names {
 
 impl Names {
     fn roadmap(json: &Json, sum: &mut String) -> Result<(World, Names), String> {
+        keys::ROADMAP.check(json, "")?;
         let mut names = Names { vertices: ids(json, "vertices")?, roads: Vec::new() };
+        for (number, vertex) in json.get("vertices").and_then(Json::list).into_iter().flatten().enumerate() {
+            let at = vertex.get("at").and_then(Json::list).filter(|at| at.len() == 2 && at.iter().all(Json::is_number));
+            need(at, &format!("vertices {}", number), "at, [x, y] in metres")?;
+        }
+        need(Some(()).filter(|_| !names.vertices.is_empty()), "vertices", "one at least")?;
         let (mut places, mut both_ways) = (names.vertices.len() as u64, Vec::new());
         let edges = need(json.get("edges").and_then(Json::list), "edges", "a list")?;
         *sum += &format!("roadmap {} {}\n", places, edges.len());
@@ -159,17 +172,32 @@ impl Names {
         Ok((world, names))
     }
 
-    fn vertex(&self, value: &Json) -> Option<Place> { self.vertices.get(value.text()?).copied() }
+    /// "A" or ["A"].
+    fn vertex(&self, value: &Json) -> Option<Place> {
+        let id = value.list().filter(|parts| parts.len() == 1).map_or(value, |parts| &parts[0]);
+        self.vertices.get(id.text()?).copied()
+    }
 
-    /// A vertex, or a place within a road.
+    /// A vertex, or a place within a road: ["A", "B", steps], and the road's number where several join the two.
     fn place(&self, value: &Json) -> Option<Place> {
-        let parts = match value.list() { Some(parts) => parts, None => return self.vertex(value) };
-        if parts.len() == 1 { return self.vertex(&parts[0]); }
-        let (from, to, step) = (self.vertex(parts.get(0)?)?, self.vertex(parts.get(1)?)?, parts.get(2)?.number()?);
-        let roads = match parts.get(3) { Some(number) => self.roads.get(number.number()? as usize..)?.get(..1)?, None => &self.roads[..] };
-        let find = |from, to| roads.iter().find(|road| (road.from, road.to) == (from, to) && 0 < step && step < road.steps);
-        let backwards = || find(to, from).map(|road| road.place(road.steps - step));
-        find(from, to).map(|road| road.place(step)).or_else(backwards)
+        let (parts, number) = match value.list() {
+            Some(parts @ [_, _, _]) => (parts, None),
+            Some([parts @ .., number]) if parts.len() == 3 => (parts, Some(number.number()? as usize)),
+            _ => return self.vertex(value),
+        };
+        let end = |part: &Json| self.vertices.get(part.text()?).copied();
+        let (from, to, step) = (end(&parts[0])?, end(&parts[1])?, parts[2].number()?);
+        let joins = |road: &&Road| [(from, to), (to, from)].contains(&(road.from, road.to));
+        let mut found = self.roads.iter().enumerate().filter(|(other, _)| number.map_or(true, |number| number == *other)).map(|(_, road)| road).filter(joins);
+        let road = found.next().filter(|road| found.next().is_none() && 0 < step && step < road.steps)?;
+        Some(road.place(if road.from == from { step } else { road.steps - step }))
+    }
+
+    /// Where tasks and goals are: a cell, or a vertex.
+    fn end(&self, world: &World, value: Option<&Json>, at: &str) -> Result<Place, String> {
+        if world.size.0 == 0 { return need(value.and_then(|value| self.vertex(value)), at, "a vertex"); }
+        let (place, looks) = self.find(world, value, at)?;
+        need(Some(place).filter(|_| looks.is_none()), at, "a cell without a heading")
     }
 
     /// The place that is named, and headings if there are any.
@@ -181,7 +209,7 @@ impl Names {
         let cell = need(cell.filter(|&cell| world.passable[cell as usize]), at, "a passable cell")?;
         let looks = match parts.len() {
             3 => heading(&parts[2]).map(|from| (from, from, 0)),
-            5 => heading(&parts[2]).zip(heading(&parts[3])).zip(parts[4].number()).map(|((from, to), k)| (from, to, k)),
+            5 => heading(&parts[2]).zip(heading(&parts[3])).zip(parts[4].number().filter(|&k| k > 0)).map(|((from, to), k)| (from, to, k)),
             _ => return Ok((cell, None)),
         };
         Ok((cell, Some(need(looks, at, "headings")?)))
@@ -190,14 +218,20 @@ impl Names {
     fn agent(&self, world: &World, json: &Json, at: &str) -> Result<Agent, String> {
         let (start, looks) = self.find(world, json.get("start"), at)?;
         let mut agent = Agent { start, ..Agent::default() };
-        if json.get("goal").is_some() { agent.goal = Some(self.find(world, json.get("goal"), at)?.0); }
-        if json.get("motion").is_none() { return need(Some(agent).filter(|_| looks.is_none()), at, "motion"); }
+        if json.get("goal").is_some() { agent.goal = Some(self.end(world, json.get("goal"), at)?); }
+        if json.get("motion").is_none() {
+            let turns = looks.is_some() || ["turn_steps", "heading", "goal_heading"].iter().any(|key| json.get(key).is_some());
+            return need(Some(agent).filter(|_| !turns), at, "motion");
+        }
+        need(json.get("motion").and_then(Json::text).filter(|&motion| motion == "turning"), at, "motion turning")?;
         let turn = json.get("turn_steps").map_or(Some(1), Json::number).filter(|&n| (1..=65536).contains(&n) && world.size.0 > 0);
         agent.turn = need(turn, at, "turn_steps, on a map")?;
-        let looks = looks.or_else(|| json.get("heading").and_then(heading).map(|from| (from, from, 0)));
+        let said = json.get("heading").map(|value| need(heading(value), at, "a heading")).transpose()?;
+        let looks = looks.or_else(|| said.map(|from| (from, from, 0))).filter(|looks| said.map_or(true, |from| from == looks.0));
         let good = |&(from, to, k): &(u32, u32, u32)| if k == 0 { from == to } else { (from + to) % 2 == 1 && k < agent.turn };
         agent.looks = need(looks.filter(good), at, "a heading")?;
         agent.goal_heading = json.get("goal_heading").map(|value| need(heading(value), at, "a goal_heading")).transpose()?;
+        need(Some(()).filter(|_| agent.goal_heading.is_none() || agent.goal.is_some()), at, "a goal with its heading")?;
         Ok(agent)
     }
 }
@@ -212,18 +246,19 @@ fn scenario(text: &str, count: u32) -> Result<Json, String> {
     let (version, at) = row("version 1")?;
     need(Some(()).filter(|_| matches!(version[..], ["version", "1" | "1.0"])), &at, "version 1")?;
     let object = |members: Vec<(&str, Json)>| Json::Object(members.into_iter().map(|(key, value)| (key.to_string(), value)).collect());
-    let cell = |x: f64, y: f64| Json::List(vec![Json::Number(x), Json::Number(y)]);
+    let cell = |x: u32, y: u32| Json::List(vec![Json::Whole(x.into()), Json::Whole(y.into())]);
     for number in 0..count {
         let (words, at) = row("a row for each agent")?;
-        let numbers: Option<Vec<f64>> = words.iter().skip(2).map(|word| word.parse().ok()).collect();
-        let numbers = need(numbers.filter(|found| found.len() == 7), &at, "bucket, map, size, start, goal and length")?;
+        let numbers: Option<Vec<u32>> = words.iter().skip(2).take(6).map(|word| whole(word)).collect();
+        let good = |found: &Vec<u32>| found.len() == 6 && words.len() == 9 && words[8].parse().map_or(false, |length: f64| length >= 0.0);
+        let numbers = need(numbers.filter(good), &at, "bucket, map, size, start, goal and length")?;
         let map = (words[1].rsplit('/').next().unwrap_or(""), numbers[0], numbers[1]);
         need(Some(()).filter(|_| *same.get_or_insert(map) == map), &at, "the map of the rows before")?;
         let (start, goal) = (cell(numbers[2], numbers[3]), cell(numbers[4], numbers[5]));
         agents.push(object(vec![("id", Json::Text(number.to_string())), ("start", start), ("goal", goal)]));
     }
     let (name, width, height) = need(same, "its end", "rows")?;
-    let map = vec![("map", Json::Text(name.to_string())), ("width", Json::Number(width)), ("height", Json::Number(height))];
+    let map = vec![("map", Json::Text(name.to_string())), ("width", Json::Whole(width.into())), ("height", Json::Whole(height.into()))];
     Ok(object(map.into_iter().chain([("agents", Json::List(agents)), ("tasks", Json::List(Vec::new()))]).collect()))
 }
 
@@ -235,9 +270,11 @@ impl Instance {
         let text = read(path)?;
         let json = match agents {
             Some(count) => scenario(&String::from_utf8_lossy(&text), count),
-            None => Json::parse(&text),
+            None => Json::parse(&text).and_then(|json| keys::INSTANCE.check(&json, "").map(|_| json)),
         };
         let json = json.map_err(|error| within(path, error))?;
+        let one = json.get("map").is_some() != json.get("roadmap").is_some();
+        need(Some(()).filter(|_| one), &path.display().to_string(), "a map or a roadmap, and not both")?;
         let (named, roads) = (json.get("map").and_then(Json::text), json.get("roadmap").and_then(Json::text));
         let name = need(named.or(roads), &path.display().to_string(), "a map or a roadmap")?;
         let name = map.map_or_else(|| path.with_file_name(name), Path::to_path_buf);
@@ -260,15 +297,22 @@ impl Instance {
         let list = |key: &str| json.get(key).and_then(Json::list).into_iter().flatten().enumerate();
         let (mut agents, mut tasks, mut ends) = (Vec::new(), Vec::new(), String::new());
         for (number, value) in list("agents") { agents.push(names.agent(&world, value, &format!("agents {}", number))?); }
+        need(Some(()).filter(|_| !agents.is_empty()), "agents", "one at least")?;
+        let (mut starts, mut goals) = (HashSet::new(), HashSet::new());
+        for (number, agent) in agents.iter().enumerate() {
+            let apart = starts.insert(agent.start) && agent.goal.map_or(true, |goal| goals.insert(goal));
+            need(Some(()).filter(|_| apart), &format!("agents {}", number), "a start and a goal that no other agent has")?;
+        }
         for (number, value) in list("tasks") {
             let at = format!("tasks {}", number);
-            let place = names.find(&world, value.get("cell"), &at)?.0;
+            let place = names.end(&world, value.get("cell"), &at)?;
             let duration = need(value.get("duration").map_or(Some(0), Json::number).filter(|&steps| steps <= 65536), &at, "a duration")?;
             ends += &format!("task {} {}", place, duration);
-            for id in need(value.get("agents").and_then(Json::list), &at, "agents")? {
+            for id in need(value.get("agents").and_then(Json::list).filter(|ids| !ids.is_empty()), &at, "agents")? {
                 let agent = *need(id.text().and_then(|id| agent_ids.get(id)), &at, "ids of agents")?;
                 let own: &mut Vec<u32> = &mut agents[agent as usize].tasks;
                 need(Some(()).filter(|_| own.last() != Some(&(number as u32))), &at, "no agent twice")?;
+                need(Some(()).filter(|_| own.len() < MOST_TASKS), &at, "64 tasks of an agent at most")?;
                 own.push(number as u32);
                 ends += &format!(" {}", agent);
             }

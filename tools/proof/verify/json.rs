@@ -3,13 +3,16 @@
 pub enum Json {
     Other,
     Bool(bool),
-    Number(f64),
+    /// Written as a whole number: without point and exponent.
+    Whole(i64),
+    Real(f64),
     Text(String),
     List(Vec<Json>),
     Object(Vec<(String, Json)>),
 }
 
-const DEPTH: usize = 64;
+/// Objects and lists within each other, at most.
+const DEPTH: usize = 32;
 
 impl Json {
     pub fn parse(bytes: &[u8]) -> Result<Json, String> {
@@ -25,12 +28,15 @@ impl Json {
 
     pub fn list(&self) -> Option<&[Json]> { match self { Json::List(values) => Some(values), _ => None } }
 
-    pub fn text(&self) -> Option<&str> { match self { Json::Text(text) => Some(text), _ => None } }
+    /// A text without NUL.
+    pub fn text(&self) -> Option<&str> { match self { Json::Text(text) if !text.contains('\0') => Some(text), _ => None } }
 
     /// A whole number from 0 to 2^31 - 1.
     pub fn number(&self) -> Option<u32> {
-        match self { Json::Number(n) if (0.0..2147483648.0).contains(n) && n.fract() == 0.0 => Some(*n as u32), _ => None }
+        match self { Json::Whole(n) if (0..1 << 31).contains(n) => Some(*n as u32), _ => None }
     }
+
+    pub fn is_number(&self) -> bool { matches!(self, Json::Whole(_) | Json::Real(_)) }
 }
 
 struct Parser<'a> {
@@ -54,7 +60,7 @@ impl Parser<'_> {
     fn value(&mut self, depth: usize) -> Option<Json> {
         self.blanks();
         match self.peek() {
-            _ if depth > DEPTH => None,
+            b'{' | b'[' if depth >= DEPTH => None,
             b'{' => {
                 let mut members: Vec<(String, Json)> = Vec::new();
                 self.items("}", |parser| {
@@ -72,14 +78,38 @@ impl Parser<'_> {
                 Some(Json::List(values))
             }
             b'"' => self.string().map(Json::Text),
-            b'-' | b'0'..=b'9' => {
-                let from = self.at;
-                while matches!(self.peek(), b'-' | b'+' | b'.' | b'e' | b'E' | b'0'..=b'9') { self.at += 1; }
-                std::str::from_utf8(&self.bytes[from..self.at]).ok()?.parse().ok().map(Json::Number)
-            }
+            b'-' | b'0'..=b'9' => self.number(),
             _ => [("true", Json::Bool(true)), ("false", Json::Bool(false)), ("null", Json::Other)].into_iter()
                 .find(|(word, _)| self.take(word)).map(|(_, value)| value),
         }
+    }
+
+    fn digits(&mut self) -> Option<()> {
+        let from = self.at;
+        while self.peek().is_ascii_digit() { self.at += 1; }
+        Some(()).filter(|_| self.at > from)
+    }
+
+    /// [-] digits [. digits] [e [+-] digits], without leading zeros.
+    fn number(&mut self) -> Option<Json> {
+        let from = self.at;
+        self.at += usize::from(self.peek() == b'-');
+        let is_zero = self.peek() == b'0';
+        let first = self.at;
+        self.digits().filter(|_| !is_zero || self.at == first + 1)?;
+        let whole = self.at;
+        if self.peek() == b'.' {
+            self.at += 1;
+            self.digits()?;
+        }
+        if matches!(self.peek(), b'e' | b'E') {
+            self.at += 1;
+            self.at += usize::from(matches!(self.peek(), b'+' | b'-'));
+            self.digits()?;
+        }
+        let text = std::str::from_utf8(&self.bytes[from..self.at]).ok()?;
+        let value: f64 = text.parse().ok().filter(|value: &f64| value.is_finite())?;
+        Some(text.parse().ok().filter(|_| whole == self.at).map_or(Json::Real(value), Json::Whole))
     }
 
     fn items(&mut self, close: &str, mut each: impl FnMut(&mut Self) -> Option<()>) -> Option<()> {

@@ -5,6 +5,7 @@ mod cover;
 mod instance;
 mod joint;
 mod json;
+mod keys;
 mod orders;
 mod prices;
 mod proof;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//! The keys that objects of instances and roadmaps may have (docs/formats.md). A key that is dropped could be a constraint,
+//! and then the bound would be that of another problem.
+use crate::json::Json;
+
+/// The keys of one kind of object, and what is in the objects that they hold.
+pub struct Keys(&'static [(&'static str, Option<&'static Keys>)]);
+
+static WORKING: Keys = Keys(&[("task", None), ("done", None)]);
+static AGENT: Keys = Keys(&[("id", None), ("start", None), ("goal", None), ("motion", None), ("turn_steps", None), ("heading", None),
+    ("goal_heading", None), ("working", Some(&WORKING))]);
+static TASK: Keys = Keys(&[("id", None), ("cell", None), ("agents", None), ("duration", None)]);
+static VERTEX: Keys = Keys(&[("id", None), ("at", None)]);
+static EDGE: Keys = Keys(&[("from", None), ("to", None), ("steps", None), ("one_way", None)]);
+
+pub static INSTANCE: Keys = Keys(&[("map", None), ("roadmap", None), ("agents", Some(&AGENT)), ("tasks", Some(&TASK))]);
+pub static ROADMAP: Keys = Keys(&[("vertices", Some(&VERTEX)), ("edges", Some(&EDGE))]);
+
+/// Remarks: for people and other programs, and not looked into.
+fn is_remark(key: &str) -> bool { key.starts_with('_') || key == "$schema" }
+
+impl Keys {
+    /// Refuses a value that has, anywhere but in remarks, a key that is not known.
+    pub fn check(&self, json: &Json, at: &str) -> Result<(), String> {
+        let members = match json {
+            Json::Object(members) => members,
+            Json::List(values) => {
+                return values.iter().enumerate().try_for_each(|(number, value)| self.check(value, &format!("{} {}", at, number)))
+            }
+            _ => return Ok(()),
+        };
+        for (key, value) in members.iter().filter(|(key, _)| !is_remark(key)) {
+            let within = |name: &str| if at.is_empty() { name.to_string() } else { format!("{} {}", at, name) };
+            let known = self.0.iter().find(|(name, _)| name == key);
+            let known = known.ok_or_else(|| format!("{}: unknown key", within(&format!("{:.40?}", key))))?;
+            known.1.map_or(Ok(()), |keys| keys.check(value, &within(key)))?;
+        }
+        Ok(())
+    }
+}
