@@ -15,6 +15,7 @@ from pathlib import Path
 SKIPPED = 77  # what ctest is told to take for "cannot be tried here"
 HOST, ADDRESS = "node1", "10.77.0.1"
 INTERFACE, OTHER_END = "grove0", "grove1"
+HOSTS = Path("/etc/hosts")
 FILES = Path("/run/grove")  # in memory, seen only in the sandbox
 ON_HOST = FILES / "on_host"  # here as well, since mpirun takes no path with spaces
 
@@ -79,6 +80,8 @@ def _outside():
     if os.geteuid() != 0:
         raise NotHere("only root may make namespaces and start daemons in them")
     need_program("iproute2", "ip")
+    if not HOSTS.is_file():
+        raise NotHere(f"there is no {HOSTS}, over which the sandbox puts its own; `touch {HOSTS}` makes one")
     attempt = subprocess.run([*ENTER, "ip", "link", "set", "lo", "up"], capture_output=True,
                              text=True)
     if attempt.returncode != 0:
@@ -123,7 +126,7 @@ def _furnish():
     FILES.mkdir()
     ON_HOST.symlink_to(Path(__file__).with_name("on_host"))
     set_hosts({HOST: ADDRESS})
-    subprocess.run(["mount", "--bind", FILES / "hosts", "/etc/hosts"], check=True)
+    subprocess.run(["mount", "--bind", FILES / "hosts", HOSTS], check=True)
     # One end of a virtual cable is the host's interface: mpirun does not start on a host that has
     # but a loopback, nor do Slurm's daemons. The other end is for a second host.
     for command in (["link", "add", INTERFACE, "type", "veth", "peer", "name", OTHER_END],

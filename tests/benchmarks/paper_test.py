@@ -11,9 +11,11 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from waiting import HANG_S, wait_until  # noqa: E402
 
 PAPER = Path(__file__).resolve().parent.parent.parent / "benchmarks/paper.py"
 GROVE = None
@@ -62,10 +64,9 @@ class Paper(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             running = subprocess.Popen([sys.executable, PAPER, name, "--grove", GROVE, "--agents", "20", "--tasks", "50"],
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            while running.poll() is None and not (Path(name) / "comparison/.running").exists():
-                time.sleep(0.05)
+            wait_until("a run", (Path(name) / "comparison/.running").exists, running)
             running.send_signal(signal.SIGTERM)
-            _, err = running.communicate(timeout=60)
+            _, err = running.communicate(timeout=HANG_S)
             self.assertEqual(running.returncode, 130, err)
             self.assertIn("the same command goes on", err)
             self.assertNotIn("Traceback", err)

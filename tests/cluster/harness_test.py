@@ -60,25 +60,27 @@ class WhatRuns(unittest.TestCase):
         self.assertEqual(done.returncode, 77)
         self.assertIn("only root", done.stderr)
 
+    def test_without_a_file_of_hosts_says_so(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = run("unshare", "--mount", "sh", "-c", f"cp -a /etc {folder} && rm {folder}/etc/hosts && "
+                       f"mount --bind {folder}/etc /etc && exec {LOCAL_SLURM} true")
+        self.assertEqual(done.returncode, 77, done.stderr)
+        self.assertIn("cannot be done here: there is no /etc/hosts", done.stderr)
+
 
 class WhatStays(unittest.TestCase):
     """Nothing."""
 
     def killed_by(self, number):
         mark = f"GROVE_TEST_MARK={uuid.uuid4()}"
-        with tempfile.TemporaryDirectory() as folder:
-            started = Path(folder) / "started"
-            job = f"srun sleep 1000 & sleep 0.5; touch {started}; wait"
-            harness = subprocess.Popen(["env", mark, LOCAL_SLURM, "--nodes", "2", "sh", "-c", job],
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            self.addCleanup(harness.kill)
-            wait_until("a job in Slurm", started.exists, 60)
-        running = programs_with(mark)
-        for program in ("munged", "slurmctld", "slurmd", "srun", "sleep"):
-            self.assertIn(program, running)
+        harness = subprocess.Popen(["env", mark, LOCAL_SLURM, "--nodes", "2", "srun", "sleep", "1000"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(harness.kill)
+        programs = {"munged", "slurmctld", "slurmd", "srun", "sleep"}
+        wait_until("a job in Slurm", lambda: programs <= set(programs_with(mark)), harness)
         harness.send_signal(number)
-        self.assertEqual(harness.wait(timeout=30), -9 if number == signal.SIGKILL else 128 + number)
-        wait_until("all processes gone", lambda: not programs_with(mark), 20)
+        self.assertEqual(harness.wait(), -9 if number == signal.SIGKILL else 128 + number)
+        wait_until("all processes gone", lambda: not programs_with(mark))
 
     def test_after_an_interrupt(self):
         self.killed_by(signal.SIGINT)
@@ -91,7 +93,12 @@ class WhatStays(unittest.TestCase):
 
     def test_after_the_command_has_ended(self):
         mark = f"GROVE_TEST_MARK={uuid.uuid4()}"
-        run("env", mark, LOCAL_SLURM, "sh", "-c", "sleep 1000 & srun sleep 1000 & sleep 0.5")
+        with tempfile.TemporaryDirectory() as folder:
+            ran = Path(folder) / "ran"
+            job = f"touch {ran}; exec sleep 1000"
+            run("env", mark, LOCAL_SLURM, "sh", "-c",
+                f"sleep 1000 & srun sh -c '{job}' & until [ -e {ran} ]; do sleep 0.1; done")
+            self.assertTrue(ran.exists())
         self.assertEqual(programs_with(mark), [])
 
 

@@ -43,6 +43,11 @@ def words(options):
     return [str(word) for option in options.items() for word in option if word is not None]
 
 
+def until(condition):
+    """Of a shell: waits for an event, or until the process in the background has ended."""
+    return f"until {condition} || ! kill -0 $!; do sleep 0.05; done 2>/dev/null"
+
+
 class Scripts(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -109,9 +114,13 @@ class Scripts(unittest.TestCase):
 
     def test_an_interrupted_run_goes_back_into_the_queue_wherever_its_log_is(self):
         hard = hard_instance(self.folder)
-        interrupted = self.executable(
-            "interrupted", f'exec timeout --preserve-status 1 "{program("GROVE_MPI")}" "$@"')
+        checkpoint = self.folder / "hard.checkpoint/checkpoint.grove"
+        interrupted = self.executable("interrupted", f'''"{program("GROVE_MPI")}" "$@" --checkpoint-interval 0.2 &
+{until(f"[ -e {checkpoint} ]")}
+kill $!
+wait $!''')
         for number, log in enumerate((["--quiet"], ["--log", "a"], ["--log=b", "--log-format", "jsonl"])):
+            checkpoint.unlink(missing_ok=True)
             self.run_script("preempt.sbatch", hard, "--resume", "never", *log, grove_mpi=interrupted)
             self.assertEqual(self.requeued(), number + 1)
 
@@ -125,11 +134,14 @@ class Scripts(unittest.TestCase):
 
     def test_a_lost_rank_is_started_again_from_its_checkpoint(self):
         lost = self.executable("lost", f'''echo >>runs
-[ "$(wc -l <runs)" -gt 2 ] && exec "{program("GROVE_MPI")}" "$@"
-timeout -s KILL 2 "{program("GROVE_MPI")}" "$@" --checkpoint-interval 0.2''')
+[ "$(wc -l <runs)" -gt 2 ] && exec "{program("GROVE_MPI")}" "$@" --time-limit 0
+"{program("GROVE_MPI")}" "$@" --checkpoint-interval 0.2 &
+{until('[ "$(find hard.checkpoint/checkpoint.grove -newer runs)" ]')}
+kill -KILL $!
+wait $!''')
         hard = hard_instance(self.folder)
         runs = self.folder / "runs"
-        said = self.run_script("preempt.sbatch", hard, "--time-limit", "3", grove_mpi=lost)
+        said = self.run_script("preempt.sbatch", hard, grove_mpi=lost)
         self.assertIn("A rank was lost (exit code 137): restart 2 of 3\n", said)
         self.assertEqual(runs.read_text().count("\n"), 3)
         self.assertEqual(said.count("Resuming from a checkpoint"), 2)
@@ -146,7 +158,7 @@ timeout -s KILL 2 "{program("GROVE_MPI")}" "$@" --checkpoint-interval 0.2''')
 "{program("GROVE_MPI")}" "$@"
 for log in *.log; do echo "Warning: 1 of 2 ranks said nothing when all was to end: ..." >>"$log"; done
 exit 137''')
-        said = self.run_script("preempt.sbatch", hard_instance(self.folder), "--time-limit", "1", grove_mpi=silent)
+        said = self.run_script("preempt.sbatch", hard_instance(self.folder), "--time-limit", "0", grove_mpi=silent)
         self.assertNotIn("restart", said)
         self.assertEqual((self.folder / "runs").read_text().count("\n"), 1)
 

@@ -31,7 +31,7 @@ class PreemptScript:
                        "--time-limit", TIME_LIMIT_S, cwd=self.folder).strip()
         self.addCleanup(subprocess.run, ["scancel", self.job], check=False)
         # Without an expansion there would be nothing to go on from.
-        wait_until("a plan and an expansion", lambda: re.search(r"^[A-Z* ] +[1-9]\d*( +\d+){4} ", self.log(), re.M), 60)
+        wait_until("a plan and an expansion", lambda: re.search(r"^[A-Z* ] +[1-9]\d*( +\d+){4} ", self.log(), re.M))
 
     def log(self):
         path = self.folder / "log"
@@ -46,9 +46,9 @@ class PreemptScript:
         said = run("scontrol", "--oneliner", "show", "job", self.job)
         return all(f" {name}={value} " in said for name, value in fields.items())
 
-    def wait_until_job_is(self, seconds, **fields):
+    def wait_until_job_is(self, **fields):
         try:
-            wait_until(f"{fields} in scontrol show job", lambda: self.job_is(**fields), seconds)
+            wait_until(f"{fields} in scontrol show job", lambda: self.job_is(**fields))
         except AssertionError as error:
             raise AssertionError(f"{error}\n{run('scontrol', 'show', 'job', self.job)}\n"
                                  f"{self.log()}") from error
@@ -59,10 +59,10 @@ class PreemptScript:
     def second_run(self, bound_before):
         """The job, which is in the queue once more, goes on where it was."""
         before = len(self.log())
-        wait_until("the second run", lambda: self.starts_again() and self.rows(before), 60)
+        wait_until("the second run", lambda: self.starts_again() and self.rows(before))
         self.assertRegex(self.log()[before:], RESUMED)
         run("scancel", self.job)
-        self.wait_until_job_is(30, JobState="CANCELLED")
+        self.wait_until_job_is(JobState="CANCELLED")
         plan = checked_plan(self.instance, self.plan)
         self.assertEqual(plan["stats"]["stopped_by"], "interrupt")
         self.assertGreaterEqual(plan["lower_bound"], bound_before)
@@ -82,12 +82,12 @@ class AnUrgentJob(PreemptScript, unittest.TestCase):
     def test_a_checkpoint_on_demand_then_the_place_is_needed(self):
         self.assertEqual(self.checkpoint_files(), [])
         run("scancel", "--signal=USR1", self.job)
-        wait_until("a checkpoint", self.checkpoint_files, 60)
+        wait_until("a checkpoint", self.checkpoint_files)
         self.assertTrue(self.job_is(JobState="RUNNING"))
         self.assertNotRegex(self.log(), RESUMED)
         submit_and_wait("--partition=urgent", "--exclusive", "--output=/dev/null", "--wrap=true",
                         cwd=self.folder)
-        self.wait_until_job_is(30, JobState="PENDING", Restarts="1")
+        self.wait_until_job_is(JobState="PENDING", Restarts="1")
         self.assertIn("Plan file", self.log())
         self.second_run(checked_plan(self.instance, self.plan)["lower_bound"])
 
@@ -96,7 +96,7 @@ class TimeOfGrace(PreemptScript, unittest.TestCase):
     def test_the_program_ends_in_time_and_the_script_asks_for_another_run(self):
         # What a cluster with GraceTime does first: a SIGTERM to the ranks, but not to the script.
         run("scancel", "--signal=TERM", self.job)
-        self.wait_until_job_is(30, JobState="PENDING", Restarts="1")
+        self.wait_until_job_is(JobState="PENDING", Restarts="1")
         plan = checked_plan(self.instance, self.plan)
         self.assertEqual(plan["stats"]["stopped_by"], "interrupt")
         self.assertNotRegex(self.log(), RESUMED)
@@ -106,7 +106,7 @@ class TimeOfGrace(PreemptScript, unittest.TestCase):
 class Cancelled(PreemptScript, unittest.TestCase):
     def test_a_cancelled_job_writes_its_plan_and_does_not_come_back(self):
         run("scancel", self.job)
-        self.wait_until_job_is(30, JobState="CANCELLED", Restarts="0")
+        self.wait_until_job_is(JobState="CANCELLED", Restarts="0")
         self.assertIn("Plan file", self.log())
         self.assertEqual(checked_plan(self.instance, self.plan)["stats"]["stopped_by"],
                          "interrupt")

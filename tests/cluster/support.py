@@ -5,8 +5,11 @@ import json
 import os
 import re
 import subprocess
-import time
+import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from waiting import wait_until  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 CLUSTER = ROOT / "cluster"
@@ -37,7 +40,7 @@ def submit_and_wait(*arguments, **options):
     """Calls sbatch; returns the exit codes of the job, or of all jobs of the array, when it has
     ended. (sbatch --wait looks but every few seconds.)"""
     job = run("sbatch", "--parsable", *arguments, **options).strip()
-    wait_until(f"job {job} has ended", lambda: not run("squeue", "--noheader", "--jobs", job), 60)
+    wait_until(f"job {job} has ended", lambda: not run("squeue", "--noheader", "--jobs", job))
     said = run("scontrol", "show", "job", job)
     return [int(code) for code in re.findall(r" ExitCode=(\d+):", said)]
 
@@ -68,13 +71,3 @@ def hard_instance(folder):
     run(program("GROVE"), "generate", "instance", "--map", DATA / "rooms-32x32.map",
         "--agents", 30, "--tasks", 60, "--seed", 1, "-o", path)
     return path
-
-
-def wait_until(what, condition, seconds):
-    """What condition() returned as soon as that is true."""
-    deadline = time.monotonic() + seconds
-    while not (result := condition()):
-        if time.monotonic() > deadline:
-            raise AssertionError(f"after {seconds} s still not: {what}")
-        time.sleep(0.1)
-    return result

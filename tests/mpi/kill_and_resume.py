@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 
 from mpi_program import GROVE, GROVE_MPI, mpirun, plan_of, processes_of, run, searches, start
+from waiting import text_of, wait_until
 
 PREEMPT = Path(__file__).resolve().parents[2] / "cluster/preempt.sbatch"
 SRUN = """#!/bin/sh
@@ -36,12 +37,20 @@ def undisturbed(instance, folder):
     return plan["cost"]
 
 
-def kill_a_rank(running, dice, most_seconds):
-    """So long after they have begun to search, at most. (One that is killed as it connects may leave an
-    mpirun of Open MPI 4 that waits for ever.)"""
-    while not ((ranks := processes_of(running)) and all(map(searches, ranks.values()))) and running.poll() is None:
-        time.sleep(0.02)
-    time.sleep(dice.uniform(0, most_seconds))
+def kill_a_rank(running, dice, checkpoint, most_seconds):
+    """At most `most_seconds` after all have begun to search; None: when they have written a checkpoint. (One
+    that is killed as it connects may leave an mpirun of Open MPI 4 that waits for ever.)"""
+    before = written_at(checkpoint)
+    ranks = {}
+
+    def is_moment():
+        ranks.update(processes_of(running))
+        return running.poll() is not None or ranks and all(map(searches, ranks.values())) and (
+            most_seconds is not None or written_at(checkpoint) != before)
+
+    wait_until("all ranks search", is_moment)
+    if most_seconds is not None:
+        time.sleep(dice.uniform(0, most_seconds))
     if running.poll() is None:
         try:
             os.kill(dice.choice(sorted(ranks.values())), signal.SIGKILL)
@@ -49,9 +58,13 @@ def kill_a_rank(running, dice, most_seconds):
             pass  # it has just ended
 
 
+def written_at(file):
+    return file.stat().st_mtime_ns if file.exists() else None
+
+
 def lost(said):
     """How often the script has said so."""
-    return said.read_text(encoding="utf-8").count("A rank was lost")
+    return text_of(said).count("A rank was lost")
 
 
 def disturbed_script(instance, folder, kills, dice, most_seconds):
@@ -65,9 +78,9 @@ def disturbed_script(instance, folder, kills, dice, most_seconds):
                     PATH=f"{folder}/bin:{os.environ['PATH']}", GROVE_MPI=GROVE_MPI, **SLURM)
     killed = 0
     while killed < kills and running.poll() is None:
-        kill_a_rank(running, dice, most_seconds)
-        while running.poll() is None and lost(said) == killed:
-            time.sleep(0.02)
+        checkpoint = folder / f"{instance.name.removesuffix('.cts.json')}.checkpoint/checkpoint.grove"
+        kill_a_rank(running, dice, checkpoint, most_seconds)
+        wait_until("the script has seen it", lambda: running.poll() is not None or lost(said) > killed)
         killed = lost(said)
     code = running.wait()
     text = said.read_text(encoding="utf-8")
@@ -85,7 +98,7 @@ def disturbed(instance, folder, kills, dice, most_seconds):
                                "--checkpoint", "kept", "--checkpoint-interval", 0.2,
                                "--resume", "auto", "--output", "plan.json"), folder)
         if killed < kills:
-            kill_a_rank(running, dice, most_seconds)
+            kill_a_rank(running, dice, Path(folder) / "kept/checkpoint.grove", most_seconds)
         said, _ = running.communicate()
         if running.returncode == 0:
             return plan_of(Path(folder) / "plan.json"), killed
@@ -94,7 +107,7 @@ def disturbed(instance, folder, kills, dice, most_seconds):
         print(f"killed one of {ranks} ranks: mpirun ended with {running.returncode}")
 
 
-def check(instance, kills, seed, most_seconds, way=disturbed):
+def check(instance, kills, seed, most_seconds=None, way=disturbed):
     dice = random.Random(seed)
     with tempfile.TemporaryDirectory() as folder:
         truth = undisturbed(instance, folder)

@@ -3,7 +3,10 @@
 import json
 import os
 import subprocess
+import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 DATA = Path(__file__).resolve().parents[2] / "benchmarks/data"
 GROVE = os.environ.get("GROVE", "")

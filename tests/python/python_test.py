@@ -17,7 +17,6 @@ import subprocess
 import sys
 import tempfile
 import threading
-import time
 import unittest
 from pathlib import Path
 
@@ -166,7 +165,7 @@ class Instances(unittest.TestCase):
             instance = grove.instance_from_arrays(grove.World(["..", ".."]), ring, ring[1:] + ring[:1],
                                                   following=following)
             self.assertEqual(instance.following, following)
-            self.assertIn(grove.solve(instance, time_limit=0.2).status, expected)
+            self.assertIn(grove.solve(instance, time_limit=60 if following else 0.2).status, expected)
 
 
 class Solving(unittest.TestCase):
@@ -178,39 +177,40 @@ class Solving(unittest.TestCase):
         self.assertEqual(plans[-1], (solution.plan.cost, solution.plan.cost))
 
     def test_a_limit_is_no_answer(self):
-        begin = time.monotonic()
-        solution = grove.solve(crowd(), time_limit=0.5)
-        self.assertLess(time.monotonic() - begin, 5)
+        solution = grove.solve(crowd(), time_limit=0.1)
         self.assertIn(solution.status, ("feasible", "unknown"))
+        self.assertEqual(solution.texts["stopped_by"], "time limit")
 
     def test_what_functions_raise_comes_out(self):
         with self.assertRaises(ZeroDivisionError):
             grove.solve(crowd(), time_limit=60, progress=lambda progress: 1 / 0)
 
     def test_ctrl_c(self):
-        timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
-        timer.start()
-        begin = time.monotonic()
+        begun = threading.Event()
+
+        def interrupt():
+            begun.wait()
+            os.kill(os.getpid(), signal.SIGINT)
+
+        interrupter = threading.Thread(target=interrupt)
+        interrupter.start()
         with self.assertRaises(KeyboardInterrupt):
-            grove.solve(crowd(), time_limit=60)
-        self.assertLess(time.monotonic() - begin, 20)
+            grove.solve(crowd(), time_limit=300, progress=lambda _: begun.set(), progress_interval=1e6)
+        interrupter.join()
 
     def test_stops_when_asked_and_other_threads_go_on(self):
-        stop = threading.Event()
-        ticks = []
+        begun, stop = threading.Event(), threading.Event()
 
-        def count():
-            for _ in range(5):
-                time.sleep(0.05)
-                ticks.append(time.monotonic())
+        def ask():
+            begun.wait()
+            sum(range(1_000_000))  # other threads go on
             stop.set()
 
-        counter = threading.Thread(target=count)
-        counter.start()
-        solution = grove.solve(crowd(), time_limit=60, stop=stop)
-        counter.join()
-        self.assertEqual(len(ticks), 5)
-        self.assertIn(solution.status, ("feasible", "unknown"))
+        asker = threading.Thread(target=ask)
+        asker.start()
+        solution = grove.solve(crowd(), time_limit=300, stop=stop, progress=lambda _: begun.set(), progress_interval=1e6)
+        asker.join()
+        self.assertEqual(solution.texts["stopped_by"], "interrupt")
 
     def test_several_at_once(self):
         expected = grove.solve(small()).plan.cost

@@ -12,9 +12,14 @@ import select
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
+from pathlib import Path
 from typing import NamedTuple
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from waiting import HANG_S, LOOK_S  # noqa: E402
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium"))), None)
 
@@ -40,7 +45,7 @@ SETTLED = "new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
 
 
 class NoAnswer(AssertionError):
-    """For a minute."""
+    """For as long as the test has patience."""
 
 
 class Chromium:
@@ -83,7 +88,7 @@ class Chromium:
         os.close(self.read)
         self.folder.cleanup()
 
-    def message(self, seconds=60):
+    def message(self, seconds=HANG_S):
         """The next one from the browser; None: there is none for so long."""
         end = time.monotonic() + seconds
         while b"\0" not in self.buffer:
@@ -137,8 +142,8 @@ class Chromium:
         before = time.monotonic()
         self.call("Page.navigate", url=page.resolve().as_uri() + fragment)
         while not self.evaluate("document.readyState === 'complete' && !document.querySelector('.reading')"):
-            if time.monotonic() - before > 60:
-                raise AssertionError(f"{page.name} is not loaded after a minute")
+            if time.monotonic() - before > HANG_S:
+                raise AssertionError(f"{page.name} is not loaded after {HANG_S} s")
             time.sleep(0.01)
         return time.monotonic() - before
 
@@ -150,7 +155,6 @@ class Chromium:
         """What is said, asked of the network and seen when a page is opened."""
         self.open(page, fragment, size)
         self.settle()
-        self.wait(0.03)
         return Visit(list(self.console), list(self.requests), self.look())
 
     def prefer(self, **features):
@@ -167,11 +171,13 @@ class Chromium:
             raise AssertionError(found["exceptionDetails"])
         return found["result"].get("value")
 
-    def wait(self, seconds):
-        """Lets the page go on, and hears what it says."""
-        end = time.monotonic() + seconds
-        while (left := end - time.monotonic()) > 0:
-            self.message(left)
+    def wait_until(self, what, condition):
+        """Lets the page go on until condition(); hears what it says."""
+        end = time.monotonic() + HANG_S
+        while not condition():
+            if time.monotonic() > end:
+                raise AssertionError(f"after {HANG_S} s still not: {what}")
+            self.message(LOOK_S)
 
     def key(self, key):
         text = key if len(key) == 1 else ""

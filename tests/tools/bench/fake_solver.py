@@ -60,13 +60,13 @@ def main():
         Path(output).write_text("I am no plan\n")
     elif kind == "torn":
         write(output, [path[:3] for path in paths])
-        time.sleep(600)
+        signal.pause()
     elif kind == "silent":
         print("nothing found")
     elif kind == "hangs":
         child = subprocess.Popen(["sleep", "600"])
         Path(os.environ["FAKE_PIDS"]).write_text(str(child.pid))
-        time.sleep(600)
+        signal.pause()
     elif kind == "crashes":
         print("out of luck")
         sys.stdout.flush()
@@ -81,7 +81,7 @@ def main():
         for waits, said in ((3, 3 * len(rows) - 1), (1, len(rows)), (0, 0), (0, 0), (0, -1)):
             write(output, [straight(*row, waits=waits) for row in rows])
             print(f"at {time.process_time():.3f} cost {cost + said}", flush=True)
-        time.sleep(600)
+        signal.pause()
     elif kind == "late":
         # Its only plan comes long after the limit, and is said to have come at once.
         time.sleep(2.5)

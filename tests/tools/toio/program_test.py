@@ -3,12 +3,15 @@
 import json
 import signal
 import subprocess
+import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
 import orders
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+from waiting import HANG_S, text_of, wait_until  # noqa: E402
 
 
 def start(*arguments):
@@ -18,7 +21,7 @@ def start(*arguments):
 
 def run(*arguments):
     process = start(*arguments)
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=HANG_S)
     return process.returncode, out, err
 
 
@@ -56,12 +59,13 @@ class Program(unittest.TestCase):
 
     def test_signals(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
-            process = start(orders.order_file("crowd"))
-            process.stdout.readline()
-            time.sleep(0.7)
-            process.send_signal(number)
-            process.communicate(timeout=20)
-            self.assertEqual(process.returncode, code)
+            with self.subTest(signal=number), tempfile.TemporaryDirectory() as folder:
+                log = Path(folder) / "drive.jsonl"
+                process = start(orders.order_file("crowd"), "--log", log)
+                wait_until("robots drive", lambda: '"moving"' in text_of(log), process)
+                process.send_signal(number)
+                process.communicate(timeout=HANG_S)
+                self.assertEqual(process.returncode, code)
 
     def refused(self, text, *arguments, code=2):
         found, out, err = run(*arguments)

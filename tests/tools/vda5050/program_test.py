@@ -118,13 +118,13 @@ class OverABroker(unittest.TestCase):
             vehicles = stack.enter_context(start("vehicles", order(), "--broker", broker, "--serial", "a0=zero", *FAST))
             for process in (watch, drive, vehicles):
                 stack.callback(process.kill)
-            out, err = drive.communicate(timeout=60)
+            out, err = drive.communicate(timeout=120)
             self.assertEqual((drive.returncode, err), (0, ""), out)
             self.assertIn("6 of 6 done", out)
             for process, number, said in ((vehicles, signal.SIGTERM, "nobody drove to where"),
                                           (watch, signal.SIGINT, "Released      nothing wrong")):
                 process.send_signal(number)
-                out, err = process.communicate(timeout=20)
+                out, err = process.communicate(timeout=120)
                 self.assertEqual((process.returncode, err), (0, ""), out)
                 self.assertIn(said, out)
 
@@ -143,5 +143,5 @@ class OverABroker(unittest.TestCase):
                     process.stdout.readline()
                     process.stdout.readline()
                     process.send_signal(number)
-                    _, err = process.communicate(timeout=20)
+                    _, err = process.communicate(timeout=120)
                     self.assertEqual((process.returncode, err), (code, ""))

@@ -67,7 +67,7 @@ class Controls(PageTest):
         self.wait_for("!grove.app.player.playing")
         self.assertEqual(self.state("player.time"), 35, "it begins anew, and stops at the end")
         self.keys("l", " ")
-        self.browser.wait(1)
+        self.wait_for("(window.latest ?? 0) > (window.latest = grove.app.player.time)")  # it has begun anew
         self.assertTrue(self.state("player.playing"), "in a loop it does not end")
 
     def test_wheel_and_drag(self):

