@@ -9,6 +9,7 @@ import random
 
 import orders
 from grove_driving.order import read_order
+from grove_vda5050.clock import Clock
 from grove_vda5050.control import Control, Limits
 from grove_vda5050.fleet import World
 from grove_vda5050.messages import Style
@@ -50,7 +51,7 @@ class Air:
         self.world = World(1.0)
         those = routes(name, following)
         self.control = Control(releases(order(name, following), those), style(version), "an order",
-                               Limits(base, horizon), self.send, lambda: self.now)
+                               Limits(base, horizon), self.send, Clock(monotonic=lambda: self.now))
         self.headers = {robot: Header(PROTOCOLS[version], "m", robot) for robot in those}
         self.vehicles, self.told = {}, {}
         for robot in order(name, following).robots:

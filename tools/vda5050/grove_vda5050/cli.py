@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The command line of grove vda5050."""
 import contextlib
+import functools
 import json
 import math
 import os
@@ -19,6 +20,7 @@ from grove_driving.order import read_order
 from grove_driving.program import FAILURE, complain, exit_code
 
 from . import trial
+from .clock import Clock
 from .control import Control, Limits
 from .fleet import Fleet, Troubles
 from .messages import Style
@@ -119,15 +121,20 @@ def _add_style(add):
 
 
 def _add_drive(add):
-    add("--time-limit", type=positive, default=3600.0, metavar="S", help="give up after so long (default: 3600)")
+    add("--time-limit", type=positive, default=3600.0, metavar="S", help="give up after so many real seconds (default: 3600)")
     add("--log", metavar="DRIVE.jsonl", help="write the drive, line by line, to this file (docs/drive-log.md)")
     add("--quiet", action="store_true", help="say nothing but what went wrong")
+
+
+def _add_pace(add):
+    add("--pace", type=positive, default=1.0, metavar="X",
+        help="simulated vehicles: so many times as fast as real ones; all times but --time-limit, those of the log too, "
+             "are theirs (default: 1)")
 
 
 def _add_vehicles(add):
     add("--speed", type=positive, default=1.0, metavar="M/S", help="of the vehicles (default: 1)")
     add("--turn-speed", type=positive, default=90.0, metavar="DEG/S", help="(default: 90)")
-    add("--pace", type=positive, default=1.0, metavar="X", help="so many times as fast as real ones (default: 1)")
     add("--delayed", type=share, default=0.0, metavar="SHARE", help="of messages that come late, each way (default: 0)")
     add("--delay", type=amount, default=2.0, metavar="S", help="how late at most (default: 2)")
     add("--lost", type=share, default=0.0, metavar="SHARE", help="of messages that are lost (default: 0)")
@@ -151,10 +158,10 @@ def _parser():
         return one
 
     protocol, style = ("the protocol", [_add_protocol]), ("the orders", [_add_style])
-    broker, vehicles = ("the broker", [_add_broker]), ("the vehicles", [_add_vehicles])
+    broker, vehicles = ("the broker", [_add_broker]), ("the vehicles", [_add_vehicles, _add_pace])
     orders = command("orders", "writes the first order of each vehicle as a file", protocol, style)
     orders.add_argument("-o", "--output", required=True, metavar="FOLDER", help="for ROBOT.order.json of each robot")
-    command("drive", "fleet control: drives the vehicles that are on a broker", (None, [_add_drive]), broker, protocol,
+    command("drive", "fleet control: drives the vehicles that are on a broker", (None, [_add_drive, _add_pace]), broker, protocol,
             style)
     command("vehicles", "simulated vehicles, each on its start, until Ctrl-C", broker, protocol, vehicles)
     watch = command("watch", "looks on at a broker, until Ctrl-C", broker, protocol, order=False)
@@ -236,24 +243,22 @@ def _orders(a):
 class _Drive:
     """Control on a connection."""
 
-    def __init__(self, a, setup, broker, log, say):
-        self.a, self.setup, self.say = a, setup, say
-        self.seconds = 0.0
-        topics, begin = setup.topics, time.monotonic()
+    def __init__(self, a, setup, connection, clock, log, say):
+        self.a, self.setup, self.connection, self.clock, self.say = a, setup, connection, clock, say
+        self.seconds = ()               # that it took, real ones and those of the vehicles
+        topics = setup.topics
         headers = {name: Header(a.protocol, a.manufacturer, route.serial) for name, route in setup.routes.items()}
 
         def send(name, content):
             self.connection.publish(topics.topic(setup.routes[name].serial, "order"), headers[name].message(content))
 
         self.control = Control(Releases(setup.order, setup.routes), setup.style, str(uuid.uuid4()),
-                               Limits(a.base, a.horizon), send, lambda: time.monotonic() - begin, log, say)
-        # States first: a vehicle's connection is kept by the broker, and comes at once.
-        self.connection = Connection(broker, [(topics.topic("+", "state"), 0), (topics.topic("+", "connection"), 1)])
+                               Limits(a.base, a.horizon), send, clock, log, say)
 
     def step(self):
         """Hears what there is, for some time, and says what is due. Is everything done?"""
-        until = time.monotonic() + TICK
-        while (left := until - time.monotonic()) > 0:
+        until = self.clock.real() + TICK
+        while (left := until - self.clock.real()) > 0:
             try:
                 message = self.connection.inbox.get(timeout=left)
             except queue.Empty:
@@ -272,20 +277,21 @@ class _Drive:
             if robot and isinstance(content, dict):
                 (self.control.on_state if name == "state" else self.control.on_connection)(robot, content)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            self.say(f"{self.control.now():7.1f} s  {serial}: a {name} that cannot be read: {error}")
+            self.say(f"{self.clock.now():7.1f} s  {serial}: a {name} that cannot be read: {error}")
 
     def run(self):
         """Is everything done?"""
         completed = self.step()
-        while not completed and self.control.now() <= self.a.time_limit:
+        while not completed and self.clock.real() <= self.a.time_limit:
             completed = self.step()
-        self.seconds = self.control.now()
+        self.seconds = self.clock.real(), self.clock.now()
         return completed
 
     def summary(self):
         control = self.control
         done = sum(control.releases.done.values())
-        yield f"Time          {self.seconds:.1f} s"
+        real, seconds = self.seconds
+        yield f"Time          {seconds:.1f} s" + (f" of the vehicles, {real:.1f} s real" if self.clock.pace != 1 else "")
         yield f"Vehicles      {sum(v.completed for v in control.vehicles.values())} of {len(control.vehicles)} done"
         yield f"Actions       {done} of {sum(len(r.actions) for r in self.setup.order.robots)} of the passing order"
         yield f"Orders        {control.messages} messages, {control.resent} of them again"
@@ -294,6 +300,11 @@ class _Drive:
         reasons = list(self.control.reasons())
         more = f"; and {len(reasons) - 8} more" if len(reasons) > 8 else ""
         return f"not done within {self.a.time_limit:g} s: {'; '.join(reasons[:8])}{more}" if reasons else None
+
+
+def _control_connection(broker, topics):
+    # States first: a vehicle's connection is kept by the broker, and comes at once.
+    return Connection(broker, [(topics.topic("+", "state"), 0), (topics.topic("+", "connection"), 1)])
 
 
 def _describe(a, setup):
@@ -322,7 +333,7 @@ def _drive(a):
     setup = Setup(a)
     broker, say = _make_broker(a), _say(a)
     with _log(a, setup) as log:
-        drive = _Drive(a, setup, broker, log, say)
+        drive = _Drive(a, setup, _control_connection(broker, setup.topics), Clock(a.pace), log, say)
         for line in _describe(a, setup):
             say(line)
         completed = drive.run()
@@ -342,11 +353,16 @@ def _check_stops(a, setup):
             raise BadInput(f"--stop: found robot '{robot}'; expected one of {', '.join(setup.routes)}")
 
 
+def _fleet(a, setup, connect, clock):
+    return Fleet(connect, setup.topics, setup.routes, setup.headings(), setup.frame.cell, a.speed,
+                 math.radians(a.turn_speed), Troubles(a.delayed, a.delay, a.lost, tuple(a.stop)), a.seed, clock)
+
+
 def _vehicles(a):
     setup = Setup(a)
     _check_stops(a, setup)
-    fleet = Fleet(_make_broker(a), setup.topics, setup.routes, setup.headings(), setup.frame.cell, a.speed,
-                  math.radians(a.turn_speed), Troubles(a.delayed, a.delay, a.lost, tuple(a.stop)), a.seed, a.pace)
+    connect = functools.partial(Connection, _make_broker(a))
+    fleet = _fleet(a, setup, connect, Clock(a.pace))
     print(f"{len(fleet.vehicles)} vehicles", flush=True)
     with contextlib.suppress(KeyboardInterrupt, _Terminated):
         fleet.run()
@@ -419,13 +435,13 @@ def _trial(a):
     with trial.own_broker() as broker, _log(a, setup) as log:
         onlooker = trial.onlooker(broker, setup.topics)
         with trial.own_vehicles(PROGRAM, list(_vehicle_arguments(a, broker))) as process:
-            drive = _Drive(a, setup, broker, log, say)
+            drive = _Drive(a, setup, _control_connection(broker, setup.topics), Clock(a.pace), log, say)
             completed = drive.run()
             vehicles_code, vehicles_text = trial.end_vehicles(process)
         drive.connection.close()
         _hear_all(watch, onlooker, time.monotonic() + 1)
         onlooker.close()
-    for line in (*drive.summary(), *vehicles_text.splitlines()[1:], *_watched(watch)):
+    for line in (*drive.summary(), *vehicles_text.splitlines(), *_watched(watch)):
         say(line)
     failures = [text for failed, text in ((not completed, drive.failure()), (vehicles_code, "vehicles collided"),
                                           (watch.violations, "messages were wrong")) if failed]

@@ -7,8 +7,8 @@ received. To a vehicle there is one update under way at a time: the next continu
 to hold, and it is sent again until the vehicle's state names it."""
 from .route import actions_done
 
-RESEND_SECONDS = 3.0
-SILENT_SECONDS = 40.0       # vehicles say something every 30
+RESEND_SECONDS = 3.0        # of the vehicles
+SILENT_SECONDS = 40.0       # real ones: vehicles say something every 30
 
 
 class Limits:
@@ -22,7 +22,7 @@ class Vehicle:
     def __init__(self, route):
         self.route = route
         self.online = False
-        self.heard = None           # seconds
+        self.heard = None           # real seconds
         self.reached = -1           # node; -1: it has taken no order yet
         self.finished = set()       # ids of works
         self.failed = {}            # id of a work: why
@@ -43,11 +43,11 @@ class Vehicle:
 
 
 class Control:
-    """send(vehicle, content) publishes an order; now() are seconds since the begin."""
+    """send(vehicle, content) publishes an order; log(seconds, vehicle, ...) writes a line, in seconds of the vehicles."""
 
-    def __init__(self, releases, style, order_id, limits, send, now, log=None, say=lambda text: None):
+    def __init__(self, releases, style, order_id, limits, send, clock, log=None, say=lambda text: None):
         self.releases, self.style, self.order_id, self.limits = releases, style, order_id, limits
-        self.send, self.now, self.log, self.say = send, now, log, say
+        self.send, self.clock, self.log, self.say = send, clock, log, say
         self.vehicles = {name: Vehicle(route) for name, route in releases.routes.items()}
         self.messages = self.resent = 0
 
@@ -57,14 +57,14 @@ class Control:
         vehicle = self.vehicles[name]
         state = message.get("connectionState")
         if state == self.style.protocol.lost and not vehicle.lost:
-            self.say(f"{self.now():7.1f} s  {name} has lost its connection")
+            self.say(f"{self.clock.now():7.1f} s  {name} has lost its connection")
         vehicle.online, vehicle.lost = state == "ONLINE", state == self.style.protocol.lost
         self.log_line(name)
         self.extend(name)
 
     def on_state(self, name, message):
         vehicle = self.vehicles[name]
-        vehicle.heard, vehicle.online, vehicle.lost = self.now(), True, False
+        vehicle.heard, vehicle.online, vehicle.lost = self.clock.real(), True, False
         if message.get("timestamp", "") >= vehicle.timestamp:
             vehicle.timestamp = message.get("timestamp", "")
             self._hear_errors(name, message.get("errors", []))
@@ -87,7 +87,7 @@ class Control:
                 vehicle.finished.add(action.get("actionId"))
             elif action.get("actionStatus") == "FAILED" and action.get("actionId") not in vehicle.failed:
                 vehicle.failed[action.get("actionId")] = True
-                self.say(f"{self.now():7.1f} s  {name}: action {action.get('actionId')} failed")
+                self.say(f"{self.clock.now():7.1f} s  {name}: action {action.get('actionId')} failed")
         if vehicle.reached >= 0:
             done = actions_done(vehicle.route, vehicle.reached, vehicle.finished)
             for other in self.releases.complete(name, done):
@@ -100,7 +100,7 @@ class Control:
                      for e in errors)
         for each in said:
             if each not in vehicle.errors:
-                self.say(f"{self.now():7.1f} s  {name}: {each}")
+                self.say(f"{self.clock.now():7.1f} s  {name}: {each}")
         vehicle.errors = said
 
     def _see(self, vehicle, message):
@@ -129,14 +129,14 @@ class Control:
 
     def _publish(self, name):
         vehicle = self.vehicles[name]
-        vehicle.sent = self.now()
+        vehicle.sent = self.clock.now()
         self.messages += 1
         self.send(name, vehicle.message)
 
     def tick(self):
         """To be called some times a second."""
         for name, vehicle in self.vehicles.items():
-            if vehicle.confirmed < vehicle.update and self.now() - vehicle.sent > RESEND_SECONDS:
+            if vehicle.confirmed < vehicle.update and self.clock.now() - vehicle.sent > RESEND_SECONDS:
                 self.resent += 1
                 self._publish(name)
 
@@ -150,14 +150,14 @@ class Control:
         vehicle = self.vehicles[name]
         if vehicle.completed:
             return "done"
-        if vehicle.lost or (vehicle.heard is not None and self.now() - vehicle.heard > SILENT_SECONDS):
+        if vehicle.lost or (vehicle.heard is not None and self.clock.real() - vehicle.heard > SILENT_SECONDS):
             return "lost"
         return "working" if vehicle.working else "moving" if vehicle.driving else "waiting"
 
     def log_line(self, name):
         vehicle = self.vehicles[name]
         if self.log and vehicle.reached >= 0:
-            self.log(self.now(), name, vehicle.at or vehicle.route.nodes[vehicle.reached].at, vehicle.theta,
+            self.log(self.clock.now(), name, vehicle.at or vehicle.route.nodes[vehicle.reached].at, vehicle.theta,
                      self.releases.done[name], self.state_of(name))
 
     def reasons(self):

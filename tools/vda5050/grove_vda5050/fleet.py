@@ -8,16 +8,16 @@ import random
 import time
 from typing import NamedTuple
 
-from .mqtt import Connection
 from .protocol import Header
 from .vehicle import SimulatedVehicle
 
-TICK = 0.02
-HEARTBEAT = 10.0            # seconds between states when nothing changes; 30 at most
+TICK = 0.02                 # real seconds
+HEARTBEAT = 10.0            # real seconds between states when nothing changes; 30 at most
 NEAR = 1.5                  # cells: vehicles further apart are not measured
 
 
 class Troubles(NamedTuple):
+    """All seconds are those of the vehicles."""
     delayed: float = 0.0    # share of messages, each way
     delay: float = 2.0      # seconds, at most
     lost: float = 0.0       # share of messages that never arrive
@@ -63,21 +63,22 @@ class World:
 
 
 class Fleet:
-    """All vehicles of an order, each on its start."""
+    """All vehicles of an order, each on its start. connect(topics, will, hello) makes a connection."""
 
-    def __init__(self, broker, topics, routes, headings, cell, speed, turn_speed, troubles, seed, pace):
-        self.topics, self.troubles, self.pace = topics, troubles, pace
+    def __init__(self, connect, topics, routes, headings, cell, speed, turn_speed, troubles, seed, clock):
+        self.connect, self.topics, self.troubles, self.clock = connect, topics, troubles, clock
         self.random = random.Random(f"vehicles {seed}")
         self.world = World(cell)
         self.due = []                   # (when, number, function, arguments)
         self.numbers = itertools.count()
         self.vehicles, self.connections = [], []
-        self.told = {}                  # vehicle: when it last said something
+        self.then = clock.now()         # the vehicles are as they were then
+        self.told = {}                  # vehicle: when it last said something, in real seconds
         self.delayed = self.lost = self.received = 0
         for route in routes.values():
-            self._add(broker, route, headings[route.robot], speed, turn_speed)
+            self._add(route, headings[route.robot], speed, turn_speed)
 
-    def _add(self, broker, route, theta, speed, turn_speed):
+    def _add(self, route, theta, speed, turn_speed):
         protocol = self.topics.protocol
 
         def topic(name):
@@ -87,11 +88,11 @@ class Fleet:
             return topic("connection"), header.message({"connectionState": text})
 
         def tell(name, message):
-            self.told[vehicle] = time.monotonic()
+            self.told[vehicle] = self.clock.real()
             self._by_radio(lambda: connection.publish(topic(name), message))
 
         header = Header(protocol, self.topics.manufacturer, route.serial)
-        connection = Connection(broker, [(topic("order"), 0)], will=state(protocol.lost), hello=state("ONLINE"))
+        connection = self.connect([(topic("order"), 0)], will=state(protocol.lost), hello=state("ONLINE"))
         vehicle = SimulatedVehicle(protocol, route.robot, self.topics.manufacturer, route.serial, route.nodes[0].at,
                                    theta, self.world, tell, speed, turn_speed)
         connection.offline = state("OFFLINE")
@@ -103,7 +104,7 @@ class Fleet:
     # ---- messages take their time
 
     def _later(self, seconds, function, *arguments):
-        heapq.heappush(self.due, (time.monotonic() + seconds, next(self.numbers), function, arguments))
+        heapq.heappush(self.due, (self.clock.now() + seconds, next(self.numbers), function, arguments))
 
     def _by_radio(self, function, *arguments):
         drawn = self.random.random()
@@ -127,18 +128,21 @@ class Fleet:
 
     def run(self):
         """Until an exception ends it."""
-        begin = then = time.monotonic()
         while True:
             time.sleep(TICK)
-            now = time.monotonic()
-            self._deliver(now)
-            self._stop_and_go(now - begin)
-            for vehicle in self.vehicles:
-                vehicle.tick((now - then) * self.pace)
-                if now - self.told.get(vehicle, now) > HEARTBEAT:
-                    vehicle.tell_state()
-            self.world.measure(self.vehicles)
-            then = now
+            self.step()
+
+    def step(self):
+        """What has happened since the last step."""
+        now = self.clock.now()
+        self._deliver(now)
+        self._stop_and_go(now)
+        for vehicle in self.vehicles:
+            vehicle.tick(now - self.then)
+            if self.clock.real() - self.told.get(vehicle, self.clock.real()) > HEARTBEAT:
+                vehicle.tell_state()
+        self.world.measure(self.vehicles)
+        self.then = now
 
     def _deliver(self, now):
         for vehicle, connection in zip(self.vehicles, self.connections):

@@ -54,9 +54,11 @@ def _await_port(port, process):
 
 @contextlib.contextmanager
 def own_vehicles(program, arguments):
-    """`grove vda5050 vehicles` as a process of its own. Yields it."""
+    """`grove vda5050 vehicles` as a process of its own. Yields it once all vehicles are connected."""
     process = subprocess.Popen([sys.executable, program, "vehicles", *arguments], stdout=subprocess.PIPE, text=True)
     try:
+        if not process.stdout.readline():
+            raise OSError(0, "the vehicles did not start", "trial")
         yield process
     finally:
         process.kill()
