@@ -51,6 +51,14 @@ Grid read_ascii(const std::string& file) {
   return Grid(static_cast<int>(lines.front().size()), static_cast<int>(lines.size()), passable);
 }
 
+// A map on which no robot can be is of no use; one of a single cell is a map.
+Grid with_free_cells(const std::string& file, Grid grid) {
+  if (grid.passable_count() == 0)
+    throw InputError(file, "",
+                     fmt::format("has no free cell; expected at least one of '{}'", kFree));
+  return grid;
+}
+
 void print_map(const std::string& file, const Grid& grid) {
   fmt::print("wrote {}: {} x {} cells, {} passable\n", file, grid.width(), grid.height(),
              grid.passable_count());
@@ -64,6 +72,28 @@ CellMap read_occupancy(const OccupancyMap& map, const ConvertArguments& argument
   }
 }
 
+bool has_moves(const Grid& grid) {
+  for (Cell cell = 0; cell < grid.cell_count(); ++cell)
+    if (!grid.moves(cell).empty()) return true;
+  return false;
+}
+
+// Says which option to change where no robot could be on the map, or move on it.
+void require_moves(const CellMap& cells, const ConvertArguments& arguments) {
+  if (has_moves(cells.grid)) return;
+  const int left = cells.grid.passable_count();
+  if (cells.too_near == 0 && cells.narrow == 0 && left == 0)
+    throw InputError(arguments.instance, "",
+                     "the middle of no cell is free; expected a map with free space, or a smaller "
+                     "--cell-size");
+  throw InputError(
+      arguments.instance, "",
+      fmt::format("{} on the map of cells of {:.4g} m for robots of radius {:.4g} m; expected a "
+                  "smaller --robot-radius or --cell-size",
+                  left == 0 ? "no cell is free" : "no two neighbouring cells are free",
+                  arguments.frame.cell_size(), arguments.robot_radius));
+}
+
 void convert_occupancy(const ConvertArguments& arguments) {
   const double size = arguments.frame.cell_size();
   if (size == 0)
@@ -72,6 +102,7 @@ void convert_occupancy(const ConvertArguments& arguments) {
     throw CLI::ValidationError("--origin", "expected none; a map of ROS says where it lies");
   const OccupancyMap map(arguments.instance);
   const CellMap cells = read_occupancy(map, arguments);
+  require_moves(cells, arguments);
   write_map(arguments.output, cells.grid);
   print_map(arguments.output, cells.grid);
   fmt::print(
@@ -107,7 +138,7 @@ void convert_map(const ConvertArguments& arguments) {
                                                            "tell the format",
                                                            arguments.instance)
                                              : fmt::format("found '{}'", format)));
-  const Grid grid = read_ascii(arguments.instance);
+  const Grid grid = with_free_cells(arguments.instance, read_ascii(arguments.instance));
   write_map(arguments.output, grid);
   print_map(arguments.output, grid);
 }

@@ -72,6 +72,17 @@ RoadNetwork read_network(const ConvertArguments& arguments, const std::string& f
   return network;
 }
 
+// Robots that start on a vertex would stay there.
+void require_roads(const SteppedRoads& stepped, const ConvertArguments& arguments) {
+  if (!stepped.roads.empty()) return;
+  throw InputError(arguments.instance, "",
+                   fmt::format("has no edge{}; expected at least one",
+                               arguments.vehicle_type.empty()
+                                   ? ""
+                                   : fmt::format(" that vehicle type '{}' may use",
+                                                 one_line(arguments.vehicle_type))));
+}
+
 void warn_of_unused_times(const RoadNetwork& network, const StepScale& scale) {
   const auto count = std::ranges::count_if(
       network.links, [](const Link& link) { return link.seconds.has_value(); });
@@ -154,6 +165,7 @@ void convert_roadmap(const ConvertArguments& arguments) {
   const StepScale scale = require_scale(arguments);
   const RoadNetwork network = read_network(arguments, format);
   const SteppedRoads stepped = in_steps(network, scale);
+  require_roads(stepped, arguments);
   warn_of_unused_times(network, scale);
   warn_of_opposite_roads(stepped.roads, arguments);
   const Roadmap roadmap(network.vertices,

@@ -156,6 +156,20 @@ TEST_F(ConvertRoadmap, OnOneLaneRobotsDoNotPassOneAnother) {
   EXPECT_EQ(solved(), "valid: cost 12, lower bound 12, gap 0.00 %, 2 agents\n");
 }
 
+TEST_F(ConvertRoadmap, RoadsWithoutAnEdgeAreRefused) {
+  directory_.write("one.graphml",
+                   "<graphml><graph edgedefault='directed'><node id='a'/></graph></graphml>");
+  EXPECT_EQ(refused({"one.graphml", "o.roadmap.json", "--metres-per-step", "1"}),
+            "one.graphml: has no edge; expected at least one");
+  std::string lif = kLif;
+  for (std::size_t at = 0; (at = lif.find("\"T\", \"rot", at)) != std::string::npos;)
+    lif.replace(at, 3, "\"U\"");  // the edges are for another type than the nodes
+  directory_.write("u.lif.json", lif);
+  EXPECT_EQ(refused({"u.lif.json", "o.roadmap.json", "--metres-per-step", "1", "--vehicle-type",
+                     "T"}),
+            "u.lif.json: has no edge that vehicle type 'T' may use; expected at least one");
+}
+
 TEST_F(ConvertRoadmap, SpeedsThatDoNotCountAreTold) {
   const ProcessResult result = run({"p.lif.json", "o.roadmap.json", "--metres-per-step", "6"});
   EXPECT_EQ(result.exit_code, 0);

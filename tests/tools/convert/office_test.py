@@ -138,6 +138,19 @@ class Office(unittest.TestCase):
         self.assertEqual(sorted(counts, reverse=True), counts)
         self.assertGreater(counts[0], counts[-1] + 50)
 
+    def test_a_map_without_a_way_is_refused(self):
+        self.write()
+        for options, told in ((("--robot-radius", "5"), "office.yaml: no cell is free on the map of cells of 0.5 m for robots of "
+                                                        "radius 5 m; expected a smaller --robot-radius or --cell-size"),
+                              (("--cell-size", "7", "--robot-radius", "0.5"), "no two neighbouring cells are free")):
+            error = self.convert(*options, code=2)
+            self.assertIn(told, error)
+            self.assertEqual(error.count("\n"), 1)
+        self.rows = [bytes([UNKNOWN]) * len(row) for row in self.rows]
+        self.write()
+        self.assertIn("office.yaml: the middle of no cell is free; expected", self.convert(code=2))
+        self.assertFalse((self.folder / "office.map").exists())
+
     def test_png_and_pgm_and_negated_are_the_same_map(self):
         maps = []
         self.write()
@@ -179,6 +192,9 @@ class Office(unittest.TestCase):
     def test_ascii(self):
         (self.folder / "hall.txt").write_text("####\n#. #\n#_0#\n####\n")
         self.assertIn("4 x 4 cells, 4 passable", self.grove("convert", "hall.txt", "hall.map"))
+        (self.folder / "hall.txt").write_text("####\n####\n")
+        self.assertIn("hall.txt: has no free cell; expected", self.grove("convert", "hall.txt", "wall.map", code=2))
+        self.assertFalse((self.folder / "wall.map").exists())
         (self.folder / "hall.txt").write_text("####\n#.?#\n")
         self.assertIn("hall.txt: line 2, column 3: found '?'",
                       self.grove("convert", "hall.txt", "hall.map", code=2))
