@@ -39,9 +39,9 @@ install(FILES ${PROJECT_BINARY_DIR}/grove.pc
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGES.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libraries)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/front_door
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/front_door ${PROJECT_SOURCE_DIR}/examples/lifelong
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development
-  FILES_MATCHING PATTERN "*.cpp")
+  FILES_MATCHING PATTERN "*.cpp" PATTERN "*.h")
 
 if(GROVE_WITH_PYTHON)
   # Where Python looks is known when PREFIX is: a virtual environment has site-packages, Debian's

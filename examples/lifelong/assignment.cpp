@@ -1,32 +1,72 @@
 // SPDX-License-Identifier: MIT
-#include "examples/lifelong/assignment.h"
+#include "assignment.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
-namespace grove::detail::lifelong {
+namespace lifelong {
+namespace {
 
-std::vector<std::pair<AgentIndex, Errand>> Assignment::give(const Instance& now) {
-  std::vector<std::pair<AgentIndex, Errand>> given;
-  std::set<Cell> taken;
-  for (const Task& task : now.tasks()) taken.insert(task.cell);
-  std::vector<AgentIndex> free;
-  for (AgentIndex robot = 0; robot < now.agent_count(); ++robot)
-    if (now.agent(robot).is_idle()) free.push_back(robot);
+constexpr int kFar = std::numeric_limits<int>::max();
+
+// Steps from every cell to one, by breadth-first search; kFar from where there is no way.
+class Distances {
+ public:
+  Distances(const grove::World& world, grove::Cell to)
+      : width_(world.width()),
+        steps_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(world.height()), kFar) {
+    std::deque<grove::Cell> next{to};
+    at(to) = 0;
+    for (; !next.empty(); next.pop_front()) {
+      const auto [x, y] = next.front();
+      for (const grove::Cell cell :
+           {grove::Cell{x + 1, y}, {x - 1, y}, {x, y + 1}, {x, y - 1}}) {
+        if (!world.passable(cell) || at(cell) < kFar) continue;
+        at(cell) = at({x, y}) + 1;
+        next.push_back(cell);
+      }
+    }
+  }
+  int from(const grove::Agent& robot) { return at(std::get<grove::Cell>(robot.start.place)); }
+
+ private:
+  int& at(grove::Cell cell) { return steps_[static_cast<std::size_t>(cell.y * width_ + cell.x)]; }
+
+  int width_;
+  std::vector<int> steps_;
+};
+
+// Those without a task.
+std::vector<const grove::Agent*> free_robots(const grove::Instance& now) {
+  std::set<std::string> busy;
+  for (const grove::Task& task : now.tasks()) busy.insert(task.agents.begin(), task.agents.end());
+  std::vector<const grove::Agent*> free;
+  for (const grove::Agent& robot : now.agents())
+    if (!busy.contains(robot.id)) free.push_back(&robot);
+  return free;
+}
+
+}  // namespace
+
+Given Assignment::give(const grove::Instance& now) {
+  std::set<std::string> taken;
+  for (const grove::Task& task : now.tasks()) taken.insert(to_string(task.place));
+  std::vector<const grove::Agent*> free = free_robots(now);
+  Given given;
   for (auto errand = open_.begin(); errand != open_.end() && !free.empty();) {
-    if (!taken.insert(errand->cell).second) {
+    if (!taken.insert(to_string(grove::Place{errand->cell})).second) {
       ++errand;
       continue;
     }
-    const DistanceField distance = distance_field(grid_, errand->cell);
-    const auto nearest = std::ranges::min_element(free, {}, [&](AgentIndex robot) {
-      return distance[now.world().place(now.agent(robot).start)];
-    });
-    given.emplace_back(*nearest, *errand);
+    Distances distances(world_, errand->cell);
+    const auto nearest =
+        std::ranges::min_element(free, {}, [&](const auto* robot) { return distances.from(*robot); });
+    given.emplace_back((*nearest)->id, *errand);
     free.erase(nearest);
     errand = open_.erase(errand);
   }
   return given;
 }
 
-}  // namespace grove::detail::lifelong
+}  // namespace lifelong

@@ -3,25 +3,23 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <string>
+#include <grove/grove.hpp>
 #include <vector>
 
-#include "grove/detail/model/grid.h"
+namespace lifelong {
 
-namespace grove::detail::lifelong {
-
-// A robot has to be on the cell once, from then on.
+// A robot has to be on the cell once, at step `arrives` or later.
 struct Errand {
   int id = 0;
-  Time arrives = 0;
-  Cell cell = kNoCell;
+  int arrives = 0;
+  grove::Cell cell = {};
 };
 
-// So many errands on passable cells, spread evenly at random over `steps`, in order of time; the
+// `count` errands on passable cells, spread evenly at random over `steps`, in order of time; the
 // same seed makes the same ones.
-std::vector<Errand> random_errands(const Grid& grid, int count, Time steps, std::uint64_t seed);
-// Distinct passable cells for robots to start on.
-std::vector<Cell> random_starts(const Grid& grid, int robots, std::uint64_t seed);
+std::vector<Errand> random_errands(const grove::World& world, int count, int steps,
+                                   std::uint64_t seed);
+// Distinct passable cells for robots to start on; fewer than `robots` if there are no more.
+std::vector<grove::Cell> random_starts(const grove::World& world, int robots, std::uint64_t seed);
 
-}  // namespace grove::detail::lifelong
+}  // namespace lifelong

@@ -1,68 +1,137 @@
 // SPDX-License-Identifier: MIT
 // grove-lifelong: a loop over a Session. Errands arrive all the time; at each decision free robots
-// are given the oldest ones, and all are planned anew for what has changed.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
+// are given the oldest ones, and the plan is changed for what is new.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <grove/grove.hpp>
+#include <limits>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "examples/lifelong/assignment.h"
-#include "grove/detail/engine/session.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/map_file.h"
+#include "assignment.h"
+#include "errands.h"
 
-namespace grove::detail::lifelong {
+namespace lifelong {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double kOmega = 0.01;
+constexpr double kPatientSeconds = 60;
+
+constexpr const char* kUsage =
+    R"(usage: grove-lifelong MAP [--OPTION NUMBER]...
+
+Robots that are given errands as they arrive, on a Moving AI map.
+
+  --robots N      robots (default: 200)
+  --tasks N       errands that arrive (default: 1000)
+  --steps N       steps over which they arrive (default: 2000)
+  --every N       steps between decisions (default: 1)
+  --think S       seconds for each decision (default: 0.1)
+  --turn-steps N  steps of a quarter turn; 0: robots turn freely (default: 0)
+  --seed N        of what is drawn at random (default: 0)
+)";
+
+struct BadUsage : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 struct Asked {
   std::string map;
   int robots = 200;
   int tasks = 1000;
-  Time steps = 2000;
-  Time every = 1;
+  int steps = 2000;
+  int every = 1;
   double think_s = 0.1;
-  std::uint64_t seed = 0;
-  Time turn_steps = 0;
+  int turn_steps = 0;
+  int seed = 0;
 };
+
+double number(const std::string& option, const std::string& text, double least, double most) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(value >= least && value <= most))
+    throw BadUsage(option + ": found '" + text + "'; expected a number from " +
+                   std::to_string(static_cast<int>(least)));
+  return value;
+}
+
+int integer(const std::string& option, const std::string& text, int least) {
+  const double value = number(option, text, least, std::numeric_limits<int>::max());
+  if (value != static_cast<int>(value)) throw BadUsage(option + ": expected a whole number");
+  return static_cast<int>(value);
+}
+
+Asked asked_by(const std::vector<std::string>& words) {
+  Asked asked;
+  const std::map<std::string, std::pair<int*, int>> integers{
+      {"--robots", {&asked.robots, 1}}, {"--tasks", {&asked.tasks, 1}},
+      {"--steps", {&asked.steps, 1}},   {"--every", {&asked.every, 1}},
+      {"--seed", {&asked.seed, 0}},     {"--turn-steps", {&asked.turn_steps, 0}}};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!words[i].starts_with("--")) {
+      if (!asked.map.empty()) throw BadUsage("found two maps; expected one");
+      asked.map = words[i];
+      continue;
+    }
+    const std::string& option = words[i];
+    const auto found = integers.find(option);
+    if (found == integers.end() && option != "--think") throw BadUsage(option + ": no such option");
+    if (++i == words.size()) throw BadUsage(option + ": expected a number after it");
+    if (found == integers.end())
+      asked.think_s = number(option, words[i], 0, 1e6);
+    else
+      *found->second.first = integer(option, words[i], found->second.second);
+  }
+  if (asked.map.empty()) throw BadUsage("expected a MAP");
+  return asked;
+}
 
 struct Report {
   int done = 0;
   int done_by_the_end_of_arrivals = 0;
-  Cost waited = 0;  // from arrival to visit, summed
-  Time last = 0;
+  long waited = 0;  // from arrival to visit, summed
+  int last = 0;
   int decisions = 0;
   int without_plan = 0;
   std::vector<double> seconds;  // of each decision
 };
 
-Instance standing(const Grid& grid, const Asked& asked) {
-  InstanceBuilder builder{Map(grid)};
-  int robot = 0;
-  for (const Cell cell : random_starts(grid, asked.robots, asked.seed))
-    builder.add_agent({.id = fmt::format("r{}", robot++),
-                       .start = {.place = cell},
-                       .goal = {},
-                       .motion = {asked.turn_steps}});
-  return std::move(builder).build();
+// All robots on their starts, with nothing to do.
+grove::Instance standing(const grove::World& world, const Asked& asked) {
+  std::vector<grove::Agent> robots;
+  for (const grove::Cell cell :
+       random_starts(world, asked.robots, static_cast<std::uint64_t>(asked.seed))) {
+    grove::Agent robot{.id = "r" + std::to_string(robots.size()),
+                       .start = {cell},
+                       .turn_steps = asked.turn_steps};
+    if (asked.turn_steps > 0) robot.start.heading = grove::Heading::north;
+    robots.push_back(std::move(robot));
+  }
+  return {world, std::move(robots), {}};
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 class Loop {
  public:
-  Loop(const Grid& grid, const Asked& asked)
+  Loop(const grove::World& world, const Asked& asked)
       : asked_(asked),
-        errands_(random_errands(grid, asked.tasks, asked.steps, asked.seed)),
-        assignment_(grid),
-        session_(standing(grid, asked)) {
-    Limits limits;
-    session_.solve(options(), limits);  // all stand still, for there is nothing to do
+        errands_(random_errands(world, asked.tasks, asked.steps,
+                                static_cast<std::uint64_t>(asked.seed))),
+        assignment_(world),
+        session_(standing(world, asked)) {
+    session_.replan();  // all stand still
   }
 
   Report run() {
@@ -76,35 +145,29 @@ class Loop {
   }
 
  private:
-  using Given = std::vector<std::pair<AgentIndex, Errand>>;
-
-  static SolveOptions options() {
-    SolveOptions options;
-    options.omega = Omega::parse("0.01");
-    return options;
-  }
-
   void decide() {
     Given given = assignment_.give(session_.instance());
     give_back(given, at_once_);
     if (given.empty()) return;
     const auto start = Clock::now();
     take_on(given);
-    const bool is_planned = solve(start);
+    const double left = std::max(0.0, asked_.think_s - seconds_since(start));
+    const bool is_planned =
+        session_.replan({.omega = kOmega, .time_limit = left}).plan.has_value();
     if (!is_planned) do_without(given);
-    // So many new ways at a time as are found in time.
+    // As many new errands at a time as are planned in time.
     at_once_ =
         is_planned ? at_once_ + at_once_ / 4 + 1 : std::max<std::size_t>(1, given.size() / 2);
     at_once_ = std::min<std::size_t>(at_once_, static_cast<std::size_t>(asked_.robots));
     ++report_.decisions;
-    report_.seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    report_.seconds.push_back(seconds_since(start));
   }
 
   void take_on(const Given& given) {
-    InstanceChange change;
+    grove::Change change;
     for (const auto& [robot, errand] : given) {
       const std::string id = std::to_string(errand.id);
-      change.new_tasks.push_back({id, errand.cell, {session_.instance().agent(robot).id}});
+      change.new_tasks.push_back({.id = id, .place = errand.cell, .agents = {robot}});
       arrived_[id] = errand.arrives;
     }
     session_.change(change);
@@ -116,102 +179,93 @@ class Loop {
     given.resize(std::min(kept, given.size()));
   }
 
-  bool solve(Clock::time_point start) {
-    Limits limits;
-    limits.set_deadline(start + std::chrono::duration_cast<Clock::duration>(
-                                    std::chrono::duration<double>(asked_.think_s)));
-    return session_.solve(options(), limits).plan.has_value();
-  }
-
-  // Nobody knew a way in time: another time.
+  // No plan was found in time: the robots go on without the new errands.
   void do_without(const Given& given) {
     ++report_.without_plan;
-    InstanceChange change;
+    grove::Change change;
     for (const auto& [robot, errand] : given) {
       change.dropped_tasks.push_back(std::to_string(errand.id));
+      arrived_.erase(std::to_string(errand.id));
       assignment_.add(errand);
     }
     session_.change(change);
-    SolveOptions any = options();
-    any.omega = Omega::infinite();
-    Limits patient;
-    patient.set_deadline(Clock::now() + std::chrono::minutes(1));
-    if (!session_.solve(any, patient).plan)
+    const grove::Options any{.omega = std::numeric_limits<double>::infinity(),
+                             .time_limit = kPatientSeconds};
+    if (!session_.replan(any).plan)
       throw std::runtime_error("no plan in a minute, though there was one before");
   }
 
-  // One step of all, and who has been where it was to go.
+  // One step of all robots. A task that has been visited is no part of the instance any more.
   void step() {
-    std::map<std::string, bool> left;
-    for (const Task& task : session_.instance().tasks()) left[task.id] = true;
     session_.advance(1);
-    for (const Task& task : session_.instance().tasks()) left[task.id] = false;
-    for (const auto& [id, is_done] : left) {
-      if (!is_done) continue;
+    const grove::Instance left = session_.instance();
+    std::set<std::string> open;
+    for (const grove::Task& task : left.tasks()) open.insert(task.id);
+    std::erase_if(arrived_, [&](const auto& errand) {
+      if (open.contains(errand.first)) return false;
       ++report_.done;
       report_.done_by_the_end_of_arrivals += now_ + 1 <= asked_.steps ? 1 : 0;
-      report_.waited += now_ + 1 - arrived_.at(id);
+      report_.waited += now_ + 1 - errand.second;
       report_.last = now_ + 1;
-    }
+      return true;
+    });
   }
 
-  const Asked& asked_;
+  const Asked asked_;
   const std::vector<Errand> errands_;
   std::size_t next_ = 0;
   Assignment assignment_;
   std::size_t at_once_ = 1'000'000;  // errands given in one decision, at most
-  Session session_;
-  Time now_ = 0;
-  std::map<std::string, Time> arrived_;  // by task
+  grove::Session session_;
+  int now_ = 0;
+  std::map<std::string, int> arrived_;  // when, of the tasks that robots have
   Report report_;
 };
 
 void print(const Asked& asked, Report report) {
   std::ranges::sort(report.seconds);
   const auto at = [&](double part) {
-    return report.seconds.empty()
-               ? 0.0
-               : 1000 * report.seconds[static_cast<std::size_t>(
-                            part * static_cast<double>(report.seconds.size() - 1))];
+    if (report.seconds.empty()) return 0.0;
+    const double last = static_cast<double>(report.seconds.size() - 1);
+    return 1000 * report.seconds[static_cast<std::size_t>(part * last)];
   };
-  fmt::print("{} of {} errands done, {} of them within {} steps, the last at {}\n", report.done,
-             asked.tasks, report.done_by_the_end_of_arrivals, asked.steps, report.last);
-  fmt::print("from arrival to visit: {:.1f} steps on average\n",
-             static_cast<double>(report.waited) / std::max(1, report.done));
-  fmt::print(
-      "{} decisions, {} without a plan in time; median {:.1f} ms, 95 % {:.1f}, worst {:.1f}\n",
+  std::printf("%d of %d errands done, %d of them within %d steps, the last at %d\n", report.done,
+              asked.tasks, report.done_by_the_end_of_arrivals, asked.steps, report.last);
+  std::printf("from arrival to visit: %.1f steps on average\n",
+              static_cast<double>(report.waited) / std::max(1, report.done));
+  std::printf(
+      "%d decisions, %d without a plan in time; median %.1f ms, 95 %% %.1f, worst %.1f\n",
       report.decisions, report.without_plan, at(0.5), at(0.95), at(1));
 }
 
-int main(int argc, char** argv) {
-  CLI::App app("Robots that are given errands as they arrive", "grove-lifelong");
-  Asked asked;
-  app.add_option("MAP", asked.map, "a Moving AI map")->required();
-  app.add_option("--robots", asked.robots)->capture_default_str();
-  app.add_option("--tasks", asked.tasks, "errands that arrive")->capture_default_str();
-  app.add_option("--steps", asked.steps, "over so many steps")->capture_default_str();
-  app.add_option("--every", asked.every, "steps between decisions")->capture_default_str();
-  app.add_option("--think", asked.think_s, "seconds for each")->capture_default_str();
-  app.add_option("--turn-steps", asked.turn_steps, "of a quarter turn; 0: robots turn freely")
-      ->capture_default_str();
-  app.add_option("--seed", asked.seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
-    const Grid grid = read_map(asked.map);
-    print(asked, Loop(grid, asked).run());
+grove::World read_grid(const std::string& map) {
+  grove::World world = grove::World::read(map);
+  if (!world.is_grid()) throw BadUsage(map + ": is a roadmap; expected a Moving AI map");
+  return world;
+}
+
+int run(const std::vector<std::string>& words) try {
+  if (std::ranges::find(words, "--help") != words.end()) {
+    std::fputs(kUsage, stdout);
     return 0;
-  } catch (const InputError& error) {
-    fmt::print(stderr, "grove-lifelong: error: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "grove-lifelong: {}\n", error.what());
-    return 1;
   }
+  const Asked asked = asked_by(words);
+  print(asked, Loop(read_grid(asked.map), asked).run());
+  return 0;
+} catch (const BadUsage& error) {
+  std::fprintf(stderr, "grove-lifelong: error: %s (see 'grove-lifelong --help')\n", error.what());
+  return 2;
+} catch (const grove::InputError& error) {
+  std::fprintf(stderr, "grove-lifelong: error: %s\n", error.what());
+  return 2;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "grove-lifelong: error: %s\n", error.what());
+  return 1;
 }
 
 }  // namespace
-}  // namespace grove::detail::lifelong
+}  // namespace lifelong
 
 int main(int argc, char** argv) {
-  return grove::detail::lifelong::main(argc, argv);
+  return lifelong::run({argv + 1, argv + argc});
 }

@@ -147,6 +147,24 @@ class Installed(unittest.TestCase):
         run(CMAKE, "--build", folder / "build")
         self.assertIn("one task more", run(folder / "build/stranger"))
 
+    def test_the_example_of_a_session(self):
+        """From public headers and the standard library alone, as its README says."""
+        installed = next(self.prefix.glob("share/doc/**/lifelong"))
+        readme = (Path(SOURCE) / "examples/lifelong/README.md").read_text()
+        lines = [line for line in readme.splitlines() if line.startswith("    ")]
+        folder = self.folder / "lifelong"
+        shutil.copytree(installed, folder)
+        (folder / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.22)\nproject(stranger LANGUAGES CXX)\n"
+                                               + "\n".join(lines) + "\n")
+        run(CMAKE, "-S", folder, "-B", folder / "build", f"-DCMAKE_CXX_COMPILER={COMPILER}",
+            f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run(CMAKE, "--build", folder / "build", "--parallel", "2")
+        program, grid = folder / "build/grove-lifelong", Path(SOURCE) / "benchmarks/data/rooms-32x32.map"
+        said = run(program, grid, "--robots", "8", "--tasks", "20", "--steps", "20", "--turn-steps", "1")
+        self.assertIn("20 of 20 errands done", said)
+        with self.assertRaisesRegex(AssertionError, "exit 2.*\n.*--robots: found 'many'; expected a number from 1"):
+            run(program, grid, "--robots", "many")
+
     def test_mpi(self):
         if not (self.prefix / "include/grove/mpi.hpp").exists():
             self.skipTest("Grove is built without MPI")
