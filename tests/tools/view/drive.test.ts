@@ -47,12 +47,16 @@ function read(...events: object[]) {
   return { model, order: Order.read(kOrder, model), drive };
 }
 
+function dice(seed = 1): (below: number) => number {
+  let state = seed;
+  return (below) => (state = (state * 48271) % 2147483647) % below;
+}
+
 test("the last sighting by a time, asked for in any order", () => {
   const sightings = new Sightings();
   const times: number[] = [];
   let time = 0;
-  let state = 1;
-  const draw = (below: number) => (state = (state * 48271) % 2147483647) % below;
+  const draw = dice();
   for (let i = 0; i < 500; ++i) {
     sightings.add(time, 0, 0, NaN, 0, 0);
     times.push(time);
@@ -83,6 +87,28 @@ test("one that moves goes straight, one that stands does so until shortly before
   assert.deepEqual(at(8.925), [3, 0.5]);
   assert.deepEqual(at(100), [3.5, 0.5]);
   assert.deepEqual([now.xs[1], now.ys[1]], [0.5, 1.5]); // not seen yet: at its start
+});
+
+test("lines that share a time: the last one counts from then on, none of them before", () => {
+  const draw = dice();
+  for (let round = 0; round < 200; ++round) {
+    const events: { t: number; x: number }[] = [];
+    let t = draw(3);
+    for (let i = 0; i < 8; ++i) {
+      events.push({ t, x: i % 5 });
+      t += draw(3); // 0, 1 or 2 seconds later
+    }
+    const { model, drive } = read(...events.map((e) => line(e.t, "a", [e.x, 0], 0, "moving")));
+    const now = new DriveNow(model, drive);
+    for (let time = 0; time <= t + 1; time += 0.25) {
+      now.update(time);
+      const before = events.filter((e) => e.t <= time).pop() ?? events[0];
+      const after = events.find((e) => e.t > time);
+      const part = after && after.t > before.t && time > before.t ? (time - before.t) / (after.t - before.t) : 0;
+      const expected = 0.5 + before.x + (after ? part * (after.x - before.x) : 0);
+      assert.ok(Math.abs(now.xs[0] - expected) < 1e-5, `${JSON.stringify(events)} at ${time}: ${now.xs[0]}`);
+    }
+  }
 });
 
 test("what is visited when, and who waits for whom", () => {

@@ -84,6 +84,29 @@ class DrivePages(pages.PageTest):
         self.assertIn("2 of 2 done, 0 waiting, up to 0:09 late", self.text(".strip"))
         self.quiet()
 
+    def test_a_link_names_a_moment_and_a_robot(self):
+        self.begin(line(0, "a", [0, 0], 0, "moving", 90), line(0, "b", [0, 1], 0, "done"),
+                   line(10, "a", [4, 0], 4, "done", 90))
+        self.browser.open(self.drive_page(), "#t=5&agent=a")
+        self.wait_for("grove.app.player.time === 5 && grove.app.chosen === 0")
+        self.assertAlmostEqual(self.positions()[0][0], 2.5, places=3)
+        self.assertIn("a", self.text(".details h2"))
+        self.browser.evaluate("grove.app.go(7), grove.app.choose(1)")
+        self.wait_for("location.hash === '#t=7&agent=b'")
+        self.browser.evaluate("location.hash = '#t=2&task=t'")
+        self.wait_for("grove.app.player.time === 2 && grove.app.chosenTask === 0 && grove.app.chosen === -1")
+        self.quiet()
+
+    def test_a_link_to_a_drive_that_is_followed(self):
+        self.begin(line(0, "a", [0, 0], 0, "moving", 90), line(20, "a", [1, 0], 1, "moving"))
+        with self.server() as address:
+            with pages.Chromium("--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1") as browser:
+                self.browser = browser
+                browser.call("Page.navigate", url=address + "#t=5&agent=a")
+                self.wait_for("globalThis.grove?.app.player.time === 5 && grove.app.chosen === 0 && !grove.app.player.live")
+                browser.evaluate("document.querySelector('.golive').click()")
+                self.wait_for("location.hash === '#agent=a'")   # what is live has no moment of its own
+
     def test_states_have_signs(self):
         self.begin(*(line(t, "a", [0, 0], 0, state)
                      for t, state in enumerate(("waiting", "moving", "working", "lifted", "lost", "done"))))

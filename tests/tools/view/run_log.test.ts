@@ -8,7 +8,7 @@ import { layout } from "../../../tools/view/run/layout";
 import { Log } from "../../../tools/view/run/log";
 import type { TreeNode } from "../../../tools/view/run/model";
 import { linear, logarithmic, thin } from "../../../tools/view/run/scale";
-import { verdict } from "../../../tools/view/run/words";
+import { kSplits, verdict } from "../../../tools/view/run/words";
 import { counts, header, incumbent, lines, node, root, row, summary } from "./logs";
 
 function read(...events: object[]) {
@@ -147,4 +147,10 @@ test("says how good the plan is", () => {
   assert.match(verdict(read(header(), summary(null, 30, "unknown"))), /No plan yet when a limit struck; none costs less than 30/);
   assert.match(verdict(read(header(), summary(null, 0, "infeasible"))), /There is no plan: proven/);
   assert.match(verdict(read(header(), row({ lower_bound: 30 }))), /No plan yet; none costs less than 30/);
+});
+
+// Named by the demand of the second child: src/conflicts/target.cpp, src/search/dependencies.cpp.
+test("a split is told as what it is", () => {
+  assert.match(kSplits["rest-by"], /comes to rest early and no other robot passes/);
+  assert.match(kSplits["no-rest-by"], /two robots together cost more/);
 });

@@ -4,6 +4,7 @@
 import { kDark, kLight } from "../page/colors";
 import { el } from "../page/dom";
 import { listenToKeys } from "../page/keys";
+import { linkPage } from "../page/link";
 import type { Model } from "../page/model";
 import { Controls } from "../page/panels/controls";
 import { Help } from "../page/panels/help";
@@ -45,6 +46,7 @@ function run(): void {
   else {
     const app = new DriveApp(model, order, readDrive(textOf("grove-drive"), model, order), false);
     show(app, new Strip(app));
+    linkPage(app);
   }
 }
 
@@ -57,14 +59,18 @@ function follow(model: Model, order: Order): void {
     app.take(log.drive);
   };
   show(app, strip);
+  let isLinked = false;
   void new Follower({
     begin: () => {
       log = new Log(model, order);
       take();
     },
-    add: (text) => {
+    add: (text, isAll) => {
       log.add(text);
       take();
+      // A link may name any moment of what there is.
+      if (isAll && !isLinked) linkPage(app);
+      isLinked ||= isAll;
     },
     state: (isAnswering) => strip.answers(isAnswering),
   }, kPause).run();

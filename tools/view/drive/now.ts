@@ -67,7 +67,9 @@ export class DriveNow implements RobotsNow {
     const end = times[at + 1];
     const longest = kStates[states[at]] === "moving" ? kLongest : kBrief;
     const begin = Math.max(times[at], end - longest);
-    return end > begin ? Math.min(1, Math.max(0, (time - begin) / (end - begin))) : 1;
+    // Before the first sighting, also when the second one has the same time.
+    if (time <= begin) return 0;
+    return Math.min(1, (time - begin) / (end - begin));
   }
 
   private placeAtStart(i: number): void {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A link names a moment and a robot or a task: #t=37&agent=a4.
+// A link names a moment and a robot or a task: #t=37&agent=a4. A moment that goes on by itself, as
+// that of a live drive does, is left out.
 
 import type { Player } from "./player";
 import type { Choice } from "./stage";
 
-type Linked = Choice & { readonly player: Player };
+type Linked = Choice & { readonly player: Player & { readonly live?: boolean } };
+
+const kSettled = 300; // milliseconds without a change
 
 export function readLink(app: Linked, hash: string): void {
   const parameters = new URLSearchParams(hash.replace(/^#/, ""));
@@ -18,8 +21,22 @@ export function readLink(app: Linked, hash: string): void {
 
 export function linkOf(app: Linked): string {
   const parameters = new URLSearchParams();
-  parameters.set("t", String(Math.round(app.player.time)));
+  if (!app.player.live) parameters.set("t", String(Math.round(app.player.time)));
   if (app.chosen >= 0) parameters.set("agent", app.model.agents[app.chosen].id);
   if (app.chosenTask >= 0) parameters.set("task", app.model.tasks[app.chosenTask].id);
   return "#" + parameters.toString();
+}
+
+// Takes what the address names, now and when it changes, and keeps the address as what is shown: not
+// every frame of what is played.
+export function linkPage(app: Linked & { onChange(listener: () => void): void }): void {
+  let timer = 0;
+  app.onChange(() => {
+    clearTimeout(timer);
+    timer = window.setTimeout(() => history.replaceState(null, "", linkOf(app)), kSettled);
+  });
+  readLink(app, location.hash);
+  addEventListener("hashchange", () => {
+    if (location.hash !== linkOf(app)) readLink(app, location.hash);
+  });
 }

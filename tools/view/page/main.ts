@@ -5,7 +5,7 @@ import { App } from "./app";
 import { kDark, kLight } from "./colors";
 import { el } from "./dom";
 import { listenToKeys } from "./keys";
-import { linkOf, readLink } from "./link";
+import { linkPage } from "./link";
 import { Chart } from "./panels/chart";
 import { Controls, kSteps } from "./panels/controls";
 import { Details } from "./panels/details";
@@ -72,7 +72,6 @@ function run(app: App): void {
   const scheme = matchMedia("(prefers-color-scheme: dark)");
   const touch = () => {
     for (const stage of stages) stage.touch();
-    keepLink(app);
   };
   app.onChange(touch);
   scheme.addEventListener("change", touch);
@@ -81,10 +80,7 @@ function run(app: App): void {
   resize();
   joinCameras(stages);
   listenToKeys({ app, cameras: stages.map((stage) => stage.camera), search: lists.search, help });
-  readLink(app, location.hash);
-  addEventListener("hashchange", () => {
-    if (location.hash !== linkOf(app)) readLink(app, location.hash);
-  });
+  linkPage(app);
 
   const frames: number[] = [];
   let last = performance.now();
@@ -121,13 +117,6 @@ function joinCameras(stages: Stage[]): void {
       other.touch();
     };
   });
-}
-
-// The address follows what is looked at, but not every frame of what is played.
-let linkTimer = 0;
-function keepLink(app: App): void {
-  clearTimeout(linkTimer);
-  linkTimer = window.setTimeout(() => history.replaceState(null, "", linkOf(app)), 300);
 }
 
 begin();

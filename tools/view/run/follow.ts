@@ -5,7 +5,7 @@ const kPause = 1000; // milliseconds, where nobody says another
 
 export interface Listener {
   begin(): void; // the log is another one now, or begins anew
-  add(text: string): void;
+  add(text: string, isAll: boolean): void; // does the text end where the log ends now?
   state(isLive: boolean): void; // does the server answer?
 }
 
@@ -35,7 +35,7 @@ export class Follower {
       this.file = file;
       const bytes = await answer.text();
       this.offset = Number(answer.headers.get("X-End"));
-      if (bytes !== "") this.listener.add(bytes);
+      if (bytes !== "") this.listener.add(bytes, this.offset >= size);
       this.listener.state(true);
       return this.offset < size;
     } catch {

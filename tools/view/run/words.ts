@@ -6,8 +6,8 @@ import type { Run } from "./model";
 // Of `splits_...` counters and `split` of nodes, by the name with dashes.
 export const kSplits: Record<string, string> = {
   "bar": "one of two robots is not on a place, or does not make a move, at some time",
-  "no-rest-by": "a robot rests early and nobody passes any more, or rests later",
-  "rest-by": "two robots cost together more than each alone: one of them does",
+  "no-rest-by": "two robots together cost more than each alone: one of the two finishes later",
+  "rest-by": "a robot comes to rest early and no other robot passes, or it comes to rest later",
   "no-traversal": "one of two robots does not come through a passage at some time",
   "stop-is": "a robot visits this place as its next one, or does not",
   "stop-is-not": "a robot visits this place as its next one, or does not",
