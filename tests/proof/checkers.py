@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Runs the checkers on an instance and the text of a certificate."""
+import contextlib
+import functools
+import importlib.util
+import io
 import os
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 VERIFY = None
 SMALL = Path(__file__).resolve().parents[2] / "docs/proof_checker.py"
@@ -40,12 +45,30 @@ def verify(instance, certificate, *options):
         return Verdict([VERIFY, path, proof, *options])
 
 
+class Said(NamedTuple):
+    code: int
+    text: str
+
+
+@functools.cache
+def _small():
+    spec = importlib.util.spec_from_file_location("proof_checker", SMALL)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 def small_checker(instance, certificate):
-    """Of docs/proof_checker.py."""
-    with tempfile.TemporaryDirectory() as name:
+    """Of docs/proof_checker.py, in this process: starting Python takes longer than a check."""
+    said = io.StringIO()
+    with tempfile.TemporaryDirectory() as name, contextlib.redirect_stdout(said):
         (Path(name) / "proof").write_text(certificate)
         path = instance if isinstance(instance, Path) else instance.write(Path(name))
-        return Verdict([sys.executable, SMALL, path, Path(name) / "proof"])
+        try:
+            _small().main(path, Path(name) / "proof")
+        except (SystemExit, Exception) as refused:  # a traceback refuses, too
+            return Said(1, f"{refused}\n")
+    return Said(0, said.getvalue())
 
 
 def of(following):

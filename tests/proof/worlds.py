@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tiny instances, what their agents can do, and the least cost of a plan: all of docs/proof.md, 1 and 2, in plain Python, so that
 two readings of it meet. Slow, and short enough to be believed."""
+import functools
 import heapq
 import itertools
 import json
@@ -72,9 +73,11 @@ class Instance:
     def __init__(self, world, agents, tasks=()):
         self.world, self.agents, self.tasks = world, agents, list(tasks)
 
+    @functools.cache
     def own(self, agent):
         return [number for number, task in enumerate(self.tasks) if agent in task[2]]
 
+    @functools.cache
     def stops(self, agent):
         own = self.own(agent)
         timed = {self.tasks[j][0] for j in own if self.tasks[j][1] > 0}
@@ -190,6 +193,7 @@ def arrivals(instance, agent, state, ordered):
             yield pose, done + (j,), None
 
 
+@functools.lru_cache(1 << 16)
 def onwards(instance, agent, state, ordered):
     """The states of the next time."""
     pose, done, work = state
