@@ -20,8 +20,7 @@ class Distances {
     at(to) = 0;
     for (; !next.empty(); next.pop_front()) {
       const auto [x, y] = next.front();
-      for (const grove::Cell cell :
-           {grove::Cell{x + 1, y}, {x - 1, y}, {x, y + 1}, {x, y - 1}}) {
+      for (const grove::Cell cell : {grove::Cell{x + 1, y}, {x - 1, y}, {x, y + 1}, {x, y - 1}}) {
         if (!world.passable(cell) || at(cell) < kFar) continue;
         at(cell) = at({x, y}) + 1;
         next.push_back(cell);
@@ -60,8 +59,8 @@ Given Assignment::give(const grove::Instance& now) {
       continue;
     }
     Distances distances(world_, errand->cell);
-    const auto nearest =
-        std::ranges::min_element(free, {}, [&](const auto* robot) { return distances.from(*robot); });
+    const auto nearest = std::ranges::min_element(
+        free, {}, [&](const auto* robot) { return distances.from(*robot); });
     given.emplace_back((*nearest)->id, *errand);
     free.erase(nearest);
     errand = open_.erase(errand);

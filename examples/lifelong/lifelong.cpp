@@ -110,9 +110,8 @@ grove::Instance standing(const grove::World& world, const Asked& asked) {
   std::vector<grove::Agent> robots;
   for (const grove::Cell cell :
        random_starts(world, asked.robots, static_cast<std::uint64_t>(asked.seed))) {
-    grove::Agent robot{.id = "r" + std::to_string(robots.size()),
-                       .start = {cell},
-                       .turn_steps = asked.turn_steps};
+    grove::Agent robot{
+        .id = "r" + std::to_string(robots.size()), .start = {cell}, .turn_steps = asked.turn_steps};
     if (asked.turn_steps > 0) robot.start.heading = grove::Heading::north;
     robots.push_back(std::move(robot));
   }
@@ -152,8 +151,7 @@ class Loop {
     const auto start = Clock::now();
     take_on(given);
     const double left = std::max(0.0, asked_.think_s - seconds_since(start));
-    const bool is_planned =
-        session_.replan({.omega = kOmega, .time_limit = left}).plan.has_value();
+    const bool is_planned = session_.replan({.omega = kOmega, .time_limit = left}).plan.has_value();
     if (!is_planned) do_without(given);
     // As many new errands at a time as are planned in time.
     at_once_ =
@@ -233,9 +231,8 @@ void print(const Asked& asked, Report report) {
               asked.tasks, report.done_by_the_end_of_arrivals, asked.steps, report.last);
   std::printf("from arrival to visit: %.1f steps on average\n",
               static_cast<double>(report.waited) / std::max(1, report.done));
-  std::printf(
-      "%d decisions, %d without a plan in time; median %.1f ms, 95 %% %.1f, worst %.1f\n",
-      report.decisions, report.without_plan, at(0.5), at(0.95), at(1));
+  std::printf("%d decisions, %d without a plan in time; median %.1f ms, 95 %% %.1f, worst %.1f\n",
+              report.decisions, report.without_plan, at(0.5), at(0.95), at(1));
 }
 
 grove::World read_grid(const std::string& map) {

@@ -75,12 +75,12 @@ RoadNetwork read_network(const ConvertArguments& arguments, const std::string& f
 // Robots that start on a vertex would stay there.
 void require_roads(const SteppedRoads& stepped, const ConvertArguments& arguments) {
   if (!stepped.roads.empty()) return;
-  throw InputError(arguments.instance, "",
-                   fmt::format("has no edge{}; expected at least one",
-                               arguments.vehicle_type.empty()
-                                   ? ""
-                                   : fmt::format(" that vehicle type '{}' may use",
-                                                 one_line(arguments.vehicle_type))));
+  throw InputError(
+      arguments.instance, "",
+      fmt::format("has no edge{}; expected at least one",
+                  arguments.vehicle_type.empty() ? ""
+                                                 : fmt::format(" that vehicle type '{}' may use",
+                                                               one_line(arguments.vehicle_type))));
 }
 
 void warn_of_unused_times(const RoadNetwork& network, const StepScale& scale) {

@@ -157,17 +157,20 @@ TEST_F(ConvertRoadmap, OnOneLaneRobotsDoNotPassOneAnother) {
 }
 
 TEST_F(ConvertRoadmap, RoadsWithoutAnEdgeAreRefused) {
-  directory_.write("one.graphml",
-                   "<graphml><graph edgedefault='directed'><node id='a'/></graph></graphml>");
+  directory_.write(
+      "one.graphml",
+      "<graphml><key id='x' for='node' attr.name='x' attr.type='double'/>"
+      "<key id='y' for='node' attr.name='y' attr.type='double'/><graph edgedefault='directed'>"
+      "<node id='a'><data key='x'>0</data><data key='y'>0</data></node></graph></graphml>");
   EXPECT_EQ(refused({"one.graphml", "o.roadmap.json", "--metres-per-step", "1"}),
             "one.graphml: has no edge; expected at least one");
   std::string lif = kLif;
   for (std::size_t at = 0; (at = lif.find("\"T\", \"rot", at)) != std::string::npos;)
     lif.replace(at, 3, "\"U\"");  // the edges are for another type than the nodes
   directory_.write("u.lif.json", lif);
-  EXPECT_EQ(refused({"u.lif.json", "o.roadmap.json", "--metres-per-step", "1", "--vehicle-type",
-                     "T"}),
-            "u.lif.json: has no edge that vehicle type 'T' may use; expected at least one");
+  EXPECT_EQ(
+      refused({"u.lif.json", "o.roadmap.json", "--metres-per-step", "1", "--vehicle-type", "T"}),
+      "u.lif.json: has no edge that vehicle type 'T' may use; expected at least one");
 }
 
 TEST_F(ConvertRoadmap, SpeedsThatDoNotCountAreTold) {
