@@ -70,6 +70,7 @@
 #include "mpi/coordinator.h"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -101,7 +102,8 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       nodes_(children_),
       run_(problem, options, limits, announcer_, pool_, nodes_),
       broker_(children_.ranks(), options.tuning),
-      timer_(options.checkpoints) {
+      timer_(options.checkpoints, limits),
+      heard_at_(limits.now()) {
   run_.announcements().survey_by([this] { return survey(); });
 }
 
@@ -157,7 +159,7 @@ void Coordinator::handle(int from, message::Message&& message) {
           },
           [&](message::Farewell& said) { leave(said); }, unexpected},
       message);
-  heard_at_ = Clock::now();  // after that: a checkpoint takes time to be written
+  heard_at_ = limits_.now();  // after that: a checkpoint takes time to be written
 }
 
 void Coordinator::heard(int child, message::Status status) {
@@ -185,7 +187,7 @@ void Coordinator::look_after_checkpoints() {
   const bool is_last = run_.ledger().over() && !gathered_at_end_;
   if (!is_last && (run_.ledger().over() || !timer_.due())) return;
   gathered_at_end_ = is_last;
-  gathering_.emplace(options_.checkpoints, run_, transport_, children_);
+  gathering_.emplace(options_.checkpoints, limits_, run_, transport_, children_);
 }
 
 void Coordinator::step() {
@@ -211,7 +213,7 @@ void Coordinator::leave(const message::Farewell& said) {
 // nothing to say. This rank does not stand still: its worker may be in the midst of something.
 std::int64_t Coordinator::give_up_the_silent() {
   if (ended() || !limits_.stop_requested()) return 0;
-  const Clock::time_point now = Clock::now();
+  const Clock::time_point now = limits_.now();
   if (!stopped_at_) stopped_at_ = now;
   if (now - std::max(heard_at_, *stopped_at_) < kLongSilence) return 0;
   if (gathering_) {

@@ -2,7 +2,6 @@
 // The head of a distributed search.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -47,7 +46,7 @@ class Coordinator {
   Solution conclude();
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = Limits::Clock;
 
   // Passes on better plans to all.
   class Announcer : public ForwardingObserver {
@@ -84,7 +83,7 @@ class Coordinator {
   bool restored_ = true;  // nothing of a checkpoint is missing
   bool gathered_at_end_ = false;
   bool ending_ = false;
-  Clock::time_point heard_at_ = Clock::now();    // anybody, last
+  Clock::time_point heard_at_;                   // anybody, last
   std::optional<Clock::time_point> stopped_at_;  // when a limit was first seen to have struck
   int farewells_ = 0;
   message::Farewell farewell_;     // of those that have said it

@@ -14,6 +14,7 @@
 #include "mpi/gathering.h"
 
 #include <algorithm>
+#include <chrono>
 #include <new>
 #include <stdexcept>
 
@@ -27,9 +28,10 @@ constexpr auto kLongestPause = std::chrono::milliseconds(500);
 
 }  // namespace
 
-Gathering::Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport,
-                     Children& children)
+Gathering::Gathering(const Checkpoints& checkpoints, const Limits& limits, RunState& run,
+                     Transport& transport, Children& children)
     : checkpoints_(checkpoints),
+      limits_(limits),
       run_(run),
       transport_(transport),
       children_(children),
@@ -63,9 +65,9 @@ void Gathering::handle(const message::Gathered& gathered) {
 
 // Who has sent its part, or is still to be asked, would take rank 0 for one that stands still.
 void Gathering::give_sign_of_life() {
-  if (Clock::now() - said_ < kLongestPause) return;
+  if (limits_.now() - said_ < kLongestPause) return;
   children_.tell_all(message::Alive{});
-  said_ = Clock::now();
+  said_ = limits_.now();
 }
 
 void Gathering::handle(message::Part&& part) {
@@ -89,7 +91,7 @@ void Gathering::ask_next() {
     return;
   }
   write([&] { writer_->finish(); });
-  report_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  report_.seconds = std::chrono::duration<double>(limits_.now() - begin_).count();
   run_.announcements().checkpoint(report_);
   done_ = true;
 }

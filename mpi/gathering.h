@@ -2,7 +2,6 @@
 // One checkpoint of a distributed search, while it is being written.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -21,8 +20,8 @@ namespace grove::detail {
 class Gathering {
  public:
   // Tells all ranks, by way of the children of the top. All must outlive this.
-  Gathering(const Checkpoints& checkpoints, RunState& run, Transport& transport,
-            Children& children);
+  Gathering(const Checkpoints& checkpoints, const Limits& limits, RunState& run,
+            Transport& transport, Children& children);
 
   bool is_done() const { return done_; }
 
@@ -30,7 +29,7 @@ class Gathering {
   void handle(message::Part&& part);
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = Limits::Clock;
 
   void ask_next();
   void give_sign_of_life();
@@ -39,10 +38,11 @@ class Gathering {
   void write(Write what);
 
   const Checkpoints& checkpoints_;
+  const Limits& limits_;  // for the time
   RunState& run_;
   Transport& transport_;
   Children& children_;
-  const Clock::time_point begin_ = Clock::now();
+  const Clock::time_point begin_ = limits_.now();
   Clock::time_point said_ = begin_;  // to all
   const std::int64_t trees_;         // that count as instantiated
   int looked_ = 0;                   // children

@@ -21,8 +21,6 @@
 namespace grove::detail {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double kAccountInterval_s = 2;  // of what nobody but who looks on has to know
 constexpr double kSignsOfLife_s = 0.3;    // while all wait for a worker to end
 
@@ -104,7 +102,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
                                           const Limits& limits, Transport& transport,
                                           RunObserver& observer,
                                           const std::function<void()>& meanwhile) {
-  const Clock::time_point begin = Clock::now();
+  const Limits::Clock::time_point begin = limits.now();
   Member member(problem, options, limits, observer, transport);
   Searching searching(problem, options, limits, member.rank(), transport.rank());
   const double patience = options.tuning.patience;
@@ -112,7 +110,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   bool said_farewell = false;
   double accounted = 0;
   double heard_at = 0;
-  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const auto seconds = [&] { return std::chrono::duration<double>(limits.now() - begin).count(); };
   while (!member.left()) {
     const double now = seconds();
     const bool heard = member.converse(now);

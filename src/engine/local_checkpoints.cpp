@@ -23,8 +23,7 @@ void LocalCheckpoints::write_last() {
 }
 
 void LocalCheckpoints::write() {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
+  const Limits::Clock::time_point begin = limits_.now();
   CheckpointReport report;
   try {
     const std::int64_t trees = run_.trees().count();
@@ -42,7 +41,7 @@ void LocalCheckpoints::write() {
   } catch (const std::bad_alloc&) {
     report.failure = "there is no memory left to write it";
   }
-  report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  report.seconds = std::chrono::duration<double>(limits_.now() - begin).count();
   run_.announcements().checkpoint(report);
 }
 

@@ -15,8 +15,13 @@ namespace grove::detail {
 class LocalCheckpoints {
  public:
   // All must outlive this.
-  LocalCheckpoints(const SolveOptions& options, RunState& run, LocalNodes& nodes)
-      : options_(options), run_(run), nodes_(nodes), timer_(options.checkpoints) {}
+  LocalCheckpoints(const SolveOptions& options, const Limits& limits, RunState& run,
+                   LocalNodes& nodes)
+      : options_(options),
+        limits_(limits),
+        run_(run),
+        nodes_(nodes),
+        timer_(options.checkpoints, limits) {}
 
   // Writes one if it is due and nobody else is at it. To be called between turns.
   void write_if_due();
@@ -27,6 +32,7 @@ class LocalCheckpoints {
   void write();
 
   const SolveOptions& options_;
+  const Limits& limits_;
   RunState& run_;
   LocalNodes& nodes_;
   std::mutex mutex_;

@@ -85,7 +85,8 @@ CheckpointHeader RunState::checkpoint_header(std::int64_t trees, Cost evicted_bo
   header.trees_instantiated = trees;
   header.trees = trees_.records(trees);
   header.counters["nodes_expanded"] = nodes_before() + nodes_.counts().expanded;
-  header.seconds = before_.seconds + std::chrono::duration<double>(Clock::now() - started_).count();
+  header.seconds =
+      before_.seconds + std::chrono::duration<double>(limits_.now() - started_).count();
   return header;
 }
 

@@ -65,7 +65,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   LocalNodes nodes;
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
   SharedSearch shared(options, limits, nodes, run.ledger(), run.trees(), run.announcements());
-  LocalCheckpoints checkpoints(options, run, nodes);
+  LocalCheckpoints checkpoints(options, limits, run, nodes);
   Stats stats;  // of workers that are gone
   std::optional<Workers> workers;
   run.announcements().survey_by([&] {

@@ -52,18 +52,18 @@ std::size_t peak_resident_bytes() {
 
 Limits::Limits(const Limits& whole, double seconds) : whole_(&whole) {
   if (seconds < kForEver)
-    deadline_ = Clock::now() +
-                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    deadline_ =
+        now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
 bool Limits::stop_requested() const {
   if (reason() != StopReason::kNone || finished_.load(std::memory_order_relaxed)) return true;
   if (whole_ && whole_->stop_requested()) stop(whole_->reason());
   if (interrupt_ && interrupt_->load(std::memory_order_relaxed)) stop(StopReason::kInterrupt);
-  const Clock::time_point now = Clock::now();
-  if (deadline_ && now >= *deadline_) stop(StopReason::kTime);
-  if (memory_limit_ && now.time_since_epoch().count() >= next_memory_look_.load()) {
-    next_memory_look_ = (now + kMemoryLookInterval).time_since_epoch().count();
+  const Clock::time_point time = now();
+  if (deadline_ && time >= *deadline_) stop(StopReason::kTime);
+  if (memory_limit_ && time.time_since_epoch().count() >= next_memory_look_.load()) {
+    next_memory_look_ = (time + kMemoryLookInterval).time_since_epoch().count();
     last_resident_ = resident_bytes();
     if (last_resident_ > *memory_limit_) stop(StopReason::kMemory);
   }
@@ -71,7 +71,7 @@ bool Limits::stop_requested() const {
 }
 
 double Limits::seconds_left() const {
-  const double left = deadline_ ? std::chrono::duration<double>(*deadline_ - Clock::now()).count()
+  const double left = deadline_ ? std::chrono::duration<double>(*deadline_ - now()).count()
                                 : std::numeric_limits<double>::infinity();
   return whole_ ? std::min(left, whole_->seconds_left()) : left;
 }

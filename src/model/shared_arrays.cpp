@@ -19,8 +19,6 @@
 namespace grove::detail {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // The dearest array takes some ten milliseconds, with many ranks on a core a multiple of that. What
 // is made twice costs no more than memory.
 constexpr auto kPatience = std::chrono::seconds(1);
@@ -43,8 +41,8 @@ const std::byte* SharedArray::await(const Limits& limits) const {
   const auto progress = [&] { return flag_->load(std::memory_order_acquire); };
   std::uint32_t now = progress();
   if (now == kInHand) {
-    const Clock::time_point end = Clock::now() + kPatience;
-    while ((now = progress()) == kInHand && Clock::now() < end && !limits.stop_requested())
+    const Limits::Clock::time_point end = limits.now() + kPatience;
+    while ((now = progress()) == kInHand && limits.now() < end && !limits.stop_requested())
       std::this_thread::sleep_for(kNap);
   }
   return now == kReady ? begin_ : nullptr;

@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <stdexcept>
 #include <string>
-#include <thread>
+#include <tuple>
+#include <vector>
 
 #include "tests/support/file_size_limit.h"
 #include "tests/support/refusal.h"
@@ -135,11 +137,20 @@ TEST(WriteFileAtomically, LeavesTheOldFileWhenTheDiskIsFull) {
 // A process that has begun to write `file`, until it is killed.
 class Writer {
  public:
-  explicit Writer(const std::string& file) : process_(::fork()) {
-    if (process_ > 0) return;
-    AtomicFile half(file);
-    half.write("half");
-    for (;;) ::pause();
+  explicit Writer(const std::string& file) {
+    int ends[2];
+    if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
+    process_ = ::fork();
+    if (process_ == 0) {
+      AtomicFile half(file);
+      half.write("half");
+      std::ignore = ::write(ends[1], "!", 1);
+      for (;;) ::pause();
+    }
+    ::close(ends[1]);
+    char said = 0;
+    EXPECT_EQ(::read(ends[0], &said, 1), 1);
+    ::close(ends[0]);
   }
   ~Writer() { kill(); }
   Writer(const Writer&) = delete;
@@ -153,15 +164,14 @@ class Writer {
   }
 
  private:
-  pid_t process_;
+  pid_t process_ = -1;
 };
 
-// A file in the folder, not called `other`, as soon as it is half written.
+// The file in the folder that is half written and not called `other`; "": none.
 std::string half_written(const TemporaryDirectory& directory, const std::string& other) {
-  for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
-    for (const std::string& name : directory.files())
-      if (name != other && file_content(directory / name) == "half") return name;
-  }
+  for (const std::string& name : directory.files())
+    if (name != other && file_content(directory / name) == "half") return name;
+  return "";
 }
 
 TEST(WriteFileAtomically, ClearsWhatKilledProcessesLeft) {
@@ -182,7 +192,7 @@ TEST(WriteFileAtomically, BelievesThatOthersAreDeadAfterAWhile) {
   directory.write(".grove-1-1-1@elsewhere.tmp", "half");
   const std::string old = directory.write(".grove-1-1-2@elsewhere.tmp", "half");
   directory.write(".grove-mine", "");
-  fs::last_write_time(old, fs::file_time_type::clock::now() - std::chrono::hours(2));
+  fs::last_write_time(old, fs::last_write_time(old) - std::chrono::hours(2));
   write_file_atomically(directory / "file", "new");
   EXPECT_EQ(directory.files(), (Names{".grove-1-1-1@elsewhere.tmp", ".grove-mine", "file"}));
 }

@@ -6,6 +6,8 @@
 
 #include <cstring>
 
+#include "tests/support/clocks.h"
+
 namespace grove::detail {
 namespace limits_test {
 
@@ -17,10 +19,40 @@ TEST(Limits, NeverStopsWithoutALimit) {
 
 TEST(Limits, StopsAtTheDeadline) {
   Limits limits;
-  limits.set_deadline(Limits::Clock::now());
+  limits.set_deadline(testing::kPast);
   EXPECT_TRUE(limits.stop_requested());
   EXPECT_EQ(limits.reason(), StopReason::kTime);
   EXPECT_LE(limits.seconds_left(), 0);
+}
+
+TEST(Limits, TakesTheTimeFromTheClockThatItIsGiven) {
+  Limits limits;
+  testing::ManualClock clock(limits);
+  limits.set_deadline(limits.now() + std::chrono::seconds(3));
+  const Limits part(limits, 2);
+  clock.advance(std::chrono::milliseconds(1999));
+  EXPECT_FALSE(part.stop_requested());
+  EXPECT_NEAR(part.seconds_left(), 0.001, 1e-9);
+  EXPECT_NEAR(limits.seconds_left(), 1.001, 1e-9);
+  clock.advance(std::chrono::milliseconds(1));
+  EXPECT_TRUE(part.stop_requested());
+  EXPECT_FALSE(limits.stop_requested());
+  clock.advance(std::chrono::seconds(1));
+  EXPECT_TRUE(limits.stop_requested());
+  EXPECT_EQ(limits.reason(), StopReason::kTime);
+}
+
+TEST(Limits, LooksAtTheMemoryEveryFiveMilliseconds) {
+  Limits limits;
+  testing::ManualClock clock(limits);
+  limits.set_memory_limit(std::size_t{1} << 60);
+  EXPECT_FALSE(limits.stop_requested());
+  EXPECT_GT(limits.last_resident(), 0u);
+  limits.set_memory_limit(1);
+  clock.advance(std::chrono::milliseconds(4));
+  EXPECT_FALSE(limits.stop_requested());
+  clock.advance(std::chrono::milliseconds(1));
+  EXPECT_TRUE(limits.stop_requested());
 }
 
 TEST(Limits, StopsWhenMemoryIsUsedUp) {
@@ -36,7 +68,7 @@ TEST(Limits, StopsOnInterruptAndKeepsTheFirstReason) {
   Limits limits;
   limits.watch_interrupt(&interrupted);
   EXPECT_TRUE(limits.stop_requested());
-  limits.set_deadline(Limits::Clock::now());
+  limits.set_deadline(testing::kPast);
   EXPECT_TRUE(limits.stop_requested());
   EXPECT_EQ(limits.reason(), StopReason::kInterrupt);
 }

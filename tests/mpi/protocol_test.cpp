@@ -6,7 +6,6 @@
 #include <chrono>
 #include <deque>
 #include <map>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,11 +17,14 @@
 #include "mpi/sub_coordinator.h"
 #include "tests/mpi/outbox.h"
 #include "tests/primal/crowd.h"
+#include "tests/support/clocks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove::detail {
 namespace protocol_test {
 
+using std::chrono::milliseconds;
+using testing::ManualClock;
 using testing::Outbox;
 using testing::random_crowd;
 
@@ -240,6 +242,7 @@ TEST(CoordinatorAlone, TellsAllAtOnceToLookForACheckpoint) {
 
 TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
   Setting s;
+  ManualClock clock(s.limits);
   const TemporaryDirectory folder;
   s.options.checkpoints.directory = folder.path();
   s.options.checkpoints.interval_s = 0;
@@ -247,13 +250,17 @@ TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
   Coordinator coordinator(s.problem, s.options, s.limits, s.observer, transport);
   coordinator.begin();
   coordinator.step();
-  const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(800)); };
+  const auto wait = [&] { clock.advance(milliseconds(701)); };
   wait();
   EXPECT_EQ(coordinator.give_up_the_silent(), 0);
   coordinator.handle(1, message::Gathered{});  // it counts: nothing was given up before a limit
   s.limits.stop(StopReason::kTime);
   EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "it has just been heard";
-  wait();
+  clock.advance(milliseconds(699));
+  EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "that is not long";
+  coordinator.step();
+  EXPECT_TRUE(transport.sent<message::End>(1).empty());
+  clock.advance(milliseconds(1));
   EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "the checkpoint comes first";
   coordinator.handle(2, message::Gathered{});  // late
   coordinator.step();
@@ -270,18 +277,18 @@ TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
 TEST(CoordinatorAlone, CallsNobodySilentForWhatWasBeforeTheLimit) {
   for (const int ranks : {1, 3}) {
     Setting s;
+    ManualClock clock(s.limits);
     Outbox transport(0, ranks);
     Coordinator coordinator(s.problem, s.options, s.limits, s.observer, transport);
     coordinator.begin();
-    const auto wait = [](int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); };
-    wait(800);
+    clock.advance(milliseconds(5000));
     s.limits.stop(StopReason::kTime);
     coordinator.step();
     EXPECT_EQ(transport.sent<message::End>(0).size(), 1);
     EXPECT_EQ(coordinator.give_up_the_silent(), 0);
-    wait(1000);
+    clock.advance(milliseconds(1399));
     EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "ranks may be in the midst of something";
-    wait(600);
+    clock.advance(milliseconds(1));
     EXPECT_EQ(coordinator.give_up_the_silent(), ranks - 1);
   }
 }

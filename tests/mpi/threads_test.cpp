@@ -3,7 +3,8 @@
 // network, on which messages are late by random times.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <atomic>
+#include <cstdint>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -11,31 +12,35 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/engine/solve.h"
 #include "grove/detail/model/check.h"
 #include "grove/detail/search/problem.h"
+#include "mpi/messages.h"
 #include "mpi/solve_distributed.h"
 #include "tests/primal/crowd.h"
+#include "tests/support/clocks.h"
 
 namespace grove::detail {
 namespace threads_test {
 
+using testing::LimitOfHangs;
 using testing::random_crowd;
 
-using Clock = std::chrono::steady_clock;
-
-// Between two ranks messages keep their order.
+// Between two ranks messages keep their order. One is late by up to `latest` looks of its receiver.
 class ThreadNetwork {
  public:
-  ThreadNetwork(int ranks, std::chrono::microseconds latest, std::uint64_t seed)
+  ThreadNetwork(int ranks, std::int64_t latest, std::uint64_t seed)
       : latest_(latest), dice_(seed), links_(static_cast<std::size_t>(ranks * ranks)) {
     for (int rank = 0; rank < ranks; ++rank) ends_.emplace_back(*this, rank, ranks);
   }
 
   Transport& at(int rank) { return ends_[static_cast<std::size_t>(rank)]; }
+  // Answers to questions for prices that have been received.
+  std::int64_t answers() const { return answers_; }
   bool empty() const {
     for (const auto& link : links_)
       if (!link.empty()) return false;
@@ -51,12 +56,15 @@ class ThreadNetwork {
     int ranks() const override { return ranks_; }
     std::optional<Parcel> receive() override {
       const std::lock_guard lock(network_.mutex_);
+      ++looks_;
       for (int i = 0; i < ranks_; ++i) {
         const int from = next_++ % ranks_;
         auto& link = network_.link(from, rank_);
-        if (link.empty() || link.front().first > Clock::now()) continue;
+        if (link.empty() || link.front().first > looks_) continue;
         Parcel parcel{from, std::move(link.front().second)};
         link.pop_front();
+        const auto addressed = message::message_of(parcel.bytes);
+        network_.answers_ += std::holds_alternative<message::Prices>(addressed.message);
         return parcel;
       }
       return std::nullopt;
@@ -65,31 +73,35 @@ class ThreadNetwork {
    private:
     void do_send(int to, std::string bytes) override {
       const std::lock_guard lock(network_.mutex_);
-      const auto late = std::chrono::microseconds(
-          network_.dice_() % static_cast<std::uint64_t>(network_.latest_.count() + 1));
-      network_.link(rank_, to).emplace_back(Clock::now() + late, std::move(bytes));
+      const auto late = static_cast<std::int64_t>(network_.dice_() %
+                                                  static_cast<std::uint64_t>(network_.latest_ + 1));
+      const auto& receiver = network_.ends_[static_cast<std::size_t>(to)];
+      network_.link(rank_, to).emplace_back(receiver.looks_ + late, std::move(bytes));
     }
 
     ThreadNetwork& network_;
     const int rank_;
     const int ranks_;
     int next_ = 0;
+    std::int64_t looks_ = 0;
   };
+  using Link = std::deque<std::pair<std::int64_t, std::string>>;  // from which look on
 
-  std::deque<std::pair<Clock::time_point, std::string>>& link(int from, int to) {
+  Link& link(int from, int to) {
     return links_[static_cast<std::size_t>(from) * ends_.size() + static_cast<std::size_t>(to)];
   }
 
   std::mutex mutex_;
-  const std::chrono::microseconds latest_;
+  const std::int64_t latest_;
   std::mt19937_64 dice_;
-  std::vector<std::deque<std::pair<Clock::time_point, std::string>>> links_;
+  std::vector<Link> links_;
+  std::atomic<std::int64_t> answers_{0};
   std::deque<End> ends_;
 };
 
-// What rank 0 answers; null limits: none.
+// What rank 0 answers.
 Solution solve_by_ranks(const Instance& instance, const SolveOptions& options, int ranks,
-                        ThreadNetwork& network, Limits& limits) {
+                        ThreadNetwork& network, const Limits& limits, RunObserver& observer) {
   std::optional<Solution> answer;
   {
     std::vector<std::jthread> processes;
@@ -99,8 +111,8 @@ Solution solve_by_ranks(const Instance& instance, const SolveOptions& options, i
         const Limits& limits_here = rank == 0 ? limits : own;
         const Problem problem(instance, limits_here);
         RunObserver silent;
-        auto solution =
-            solve_distributed(problem, options, limits_here, network.at(rank), silent, [] {});
+        auto solution = solve_distributed(problem, options, limits_here, network.at(rank),
+                                          rank == 0 ? observer : silent, [] {});
         if (rank == 0) answer = std::move(solution);
       });
   }
@@ -116,24 +128,20 @@ SolveOptions poor(int threads, Policy policy, Techniques techniques) {
   return options;
 }
 
-// A limit would hide a run that does not end.
 void expect_optima(Policy policy, Techniques techniques) {
   std::int64_t batches = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Instance instance =
         random_crowd({.size = 8, .obstacles = 20, .agents = 5, .tasks = 5}, seed);
-    Limits alone_limits;
-    alone_limits.set_deadline(Clock::now() + std::chrono::seconds(2));
     const Solution alone =
-        solve(instance, poor(1, Policy::kFree, Techniques::usual()), alone_limits);
-    if (alone.status != Status::kOptimal) continue;
+        solve(instance, poor(1, Policy::kFree, Techniques::usual()), LimitOfHangs());
+    ASSERT_EQ(alone.status, Status::kOptimal);
     for (const int ranks : {2, 3})
       for (const int threads : {1, 2}) {
-        ThreadNetwork network(ranks, std::chrono::microseconds(seed % 2 == 0 ? 0 : 2000), seed);
-        Limits limits;
-        limits.set_deadline(Clock::now() + std::chrono::seconds(20));
-        const Solution solution =
-            solve_by_ranks(instance, poor(threads, policy, techniques), ranks, network, limits);
+        ThreadNetwork network(ranks, seed % 2 == 0 ? 0 : 10, seed);
+        RunObserver silent;
+        const Solution solution = solve_by_ranks(instance, poor(threads, policy, techniques), ranks,
+                                                 network, LimitOfHangs(), silent);
         batches += solution.stats.counts.at("batches");
         EXPECT_EQ(solution.status, Status::kOptimal)
             << "seed " << seed << ", " << ranks << " ranks, " << threads << " threads";
@@ -152,7 +160,23 @@ TEST(Threads, FindTheOptimumInManyTrees) {
   expect_optima(Policy::kFixed, {Technique::kTarget, Technique::kStrongBranching});
 }
 
-// A crowd, which nobody solves so soon. What is proven is below a plan that was checked.
+// Interrupts the run once there is a plan and other ranks have found some prices.
+class Interrupter : public RunObserver {
+ public:
+  explicit Interrupter(const ThreadNetwork& network) : network_(network) {}
+  void on_incumbent(const Plan&, PlanSource, const Progress&) override { has_plan_ = true; }
+  void on_event(RunEvent, const Progress&) override {
+    if (has_plan_ && network_.answers() >= 50) interrupted = true;
+  }
+
+  std::atomic<bool> interrupted{false};
+
+ private:
+  const ThreadNetwork& network_;
+  bool has_plan_ = false;
+};
+
+// A crowd, which no search solves so soon. What is proven is below a plan that was checked.
 TEST(Threads, FindPricesForEachOther) {
   const Instance instance =
       random_crowd({.size = 20, .obstacles = 20, .agents = 120, .tasks = 0}, 1);
@@ -161,10 +185,11 @@ TEST(Threads, FindPricesForEachOther) {
     SolveOptions options = poor(threads, Policy::kFree, Techniques::usual());
     options.tuning.lagrangian_begins_work = 0;
     options.tuning.lagrangian_share_work = 1000;
-    ThreadNetwork network(3, std::chrono::microseconds(1000), 1);
-    Limits limits;
-    limits.set_deadline(Clock::now() + std::chrono::milliseconds(1500));
-    const Solution solution = solve_by_ranks(instance, options, 3, network, limits);
+    ThreadNetwork network(3, 5, 1);
+    Interrupter interrupter(network);
+    LimitOfHangs limits;
+    limits.watch_interrupt(&interrupter.interrupted);
+    const Solution solution = solve_by_ranks(instance, options, 3, network, limits, interrupter);
     ASSERT_TRUE(solution.plan);
     EXPECT_TRUE(check(instance, solution).empty());
     EXPECT_LE(solution.lower_bound, solution.plan->cost);

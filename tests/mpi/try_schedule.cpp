@@ -20,6 +20,7 @@
 #include "tests/mpi/random_schedule.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/primal/crowd.h"
+#include "tests/support/clocks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove::detail::testing {
@@ -31,8 +32,7 @@ using oracle::Verdict;
 // The truth about crowds, which are too many for exhaustive search, is what one thread proves with
 // all it has.
 Answer truth_by_one_thread(const Instance& instance) {
-  Limits limits;
-  limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(500));
+  const LimitOfLooks limits(20'000);
   SolveOptions options;
   options.omega = Omega();
   Solution solution = solve(instance, options, limits);
@@ -115,8 +115,7 @@ class Asker : public RunObserver {
   // Without the primal search: that would find the optimum where its node is missing.
   void reopen() {
     ++reopened_;
-    Limits limits;
-    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(30));
+    const LimitOfLooks limits(1'000);
     SolveOptions options;
     options.omega = Omega();
     options.policy = options_.policy;

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+
+#include "grove/detail/model/limits.h"
 
 namespace grove::detail {
 
@@ -27,17 +28,17 @@ struct CheckpointReport {
 // Tells when one is due. Of one thread, or under a lock.
 class CheckpointTimer {
  public:
-  explicit CheckpointTimer(const Checkpoints& checkpoints)
-      : checkpoints_(checkpoints), last_(Clock::now()) {}
+  // By the clock of `limits`.
+  CheckpointTimer(const Checkpoints& checkpoints, const Limits& limits)
+      : checkpoints_(checkpoints), limits_(limits), last_(limits.now()) {}
 
   // Is one due? If so the time to the next begins.
   bool due();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  const Checkpoints& checkpoints_;  // owned by the caller
-  Clock::time_point last_;
+  const Checkpoints& checkpoints_;  // owned by the caller, as the limits
+  const Limits& limits_;
+  Limits::Clock::time_point last_;
 };
 
 }  // namespace grove::detail

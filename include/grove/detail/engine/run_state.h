@@ -54,8 +54,6 @@ class RunState {
   Solution conclude() const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   Progress progress() const;
   std::int64_t nodes_before() const;
 
@@ -70,7 +68,7 @@ class RunState {
   CentralLedger ledger_;
   CentralTrees trees_;
 
-  const Clock::time_point started_ = Clock::now();
+  const Limits::Clock::time_point started_ = limits_.now();
   bool resumed_ = false;
   CheckpointHeader before_;  // what earlier runs did: the counters and the time
 };

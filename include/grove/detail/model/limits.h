@@ -6,8 +6,10 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace grove::detail {
 
@@ -34,6 +36,14 @@ class Limits {
   // Of a part of a run that may take so many seconds from now on: stops then, and when `whole`
   // does, which must outlive this. Not limited further.
   Limits(const Limits& whole, double seconds);
+
+  // Takes the time from `clock` in place of the system. Called before any thread uses these limits;
+  // `clock` must be thread-safe.
+  void set_clock(std::function<Clock::time_point()> clock) { clock_ = std::move(clock); }
+  // The clock of the run, for everything below that measures time.
+  Clock::time_point now() const {
+    return whole_ ? whole_->now() : clock_ ? clock_() : Clock::now();
+  }
 
   void set_deadline(Clock::time_point deadline) { deadline_ = deadline; }
   void set_memory_limit(std::size_t bytes) { memory_limit_ = bytes; }
@@ -69,6 +79,7 @@ class Limits {
 
  private:
   const Limits* whole_ = nullptr;
+  std::function<Clock::time_point()> clock_;  // empty: that of the system
   std::optional<Clock::time_point> deadline_;
   std::optional<std::size_t> memory_limit_;
   const std::atomic<bool>* interrupt_ = nullptr;
