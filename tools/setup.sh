@@ -46,6 +46,19 @@ switch_off_daemons() {
   done
 }
 
+# The commands that install `missing`, for a user who may not run them without a password, or at all.
+say_what_to_install() {
+  local as_root=""
+  if command -v sudo >/dev/null; then
+    as_root="sudo "
+    echo "These packages are missing. To install them, run:"
+  else
+    echo "These packages are missing, and this user may not install them. As root, run:"
+  fi
+  echo "  ${as_root}apt-get update"
+  echo "  ${as_root}apt-get install -y --no-install-recommends ${missing[*]}"
+}
+
 # ensure_packages LIST...: installs what is missing if this user may; else says what to do and exits
 # with 2.
 ensure_packages() {
@@ -59,8 +72,7 @@ ensure_packages() {
     say "Installing Debian packages: ${missing[*]}"
     install_missing sudo -n || exit 1
   else
-    echo "These packages are missing, and this user may not install them. Run:" >&2
-    echo "  sudo apt-get install -y --no-install-recommends ${missing[*]}" >&2
+    say_what_to_install >&2
     exit 2
   fi
 }

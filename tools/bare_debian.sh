@@ -1,0 +1,56 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: MIT
+# Sourced by tools/package-test and tools/fresh-machine: a bare Debian 12 in a folder, and commands in it.
+# As root, with debootstrap. Packages come from where apt of this machine has them from.
+
+give_up() { echo "tools/${0##*/}: error: $*" >&2; exit 2; }
+
+needs_debootstrap() {
+  [ "$(id -u)" -eq 0 ] || give_up "this makes a root file system; expected to be run as root"
+  command -v debootstrap >/dev/null || give_up "there is no debootstrap; expected the Debian package of that name"
+}
+
+# make_bare_debian ROOT: as little of Debian 12 as possible in an empty folder, with a user `someone`.
+make_bare_debian() {
+  local root=$1 sources mirror
+  # SITE RELEASE COMPONENT of everything that is from Debian 12.
+  # shellcheck disable=SC2016
+  sources=$(apt-get indextargets --format '$(SITE) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
+    grep -E '^[^ ]+ bookworm(-updates|-security)? ' | sort -u) ||
+    give_up "apt has no source of Debian 12 (bookworm); expected one in /etc/apt"
+  mirror=$(awk '$2 == "bookworm" { print $1; exit }' <<<"$sources")
+  quietly debootstrap --variant=minbase bookworm "$root" "$mirror"
+  chmod 755 "$root"
+  # shellcheck disable=SC2001
+  sed 's/^/deb /' <<<"$sources" >"$root/etc/apt/sources.list"
+  apt-config dump | grep -E '^Acquire::(https?::|Check-)' >"$root/etc/apt/apt.conf.d/90host" || true
+  echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"  # it may be lost with this machine
+  cp -L /etc/resolv.conf "$root/etc/resolv.conf"
+  # As Debian's installer writes it.
+  printf '127.0.0.1\tlocalhost\n127.0.1.1\t%s\n' "$(uname -n)" >"$root/etc/hosts"
+  inside "$root" root useradd --create-home --shell /bin/bash someone
+}
+
+# inside ROOT USER COMMAND...: runs a command as a user of that Debian. Of this machine it sees the kernel
+# and the network, but no file. What it mounts and starts ends with it.
+inside() {
+  local root=$1 user=$2 home
+  shift 2
+  home=$(awk -F : -v user="$user" '$1 == user { print $6 }' "$root/etc/passwd")
+  # shellcheck disable=SC2016
+  unshare --mount --pid --fork --kill-child sh -c '
+    set -e
+    mount --bind "$1" "$1"
+    cd "$1"
+    mount -t proc proc proc
+    mount -t sysfs -o ro sysfs sys
+    mount -t tmpfs -o mode=1777 tmpfs dev/shm
+    mount -t devpts -o newinstance,ptmxmode=0666,mode=620,gid=5 devpts dev/pts
+    pivot_root . mnt
+    cd /
+    umount -l /mnt
+    shift
+    exec "$@"' sh "$root" \
+    env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME="$home" USER="$user" LOGNAME="$user" \
+    setpriv --reuid "$user" --regid "$user" --init-groups "$@"
+}
