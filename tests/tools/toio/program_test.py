@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The program as its user meets it: the demonstration, messages, exit codes."""
+import functools
 import json
 import signal
 import subprocess
@@ -8,7 +9,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import in_process
 import orders
+from grove_toio.cli import main
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 from waiting import HANG_S, text_of, wait_until  # noqa: E402
@@ -67,8 +70,8 @@ class Program(unittest.TestCase):
                 process.communicate(timeout=HANG_S)
                 self.assertEqual(process.returncode, code)
 
-    def refused(self, text, *arguments, code=2):
-        found, out, err = run(*arguments)
+    def refused(self, text, *arguments, code=2, by=run):
+        found, out, err = by(*arguments)
         self.assertEqual(found, code, err)
         self.assertTrue(err.startswith("grove: error: "), err)
         self.assertEqual(err.count("\n"), 1, err)
@@ -94,7 +97,8 @@ class Program(unittest.TestCase):
                 ("not allowed with", order, "--bluetooth", "--simulate"),
                 ("cannot be written", order, "--log", orders.folder() / "no" / "log")):
             with self.subTest(arguments=arguments):
-                self.refused(text, *arguments)
+                self.refused(text, *arguments, by=functools.partial(in_process.run, main))
+        self.refused("none.json: cannot be read", missing)
 
     def test_a_full_disk(self):
         self.refused("No space left", orders.order_file("crowd"), "--fast", "--quiet", "--log", "/dev/full", code=1)

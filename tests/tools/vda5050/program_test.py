@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The program as its user meets it, over a broker: commands, messages, exit codes."""
 import contextlib
+import functools
 import json
 import shutil
 import signal
@@ -9,7 +10,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import in_process
 import orders
+from grove_vda5050.cli import main
 from grove_vda5050.trial import MOSQUITTO, own_broker
 
 FAST = ("--speed", "4", "--turn-speed", "360", "--pace", "5")
@@ -31,12 +34,15 @@ def order(name="crowd"):
 
 
 class Refusals(unittest.TestCase):
-    def refused(self, said, *arguments, code=2):
-        got, out, err = run(*arguments)
-        self.assertEqual((got, out), (code, ""), err)
+    def refused(self, said, *arguments, by=functools.partial(in_process.run, main)):
+        code, out, err = by(*arguments)
+        self.assertEqual((code, out), (2, ""), err)
         self.assertTrue(err.startswith("grove: error: "), err)
         self.assertIn(said, err)
         self.assertEqual(err.count("\n"), 1, err)
+
+    def test_by_the_program(self):
+        self.refused("invalid choice", "fly", by=run)
 
     def test_one_line_each(self):
         missing, ring = orders.folder() / "none.json", orders.order_file("round")
@@ -69,7 +75,7 @@ class Refusals(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("--no-following", done.stdout)
         for command in ("orders", "drive", "vehicles", "watch", "trial"):
-            code, out, err = run(command, "--help")
+            code, out, err = in_process.run(main, command, "--help")
             self.assertEqual((code, err), (0, ""))
             self.assertIn(f"usage: grove vda5050 {command}", out)
 
