@@ -5,13 +5,19 @@
     proof_checker.py INSTANCE.cts.json PROOF
 
 Maps, agents with a start and a goal, no tasks, no turns; in the certificate (if compressed, zstd has to be installed) no lemmas, no rules but `leaf` and `split`, no demands
-but `bar` and `move`. It is here to be read: grove-verify takes all of it, and fast.
+but `bar` and `move`. It is here to be read: grove-verify takes all of it, and fast. It takes no more than 1 GB of memory: of a certificate that would need more it says
+so, and refuses it.
 """
 import heapq
 import json
+import resource
 import subprocess
 import sys
 from pathlib import Path
+
+
+MEMORY = 1_000_000_000  # bytes
+LONGEST_LINE = 1 << 22
 
 
 class Refused(Exception):
@@ -109,7 +115,7 @@ def read_split(line, agents):
 
 
 def check(instance, lines):
-    """What is proven."""
+    """What is proven, and whether agents may follow each other."""
     links, starts, goals, instance_sum = read_instance(instance)
     to_go = [distances(links, goal) for goal in goals]
     head = [next(lines) for _ in range(4)]
@@ -139,24 +145,43 @@ def check(instance, lines):
         while splits and splits[-1][1] is None:
             demands[splits.pop()[0]].pop()
         if not splits:
-            expect(list(lines) == ["end"], "expected 'end'")
-            return bound
+            expect(next(lines) == "end" and next(lines, None) is None, "expected 'end'")
+            return bound, head[2] == "following yes"
         agent, (other, second) = splits.pop()
         demands[agent].pop()
         demands[other].append(second)
         splits.append((other, None))
 
 
+def lines_of(path):
+    """The lines of a certificate, one at a time: a few compressed bytes may hold any number of them."""
+    with path.open("rb") as file:
+        compressed = file.read(4) == b"\x28\xb5\x2f\xfd"
+    source = subprocess.Popen(["zstd", "-dcq", "--", path], stdout=subprocess.PIPE).stdout if compressed else path.open("rb")
+    with source:
+        while line := source.readline(LONGEST_LINE):
+            expect(line.endswith(b"\n"), "expected the end of a line")
+            yield line[:-1].decode("ascii")
+
+
 def main(instance, proof):
-    text = Path(proof).read_bytes()
-    if text.startswith(b"\x28\xb5\x2f\xfd"):  # compressed
-        text = subprocess.run(["zstd", "-dc"], input=text, capture_output=True, check=True).stdout
-    lines = text.decode("ascii").split("\n")[:-1]
     try:
-        print(f"verified: no plan costs less than {check(Path(instance), iter(lines))}" + ", where following is forbidden" * (lines[2] == "following no"))
+        bound, may_follow = check(Path(instance), lines_of(Path(proof)))
+        print(f"verified: no plan costs less than {bound}" + ", where following is forbidden" * (not may_follow))
     except (Refused, ValueError, IndexError, StopIteration) as error:
         sys.exit(f"refused: {error or 'it is cut off'}")
 
 
+def run(instance, proof):
+    """main() within the memory limit."""
+    _, most = resource.getrlimit(resource.RLIMIT_DATA)
+    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, most))
+    try:
+        main(instance, proof)
+    except MemoryError:
+        resource.setrlimit(resource.RLIMIT_DATA, (most, most))  # to say so
+        sys.exit(f"refused: it needs more than {MEMORY / 1e9:.1f} GB of memory")
+
+
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    run(*sys.argv[1:])

@@ -4,14 +4,17 @@
 
 #include "tools/common/commands.h"
 #include "tools/common/program.h"
+#include "tools/common/signals.h"
 
 namespace grove::detail {
 namespace {
 
 constexpr const char* kDescription =
     "Grove solves CTS-MAPF: many agents on a grid or a roadmap, each with places to visit in any\n"
-    "order and a destination, without collisions, at the least sum of finish times - with a proof of\n"
-    "how far from the least the answer can be. Agents may need time to turn, tasks may take time.\n";
+    "order and a destination, without collisions, at the least sum of finish times - with a proof "
+    "of\n"
+    "how far from the least the answer can be. Agents may need time to turn, tasks may take "
+    "time.\n";
 
 constexpr const char* kProgramFooter = R"(Exit codes:
   0  ended cleanly; a plan file says how
@@ -22,6 +25,7 @@ constexpr const char* kProgramFooter = R"(Exit codes:
 'grove help COMMAND' and 'grove COMMAND --help' explain a command, with examples.)";
 
 int main(int argc, char** argv) {
+  accept_checkpoint_signal();
   CLI::App app(kDescription, "grove");
   app.footer(kProgramFooter);
   prepare_program(app);

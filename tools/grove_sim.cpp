@@ -136,9 +136,7 @@ double seconds_since(Clock::time_point start) {
 class Study {
  public:
   explicit Study(SimArguments& arguments)
-      : a_(arguments),
-        options_(options_of_one_search(a_.solve)),
-        loaded_(a_.solve.instance.load()) {
+      : a_(arguments), options_(options_of_one_search(a_.solve)), loaded_(load(a_.solve)) {
     require_fit(a_.solve, loaded_.instance, options_);
     for (const auto& file : {a_.solve.output, a_.profile}) {
       if (file.empty()) continue;
@@ -235,16 +233,14 @@ class Study {
 };
 
 int main(int argc, char** argv) {
+  stop_on_signals();
   CLI::App app(kDescription, "grove-sim");
   app.footer(kFooter);
   prepare_program(app);
   app.require_subcommand(0);
   SimArguments arguments;
   add_options(app, arguments);
-  app.callback([&] {
-    stop_on_signals();
-    Study(arguments).run();
-  });
+  app.callback([&] { Study(arguments).run(); });
   return run_only_process(app, argc, argv);
 }
 

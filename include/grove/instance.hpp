@@ -4,6 +4,7 @@
 /// and where they rest.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -70,13 +71,29 @@ class GROVE_API Instance {
   std::shared_ptr<const Data> data_;
 };
 
+/// What the files of strangers may do; see read_instance().
+struct Trust {
+  /// Refuses a file that names a map or roadmap outside of its own folder: by an absolute name, by
+  /// `..` or by a symbolic link.
+  bool confine = false;
+  /// Bytes that the map and the states of the robots on it may take; more is refused before it is
+  /// taken. None: as much as there is.
+  std::optional<std::size_t> memory_limit = std::nullopt;
+};
+
 /// Reads a `*.cts.json` file and the map or roadmap that it names. Appends remarks, a line each, to
 /// `warnings`, if there is one. Throws InputError.
 GROVE_API Instance read_instance(const std::filesystem::path& path,
                                  std::vector<std::string>* warnings = nullptr);
+/// The same within bounds, for files that strangers wrote.
+GROVE_API Instance read_instance(const std::filesystem::path& path, const Trust& trust,
+                                 std::vector<std::string>* warnings = nullptr);
 /// The same of the text of such a file; the map is relative to `folder`.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder = ".",
                                   std::vector<std::string>* warnings = nullptr);
+/// The same within bounds, for texts that strangers wrote.
+GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
+                                  const Trust& trust, std::vector<std::string>* warnings = nullptr);
 /// What such a file says of agents and tasks, `{"agents": [...], "tasks": [...]}`, in this world.
 /// Throws InputError.
 GROVE_API Instance parse_instance(std::string_view text, const World& world, Rules rules = {},

@@ -66,10 +66,16 @@ void add_instance(py::module_& module) {
       .def("__repr__", &text_of);
   module.def(
       "read_instance",
-      [](const std::filesystem::path& path) {
-        return warned([&](auto* warnings) { return read_instance(path, warnings); });
+      [](const std::filesystem::path& path, bool confine, std::optional<std::size_t> memory_limit) {
+        return warned([&](auto* warnings) {
+          return read_instance(path, Trust{confine, memory_limit}, warnings);
+        });
       },
-      py::arg("path"), "Reads a *.cts.json file and the map or roadmap that it names.");
+      py::arg("path"), py::kw_only(), py::arg("confine") = false,
+      py::arg("memory_limit") = py::none(),
+      "Reads a *.cts.json file and the map or roadmap that it names.\n\n"
+      "For files of strangers: `confine` refuses one that names a map outside of its own folder, "
+      "and `memory_limit` one whose map and robots' states would take more bytes.");
   module.def("read_scenario", &read_scenario, py::arg("scenario"), py::arg("map"),
              py::arg("agents"),
              "Classical MAPF: the first `agents` rows of a Moving AI scenario.");

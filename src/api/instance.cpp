@@ -79,6 +79,12 @@ Task told_task(const detail::Instance& instance, const detail::Task& task) {
   return told;
 }
 
+detail::InputRules rules_of(const Trust& trust) {
+  detail::InputRules rules{.confined = trust.confine};
+  if (trust.memory_limit) rules.memory = *trust.memory_limit;
+  return rules;
+}
+
 Instance loaded(detail::LoadedInstance read, std::vector<std::string>* warnings) {
   if (warnings != nullptr)
     warnings->insert(warnings->end(), read.warnings.begin(), read.warnings.end());
@@ -152,6 +158,18 @@ Pose told_pose(const detail::Map& map, detail::Motion motion, const detail::Pose
 
 Instance read_instance(const std::filesystem::path& path, std::vector<std::string>* warnings) {
   return translated([&] { return loaded(detail::read_instance(path), warnings); });
+}
+
+Instance read_instance(const std::filesystem::path& path, const Trust& trust,
+                       std::vector<std::string>* warnings) {
+  return translated([&] { return loaded(detail::read_instance(path, rules_of(trust)), warnings); });
+}
+
+Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
+                        const Trust& trust, std::vector<std::string>* warnings) {
+  return translated([&] {
+    return loaded(detail::parse_instance(text, "the instance", folder, rules_of(trust)), warnings);
+  });
 }
 
 Instance parse_instance(std::string_view text, const std::filesystem::path& folder,

@@ -4,8 +4,8 @@
 namespace grove::detail::batch {
 
 LoadedInstance load(const Entry& entry) {
-  return entry.agents > 0 ? read_scenario_instance(entry.path, entry.map, entry.agents)
-                          : read_instance(entry.path);
+  return entry.agents > 0 ? read_scenario_instance(entry.path, entry.map, entry.agents, entry.rules)
+                          : read_instance(entry.path, entry.rules);
 }
 
 }  // namespace grove::detail::batch

@@ -53,6 +53,7 @@ void EntryCollector::add(Entry entry, const std::string& place) {
   require_new(files_, fmt::format("{} {}", file.string(), entry.agents), place,
               "is the same instance as");
   require_new(ids_, entry.id, place, fmt::format("names its files '{}', as does", entry.id));
+  entry.rules = rules_;
   entry.digest = digest_of(entry);
   entries_.push_back(std::move(entry));
 }

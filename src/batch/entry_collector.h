@@ -25,7 +25,8 @@ std::string id_of(const std::filesystem::path& path, const std::filesystem::path
 class EntryCollector {
  public:
   // `source`: the manifest or the folder, for messages.
-  explicit EntryCollector(std::filesystem::path source) : source_(std::move(source)) {}
+  EntryCollector(std::filesystem::path source, const InputRules& rules)
+      : source_(std::move(source)), rules_(rules) {}
 
   // `place` is where the entry comes from: a line of a manifest, or a file of a folder. Works out
   // its digest. Throws InputError.
@@ -39,6 +40,7 @@ class EntryCollector {
                    const std::string& what) const;
 
   const std::filesystem::path source_;
+  const InputRules rules_;  // of all entries
   std::vector<Entry> entries_;
   Places files_;
   Places ids_;

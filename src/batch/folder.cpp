@@ -17,7 +17,7 @@ void make_folder(const std::filesystem::path& folder) {
 
 // A file of its own: others in the folder are replaced.
 FolderLock::FolderLock(const std::filesystem::path& folder)
-    : file_(folder / ".lock", O_RDWR | O_CREAT) {
+    : file_(folder / ".lock", O_RDWR | O_CREAT | O_NOFOLLOW) {
   if (!file_.is_open()) fail_to_write(folder / ".lock");
   if (lock(file_.get()) == LockResult::kHeld)
     throw InputError(folder.string(), "",

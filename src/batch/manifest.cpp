@@ -36,7 +36,7 @@ Entry plain_entry(const fs::path& path, const fs::path& folder) {
 
 // --- folders ---
 
-std::vector<Entry> read_folder(const fs::path& folder) {
+std::vector<Entry> read_folder(const fs::path& folder, const InputRules& rules) {
   std::vector<fs::path> paths;
   try {
     for (const auto& item : fs::recursive_directory_iterator(folder))
@@ -50,7 +50,7 @@ std::vector<Entry> read_folder(const fs::path& folder) {
     throw InputError(folder.string(), "",
                      "holds no instance; expected *.cts.json files in it or below");
   std::ranges::sort(paths);
-  EntryCollector collector(folder);
+  EntryCollector collector(folder, rules);
   for (const fs::path& path : paths)
     collector.add(plain_entry(path, folder), path.lexically_relative(folder).string());
   return collector.take();
@@ -60,8 +60,8 @@ std::vector<Entry> read_folder(const fs::path& folder) {
 
 class ManifestReader {
  public:
-  explicit ManifestReader(const fs::path& path)
-      : path_(path), folder_(path.parent_path()), collector_(path) {}
+  ManifestReader(const fs::path& path, const InputRules& rules)
+      : path_(path), folder_(path.parent_path()), collector_(path, rules) {}
 
   std::vector<Entry> read() {
     const std::string text = read_text(path_);
@@ -132,11 +132,11 @@ class ManifestReader {
 
 }  // namespace
 
-std::vector<Entry> read_manifest(const fs::path& manifest_or_folder) {
+std::vector<Entry> read_manifest(const fs::path& manifest_or_folder, const InputRules& rules) {
   std::error_code error;
-  if (fs::is_directory(manifest_or_folder, error)) return read_folder(manifest_or_folder);
+  if (fs::is_directory(manifest_or_folder, error)) return read_folder(manifest_or_folder, rules);
   if (manifest_or_folder.string().ends_with(kInstanceSuffix) && fs::exists(manifest_or_folder)) {
-    EntryCollector collector(manifest_or_folder);
+    EntryCollector collector(manifest_or_folder, rules);
     collector.add(plain_entry(manifest_or_folder, manifest_or_folder.parent_path()), "");
     return collector.take();
   }
@@ -145,7 +145,7 @@ std::vector<Entry> read_manifest(const fs::path& manifest_or_folder) {
       throw InputError(manifest_or_folder.string(), "",
                        "is no manifest; expected a folder, or a text file with the path of an "
                        "instance on each line");
-  return ManifestReader(manifest_or_folder).read();
+  return ManifestReader(manifest_or_folder, rules).read();
 }
 
 }  // namespace grove::detail::batch

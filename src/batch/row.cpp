@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "csv.h"
+#include "grove/detail/io/csv.h"
 
 namespace grove::detail::batch {
 namespace {
@@ -167,7 +167,7 @@ Outcome outcome_of(const nlohmann::json& json) {
 
 std::string csv_cell(const Json& value) {
   if (value.is_null()) return "";
-  if (value.is_string()) return csv_quoted(value.get<std::string>());
+  if (value.is_string()) return grove::detail::csv_cell(value.get<std::string>());
   return value.dump();
 }
 

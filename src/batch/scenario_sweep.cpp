@@ -97,7 +97,8 @@ bool holds_scenarios(const fs::path& place) {
   return !found.scenarios.empty() && !found.has_instances;
 }
 
-SweptScenarios read_scenarios(const fs::path& place, const ScenarioSweep& sweep) {
+SweptScenarios read_scenarios(const fs::path& place, const ScenarioSweep& sweep,
+                              const InputRules& rules) {
   Found found = look(place);
   std::erase_if(found.scenarios, [&](const fs::path& path) {
     return !matches(path.stem().string(), sweep.scenarios);
@@ -107,7 +108,7 @@ SweptScenarios read_scenarios(const fs::path& place, const ScenarioSweep& sweep)
                      fmt::format("holds no scenario '{}.scen'; expected some", sweep.scenarios));
   std::ranges::stable_sort(found.scenarios, {}, natural);
   std::error_code error;
-  EntryCollector collector(place);
+  EntryCollector collector(place, rules);
   SweptScenarios swept;
   for (const fs::path& scenario : found.scenarios) {
     const auto rows = read_scenario(scenario);

@@ -17,6 +17,7 @@
 
 #include "grove/detail/io/descriptor.h"
 #include "grove/detail/io/input_error.h"
+#include "grove/detail/io/special_file.h"
 
 namespace grove::detail {
 namespace {
@@ -25,14 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporary = ".grove-";
 constexpr auto kLongestPause = std::chrono::hours(1);  // between two writes to a temporary file
-
-// Files to write to as they stand. /dev/stdout may well be a regular file, which others have open.
-bool is_special(const fs::path& path, const fs::file_status& status) {
-  if (!fs::exists(status)) return false;
-  const std::string name = path.lexically_normal().string();
-  return !fs::is_regular_file(status) || name == "/dev/stdout" || name == "/dev/stderr" ||
-         name.starts_with("/dev/fd/") || name.starts_with("/proc/");
-}
 
 // Where the content must go: the file behind a symbolic link. Throws when that cannot work.
 fs::path resolved(const fs::path& path, fs::file_status& status) {
@@ -43,7 +36,7 @@ fs::path resolved(const fs::path& path, fs::file_status& status) {
     throw InputError(path.string(), "", "cannot be written: is a directory; expected a file name");
   if (fs::exists(status) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
     fail_to_write(path);
-  if (is_special(path, status)) return path;
+  if (is_special_file(path, status)) return path;
   const fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);
   return error ? path : target;
 }
@@ -113,7 +106,7 @@ void flush_directory(const fs::path& directory) {
 AtomicFile::AtomicFile(const fs::path& path) : name_(path) {
   fs::file_status status;
   target_ = resolved(path, status);
-  if (is_special(path, status)) {
+  if (is_special_file(path, status)) {
     // Appending: a shell's redirection may already hold the output of others.
     file_.emplace(path, O_WRONLY | O_APPEND | O_NOCTTY);
   } else {
@@ -159,7 +152,7 @@ void flush_file(const fs::path& path) {
 void require_writable(const fs::path& path) {
   fs::file_status status;
   resolved(path, status);
-  if (!is_special(path, status)) const AtomicFile probe(path);
+  if (!is_special_file(path, status)) const AtomicFile probe(path);
 }
 
 void require_distinct_files(const fs::path& file, const fs::path& other,

@@ -3,39 +3,99 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <ctime>
+#include <functional>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
+#include "grove/detail/io/special_file.h"
 
 namespace grove::detail {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kLongestHolder = 400;
+
 std::string who_i_am() {
   return fmt::format("process {} on host {}, since {:%F %T} UTC", ::getpid(), host_name(),
                      fmt::gmtime(std::time(nullptr)));
 }
 
-[[noreturn]] void refuse(const fs::path& path) {
-  const std::string holder = read_text(path);
-  throw InputError(path.string(), "",
-                   fmt::format("is locked by another run ({}), which must have ended first",
-                               holder.empty() ? "it has just begun" : holder));
+std::string holder(const Descriptor& file) {
+  char text[kLongestHolder];
+  const ssize_t size = ::pread(file.get(), text, sizeof text, 0);
+  return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : "it has just begun";
+}
+
+// In a folder where strangers may write, a link could lead to any file of the user.
+Descriptor open_lock_file(const fs::path& path) {
+  Descriptor file(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
+  if (!file.is_open() && errno != ELOOP) return file;
+  struct stat status {};
+  const bool is_known = file.is_open() && ::fstat(file.get(), &status) == 0;
+  if (!is_known || !S_ISREG(status.st_mode) || status.st_nlink > 1)
+    throw InputError(path.string(), "", "is a link or no regular file; expected a lock file");
+  return file;
+}
+
+bool write_holder(const Descriptor& file) {
+  return ::ftruncate(file.get(), 0) == 0 && write_all(file.get(), who_i_am());
+}
+
+// ".grove-plan.json.lock" of "plan.json".
+fs::path lock_file_of(const fs::path& output) {
+  constexpr std::size_t kLongestName = 200;  // file systems allow 255 bytes
+  std::string name = output.filename().string();
+  if (name.size() > kLongestName) name = fmt::format("{:016x}", std::hash<std::string>()(name));
+  return output.parent_path() / fmt::format(".grove-{}.lock", name);
+}
+
+bool is_still_there(const Descriptor& file, const fs::path& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(file.get(), &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 }  // namespace
 
-FileLock::FileLock(const fs::path& path) : file_(path, O_RDWR | O_CREAT) {
+FileLock::FileLock(const fs::path& path) : file_(open_lock_file(path)) {
   if (!file_.is_open()) fail_to_write(path);
   const LockResult result = lock(file_.get());
-  if (result == LockResult::kHeld) refuse(path);
+  if (result == LockResult::kHeld)
+    throw InputError(
+        path.string(), "",
+        fmt::format("is locked by another run ({}), which must have ended first", holder(file_)));
   held_ = result == LockResult::kLocked;
-  if (::ftruncate(file_.get(), 0) != 0 || !write_all(file_.get(), who_i_am())) fail_to_write(path);
+  if (!write_holder(file_)) fail_to_write(path);
+}
+
+OutputLock::OutputLock(const fs::path& output) : file_(-1) {
+  if (is_special_file(output)) return;
+  std::error_code error;
+  path_ = lock_file_of(fs::weakly_canonical(fs::absolute(output, error), error));
+  do {
+    file_ = open_lock_file(path_);
+    if (!file_.is_open()) return;
+    if (lock(file_.get()) == LockResult::kHeld)
+      throw InputError(
+          output.string(), "",
+          fmt::format("is being written by another run ({}); expected another name, or "
+                      "that run to end first",
+                      holder(file_)));
+  } while (!is_still_there(file_, path_));  // or another run has just ended, and removed it
+  (void)write_holder(file_);                // for messages only
+}
+
+OutputLock::~OutputLock() {
+  if (file_.is_open()) ::unlink(path_.c_str());
 }
 
 }  // namespace grove::detail

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <initializer_list>
+#include <stdexcept>
 
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/expressible.h"
@@ -16,6 +17,7 @@
 #include "json_value.h"
 #include "json_writer.h"
 #include "path_entry.h"
+#include "state_memory.h"
 
 namespace grove::detail {
 namespace {
@@ -138,22 +140,28 @@ void refuse_misplaced_keys(const JsonValue& root) {
     refuse_misplaced(tasks.element(i), of_agents, "an agent");
 }
 
-void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unknown) {
+void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unknown,
+             const std::string& file, const InputRules& rules) {
+  StateMemory memory(builder);
   const JsonValue agents = root.member("agents");
   for (std::size_t i = 0; i < agents.size(); ++i) {
+    memory.add_agent(read_motion(builder, agents.element(i)));
     add_agent(builder, agents.element(i), unknown);
     unknown.look_at(agents.element(i), {"id", "start", "goal", "motion", "turn_steps", "heading",
                                         "goal_heading", "working"});
   }
   const JsonValue tasks = root.member("tasks");
   for (std::size_t i = 0; i < tasks.size(); ++i) {
+    memory.add_task(read_duration(tasks.element(i)));
     add_task(builder, tasks.element(i));
     unknown.look_at(tasks.element(i), {"id", "cell", "agents", "duration"});
   }
+  memory.require(root, file, rules);
 }
 
-Instance read_robots(InstanceBuilder builder, const JsonValue& root, UnknownKeys& unknown) {
-  add_all(builder, root, unknown);
+Instance read_robots(InstanceBuilder builder, const JsonValue& root, UnknownKeys& unknown,
+                     const std::string& file, const InputRules& rules = {}) {
+  add_all(builder, root, unknown, file, rules);
   refuse_misplaced_keys(root);
   std::optional<Instance> instance;
   at_place_of(root, [&] { instance = std::move(builder).build(); });
@@ -162,9 +170,14 @@ Instance read_robots(InstanceBuilder builder, const JsonValue& root, UnknownKeys
 
 // A file that an instance names, relative to itself.
 std::filesystem::path file_named_by(const JsonValue& value, const std::filesystem::path& folder,
-                                    std::string_view what) {
+                                    std::string_view what, const InputRules& rules) {
   if (value.text().empty()) value.fail_expected(fmt::format("the name of {} file", what));
-  const auto path = (folder / value.text()).lexically_normal();
+  std::filesystem::path path;
+  try {
+    path = file_in_folder(rules, folder, value.text());
+  } catch (const std::invalid_argument& error) {
+    value.fail(error.what());
+  }
   if (!std::filesystem::is_regular_file(path))
     value.fail(
         fmt::format("{} '{}'; expected {}, relative to {}",
@@ -239,12 +252,12 @@ OrderedJson task_json(const Instance& instance, const Task& task) {
 
 }  // namespace
 
-LoadedInstance read_instance(const std::filesystem::path& path) {
-  return parse_instance(read_text(path), path.string(), path.parent_path());
+LoadedInstance read_instance(const std::filesystem::path& path, const InputRules& rules) {
+  return parse_instance(read_text(path), path.string(), path.parent_path(), rules);
 }
 
 LoadedInstance parse_instance(std::string_view text, const std::string& name,
-                              const std::filesystem::path& folder) {
+                              const std::filesystem::path& folder, const InputRules& rules) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   std::vector<std::string> warnings;
@@ -256,10 +269,12 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
     root.fail("found both 'map' and 'roadmap'; expected one of them");
   if (!roadmap && !root.find("map"))
     root.fail("key 'map' is missing; expected it, or 'roadmap', in this object");
-  std::filesystem::path map_path = roadmap ? file_named_by(*roadmap, folder, "a roadmap")
-                                           : file_named_by(root.member("map"), folder, "a map");
-  Map map = roadmap ? Map(read_roadmap(map_path, &warnings)) : Map(read_map(map_path, &warnings));
-  Instance instance = read_robots(InstanceBuilder(std::move(map)), root, unknown);
+  std::filesystem::path map_path = roadmap
+                                       ? file_named_by(*roadmap, folder, "a roadmap", rules)
+                                       : file_named_by(root.member("map"), folder, "a map", rules);
+  Map map = roadmap ? Map(read_roadmap(map_path, &warnings, rules))
+                    : Map(read_map(map_path, &warnings, rules));
+  Instance instance = read_robots(InstanceBuilder(std::move(map)), root, unknown, name, rules);
   return {std::move(instance), std::move(map_path), std::move(warnings)};
 }
 
@@ -269,11 +284,12 @@ Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const
   const JsonValue root = document.root();
   UnknownKeys unknown(name, warnings, Misspelt::kRefused);
   unknown.look_at(root, {"agents", "tasks"});
-  return read_robots(std::move(builder), root, unknown);
+  return read_robots(std::move(builder), root, unknown, name);
 }
 
 LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
-                                      const std::filesystem::path& map, int agents) {
+                                      const std::filesystem::path& map, int agents,
+                                      const InputRules& rules) {
   const std::string file = scenario.string();
   const std::vector<ScenarioRow> rows = read_scenario(scenario);
   if (agents < 1) throw InputError(file, "", "expected at least one agent");
@@ -282,7 +298,7 @@ LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
         file, "",
         fmt::format("has {} rows; expected at least {}, one per agent", rows.size(), agents));
   std::vector<std::string> warnings;
-  const Grid grid = read_map(map, &warnings);
+  const Grid grid = read_map(map, &warnings, rules);
   require_same_map(scenario, {rows.data(), static_cast<std::size_t>(agents)}, map, grid);
   InstanceBuilder builder(grid);
   for (int i = 0; i < agents; ++i) add_row(builder, file, rows[i], default_agent_id(i));

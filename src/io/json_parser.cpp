@@ -22,8 +22,8 @@ constexpr std::size_t kDeepest = 32;
 // front, and what was read last may be half the file.
 std::string tidy(const nlohmann::detail::exception& error) {
   constexpr int kNumberOverflow = 406;
+  if (error.id == kNumberOverflow) return "a number is too large; expected one of double precision";
   std::string message = error.what();
-  if (error.id == kNumberOverflow) message += "; expected a number of double precision";
   message.erase(0, message.find("] ") + 2);
   if (message.starts_with("parse error at")) message.erase(0, message.find(": ") + 2);
   const std::size_t last_read = message.find("; last read: '");

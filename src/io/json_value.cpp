@@ -23,6 +23,13 @@ std::string description(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string_view kind_of(const Json& json) {
+  if (json.is_array()) return "an array";
+  if (json.is_null()) return "null";
+  if (json.is_boolean()) return "true or false";
+  return json.is_number() ? "a number" : "a string";
+}
+
 // The integer that `json` holds, if it is one from `least` to `most`. 3.0 is none: strict.
 std::optional<std::int64_t> integer_within(const Json& json, std::int64_t least,
                                            std::int64_t most) {
@@ -118,7 +125,9 @@ JsonDocument::JsonDocument(const std::filesystem::path& path)
 
 JsonDocument::JsonDocument(std::string_view text, std::string name)
     : file_(std::move(name)), json_(parse_json(text, file_)) {
-  if (!json_.is_object()) root().fail_expected("a JSON object");
+  // (What it holds instead is not told: the file may be none that anyone meant to show.)
+  if (!json_.is_object())
+    root().fail(fmt::format("found {}; expected a JSON object", kind_of(json_)));
   json_.erase("$schema");
 }
 

@@ -21,7 +21,7 @@ namespace {
 // A few bytes of this format can ask for any number of cells.
 constexpr int kMaxCells = 1 << 24;
 
-Grid read_grid(const YamlValue& map) {
+Grid read_grid(const YamlValue& map, const std::string& file, const InputRules& rules) {
   const YamlValue dimensions = map.member("dimensions");
   if (dimensions.size() != 2) dimensions.fail_expected("[columns, rows]");
   const int width = dimensions.element(0).integer(1, kMaxCells);
@@ -29,6 +29,8 @@ Grid read_grid(const YamlValue& map) {
   if (height > kMaxCells / width)
     dimensions.fail(
         fmt::format("{} x {} cells are too many; expected at most {}", width, height, kMaxCells));
+  require_memory(rules, file, dimensions.place(), std::int64_t{width} * height, "cells",
+                 kBytesPerCell);
   std::vector<bool> passable(static_cast<std::size_t>(width) * height, true);
   const YamlValue obstacles = map.member("obstacles");
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
@@ -135,16 +137,16 @@ void write_with_goals(const std::filesystem::path& path, const Instance& instanc
 
 }  // namespace
 
-Instance read_libmrp_instance(const std::filesystem::path& path,
-                              std::vector<std::string>* warnings) {
-  const YamlDocument document(path);
+Instance read_libmrp_instance(const std::filesystem::path& path, std::vector<std::string>* warnings,
+                              const InputRules& rules) {
+  const YamlDocument document(path, rules);
   const YamlValue root = document.root();
   if (const auto roadmap = root.find("roadmap"))
     roadmap->fail("a roadmap; expected a grid, given by the key 'map'");
   UnknownYamlKeys unknown(path.string(), warnings);
   unknown.look_at(root, {"map", "agents"});
   const YamlValue map = root.member("map");
-  InstanceBuilder builder(read_grid(map));
+  InstanceBuilder builder(read_grid(map, path.string(), rules));
   unknown.look_at(map, {"dimensions", "obstacles"});
   const YamlValue agents = root.member("agents");
   Waypoints waypoints(path.string());

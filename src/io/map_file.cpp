@@ -27,11 +27,13 @@ struct Size {
 
 class MapReader {
  public:
-  MapReader(const std::filesystem::path& path, std::vector<std::string>* warnings)
+  MapReader(const std::filesystem::path& path, std::vector<std::string>* warnings,
+            const InputRules& rules)
       : file_(path.string()),
         text_(read_text(path)),
         lines_(split_lines(text_)),
-        warnings_(warnings) {}
+        warnings_(warnings),
+        rules_(rules) {}
 
   Grid read() {
     const Size size = read_header();
@@ -76,8 +78,14 @@ class MapReader {
     return number;
   }
 
+  // A file that does not begin as a map is perhaps no map, and what it holds is not for the screen.
+  void expect_map() const {
+    if (constexpr std::string_view kFirst = "type octile"; header_line(0, kFirst) != kFirst)
+      fail(0, 0, fmt::format("does not begin as a map does; expected '{}'", kFirst));
+  }
+
   Size read_header() const {
-    expect_header(0, "type octile");
+    expect_map();
     Size size;
     for (std::size_t line = 1; line <= 2; ++line) {
       if (const auto height = number_after(line, "height"); height && size.height == 0)
@@ -95,6 +103,8 @@ class MapReader {
       fail(1, 0,
            fmt::format("{} x {} cells are too many; expected at most {}", size.width, size.height,
                        kMaxMapCells));
+    require_memory(rules_, file_, line_and_column(2, 1), std::int64_t{size.width} * size.height,
+                   "cells", kBytesPerCell);
     return size;
   }
 
@@ -146,13 +156,15 @@ class MapReader {
   std::string text_;
   std::vector<std::string_view> lines_;
   std::vector<std::string>* warnings_;
+  const InputRules& rules_;
   bool warned_ = false;
 };
 
 }  // namespace
 
-Grid read_map(const std::filesystem::path& path, std::vector<std::string>* warnings) {
-  return MapReader(path, warnings).read();
+Grid read_map(const std::filesystem::path& path, std::vector<std::string>* warnings,
+              const InputRules& rules) {
+  return MapReader(path, warnings, rules).read();
 }
 
 void write_map(const std::filesystem::path& path, const Grid& grid) {

@@ -48,7 +48,10 @@ Rounding rounded_up(const RoadNetwork& network, int index, const StepScale& scal
   return {tidy == steps ? -1 : index, tidy == steps ? tidy : exact, steps};
 }
 
-void require_room(const RoadNetwork& network, const Link& link, std::int64_t places) {
+void require_room(const RoadNetwork& network, const Link& link, std::int64_t places,
+                  const InputRules& rules) {
+  require_memory(rules, network.file, link.place, places, "places of the roads up to this one",
+                 kBytesPerPlace);
   if (places > Roadmap::kMostPlaces)
     throw InputError(network.file, link.place,
                      fmt::format("the roads up to this one have more than {} places; expected "
@@ -102,14 +105,14 @@ std::vector<std::pair<int, int>> pairs_alike(const std::vector<Road>& roads,
 
 }  // namespace
 
-SteppedRoads in_steps(const RoadNetwork& network, const StepScale& scale) {
+SteppedRoads in_steps(const RoadNetwork& network, const StepScale& scale, const InputRules& rules) {
   SteppedRoads result;
   std::int64_t places = std::ssize(network.vertices);
   for (std::size_t k = 0; k < network.links.size(); ++k) {
     const Link& link = network.links[k];
     const Rounding rounding = rounded_up(network, static_cast<int>(k), scale);
     places += rounding.steps - 1;
-    require_room(network, link, places);
+    require_room(network, link, places, rules);
     result.roads.push_back({link.from, link.to, rounding.steps, link.one_way});
     if (rounding.link < 0) continue;
     if (rounding.absolute() > result.most_absolute.absolute()) result.most_absolute = rounding;

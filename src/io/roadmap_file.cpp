@@ -53,7 +53,8 @@ Time read_steps(const JsonValue& value) {
 }
 
 std::vector<Road> read_roads(const JsonValue& list, UnknownKeys& unknown, const Numbers& numbers,
-                             std::int64_t places) {
+                             std::int64_t places, const std::string& file,
+                             const InputRules& rules) {
   std::vector<Road> roads;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonValue edge = list.element(i);
@@ -65,6 +66,8 @@ std::vector<Road> read_roads(const JsonValue& list, UnknownKeys& unknown, const 
     if (places > Roadmap::kMostPlaces)
       edge.fail(fmt::format("the roads up to this one have more than {} places; expected fewer",
                             Roadmap::kMostPlaces));
+    require_memory(rules, file, edge.path(), places, "places of the roads up to this one",
+                   kBytesPerPlace);
     roads.push_back(road);
   }
   return roads;
@@ -80,12 +83,13 @@ OrderedJson road_json(const Roadmap& roadmap, const Road& road) {
 
 }  // namespace
 
-Roadmap read_roadmap(const std::filesystem::path& path, std::vector<std::string>* warnings) {
-  return parse_roadmap(read_text(path), path.string(), warnings);
+Roadmap read_roadmap(const std::filesystem::path& path, std::vector<std::string>* warnings,
+                     const InputRules& rules) {
+  return parse_roadmap(read_text(path), path.string(), warnings, rules);
 }
 
 Roadmap parse_roadmap(std::string_view text, const std::string& name,
-                      std::vector<std::string>* warnings) {
+                      std::vector<std::string>* warnings, const InputRules& rules) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   UnknownKeys unknown(name, warnings, Misspelt::kRefused);
@@ -93,7 +97,7 @@ Roadmap parse_roadmap(std::string_view text, const std::string& name,
   Numbers numbers;
   std::vector<Vertex> vertices = read_vertices(root.member("vertices"), unknown, numbers);
   std::vector<Road> roads =
-      read_roads(root.member("edges"), unknown, numbers, std::ssize(vertices));
+      read_roads(root.member("edges"), unknown, numbers, std::ssize(vertices), name, rules);
   return Roadmap(std::move(vertices), std::move(roads));
 }
 

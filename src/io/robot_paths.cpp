@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/csv.h"
 #include "grove/detail/io/plan_export.h"
 #include "visits.h"
 #include "yaml_text.h"
@@ -101,13 +102,6 @@ class WaypointsOf {
   const Scale& scale_;
 };
 
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
 void add_pose(std::string& text, const Waypoint& w) {
   const double whole = std::floor(w.seconds);
   fmt::format_to(std::back_inserter(text),
@@ -126,11 +120,11 @@ void write_waypoints(const std::filesystem::path& path, const Instance& instance
                      const Solution& solution, const Scale& scale) {
   std::string text = "robot,seconds,x,y,theta,task\n";
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    const std::string id = csv_text(instance.agent(agent).id);
+    const std::string id = csv_cell(instance.agent(agent).id);
     for (const Waypoint& w :
          WaypointsOf(instance, agent, solution.plan->agents[agent], scale).list())
       fmt::format_to(std::back_inserter(text), "{},{:.6g},{:.6g},{:.6g},{:.6f},{}\n", id, w.seconds,
-                     w.at.x, w.at.y, w.theta, csv_text(w.task));
+                     w.at.x, w.at.y, w.theta, csv_cell(w.task));
   }
   write_file_atomically(path, text);
 }

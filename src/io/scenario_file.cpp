@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <string_view>
 
 #include "grove/detail/io/atomic_file.h"
@@ -108,12 +109,16 @@ std::vector<ScenarioRow> read_scenario(const std::filesystem::path& path) {
   return rows;
 }
 
-std::filesystem::path map_beside(const std::filesystem::path& scenario) {
+std::filesystem::path map_beside(const std::filesystem::path& scenario, const InputRules& rules) {
   const std::vector<ScenarioRow> rows = read_scenario(scenario);
   if (rows.empty()) return {};
-  const std::filesystem::path map =
-      scenario.parent_path() / std::filesystem::path(rows.front().map).filename();
-  return std::filesystem::is_regular_file(map) ? map : std::filesystem::path();
+  try {
+    const std::filesystem::path map = file_in_folder(
+        rules, scenario.parent_path(), std::filesystem::path(rows.front().map).filename());
+    return std::filesystem::is_regular_file(map) ? map : std::filesystem::path();
+  } catch (const std::invalid_argument& error) {
+    throw InputError(scenario.string(), fmt::format("line {}", rows.front().line), error.what());
+  }
 }
 
 void require_same_map(const std::filesystem::path& scenario, std::span<const ScenarioRow> rows,

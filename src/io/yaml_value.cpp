@@ -16,9 +16,9 @@
 namespace grove::detail {
 namespace {
 
-// The parser's nodes take some 150 times the bytes of the text. This is a million obstacles and
-// more.
+// This is a million obstacles and more.
 constexpr std::size_t kLargestYaml = std::size_t{32} << 20;
+constexpr std::size_t kBytesPerByte = 150;  // of the text: what the parser's nodes take
 
 std::string place_of(const YAML::Mark& mark) {
   if (mark.is_null()) return "";
@@ -133,10 +133,12 @@ Position YamlValue::position() const {
   return {element(0).integer(0, kMost), element(1).integer(0, kMost)};
 }
 
-YamlDocument::YamlDocument(const std::filesystem::path& path) : file_(path.string()) {
+YamlDocument::YamlDocument(const std::filesystem::path& path, const InputRules& rules)
+    : file_(path.string()) {
   const std::string text = read_text(path);
   if (text.size() > kLargestYaml)
     throw InputError(file_, "", "is too large; expected at most 32 MiB of YAML");
+  require_memory(rules, file_, "", std::ssize(text), "bytes of YAML", kBytesPerByte);
   try {
     require_one_document(file_, text);
     root_ = YAML::Load(text);

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grove/detail/io/input_rules.h"
 #include "grove/detail/model/grid.h"
 
 namespace grove::detail {
@@ -54,7 +55,7 @@ class YamlValue {
 // A parsed file. Throws InputError unless it is one YAML document that is a map.
 class YamlDocument {
  public:
-  explicit YamlDocument(const std::filesystem::path& path);
+  explicit YamlDocument(const std::filesystem::path& path, const InputRules& rules = {});
 
   YamlValue root() const { return {root_, file_}; }
 

@@ -27,6 +27,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -39,6 +40,7 @@
 #include "certificate_reader.h"
 #include "demands_in_force.h"
 #include "grove/detail/io/input_error.h"
+#include "grove/detail/model/limits.h"
 #include "kept_parts.h"
 #include "lemma_table.h"
 
@@ -156,7 +158,7 @@ class Deciding : public KeptParts {
   TableLemma statement_;
   bool is_theorem_ = false;
   DemandsInForce in_force_;
-  std::vector<Level> levels_;
+  std::deque<Level> levels_;
   Needs needs_;  // of the proof that ended last
 };
 
@@ -301,10 +303,16 @@ class Writing : public Decided {
   Demands demands_;        // of the lemma, that are still to come
 };
 
-// Whether it is compressed.
-bool walk(const fs::path& file, CertificateVisitor& visitor) {
+// Whether it is compressed. The memory is looked at before each piece of some 64 kB, and what grows
+// by much at once is kept in deques.
+bool walk(const fs::path& file, CertificateVisitor& visitor, const Limits& limits) {
   CertificateBytes bytes(file);
   const ByteSource source = [&](char* buffer, std::size_t size) {
+    if (limits.stop_requested())
+      throw InputError(file.string(), "",
+                       fmt::format("needs more memory than {:.3g} GB to be trimmed; expected a "
+                                   "smaller certificate, or a higher --memory-limit",
+                                   static_cast<double>(*limits.memory_limit()) / 1e9));
     return bytes.read(buffer, size);
   };
   read_certificate_lines(file.string(), source, nullptr, visitor);
@@ -313,20 +321,22 @@ bool walk(const fs::path& file, CertificateVisitor& visitor) {
 
 }  // namespace
 
-TrimmedCertificate trim_certificate(const fs::path& from, const fs::path& to) {
+TrimmedCertificate trim_certificate(const fs::path& from, const fs::path& to, std::size_t memory) {
   if (fs::exists(from) && !fs::is_regular_file(from))
     throw InputError(from.string(), "", "expected a file, which can be read more than once");
+  Limits limits;
+  limits.set_memory_limit(memory);
   TrimmedCertificate trimmed;
   LemmaTable lemmas;
   Deciding deciding(lemmas);
-  const bool is_compressed = walk(from, deciding);
+  const bool is_compressed = walk(from, deciding, limits);
   trimmed.before = {deciding.lines, static_cast<std::int64_t>(fs::file_size(from))};
   Naming naming(lemmas, deciding.keeps);
-  walk(from, naming);
+  walk(from, naming, limits);
   const std::vector<bool> needed = std::move(naming).needed();
   CertificateOutput output(to, is_compressed);
   Writing writing(lemmas, deciding.keeps, needed, output);
-  walk(from, writing);
+  walk(from, writing, limits);
   trimmed.after.lines = writing.lines;
   trimmed.after.bytes = output.commit();
   return trimmed;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -55,7 +56,7 @@ class KeptParts : public CertificateVisitor {
   bool passes_over() const { return passed_over_ > 0; }
 
   std::size_t splits_ = 0;
-  std::vector<Level> levels_;
+  std::deque<Level> levels_;
   std::int64_t passed_over_ = 0;  // proofs that are still to come of what is left out here
 };
 

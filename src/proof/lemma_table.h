@@ -2,6 +2,7 @@
 // The lemmas of a certificate, but for their proofs, and what its leaves need of them.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <set>
 #include <span>
@@ -45,7 +46,7 @@ class LemmaTable {
   std::vector<LemmaNumber> worth_naming(std::span<const LemmaNumber> named) const;
   bool implies(LemmaNumber stronger, LemmaNumber weaker) const;
 
-  std::vector<TableLemma> lemmas_;
+  std::deque<TableLemma> lemmas_;
   std::set<LemmaNumber, Before> distinct_{Before{*this}};  // by agents and demands
 };
 

@@ -154,7 +154,7 @@ class ProofRecorder::Stream {
  public:
   explicit Stream(std::filesystem::path path)
       : path_(std::move(path)),
-        file_(path_, O_WRONLY | O_CREAT | O_TRUNC),
+        file_(path_, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW),
         compressor_([this](std::string_view bytes) { write(bytes); }) {
     if (!file_.is_open()) fail_to_write(path_);
   }
@@ -239,7 +239,7 @@ void ProofRecorder::flush() {
 }
 
 void read_proof_part(const std::filesystem::path& path, ProofLog& log) {
-  const Descriptor file(path, O_RDONLY);
+  const Descriptor file(path, O_RDONLY | O_NOFOLLOW);
   if (!file.is_open()) fail_to_read(path);
   ZstdDecompressor stream([&](char* buffer, std::size_t size) {
     const ssize_t count = ::read(file.get(), buffer, size);

@@ -84,13 +84,13 @@ TEST(Rows, AreCsvWithTheSameColumns) {
             "threads,memory_limit_gb,plan_file,instance_digest,counts,solver,claimed_cost,"
             "claimed_lower_bound,claimed_s,anytime,trace,certified,verify_s,proof_bytes\n");
   EXPECT_EQ(csv_line(solved_row()),
-            "set/a_s3_n2_m4_mg,auto,--omega 0.01,\"a, \"\"b\"\"\",3,2,4,mg,0.01,7,60.0,true,"
+            "set/a_s3_n2_m4_mg,auto,'--omega 0.01,\"a, \"\"b\"\"\",3,2,4,mg,0.01,7,60.0,true,"
             "bounded,200,160,0.25,150,0.75,1.25,1.25,0.25,3,4,5,6,7.25,grove 0.1.0 (git 0123),\"a "
             "processor, 2 cores\",2026-11-30T23:59:59Z,,4,2,1.5,,0123456789abcdef,bypasses=8 "
             "splits_bar=9,,,,,false,,,,\n");
   EXPECT_EQ(
       csv_line(failed_row()),
-      "i,auto,--omega 0.01,\"a, \"\"b\"\"\",,2,4,mg,0.01,7,60.0,false,error,,,,150,,60.0,1.25,"
+      "i,auto,'--omega 0.01,\"a, \"\"b\"\"\",,2,4,mg,0.01,7,60.0,false,error,,,,150,,60.0,1.25,"
       ",,,,,,grove,\"a processor, 2 cores\",2026-11-30T23:59:59Z,ended by signal 9 (Killed),4,2,"
       ",,0123456789abcdef,,,,,,false,,,,\n");
   Row row = failed_row();

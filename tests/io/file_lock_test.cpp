@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "grove/detail/io/text_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
@@ -40,6 +41,45 @@ TEST(FileLock, EndsWithItsHolder) {
     EXPECT_NE(locking(directory / "lock"), "accepted");
   }
   EXPECT_EQ(locking(directory / "lock"), "accepted");
+}
+
+TEST(FileLock, IsNotTakenThroughLinks) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path victim = directory.write("victim", "precious");
+  std::filesystem::create_symlink(victim, directory / "link");
+  std::filesystem::create_hard_link(victim, directory / "twin");
+  std::filesystem::create_symlink(directory / "none", directory / "dangling");
+  for (const char* name : {"link", "twin", "dangling"})
+    EXPECT_EQ(locking(directory / name),
+              std::string(name) + ": is a link or no regular file; expected a lock file");
+  EXPECT_FALSE(std::filesystem::exists(directory / "none"));
+  EXPECT_EQ(read_text(victim), "precious");
+}
+
+TEST(OutputLock, KeepsOthersAwayAndLeavesNothingBehind) {
+  const TemporaryDirectory directory;
+  const auto locking_output = [](const std::string& path) {
+    return refusal([&] { const OutputLock lock(path); });
+  };
+  directory.write("plan.json", "{}");
+  std::filesystem::create_symlink("plan.json", directory / "link");
+  {
+    const OutputLock lock(directory / "plan.json");
+    for (const char* name : {"plan.json", "link"})
+      EXPECT_TRUE(locking_output(directory / name)
+                      .starts_with(std::string(name) +
+                                   ": is being written by another run (process " +
+                                   std::to_string(::getpid())))
+          << locking_output(directory / name);
+    EXPECT_EQ(locking_output(directory / "other.json"), "accepted");
+  }
+  EXPECT_EQ(locking_output(directory / "plan.json"), "accepted");
+  EXPECT_EQ(locking_output("/dev/null"), "accepted");
+  EXPECT_EQ(locking_output(directory / "none/plan.json"), "accepted");  // writing will tell
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(directory.path()))
+    files += entry.path().filename() != "link" && entry.path().filename() != "plan.json";
+  EXPECT_EQ(files, 0U);
 }
 
 // Nobody gives the lock of a killed process back but the kernel.

@@ -162,6 +162,16 @@ class Refusals(Program):
         self.refuses(mpirun(2, "solve", ONE_WAY, "--method", "hcbs"), ONE_WAY.name, "method hcbs", "one way")
         self.refuses(mpirun(2, "solve", EASY, "--method", "cts-cbs-a"), "cts-cbs-a")
 
+    def test_instances_that_name_files_elsewhere_are_refused_if_asked(self):
+        elsewhere = self.folder / "theirs/i.cts.json"
+        elsewhere.parent.mkdir()
+        elsewhere.write_text(json.dumps(json.loads(EASY.read_text()) | {"map": str(DATA / "rooms-32x32.map")}))
+        self.refuses(mpirun(2, "solve", elsewhere, "--confine"), "/map", "is an absolute name")
+        self.run_well(mpirun(2, "batch", elsewhere.parent, "--confine", "--output", "results", "--threads", 1))
+        with open(self.folder / "results/results.csv", encoding="utf-8", newline="") as table:
+            row, = csv.DictReader(table)
+        self.assertIn("is an absolute name", row["error"])
+
     def test_ranks_that_were_asked_for_different_things(self):
         one = ["mpirun", "--oversubscribe", "-np", 1, GROVE_MPI, "solve", EASY, "--seed", 1]
         other = [":", "-np", 1, GROVE_MPI, "solve", EASY, "--seed", 2]
@@ -445,7 +455,7 @@ class Batches(Program):
         for name, row in rows.items():
             self.assertEqual((row["status"], row["solved"]), ("optimal", "true"))
             self.assertEqual((row["map"], row["problem"], row["agents"]), ("rooms-32x32", "cts", "4"))
-            self.assertEqual((row["method"], row["options"]), ("auto", "--omega 0 --ranks-per-instance 2"))
+            self.assertEqual((row["method"], row["options"]), ("auto", "'--omega 0 --ranks-per-instance 2"))  # no formula to spreadsheets
             self.run_well([GROVE, "check", folder / f"{name}.cts.json",
                            self.folder / "results" / row["plan_file"]])
         self.run_well([GROVE, "report", "results", "-o", "report"])

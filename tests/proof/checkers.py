@@ -33,6 +33,7 @@ class Verdict:
             out.seek(0)
             self.text = out.read().decode()
         self.seconds = usage.ru_utime + usage.ru_stime
+        self.memory = 1024 * usage.ru_maxrss  # bytes, at most
 
 
 def verify(instance, certificate, *options):
@@ -69,6 +70,14 @@ def small_checker(instance, certificate):
         except (SystemExit, Exception) as refused:  # a traceback refuses, too
             return Said(1, f"{refused}\n")
     return Said(0, said.getvalue())
+
+
+def small_checker_within(memory, instance, certificate):
+    """The same as a process of its own, which takes so many bytes at most."""
+    code = f"import sys; sys.path.insert(0, {str(SMALL.parent)!r}); import proof_checker as checker; checker.MEMORY = {memory}; checker.run(*sys.argv[1:])"
+    with tempfile.TemporaryDirectory() as name:
+        (Path(name) / "proof").write_bytes(certificate)
+        return Verdict([sys.executable, "-c", code, instance.write(Path(name)), Path(name) / "proof"])
 
 
 def of(following):

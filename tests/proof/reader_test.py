@@ -8,6 +8,7 @@ import ctypes
 import ctypes.util
 import json
 import random
+import shutil
 import tempfile
 import unittest
 from pathlib import Path
@@ -26,6 +27,13 @@ def compressed(data):
     out = ctypes.create_string_buffer(room)
     length = library.ZSTD_compress(out, ctypes.c_size_t(room), data, ctypes.c_size_t(len(data)), 1)
     return out.raw[:length]
+
+
+def many(line):
+    """Eight million of them, in some ten thousand bytes; this process never holds them (a child's peak begins with its parent's)."""
+    frames = 80 * compressed(100_000 * line)
+    assert len(frames) < 60_000
+    return frames
 
 
 class Reader(unittest.TestCase):
@@ -51,6 +59,20 @@ class Reader(unittest.TestCase):
             broken[rng.randrange(len(broken))] ^= 1 << rng.randrange(8)
             found = checkers.verify(CROSS, bytes(broken))
             self.assertTrue(found.code in (1, 2) or (found.code, found.text) == (0, "verified: no plan costs less than 5\n"), found.text)
+
+    def test_little_that_becomes_much_keeps_to_the_memory_limit(self):
+        """Splits as deep as they are many: some ten thousand bytes, hundreds of megabytes of lines."""
+        bomb = compressed(GOOD.split("lemma")[0].encode() + b"theorem 5\n") + many(b"split 0 bar 4 1 1 | 1 bar 4 1 1\n")
+        found = self.ends(bomb, (1,), "^refused: line [0-9]+: the memory limit is reached\n", options=("--memory-limit", "0.05"), seconds=60)
+        self.assertLess(found.memory, 0.05e9 + 150e6)   # and the window of zstd, and the program
+
+    @unittest.skipUnless(shutil.which("zstd"), "no zstd")
+    def test_the_small_checker_keeps_to_its_memory_limit(self):
+        bomb = compressed(certificate(HALL, "theorem 99").removesuffix("end\n").encode()) + many(b"split 0 bar 7 2 2 | 1 bar 7 2 2\n")
+        found = checkers.small_checker_within(100_000_000, HALL, bomb)
+        self.assertEqual(found.code, 1, found.text)
+        self.assertRegex(found.text, "^refused: it needs more than 0.1 GB of memory\n$")
+        self.assertLess(found.memory, 0.2e9)
 
     def test_cut_off(self):
         for length in range(len(GOOD)):

@@ -6,6 +6,7 @@
     GROVE_FUZZ_FACTOR=20: so many times as many
 """
 import random
+import resource
 import shutil
 import subprocess
 import sys
@@ -218,6 +219,19 @@ class Files(unittest.TestCase):
             if code != 0:
                 self.assertRegex(said, "^grove: error: c.proof: .*expected")
                 self.assertEqual((code, after, files), (2, packed[:size], ["c.proof"]))
+
+    @unittest.skipUnless(shutil.which("zstd"), "no zstd")
+    def test_little_that_becomes_much_keeps_to_the_memory_limit(self):
+        """Splits as deep as they are many: some ten thousand bytes, hundreds of megabytes of lines."""
+        def pack(text):
+            return subprocess.run(["zstd", "-19", "-c"], input=text, capture_output=True, check=True).stdout
+        lemma = b"lemma 3 0\ndemand 0 bar 1 2 2\ndemand 0 bar 1 3 3\nleaf\n"
+        packed = pack(Trimmed.HEAD.encode()) + 100 * pack(50_000 * lemma)  # a child's peak begins with its parent's
+        self.assertLess(len(packed), 60_000)
+        code, said, after, files = trim(packed, "--memory-limit", "0.2")
+        self.assertEqual((code, after, files), (2, packed, ["c.proof"]))
+        self.assertRegex(said, "^grove: error: c.proof: needs more memory than 0.2 GB to be trimmed; ")
+        self.assertLess(1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, 0.2e9 + 150e6)
 
     def test_another_file(self):
         with tempfile.TemporaryDirectory() as name:

@@ -5,6 +5,7 @@
     grove_sim_test.py GROVE_SIM
 """
 import csv
+import json
 import subprocess
 import sys
 import tempfile
@@ -75,6 +76,11 @@ class GroveSim(unittest.TestCase):
         rows = self.rows(EASY, "--omega", 1, "--ranks", "1,2", "--output", "table.csv")
         self.assertEqual([(row["nodes"], float(row["nodes_overhead"])) for row in rows], [("0", 0)] * 2)
         self.assertTrue((self.folder / "table.csv").exists())
+
+    def test_instances_that_name_files_elsewhere_are_refused_if_asked(self):
+        elsewhere = self.folder / "i.cts.json"
+        elsewhere.write_text(json.dumps(json.loads(EASY.read_text()) | {"map": str(DATA / "rooms-32x32.map")}))
+        self.refuses(elsewhere, "--confine", because=["/map", "is an absolute name"])
 
     def test_refusals(self):
         self.refuses("missing.cts.json", because=["missing.cts.json"])

@@ -20,6 +20,7 @@
 #include "tools/bench/rehearsal.h"
 #include "tools/common/commands.h"
 #include "tools/common/companion.h"
+#include "tools/common/instance_arguments.h"
 #include "tools/common/machine.h"
 #include "tools/common/options.h"
 #include "tools/common/progress_style.h"
@@ -84,6 +85,7 @@ struct BenchArguments {
   std::int64_t jobs = 0;  // 0: as many as fit
   bool keep_plans = false;
   bool certify = false;
+  bool confined = false;
   bool quiet = false;
 };
 
@@ -156,17 +158,18 @@ std::vector<bench::Method> methods_of(BenchArguments& a) {
 }
 
 std::vector<batch::Entry> entries_of(const BenchArguments& a) {
+  const InputRules rules = input_rules(a.confined, default_memory_gb());
   if (a.agents.empty()) {
     if (a.scenarios != kAll) throw CLI::ValidationError("--scenarios", "expected --agents with it");
     if (batch::holds_scenarios(a.instances))
       throw CLI::ValidationError("--agents",
                                  "required with scenarios: how many of their rows, as "
                                  "10:100:10 or 10,20,50");
-    return batch::read_manifest(a.instances);
+    return batch::read_manifest(a.instances, rules);
   }
   const std::vector<int> agents(a.agents.begin(), a.agents.end());
   batch::SweptScenarios swept =
-      batch::read_scenarios(a.instances, {.agents = agents, .scenarios = a.scenarios});
+      batch::read_scenarios(a.instances, {.agents = agents, .scenarios = a.scenarios}, rules);
   if (swept.too_short > 0)
     say_on_stderr(
         fmt::format("grove: warning: {} scenario{} fewer rows than the most of --agents; "
@@ -242,6 +245,7 @@ void add_bench_command(CLI::App& root) {
       ->type_name("'NAME=REGEX'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_confine_option(*app, a->confined);
   add_counts(*app, "--agents", a->agents,
              "of scenarios: the first so many rows, 10:100:10 being 10, 20, ..., 100");
   app->add_option("--scenarios", a->scenarios, "only those, of a folder; * stands for anything")

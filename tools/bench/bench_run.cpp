@@ -220,11 +220,12 @@ class Bench {
       instance = files.instance;
       write_instance(instance, loaded.instance, fs::absolute(loaded.map_path), Outlives::kProcess);
     }
-    const ChildEnd end =
-        run_child({options_.verify, instance.string(), files.proof.string()}, files.said,
-                  {.seconds = kLongestCheck_s,
-                   .cancelled = [this] { return must_stop(); },
-                   .memory_gb = std::nullopt});
+    std::vector<std::string> command{options_.verify, instance.string(), files.proof.string()};
+    if (entry.rules.confined && entry.agents == 0) command.push_back("--confine");
+    const ChildEnd end = run_child(command, files.said,
+                                   {.seconds = kLongestCheck_s,
+                                    .cancelled = [this] { return must_stop(); },
+                                    .memory_gb = std::nullopt});
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     outcome.verify_s = end.wall_s;
     outcome.proof_bytes = static_cast<std::int64_t>(fs::file_size(files.proof));
@@ -334,6 +335,7 @@ std::vector<std::string> solve_command(const std::string& program, const batch::
   std::vector<std::string> words{program, "solve", entry.path};
   if (entry.agents > 0)
     words.insert(words.end(), {"--map", entry.map, "--agents", std::to_string(entry.agents)});
+  if (entry.rules.confined) words.push_back("--confine");
   words.insert(words.end(), method.arguments.begin(), method.arguments.end());
   words.insert(words.end(), {"--time-limit", fmt::format("{}", time_limit_s), "--output",
                              plan.string(), "--quiet"});

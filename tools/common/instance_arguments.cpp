@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <string_view>
 
@@ -11,6 +12,7 @@
 #include "grove/detail/io/scenario_file.h"
 #include "grove/detail/io/text_file.h"
 #include "tools/common/file_formats.h"
+#include "tools/common/machine.h"
 #include "tools/common/options.h"
 #include "tools/common/standard_error.h"
 
@@ -21,6 +23,18 @@ constexpr IntegerRange kAgentCounts{1, 1'000'000};
 constexpr std::string_view kScenario = ".scen";
 
 }  // namespace
+
+void add_confine_option(CLI::App& command, bool& confined) {
+  command.add_flag("--confine", confined,
+                   "for instances of strangers: refuse those that name files outside of their own "
+                   "folder");
+}
+
+InputRules input_rules(bool confined, double memory_gb) {
+  constexpr double kMost = 1e18;  // of a size_t
+  return {.confined = confined,
+          .memory = static_cast<std::size_t>(std::min(memory_gb * 1e9, kMost))};
+}
 
 void InstanceArguments::add_to(CLI::App& command) {
   command
@@ -34,6 +48,7 @@ void InstanceArguments::add_to(CLI::App& command) {
       ->type_name("FILE.map");
   add_integer(command, "--agents", agents_, kAgentCounts, "the first N rows of a .scen file")
       ->default_str("");
+  add_confine_option(command, confined_);
 }
 
 void InstanceArguments::add_rules_to(CLI::App& command) {
@@ -62,7 +77,8 @@ LoadedInstance InstanceArguments::read() const {
   if (!map_.empty() || agents_ > 0)
     throw CLI::ValidationError("--map, --agents", "expected only with a .scen file");
   if (is_standard_input())
-    return parse_instance(standard_input_ ? *standard_input_ : read_standard_input(), name(), ".");
+    return parse_instance(standard_input_ ? *standard_input_ : read_standard_input(), name(), ".",
+                          rules());
   if (path_.ends_with(".map"))
     throw InputError(
         path_, "", "a map; expected an instance, FILE.cts.json, which names its map, or FILE.scen");
@@ -78,16 +94,21 @@ LoadedInstance InstanceArguments::read() const {
     throw InputError(path_, "",
                      "an instance of another tool; expected FILE.cts.json, which 'grove convert' "
                      "makes of it");
-  return read_instance(path_);
+  return read_instance(path_, rules());
 }
 
 LoadedInstance InstanceArguments::read_first_rows() const {
   if (agents_ == 0) throw CLI::ValidationError("--agents", "required with a .scen file");
-  const std::filesystem::path map = map_.empty() ? map_beside(path_) : std::filesystem::path(map_);
+  const std::filesystem::path map =
+      map_.empty() ? map_beside(path_, rules()) : std::filesystem::path(map_);
   if (map.empty())
     throw CLI::ValidationError(
         "--map", "required with a .scen file that does not lie beside the map that it names");
-  return read_scenario_instance(path_, map, static_cast<int>(agents_));
+  return read_scenario_instance(path_, map, static_cast<int>(agents_), rules());
+}
+
+InputRules InstanceArguments::rules() const {
+  return input_rules(confined_, memory_gb_.value_or(default_memory_gb()));
 }
 
 LoadedInstance InstanceArguments::load(bool speaks) const {

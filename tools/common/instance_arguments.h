@@ -31,6 +31,10 @@ class InstanceArguments {
   // For files named after it: "x" of "maps/x.cts.json", "x-20" of the first 20 rows of "x.scen".
   std::string stem() const;
 
+  // What the maps and states of instances may take, in place of 80 % of what there is.
+  void limit_memory(double gigabytes) { memory_gb_ = gigabytes; }
+  InputRules rules() const;
+
   bool is_standard_input() const { return path_ == "-"; }
   // What load() is to take for standard input, of which all processes of a run have only one.
   void set_standard_input(std::string text) { standard_input_ = std::move(text); }
@@ -43,8 +47,14 @@ class InstanceArguments {
   std::string map_;
   std::int64_t agents_ = 0;
   bool no_following_ = false;
+  bool confined_ = false;
+  std::optional<double> memory_gb_;
   std::optional<std::string> standard_input_;
 };
+
+// --confine: see InputRules.
+void add_confine_option(CLI::App& command, bool& confined);
+InputRules input_rules(bool confined, double memory_gb);
 
 // All of it. Throws InputError.
 std::string read_standard_input();

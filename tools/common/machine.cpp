@@ -29,6 +29,10 @@ double usable_memory_gb() {
   return std::min(physical_memory_gb(), granted ? static_cast<double>(*granted) / 1e9 : HUGE_VAL);
 }
 
+double default_memory_gb() {
+  return std::floor(80 * usable_memory_gb()) / 100;
+}
+
 int usable_cores() {
   cpu_set_t cores;
   if (::sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;

@@ -9,6 +9,8 @@ namespace grove::detail {
 // The memory that this process may use: the machine's, or less where a container or a batch system
 // grants no more.
 double usable_memory_gb();
+// The part of it that a run takes unless told otherwise: 80 %.
+double default_memory_gb();
 // The cores that this process may use.
 int usable_cores();
 // Which these are; the same text, the same cores.

@@ -2,6 +2,7 @@
 #include "tools/common/signals.h"
 
 #include <csignal>
+#include <initializer_list>
 
 namespace grove::detail {
 
@@ -16,16 +17,37 @@ extern "C" void on_signal(int signal) {
 
 }  // namespace
 
-void stop_on_signals() {
+namespace {
+
+// One that was blocked when the program was started, and came, comes now.
+void unblock(std::initializer_list<int> signals) {
+  sigset_t set;
+  ::sigemptyset(&set);
+  for (const int signal : signals) ::sigaddset(&set, signal);
+  ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+void handle(int signal, unsigned flags) {
   struct sigaction action {};
   action.sa_handler = on_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  action.sa_flags = SA_RESTART;
-  ::sigaction(SIGTERM, &action, nullptr);
-  ::sigaction(SIGHUP, &action, nullptr);
-  ::sigaction(SIGUSR1, &action, nullptr);
+  action.sa_flags = static_cast<int>(flags);
+  ::sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+void accept_checkpoint_signal() {
+  handle(SIGUSR1, SA_RESTART);
+  unblock({SIGUSR1});
+}
+
+void stop_on_signals() {
+  accept_checkpoint_signal();
+  handle(SIGINT, SA_RESETHAND);
+  handle(SIGTERM, SA_RESTART);
+  handle(SIGHUP, SA_RESTART);
   std::signal(SIGPIPE, SIG_IGN);
+  unblock({SIGINT, SIGTERM, SIGHUP});
 }
 
 }  // namespace grove::detail

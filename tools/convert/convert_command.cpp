@@ -230,6 +230,7 @@ void add_options(CLI::App& command, ConvertArguments& arguments) {
   command.add_flag("--flip-up-down", arguments.flip_up_down,
                    "with --to tracker: u for y + 1, as in the tracker's downloads; its documents "
                    "say y - 1. Send one small plan first");
+  add_confine_option(command, arguments.confined);
   arguments.frame.add_to(command);
   add_number(command, "--robot-radius", arguments.robot_radius, 0, 100,
              "maps of ROS: how far robots keep from walls, in metres")

@@ -100,7 +100,7 @@ void convert_occupancy(const ConvertArguments& arguments) {
     throw CLI::ValidationError("--cell-size", "required; expected the size of a cell in metres");
   if (arguments.frame.has_origin())
     throw CLI::ValidationError("--origin", "expected none; a map of ROS says where it lies");
-  const OccupancyMap map(arguments.instance);
+  const OccupancyMap map(arguments.instance, arguments.rules());
   const CellMap cells = read_occupancy(map, arguments);
   require_moves(cells, arguments);
   write_map(arguments.output, cells.grid);

@@ -9,6 +9,8 @@
 #include "grove/detail/io/instance_file.h"
 #include "tools/common/file_formats.h"
 #include "tools/common/frame_arguments.h"
+#include "tools/common/instance_arguments.h"
+#include "tools/common/machine.h"
 #include "tools/common/options.h"
 
 namespace grove::detail {
@@ -34,7 +36,9 @@ struct ConvertArguments {
   bool merges_lanes = false;
   FrameArguments frame;
   double robot_radius = 0;  // metres
+  bool confined = false;
 
+  InputRules rules() const { return input_rules(confined, default_memory_gb()); }
   bool drops(const std::string& what) const;
 };
 

@@ -164,7 +164,7 @@ void convert_roadmap(const ConvertArguments& arguments) {
                                "expected only with LIF");
   const StepScale scale = require_scale(arguments);
   const RoadNetwork network = read_network(arguments, format);
-  const SteppedRoads stepped = in_steps(network, scale);
+  const SteppedRoads stepped = in_steps(network, scale, arguments.rules());
   require_roads(stepped, arguments);
   warn_of_unused_times(network, scale);
   warn_of_opposite_roads(stepped.roads, arguments);

@@ -23,7 +23,8 @@ LoadedInstance read_scen(const ConvertArguments& arguments) {
       arguments.agents > 0
           ? static_cast<std::size_t>(arguments.agents)
           : std::min<std::size_t>(read_scenario(arguments.instance).size(), kRowCounts.most);
-  return read_scenario_instance(arguments.instance, arguments.map, static_cast<int>(rows));
+  return read_scenario_instance(arguments.instance, arguments.map, static_cast<int>(rows),
+                                arguments.rules());
 }
 
 // Where in a file of format `from` the agent or task stands that `error` is about.
@@ -61,11 +62,12 @@ bool ConvertArguments::drops(const std::string& what) const {
 }
 
 LoadedInstance load(const ConvertArguments& arguments, InstanceFormat from) {
-  if (from == InstanceFormat::kGrove) return read_instance(arguments.instance);
+  if (from == InstanceFormat::kGrove) return read_instance(arguments.instance, arguments.rules());
   if (from == InstanceFormat::kScen) return read_scen(arguments);
-  const auto read = from == InstanceFormat::kMapfw ? read_mapfw_problem : read_libmrp_instance;
   std::vector<std::string> warnings;
-  Instance instance = read(arguments.instance, &warnings);
+  Instance instance = from == InstanceFormat::kMapfw
+                          ? read_mapfw_problem(arguments.instance, &warnings)
+                          : read_libmrp_instance(arguments.instance, &warnings, arguments.rules());
   return {std::move(instance), {}, std::move(warnings)};
 }
 

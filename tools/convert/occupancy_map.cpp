@@ -27,26 +27,32 @@ struct Image {
   std::vector<double> light;  // 0 black, 1 white; row by row from the top
 };
 
-void require_size(const std::string& file, std::int64_t width, std::int64_t height) {
+constexpr std::size_t kLargestYaml = std::size_t{1} << 16;
+// Of an image that is decoded, and of what is made of it.
+constexpr std::size_t kBytesPerPixel = 32;
+
+void require_size(const std::string& file, std::int64_t width, std::int64_t height,
+                  const InputRules& rules) {
   if (width < 1 || height < 1 || width * height > kMaxMapCells)
     throw InputError(
         file, "",
         fmt::format("found {} x {} pixels; expected 1 to {} in all", width, height, kMaxMapCells));
+  require_memory(rules, file, "", width * height, "pixels", kBytesPerPixel);
 }
 
 // Netpbm's grey maps, binary (P5) or in words (P2).
 class PgmReader {
  public:
-  PgmReader(const fs::path& path) : file_(path.string()), text_(read_text(path)) {}
+  PgmReader(const fs::path& path, const InputRules& rules)
+      : file_(path.string()), text_(read_text(path)), rules_(rules) {}
 
   Image read() {
     const std::string kind = word();
-    if (kind != "P5" && kind != "P2")
-      fail(fmt::format("found '{}'; expected P5 or P2, a PGM image", one_line(kind)));
+    if (kind != "P5" && kind != "P2") fail("does not begin as a PGM image does; expected P5 or P2");
     Image image;
     image.width = number(1, kMaxMapCells, "a width");
     image.height = number(1, kMaxMapCells, "a height");
-    require_size(file_, image.width, image.height);
+    require_size(file_, image.width, image.height, rules_);
     const int most = number(1, 65535, "a greatest value");
     const std::size_t count =
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
@@ -90,12 +96,48 @@ class PgmReader {
 
   std::string file_;
   std::string text_;
+  const InputRules& rules_;
   std::size_t at_ = 0;
 };
 
-Image read_png(const fs::path& path) {
+// The width and height that a PNG image begins with; before them stand a signature, and the length
+// and the name of the first chunk.
+void require_size_of_png(const std::string& file, const std::string& bytes,
+                         const InputRules& rules) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  constexpr std::size_t kWidth = 16;
+  constexpr std::size_t kHeight = 20;
+  if (!bytes.starts_with(kSignature) || bytes.size() < kHeight + 4)
+    throw InputError(file, "", "does not begin as a PNG image does; expected one");
+  const auto number = [&](std::size_t at) {
+    std::int64_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i)
+      value = 256 * value + static_cast<unsigned char>(bytes[i]);
+    return value;
+  };
+  require_size(file, number(kWidth), number(kHeight), rules);
+}
+
+struct UnreadBytes {
+  std::string_view bytes;
+
+  // For cairo.
+  static cairo_status_t read(void* closure, unsigned char* target, unsigned length) {
+    auto& unread = static_cast<UnreadBytes*>(closure)->bytes;
+    if (unread.size() < length) return CAIRO_STATUS_READ_ERROR;
+    std::copy_n(unread.begin(), length, target);
+    unread.remove_prefix(length);
+    return CAIRO_STATUS_SUCCESS;
+  }
+};
+
+Image read_png(const fs::path& path, const InputRules& rules) {
+  const std::string bytes = read_text(path);
+  require_size_of_png(path.string(), bytes, rules);
+  UnreadBytes unread{bytes};
   const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
-      cairo_image_surface_create_from_png(path.c_str()), cairo_surface_destroy);
+      cairo_image_surface_create_from_png_stream(&UnreadBytes::read, &unread),
+      cairo_surface_destroy);
   if (const auto status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
     throw InputError(path.string(), "",
                      fmt::format("no PNG image: {}", cairo_status_to_string(status)));
@@ -105,7 +147,6 @@ Image read_png(const fs::path& path) {
   Image image;
   image.width = cairo_image_surface_get_width(surface.get());
   image.height = cairo_image_surface_get_height(surface.get());
-  require_size(path.string(), image.width, image.height);
   const unsigned char* data = cairo_image_surface_get_data(surface.get());
   const int stride = cairo_image_surface_get_stride(surface.get());
   for (int y = 0; y < image.height; ++y)
@@ -121,7 +162,10 @@ class Keys {
  public:
   explicit Keys(const fs::path& path) : file_(path.string()) {
     try {
-      root_ = YAML::Load(read_text(path));
+      const std::string text = read_text(path);
+      if (text.size() > kLargestYaml)
+        throw InputError(file_, "", "is too large; expected at most 64 KiB, the keys of a ROS map");
+      root_ = YAML::Load(text);
     } catch (const YAML::Exception& error) {
       throw InputError(file_, fmt::format("line {}", error.mark.line + 1), one_line(error.msg));
     }
@@ -163,11 +207,19 @@ class Keys {
   YAML::Node root_;
 };
 
+fs::path image_of(const Keys& keys, const fs::path& folder, const InputRules& rules) {
+  try {
+    return file_in_folder(rules, folder, keys.text("image", ""));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(keys.file(), "image", error.what());
+  }
+}
+
 constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-OccupancyMap::OccupancyMap(const fs::path& yaml) {
+OccupancyMap::OccupancyMap(const fs::path& yaml, const InputRules& rules) {
   const Keys keys(yaml);
   if (const std::string mode = keys.text("mode", "trinary"); mode != "trinary" && mode != "scale")
     throw InputError(keys.file(), "mode",
@@ -177,10 +229,10 @@ OccupancyMap::OccupancyMap(const fs::path& yaml) {
   const double free_below = keys.number("free_thresh", 0, 1, 0.25);
   const std::string negate = keys.text("negate", "0");
   const bool is_negated = negate == "1" || negate == "true";
-  const fs::path file = yaml.parent_path() / keys.text("image", "");
+  const fs::path file = image_of(keys, yaml.parent_path(), rules);
   const std::string suffix = file.extension().string();
   const Image image =
-      suffix == ".png" || suffix == ".PNG" ? read_png(file) : PgmReader(file).read();
+      suffix == ".png" || suffix == ".PNG" ? read_png(file, rules) : PgmReader(file, rules).read();
   width_ = image.width;
   height_ = image.height;
   for (const double light : image.light)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grove/detail/io/frame.h"
+#include "grove/detail/io/input_rules.h"
 #include "grove/detail/model/grid.h"
 
 namespace grove::detail {
@@ -16,7 +17,7 @@ class OccupancyMap {
  public:
   // Reads map.yaml and the image it names, PGM or PNG. Throws InputError, also for a yaw, and for
   // modes and thresholds that are not those of trinary maps.
-  explicit OccupancyMap(const std::filesystem::path& yaml);
+  explicit OccupancyMap(const std::filesystem::path& yaml, const InputRules& rules = {});
   // The same in memory: rows from the top, `resolution` metres a pixel.
   OccupancyMap(int width, int height, std::vector<bool> free, double resolution, Point origin);
 

@@ -26,6 +26,7 @@
 #include "mpi/batch/gather.h"
 #include "mpi/solve_distributed.h"
 #include "tools/common/commands.h"
+#include "tools/common/instance_arguments.h"
 #include "tools/common/machine.h"
 #include "tools/common/options.h"
 #include "tools/common/program.h"
@@ -63,6 +64,7 @@ struct BatchArguments {
   std::string output;
   std::int64_t ranks_per_instance = 1;
   double total_time_limit_s = kNoLimit_s;
+  bool confined = false;
   bool quiet = false;
 };
 
@@ -150,8 +152,10 @@ class BatchRun {
   }
 
  private:
+  InputRules rules() const { return input_rules(a_.confined, a_.solve.memory_limit_gb); }
+
   void open(batch::Grouping grouping) {
-    auto entries = batch::read_manifest(a_.instances);
+    auto entries = batch::read_manifest(a_.instances, rules());
     table_.emplace(a_.output, batch::TableOf::kPlans);
     warn_of_other_versions();
     for (const batch::Entry& entry : entries) batch::make_folder(plan_path(entry).parent_path());
@@ -183,7 +187,9 @@ class BatchRun {
     std::optional<LoadedInstance> loaded;
     std::string error;
     try {
-      loaded = batch::load(entry);
+      batch::Entry mine = entry;
+      mine.rules = rules();
+      loaded = batch::load(mine);
       require_fit(method_of(a_.solve), loaded->instance, options_);
     } catch (const std::exception& failure) {
       error = failure.what();
@@ -258,6 +264,7 @@ void add_mpi_batch_command(CLI::App& root, MpiSession& session, CommandLines& li
       ->required()
       ->type_name("");
   add_search_options(*app, a->solve);
+  add_confine_option(*app, a->confined);
   add_integer(*app, "--ranks-per-instance", a->ranks_per_instance, {1, 1'000'000},
               "so many ranks work on an instance together: 1 where there are many small ones")
       ->type_name("G");

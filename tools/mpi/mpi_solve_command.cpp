@@ -11,12 +11,14 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/model/fingerprint.h"
 #include "mpi/shared_problem.h"
 #include "mpi/solve_distributed.h"
+#include "tools/common/commands.h"
 #include "tools/common/program.h"
 #include "tools/common/version.h"
 #include "tools/mpi/crew.h"
@@ -55,7 +57,7 @@ class Run {
     require_same(session_, "options", options_text(app_));
     if (a_.instance.is_standard_input()) share_standard_input();
     together(session_, [&] {
-      loaded_.emplace(a_.instance.load(is_first()));
+      loaded_.emplace(load(a_, is_first()));
       require_fit(a_, loaded_->instance, options_);
     });
     require_same(session_, "an instance of fingerprint",
@@ -86,7 +88,7 @@ class Run {
   }
 
   void prepare() {
-    prepare_outputs(a_, *loaded_);
+    locks_ = prepare_outputs(a_, *loaded_);
     if (!a_.start.empty()) options_.start = read_start_plan(a_.start, loaded_->instance);
     checkpoints_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
     log_ = open_log(a_, false);
@@ -116,9 +118,15 @@ class Run {
       solution.stats.counts["silent_ranks"] = missing_;
       log_->warning(without_text());
     }
-    finish_run(a_, loaded_->instance, solution, *log_);
-    if (missing_ > 0) session_.abort(kExitSuccess);  // or they would keep the others here
-    proof_->report_failure();
+    const std::string failure = finish_run(a_, loaded_->instance, solution, *log_);
+    if (missing_ > 0 && failure.empty())
+      session_.abort(kExitSuccess);  // or they would keep the others here
+    try {
+      report_failures({failure, proof_->failure()});
+    } catch (const CommandFailed& failed) {
+      if (missing_ > 0) session_.abort(failed.exit_code());
+      throw;
+    }
   }
 
   std::string without_text() {
@@ -173,6 +181,7 @@ class Run {
   std::optional<LoadedInstance> loaded_;
   Limits limits_;
   RunObserver silent_;
+  std::vector<OutputLock> locks_;
   CheckpointFolder checkpoints_;
   std::unique_ptr<LogFormat> log_;
   std::optional<ProofOutput> proof_;

@@ -8,6 +8,7 @@
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/proof/certificate_trim.h"
 #include "tools/common/commands.h"
+#include "tools/common/options.h"
 
 namespace grove::detail {
 namespace {
@@ -30,7 +31,7 @@ demands of a leaf is taken to need all of these. What is proven stays so, and is
 by grove-verify.
 
 The file is read three times, piece by piece; in memory are its lemmas, without their proofs, and a
-byte for each split.
+byte for each split, within --memory-limit: a small compressed file may hold any number of lines.
 
 Prints one line, and exits with 0; or with 2 where FILE is no certificate, and leaves all as it was.
 
@@ -41,11 +42,13 @@ Examples:
 struct TrimArguments {
   std::string file;
   std::string output;
+  double memory_limit_gb = 1;
 };
 
 void run(const TrimArguments& arguments) {
   const std::string& to = arguments.output.empty() ? arguments.file : arguments.output;
-  const auto [before, after] = trim_certificate(arguments.file, to);
+  const auto [before, after] = trim_certificate(
+      arguments.file, to, static_cast<std::size_t>(arguments.memory_limit_gb * 1e9));
   fmt::print("wrote {}: {} lines, {} bytes; before: {} lines, {} bytes\n", one_line(to),
              after.lines, after.bytes, before.lines, before.bytes);
 }
@@ -60,6 +63,9 @@ void add_trim_command(CLI::App& app) {
       ->add_option("-o,--output", arguments->output,
                    "file to write, whole or not at all; by default FILE itself")
       ->type_name("FILE");
+  add_number(*command, "--memory-limit", arguments->memory_limit_gb, 0.01, 1e6,
+             "refuse a certificate for which this program would need more than so many gigabytes")
+      ->type_name("GB");
   command->callback([arguments] { run(*arguments); });
 }
 

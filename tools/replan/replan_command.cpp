@@ -72,7 +72,7 @@ class Replanning {
       : app_(app),
         a_(arguments),
         options_(options_of_one_search(a_.solve)),
-        loaded_(a_.solve.instance.load()),
+        loaded_(load(a_.solve)),
         session_(loaded_.instance, *read_plan_to_drive(a_.plan, loaded_.instance).solution.plan) {}
 
   void run() {
@@ -107,7 +107,7 @@ class Replanning {
     const std::string stem = fmt::format("{}-at-{}", s.instance.stem(), a_.at);
     if (a_.output_instance.empty()) a_.output_instance = stem + ".cts.json";
     if (s.output.empty()) s.output = stem + ".plan.json";
-    prepare_outputs(s, loaded_);
+    locks_ = prepare_outputs(s, loaded_);
     for (const fs::path& file :
          {s.instance.path(), loaded_.map_path, fs::path(a_.plan), s.output, fs::path(s.log)})
       require_distinct_files(a_.output_instance, file, "another file of this run");
@@ -158,7 +158,7 @@ class Replanning {
     solution.stats.texts["instance"] = head.instance;
     if (solution.stats.counts.contains("lower_bound_committed")) tell_committed(solution, *log);
     write_instance_then();
-    finish_run(s, now.instance, solution, *log);
+    report_failures({finish_run(s, now.instance, solution, *log)});
     if (s.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);
   }
 
@@ -186,6 +186,7 @@ class Replanning {
   const SolveOptions options_;
   const LoadedInstance loaded_;
   Session session_;
+  std::vector<OutputLock> locks_;
 };
 
 void add_several(CLI::App& app, const std::string& name, std::vector<std::string>& values,

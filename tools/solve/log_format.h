@@ -42,6 +42,7 @@ struct LogEnd {
   std::string plan_file;
   std::string proof_file;    // empty: none was asked for
   std::optional<Cost> kept;  // the plan file was left alone, with a plan of that cost
+  bool is_lost = false;      // the plan file could not be written
 };
 
 // Turns each into lines. Called from one thread at a time.

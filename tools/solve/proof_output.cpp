@@ -32,7 +32,7 @@ std::vector<fs::path> parts_of(const fs::path& file) {
 fs::path unused_part(const fs::path& file, int rank) {
   for (int number = 0;; ++number) {
     fs::path part = fs::path(file).concat(fmt::format(".part-{}-{}", rank, number));
-    if (!fs::exists(part)) return part;
+    if (!fs::exists(fs::symlink_status(part))) return part;
   }
 }
 
@@ -74,13 +74,14 @@ void ProofOutput::write(const Instance& instance, Solution& solution) {
   if (!recorder_) return;
   try {
     make(instance, solution);
-  } catch (const InputError&) {
-    failure_ = std::current_exception();
+  } catch (const InputError& error) {
+    failure_ = error.what();
   } catch (const std::bad_alloc&) {
-    failure_ = std::make_exception_ptr(InputError(
-        file_.string(), "", "there is no memory to make the certificate in; its parts stay"));
+    failure_ = InputError(file_.string(), "",
+                          "there is no memory to make the certificate in; its parts stay")
+                   .what();
   }
-  if (failure_) solution.stats.texts["proof"] = "none was written";
+  if (!failure_.empty()) solution.stats.texts["proof"] = "none was written";
 }
 
 void ProofOutput::make(const Instance& instance, Solution& solution) const {
@@ -91,10 +92,6 @@ void ProofOutput::make(const Instance& instance, Solution& solution) const {
   solution.stats.texts["proof"] = text_of(made, claimed);
   if (goes_on_) return;
   for (const fs::path& part : parts) fs::remove(part);
-}
-
-void ProofOutput::report_failure() const {
-  if (failure_) std::rethrow_exception(failure_);
 }
 
 }  // namespace grove::detail

@@ -2,9 +2,9 @@
 // The certificate that a run leaves (docs/proof.md).
 #pragma once
 
-#include <exception>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "grove/detail/model/instance.h"
 #include "grove/detail/model/plan.h"
@@ -30,11 +30,11 @@ class ProofOutput {
   // All that this rank has written down is in its file; it writes no more.
   void close();
   // Once all ranks have closed theirs: makes the certificate, and notes in the solution's
-  // statistics what it proves. What fails is told by report_failure(), for the plan is to be
-  // written first.
+  // statistics what it proves. What fails is told by failure(), for the plan is to be written
+  // first.
   void write(const Instance& instance, Solution& solution);
-  // Throws InputError.
-  void report_failure() const;
+  // Why there is no certificate; empty: there is one, or none was asked for.
+  const std::string& failure() const { return failure_; }
 
  private:
   void make(const Instance& instance, Solution& solution) const;
@@ -42,7 +42,7 @@ class ProofOutput {
   const std::filesystem::path file_;
   const bool goes_on_;  // a later run may
   std::unique_ptr<ProofRecorder> recorder_;
-  std::exception_ptr failure_;
+  std::string failure_;
 };
 
 }  // namespace grove::detail

@@ -314,6 +314,11 @@ void require_fit(const SolveArguments& a, const Instance& instance, const SolveO
   }
 }
 
+LoadedInstance load(SolveArguments& a, bool speaks) {
+  a.instance.limit_memory(a.memory_limit_gb);
+  return a.instance.load(speaks);
+}
+
 void set_limits(Limits& limits, const SolveArguments& a,
                 std::chrono::steady_clock::time_point start) {
   using Clock = Limits::Clock;

@@ -22,7 +22,7 @@ struct SolveArguments {
   InstanceArguments instance;
   std::string omega;  // empty: not given
   double time_limit_s = 180;
-  double memory_limit_gb = std::floor(80 * usable_memory_gb()) / 100;
+  double memory_limit_gb = default_memory_gb();
   std::int64_t threads = usable_cores();
   std::string method = "auto";
   bool anytime = false;
@@ -71,6 +71,8 @@ SolveOptions options_of_one_search(const SolveArguments& arguments);
 // Throws InputError if the method is not for this instance, or not with this start plan.
 void require_fit(const SolveArguments& arguments, const Instance& instance,
                  const SolveOptions& options);
+// The instance, by the memory limit of the search; see InstanceArguments::load.
+LoadedInstance load(SolveArguments& arguments, bool speaks = true);
 // The limits of a run that began at `start`.
 void set_limits(Limits& limits, const SolveArguments& arguments,
                 std::chrono::steady_clock::time_point start);

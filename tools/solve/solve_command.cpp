@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grove/detail/engine/method.h"
 #include "tools/common/commands.h"
@@ -34,8 +35,8 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   const Clock::time_point start = Clock::now();
   stop_on_signals();
   SolveOptions options = solve_options(a);
-  const LoadedInstance loaded = a.instance.load();
-  prepare_outputs(a, loaded);
+  const LoadedInstance loaded = load(a);
+  const std::vector<OutputLock> locks = prepare_outputs(a, loaded);
   if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
   require_fit(a, loaded.instance, options);
   const CheckpointFolder checkpoints = prepare_checkpoints(a.checkpoints, loaded.instance, options);
@@ -57,8 +58,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   proof.close();
   proof.write(loaded.instance, solution);
   add_run_facts(solution, app, a, start);
-  finish_run(a, loaded.instance, solution, *log);
-  proof.report_failure();
+  report_failures({finish_run(a, loaded.instance, solution, *log), proof.failure()});
   if (a.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);
 }
 

@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <CLI/Error.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <utility>
 
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/input_error.h"
+#include "tools/common/commands.h"
+#include "tools/common/standard_error.h"
 #include "tools/common/version.h"
 #include "tools/solve/incumbent_files.h"
 #include "tools/solve/json_log.h"
@@ -41,9 +44,23 @@ void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
   require_writable(IncumbentFiles::file(a.incumbents, 1));
 }
 
+struct PlanWritten {
+  std::optional<Cost> kept;  // of write_plan()
+  std::string failure;       // empty: none
+};
+
+PlanWritten try_to_write_plan(const SolveArguments& a, const Instance& instance,
+                              const Solution& solution) {
+  try {
+    return {write_plan(a.output, instance, solution, a.keeps_cheaper), ""};
+  } catch (const InputError& error) {
+    return {std::nullopt, error.what()};
+  }
+}
+
 }  // namespace
 
-void prepare_outputs(SolveArguments& a, const LoadedInstance& loaded) {
+std::vector<OutputLock> prepare_outputs(SolveArguments& a, const LoadedInstance& loaded) {
   if (a.output.empty()) a.output = a.instance.stem() + ".plan.json";
   for (const auto& file : {a.output, a.log, a.proof}) {
     require_distinct_files(file, a.instance.path(), "the instance");
@@ -54,8 +71,13 @@ void prepare_outputs(SolveArguments& a, const LoadedInstance& loaded) {
   require_distinct_files(a.proof, a.output, "the plan file");
   require_distinct_files(a.proof, a.log, "the log");
   require_distinct_files(a.proof, a.start, "the start plan");
+  std::vector<OutputLock> locks;
+  for (const auto& file : {a.output, a.log, a.proof})
+    if (!file.empty() && file != kStandardOutput) locks.emplace_back(file);
+  if (!a.incumbents.empty()) locks.emplace_back(IncumbentFiles::file(a.incumbents, 1));
   if (a.output != kStandardOutput) require_writable(a.output);
   if (!a.incumbents.empty()) prepare_incumbents(a, loaded);
+  return locks;
 }
 
 std::unique_ptr<LogFormat> open_log(const SolveArguments& a, bool may_show_progress) {
@@ -99,12 +121,20 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
   solution.stats.texts["version"] = version_text();
 }
 
-void finish_run(const SolveArguments& a, const Instance& instance, const Solution& solution,
-                LogFormat& log) {
-  const std::optional<Cost> kept = write_plan(a.output, instance, solution, a.keeps_cheaper);
+std::string finish_run(const SolveArguments& a, const Instance& instance, const Solution& solution,
+                       LogFormat& log) {
+  const auto [kept, failure] = try_to_write_plan(a, instance, solution);
   log.end({solution, a.output == kStandardOutput ? "standard output" : a.output.string(),
-           a.proof.string(), kept});
+           a.proof.string(), kept, !failure.empty()});
   tell_without_plan(solution, a.output, kept);
+  return failure;
+}
+
+void report_failures(const std::vector<std::string>& failures) {
+  for (const std::string& failure : failures)
+    if (!failure.empty()) say_on_stderr("grove: error: " + failure);
+  if (std::ranges::any_of(failures, [](const std::string& failure) { return !failure.empty(); }))
+    throw CommandFailed(kExitInternalFailure);
 }
 
 }  // namespace grove::detail

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "grove/detail/io/file_lock.h"
 #include "grove/detail/io/instance_file.h"
 #include "grove/detail/model/plan.h"
 #include "tools/solve/log_format.h"
@@ -16,8 +18,10 @@
 namespace grove::detail {
 
 // Finds out before the search whether the files of a run can be written and are not each other;
-// gives the plan file its default name. Throws InputError.
-void prepare_outputs(SolveArguments& arguments, const LoadedInstance& loaded);
+// gives the plan file its default name. Until what it returns is gone, no other run may write them.
+// Throws InputError.
+[[nodiscard]] std::vector<OutputLock> prepare_outputs(SolveArguments& arguments,
+                                                      const LoadedInstance& loaded);
 
 // The log that was asked for, on the screen and in its file. `may_show_progress`: see LogSink.
 // Throws InputError.
@@ -36,8 +40,12 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
                    std::chrono::steady_clock::time_point start);
 
 // Writes the plan file and the end of the log, and says on stderr what must not be missed; see
-// plan_output.h.
-void finish_run(const SolveArguments& arguments, const Instance& instance, const Solution& solution,
-                LogFormat& log);
+// plan_output.h. Returns why the plan could not be written, on a full disk for instance; empty: it
+// was. The log then still has its summary.
+[[nodiscard]] std::string finish_run(const SolveArguments& arguments, const Instance& instance,
+                                     const Solution& solution, LogFormat& log);
+// Says on stderr what could not be written at the end of a run, each that is not empty, and throws
+// CommandFailed (exit code 1) if there is any.
+void report_failures(const std::vector<std::string>& failures);
 
 }  // namespace grove::detail

@@ -220,6 +220,8 @@ void TextLog::end(const LogEnd& end) {
                            evicted_text(solution)));
   if (verbose_)
     for (const std::string& line : search_summary(solution.stats)) sink_.line(line);
+  if (end.is_lost)
+    return sink_.line(fmt::format("Plan file     {} was not written", end.plan_file));
   sink_.line(fmt::format(
       "Plan file     {}{}", end.plan_file,
       end.kept ? fmt::format(" (kept as it is, with a valid plan of cost {})", *end.kept) : ""));

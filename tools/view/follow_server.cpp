@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// GET / is the page; GET /log?from=N the log from byte N on, whole lines of it, with three headers:
-// X-Log names the log, so that the page begins anew when that does, X-End is where the answer ends,
-// and X-Size what there is.
+// GET /TOKEN/ is the page; GET /TOKEN/log?from=N the log from byte N on, whole lines of it, with
+// three headers: X-Log names the log, so that the page begins anew when that does, X-End is where
+// the answer ends, and X-Size what there is. Nothing else is answered but by 404: other users of
+// this machine, who can ask this address too, do not know the token.
 #include "tools/view/follow_server.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <fstream>
 #include <mutex>
+#include <random>
 #include <thread>
 
 #include "grove/detail/io/input_error.h"
@@ -89,6 +91,14 @@ bool refuse(int port, const httplib::Request& request, httplib::Response& respon
   return true;
 }
 
+// 128 bits that nobody can guess.
+std::string random_token() {
+  std::random_device device;
+  std::string token;
+  for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", static_cast<std::uint32_t>(device()));
+  return token;
+}
+
 // A server that has just ended does not keep its port for a minute; but one that runs keeps it,
 // where httplib would share it.
 void keep_the_port(socket_t socket) {
@@ -114,8 +124,9 @@ void serve(const Followed& followed, int port, const std::function<void(const st
   httplib::Server server;
   GrowingFile log(followed.log);
   server.new_task_queue = [] { return new httplib::ThreadPool(2); };
-  server.set_default_headers(
-      {{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}});
+  server.set_default_headers({{"Cache-Control", "no-store"},
+                              {"X-Content-Type-Options", "nosniff"},
+                              {"Referrer-Policy", "no-referrer"}});
   server.set_keep_alive_max_count(1);  // the end does not wait for pages that might ask again
   server.set_socket_options(&keep_the_port);
   if (port == 0)
@@ -128,17 +139,18 @@ void serve(const Followed& followed, int port, const std::function<void(const st
         return refuse(port, request, response) ? httplib::Server::HandlerResponse::Handled
                                                : httplib::Server::HandlerResponse::Unhandled;
       });
-  server.Get("/", [&](const httplib::Request&, httplib::Response& response) {
+  const std::string root = fmt::format("/{}/", random_token());
+  server.Get(root, [&](const httplib::Request&, httplib::Response& response) {
     send(response, followed.page, "text/html; charset=utf-8");
   });
-  server.Get("/log", [&](const httplib::Request& request, httplib::Response& response) {
+  server.Get(root + "log", [&](const httplib::Request& request, httplib::Response& response) {
     GrowingFile::Part part = log.read(offset_of(request), request.get_param_value("file"));
     response.set_header("X-Log", part.name);
     response.set_header("X-End", std::to_string(part.end));
     response.set_header("X-Size", std::to_string(part.size));
     send(response, std::move(part.text), "text/plain; charset=utf-8");
   });
-  begun(fmt::format("http://{}:{}/", kLoopback, port));
+  begun(fmt::format("http://{}:{}{}", kLoopback, port, root));
   std::jthread listening([&] { server.listen_after_bind(); });
   while (!server.is_running()) std::this_thread::sleep_for(kMoment);  // stop() would do nothing
   while (!over()) std::this_thread::sleep_for(kPause);

@@ -15,7 +15,8 @@ struct Followed {
 };
 
 // Serves on the loopback address until `over` says so, asked some times a second. `port` 0: any
-// that is free. `begun` is told the address ("http://127.0.0.1:43210/") before the first answer.
+// that is free. `begun` is told the address ("http://127.0.0.1:43210/TOKEN/", with a random token
+// that is a new one each time) before the first answer; without the token the answer is 404.
 // Answers nobody who has come by another name (DNS rebinding). Throws InputError where the port is
 // taken.
 void serve(const Followed& followed, int port, const std::function<void(const std::string&)>& begun,

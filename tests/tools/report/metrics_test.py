@@ -16,7 +16,7 @@ from grove_report import anytime, logs, metrics, plans, proofs, rows, scales, sp
 from grove_report.lines import Line, Lines, families  # noqa: E402
 from grove_report.metrics import Cell  # noqa: E402
 from grove_report.rows import BadInput, read_results  # noqa: E402
-from grove_report.tables import csv_value, html_table, seconds, word  # noqa: E402
+from grove_report.tables import csv_text, csv_value, html_table, seconds, text_of_cell, word  # noqa: E402
 
 NEEDED = {"instance": "i", "method": "a", "map": "m", "agents": 5, "tasks": 10, "problem": "mg",
           "time_limit_s": 100, "solved": True, "status": "feasible", "cost": 10, "runtime_s": 1}
@@ -127,6 +127,27 @@ class Reading(Folder):
     def test_letters_that_cannot_be_shown(self):
         path = self.text("a.jsonl", json.dumps(NEEDED | {"method": "a\n\ud800\x00é"}))
         self.assertEqual(read_results([path]).rows[0].method, "a\\n\\ud800\\x00é")
+
+
+class Formulas(Folder):
+    """Cells that a spreadsheet would take for a formula."""
+    GUARDED = ("=1+2", "@SUM(A1)", "+1-2", "-2+3", "\t=1", "\r=1", "=a,b", "'=1", "--omega 0")
+    PLAIN = ("", "a", "-1", "-1.5e-3", "'a", "1-2")
+
+    def test_stand_behind_an_apostrophe(self):
+        for text in self.GUARDED:
+            self.assertEqual(csv_value(text), "'" + text)
+        for text in self.PLAIN:
+            self.assertEqual(csv_value(text), text)
+        self.assertEqual((csv_value(-1), csv_value(-1.5), csv_value(None)), ("-1", "-1.5", ""))
+
+    def test_are_read_back_unchanged(self):
+        for text in self.GUARDED + self.PLAIN:
+            self.assertEqual(text_of_cell(csv_value(text)), text)
+        for text in ("=cmd|' /C calc'!A0", "-f", "'=1"):
+            path = self.text("a.csv", csv_text(NEEDED, [list((NEEDED | {"method": text, "solved": "true"}).values())]))
+            self.assertEqual(read_results([path]).rows[0].method, text)
+            self.assertIn("'" + text, path.read_text())
 
 
 class Refusals(Folder):

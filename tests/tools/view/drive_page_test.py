@@ -199,7 +199,7 @@ class DrivePages(pages.PageTest):
         command = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", *words]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
             try:
-                yield re.search(r"http://127\.0\.0\.1:\d+/", server.stdout.readline())[0]
+                yield re.search(r"http://127\.0\.0\.1:\d+/[0-9a-f]{32}/", server.stdout.readline())[0]
                 server.send_signal(signal.SIGINT)
                 self.assertEqual(server.wait(120), 0)
             finally:
@@ -229,7 +229,7 @@ class DrivePages(pages.PageTest):
 
     def test_a_port_is_kept_and_given_back(self):
         with self.server() as address:
-            port = address.rstrip("/").rpartition(":")[2]
+            port = re.search(r":(\d+)/", address)[1]
             for _ in range(5):
                 with urllib.request.urlopen(address) as answer:
                     answer.read()                       # until the server ends the connection
@@ -238,7 +238,8 @@ class DrivePages(pages.PageTest):
             self.assertEqual(second.returncode, 2)
             self.assertIn("--port: is taken", second.stderr)
         with self.server("--port", port) as again:      # at once, and ended at once
-            self.assertEqual(again, address)
+            self.assertIn(f":{port}/", again)
+            self.assertNotEqual(again, address)         # another token
 
     def follow(self, address):
         self.browser.call("Page.navigate", url=address)

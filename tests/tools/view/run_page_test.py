@@ -144,7 +144,7 @@ class Pages(unittest.TestCase):
         command = [ARGUMENTS.grove, "view", "--run", log, "--follow"]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
             try:
-                self.follow(log, re.search(r"http://127\.0\.0\.1:(\d+)/", server.stdout.readline()))
+                self.follow(log, re.search(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/", server.stdout.readline()))
             finally:
                 server.send_signal(signal.SIGINT)
         self.assertEqual(server.returncode, 0)
@@ -168,18 +168,20 @@ class Pages(unittest.TestCase):
         self.comes("The run has ended.")
         self.assertEqual(self.browser.console, [])
         self.assertEqual([url for url in self.browser.requests if not url.startswith(address[0])], [])
-        self.serves_this_machine_alone(int(address[1]))
+        self.serves_this_user_alone(int(address[1]), address[2])
         self.browser.call("Page.navigate", url="about:blank")
 
     def comes(self, words):
         self.browser.wait_until(words, lambda: words in self.text())
 
-    def serves_this_machine_alone(self, port):
+    def serves_this_user_alone(self, port, token):
         listening = [line.split()[1] for line in Path("/proc/net/tcp").read_text().splitlines() if " 0A " in line]
         self.assertIn(f"0100007F:{port:04X}", listening)  # 127.0.0.1, the bytes turned round
         self.assertNotIn(f"00000000:{port:04X}", listening)
-        for host, path, expected in (("127.0.0.1", "/", 200), ("localhost", "/log?from=0", 200), ("evil.example", "/", 403),
-                                     ("127.0.0.1", "/etc/passwd", 404), ("127.0.0.1", "/log?from=x", 200)):
+        for host, path, expected in (("127.0.0.1", f"/{token}/", 200), ("localhost", f"/{token}/log?from=0", 200),
+                                     ("127.0.0.1", f"/{token}/log?from=x", 200), ("evil.example", f"/{token}/", 403),
+                                     ("127.0.0.1", "/", 404), ("127.0.0.1", "/log?from=0", 404),
+                                     ("127.0.0.1", f"/{token[:-1]}/log?from=0", 404), ("127.0.0.1", "/etc/passwd", 404)):
             request = urllib.request.Request(f"http://127.0.0.1:{port}{path}", headers={"Host": f"{host}:{port}"})
             try:
                 with urllib.request.urlopen(request) as answer:

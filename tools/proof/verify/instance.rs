@@ -3,7 +3,7 @@
 use crate::json::Json;
 use crate::keys;
 use std::collections::{HashMap, HashSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub type Place = u32;
 
@@ -262,9 +262,16 @@ fn scenario(text: &str, count: u32) -> Result<Json, String> {
     Ok(object(map.into_iter().chain([("agents", Json::List(agents)), ("tasks", Json::List(Vec::new()))]).collect()))
 }
 
+/// The file of this name in the folder of `path` or below it, wherever links lead.
+fn confined(path: &Path, name: &str) -> Result<PathBuf, String> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let inside = |folder: PathBuf| folder.join(name).canonicalize().ok().filter(|real| !Path::new(name).is_absolute() && real.starts_with(&folder) && real.is_file());
+    need(folder.canonicalize().ok().and_then(inside), "its map or roadmap", "a file in the folder of the instance or below, with --confine")
+}
+
 impl Instance {
     /// Of a file; a scenario's first rows are so many agents, on this map or that which they name.
-    pub fn read(path: &Path, agents: Option<u32>, map: Option<&Path>) -> Result<Instance, String> {
+    pub fn read(path: &Path, agents: Option<u32>, map: Option<&Path>, confine: bool) -> Result<Instance, String> {
         let read = |path: &Path| std::fs::read(path).map_err(|error| format!("{}: {}", path.display(), error));
         let within = |path: &Path, error: String| format!("{}: {}", path.display(), error);
         let text = read(path)?;
@@ -277,7 +284,11 @@ impl Instance {
         need(Some(()).filter(|_| one), &path.display().to_string(), "a map or a roadmap, and not both")?;
         let (named, roads) = (json.get("map").and_then(Json::text), json.get("roadmap").and_then(Json::text));
         let name = need(named.or(roads), &path.display().to_string(), "a map or a roadmap")?;
-        let name = map.map_or_else(|| path.with_file_name(name), Path::to_path_buf);
+        let name = match map {
+            Some(map) => map.to_path_buf(),
+            None if confine => confined(path, name).map_err(|error| within(path, error))?,
+            None => path.with_file_name(name),
+        };
         let (text, mut sum) = (read(&name)?, String::new());
         let found = match named {
             Some(_) => World::map(&String::from_utf8_lossy(&text), &mut sum).map(|world| (world, Names::default())),

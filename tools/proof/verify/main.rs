@@ -20,12 +20,13 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-const USAGE: &str = "Usage: grove-verify INSTANCE PROOF [--time-limit SECONDS] [--memory-limit GB] [--stats]
+const USAGE: &str = "Usage: grove-verify INSTANCE PROOF [--time-limit SECONDS] [--memory-limit GB] [--confine] [--stats]
        grove-verify FILE.scen PROOF --agents N [--map FILE.map] ...
 
 Exit code 0, 'verified: ...': no valid plan of the instance costs less than the certificate says;
 1, 'refused: ...': it does not prove that, or not within the limits; 2, 'unreadable: ...': what is no certificate or instance.
-Without options: no limit of time, 4 GB; the map of a scenario is the one beside it that its rows name. --stats says on standard error what it took.";
+--confine refuses an instance that names a map outside of its own folder. Without options: no limit of time, 4 GB and
+128 MiB for the window of zstd; the map of a scenario is the one beside it that its rows name. --stats says on standard error what it took.";
 
 /// The line that is read, for who refuses from outside.
 static LINE: AtomicU64 = AtomicU64::new(0);
@@ -69,11 +70,12 @@ struct Arguments {
     agents: Option<u32>,
     map: Option<String>,
     seconds: Option<f64>,
+    confine: bool,
     stats: bool,
 }
 
 fn arguments() -> Result<Arguments, String> {
-    let mut found = Arguments { files: Vec::new(), agents: None, map: None, seconds: None, stats: false };
+    let mut found = Arguments { files: Vec::new(), agents: None, map: None, seconds: None, confine: false, stats: false };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut number = |most: f64| {
@@ -85,6 +87,7 @@ fn arguments() -> Result<Arguments, String> {
             "--memory-limit" => LIMIT.store((number(1e6)? * 1e9) as u64, Ordering::Relaxed),
             "--agents" => found.agents = Some(number(1e9)?).filter(|n| n.fract() == 0.0).map(|n| n as u32),
             "--map" => found.map = Some(words.next().ok_or("--map: expected a file")?),
+            "--confine" => found.confine = true,
             "--stats" => found.stats = true,
             "--help" => {
                 println!("{}", USAGE);
@@ -103,7 +106,7 @@ fn arguments() -> Result<Arguments, String> {
 
 fn verify(arguments: &Arguments) -> (i32, String) {
     let begin = Instant::now();
-    let instance = instance::Instance::read(Path::new(&arguments.files[0]), arguments.agents, arguments.map.as_deref().map(Path::new));
+    let instance = instance::Instance::read(Path::new(&arguments.files[0]), arguments.agents, arguments.map.as_deref().map(Path::new), arguments.confine);
     let lines = reader::Lines::open(Path::new(&arguments.files[1])).map_err(|error| format!("{}: {}", arguments.files[1], error));
     let (instance, lines) = match instance.and_then(|instance| Ok((instance, lines?))) {
         Ok(found) => found,

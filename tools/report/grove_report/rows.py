@@ -7,6 +7,8 @@ import math
 from pathlib import Path
 from typing import NamedTuple, Optional
 
+from .tables import text_of_cell
+
 PROBLEMS = ("mg", "cts", "mixed", "mapf")
 WRONG, CLAIMED, UNSUITABLE = "wrong", "claimed", "unsuitable"  # of other solvers: the plan is none; a cost, no plan
 STATUSES = ("optimal", "bounded", "feasible", "infeasible", "unknown", "error", WRONG, CLAIMED, UNSUITABLE)
@@ -276,7 +278,7 @@ def _read_csv(path, file):
             if len(fields) != len(header):
                 raise BadInput(f"{place}: {len(fields)} columns; "
                                f"expected {len(header)} as in the first line")
-            yield _row([None if index is None else fields[index] for index in at], place)
+            yield _row([None if index is None else text_of_cell(fields[index]) for index in at], place)
     except csv.Error as error:
         raise BadInput(f"{path}: line {reader.line_num}: not CSV: {error}") from None
 

@@ -4,6 +4,7 @@ import csv
 import html
 import io
 import math
+import re
 from typing import NamedTuple
 
 
@@ -12,7 +13,19 @@ def csv_value(value):
         return ""
     if isinstance(value, float):
         return f"{value:.6g}"
-    return str(value)
+    text = str(value)
+    return "'" + text if _is_like_a_formula(text) else text
+
+
+def _is_like_a_formula(text):
+    """Would a spreadsheet take it for one? (OWASP, CSV injection; src/io/csv.cpp has the same rule.)"""
+    bare = text.lstrip("'")
+    return bare.startswith(("=", "+", "-", "@", "\t", "\r")) and not re.fullmatch(r"-[0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?", bare)
+
+
+def text_of_cell(cell):
+    """What csv_value() made this cell of."""
+    return cell[1:] if cell.startswith("'") and _is_like_a_formula(cell) else cell
 
 
 def csv_text(header, rows):

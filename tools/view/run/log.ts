@@ -180,7 +180,7 @@ function readSummary(data: Value): Summary {
     status: data.key("status").text(),
     cost: numberOrNull(data.key("cost")),
     bound: data.key("lower_bound").number(),
-    planFile: data.key("plan_file").text(),
+    planFile: data.key("plan_file").isNull ? "was not written" : data.key("plan_file").text(),
     seconds: seconds.isThere ? seconds.number() : null,
     stats: readNumbers(stats),
   };

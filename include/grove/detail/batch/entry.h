@@ -15,6 +15,7 @@ struct Entry {
   std::string path;         // FILE.cts.json, or FILE.scen with the two below
   std::string map = {};     // of a .scen file; else empty
   int agents = 0;           // the first so many rows of a .scen file; else 0
+  InputRules rules = {};    // by which it is to be read
   std::string digest = {};  // instance_digest(); empty: the instance cannot be read
 
   friend bool operator==(const Entry&, const Entry&) = default;

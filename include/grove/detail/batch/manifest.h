@@ -23,7 +23,8 @@ namespace grove::detail::batch {
 //
 // Throws InputError, with the line, when there is no such file, when an instance occurs twice or
 // two would have one id, and when there is no instance at all. Does not look into the instances: a
-// broken one is a matter of its own row.
-std::vector<Entry> read_manifest(const std::filesystem::path& manifest_or_folder);
+// broken one is a matter of its own row. `rules` are those of all entries.
+std::vector<Entry> read_manifest(const std::filesystem::path& manifest_or_folder,
+                                 const InputRules& rules = {});
 
 }  // namespace grove::detail::batch

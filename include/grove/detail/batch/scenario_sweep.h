@@ -24,7 +24,8 @@ struct SweptScenarios {
 // `place`: FILE.scen, or a folder with such files in it or below, as Moving AI's archives unpack.
 // The map that a scenario names is the file of that name beside it, else the only one of that name
 // in the folder or below. Throws InputError.
-SweptScenarios read_scenarios(const std::filesystem::path& place, const ScenarioSweep& sweep);
+SweptScenarios read_scenarios(const std::filesystem::path& place, const ScenarioSweep& sweep,
+                              const InputRules& rules = {});
 
 // Whether there are scenarios there, and no *.cts.json.
 bool holds_scenarios(const std::filesystem::path& place);

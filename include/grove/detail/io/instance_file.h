@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grove/detail/io/atomic_file.h"
+#include "grove/detail/io/input_rules.h"
 #include "grove/detail/model/instance.h"
 
 namespace grove::detail {
@@ -22,11 +23,11 @@ struct LoadedInstance {
 };
 
 // Reads a *.cts.json file and the map it names (relative to the file).
-LoadedInstance read_instance(const std::filesystem::path& path);
+LoadedInstance read_instance(const std::filesystem::path& path, const InputRules& rules = {});
 // The same of the text of such a file: `name` stands for it in messages, and the map is relative to
 // `folder` (".": the current one).
 LoadedInstance parse_instance(std::string_view text, const std::string& name,
-                              const std::filesystem::path& folder);
+                              const std::filesystem::path& folder, const InputRules& rules = {});
 // What such a file says of agents and tasks, {"agents": [...], "tasks": [...]}, added to `builder`,
 // which has the map. Appends to `warnings`.
 Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const std::string& name,
@@ -34,7 +35,8 @@ Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const
 
 // Classical MAPF: the first `agents` rows of a scenario as they stand, ids a0, a1, ...; no tasks.
 LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
-                                      const std::filesystem::path& map, int agents);
+                                      const std::filesystem::path& map, int agents,
+                                      const InputRules& rules = {});
 
 // Writes classical MAPF as a scenario, one row per agent, whole or not at all; `map` is the map's
 // file name. The length column is the 4-connected distance (write_scenario). Throws NotExpressible

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "grove/detail/io/input_rules.h"
 #include "grove/detail/model/instance.h"
 
 namespace grove::detail {
@@ -30,7 +31,8 @@ namespace grove::detail {
 // which is a problem that Grove does not solve, on roadmaps, and on more than 2^24 cells, which a
 // few bytes could ask for. Appends to `warnings` about unknown keys.
 Instance read_libmrp_instance(const std::filesystem::path& path,
-                              std::vector<std::string>* warnings = nullptr);
+                              std::vector<std::string>* warnings = nullptr,
+                              const InputRules& rules = {});
 
 // Writes classical MAPF for libMultiRobotPlanning, whole or not at all. Throws NotExpressible for
 // tasks and for agents without a destination, InputError when the file cannot be written.

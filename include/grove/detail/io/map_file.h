@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "grove/detail/io/input_rules.h"
 #include "grove/detail/model/grid.h"
 
 namespace grove::detail {
@@ -17,7 +18,8 @@ inline constexpr int kMaxMapCells = 1 << 26;
 // order), then `height` rows of `width` characters. Passable: . G S E. Blocked: @ O T W. CRLF line
 // ends and a missing last newline are accepted. Appends to `warnings` when characters other than
 // . @ T occur. Throws InputError with line and column for anything else.
-Grid read_map(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
+Grid read_map(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr,
+              const InputRules& rules = {});
 
 // Writes `grid` with '.' and '@', whole or not at all. Throws InputError when it cannot.
 void write_map(const std::filesystem::path& path, const Grid& grid);

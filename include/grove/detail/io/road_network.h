@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "grove/detail/io/input_rules.h"
 #include "grove/detail/model/roadmap.h"
 
 namespace grove::detail {
@@ -55,8 +56,9 @@ struct SteppedRoads {
 // the larger of them, and only the former if its seconds are not known. That is rounded up, to 1 at
 // least; what is a whole number but for the last digits of the arithmetic is taken for it. Throws
 // InputError, with the place of the link, for one without seconds where only they count, and when
-// the roads have more places than a Roadmap may.
-SteppedRoads in_steps(const RoadNetwork& network, const StepScale& scale);
+// the roads have more places than a Roadmap may or `rules` allow.
+SteppedRoads in_steps(const RoadNetwork& network, const StepScale& scale,
+                      const InputRules& rules = {});
 
 // Pairs of one-way roads that lead to and fro between two vertices: each is two lanes, on which
 // agents pass one another.

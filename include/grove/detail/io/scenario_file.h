@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "grove/detail/io/input_rules.h"
 #include "grove/detail/model/grid.h"
 
 namespace grove::detail {
@@ -26,7 +27,8 @@ struct ScenarioRow {
 std::vector<ScenarioRow> read_scenario(const std::filesystem::path& path);
 
 // The map that the first row names, in the folder of `scenario`; empty if there is no such file.
-std::filesystem::path map_beside(const std::filesystem::path& scenario);
+std::filesystem::path map_beside(const std::filesystem::path& scenario,
+                                 const InputRules& rules = {});
 
 // Throws InputError, naming `scenario` and the line, unless every row is for `map`: the file part
 // of the name and the size must agree.

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// How much memory the states of agents that turn or work take, before it is taken.
+#pragma once
+
+#include <cstdint>
+#include <set>
+
+#include "grove/detail/io/input_rules.h"
+#include "grove/detail/model/instance.h"
+#include "json_value.h"
+
+namespace grove::detail {
+
+// Adds up, from above, the states that InstanceBuilder::build() would make
+// (model/motion_world.cpp): of each kind of turning one for each heading on each place and the
+// steps of turns between them, and of each task that takes time a chain for each state in which it
+// may be begun: one for an agent that turns freely, one for each heading and kind of turning, and
+// the state in which an agent starts there.
+class StateMemory {
+ public:
+  explicit StateMemory(const InstanceBuilder& builder)
+      : places_(ground(builder.map()).place_count()) {}
+
+  void add_agent(Motion motion) {
+    if (motion.turn_steps > 0) turns_.insert(motion.turn_steps);
+  }
+  // After all agents.
+  void add_task(Time duration) {
+    constexpr std::int64_t kHeadingCount = 4;
+    if (duration == 0) return;
+    work_ += (2 + kHeadingCount * std::ssize(turns_)) * (std::int64_t{duration} + 1);
+  }
+  // Throws InputError at `root` if that is more than `rules` allow.
+  void require(const JsonValue& root, const std::string& file, const InputRules& rules) const {
+    if (turns_.empty() && work_ == 0) return;
+    std::int64_t on_a_place = 1;
+    for (const Time steps : turns_) on_a_place += 4 + 8 * (std::int64_t{steps} - 1);
+    require_memory(rules, file, root.path().empty() ? "/" : root.path(),
+                   places_ * on_a_place + work_, "states of agents that turn or work",
+                   kBytesPerState);
+  }
+
+ private:
+  const std::int64_t places_;
+  std::set<Time> turns_;
+  std::int64_t work_ = 0;
+};
+
+}  // namespace grove::detail
