@@ -92,7 +92,7 @@ def copy_sources(folder, mutants):
 
 
 def build(folder):
-    options = ["-D", "GROVE_BUILD_TESTS=ON", "-D", "GROVE_BUILD_UNIT_TESTS=OFF", "-D", "GROVE_WITH_MPI=OFF"]
+    options = ["-D", "GROVE_BUILD_TESTS=ON", "-D", "GROVE_WITH_MPI=OFF"]
     subprocess.run(["cmake", "--preset", "release", *options], cwd=folder, check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", "--preset", "release", "--target", "grove-proofs", "grove-verify"],
                    cwd=folder, check=True)

@@ -5,7 +5,8 @@
     packages_test.py [ROOT]   checks the tree at ROOT, by default this one
 
 The build looks only for packages of tools/packages, required or not: otherwise a package that is installed
-by chance changes what is built. Tests and benchmarks may also need packages of tools/packages.test.
+by chance changes what is built. Tests and benchmarks may also need packages of tools/packages.test, by which `tools/test` runs, and of
+tools/packages.test-all.
 """
 import re
 import sys
@@ -103,17 +104,20 @@ class ThePackages(unittest.TestCase):
                 self.assertLessEqual(set(PACKAGES[name]), build, f"{path}: {name}")
 
     def test_tests_look_only_for_packages_of_the_lists(self):
-        both = self.listed("packages") | self.listed("packages.test")
-        for path, name, _ in self.searches():
-            self.assertLessEqual(set(PACKAGES[name]), both, f"{path}: {name}")
+        base = self.listed("packages") | self.listed("packages.test")
+        for path, name, required in self.searches():
+            needed = required and path.parts[0] == "tests"
+            allowed = base if needed else base | self.listed("packages.test-all")
+            self.assertLessEqual(set(PACKAGES[name]), allowed, f"{path}: {name}")
 
     def test_tests_and_benchmarks_are_built_on_demand(self):
         top = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
         self.assertEqual(default_of(top, "GROVE_BUILD_TESTS"), "OFF")
         self.assertEqual(default_of(top, "GROVE_BUILD_BENCHMARKS"), "OFF")
 
-    def test_no_package_is_in_both_lists(self):
-        self.assertEqual(self.listed("packages") & self.listed("packages.test"), set())
+    def test_no_package_is_in_two_lists(self):
+        lists = [self.listed(name) for name in ("packages", "packages.test", "packages.test-all")]
+        self.assertEqual(sum(map(len, lists)), len(set.union(*lists)))
 
 
 class TheChecks(unittest.TestCase):

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""tests/summary.py: what it prints of CTest's results.   summary_test.py SOURCES"""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SUMMARY = Path(sys.argv.pop(1)) / "tests/summary.py"
+
+
+def case(name, status, output, skipped=""):
+    message = f'<skipped message="{skipped}"/>' if skipped else ""
+    return f'<testcase name="{name}" status="{status}">{message}<system-out>{output}</system-out></testcase>'
+
+
+def summarise(*cases):
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "junit.xml"
+        file.write_text(f"<testsuite>{''.join(cases)}</testsuite>", encoding="utf-8")
+        return subprocess.run([sys.executable, SUMMARY, f"release={file}"], capture_output=True, text=True)
+
+
+PASSED = case("io.reads", "run", "fine")
+
+
+class Summary(unittest.TestCase):
+    def test_counts_and_exits_with_0_if_none_failed(self):
+        run = summarise(PASSED, PASSED)
+        self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (0, "2 passed, 0 failed, 0 skipped"))
+
+    def test_shows_the_last_lines_of_a_failed_test(self):
+        lines = "\n".join(f"line {number}" for number in range(100))
+        run = summarise(PASSED, case("io.writes", "fail", lines))
+        self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, "1 passed, 1 failed, 0 skipped"))
+        self.assertIn("FAILED release: io.writes", run.stdout)
+        self.assertIn("line 99\n", run.stdout)
+        self.assertNotIn("line 9\n", run.stdout)
+
+    def test_says_why_tests_were_skipped(self):
+        run = summarise(PASSED, case("view.types", "notrun", "no tsc", "SKIP_RETURN_CODE=77"),
+                        case("io.maps", "notrun", "[ RUN ] x\na_test.cpp:3: Skipped\nno maps\n\n[  SKIPPED ] x",
+                             "SKIP_REGULAR_EXPRESSION_MATCHED"))
+        self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (0, "1 passed, 0 failed, 2 skipped"))
+        self.assertIn("view.types: no tsc\n", run.stdout)
+        self.assertIn("io.maps: no maps\n", run.stdout)
+
+    def test_a_program_that_could_not_be_started_has_failed(self):
+        run = summarise(PASSED, case("io.gone", "notrun", "", "Unable to find executable"))
+        self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, "1 passed, 1 failed, 0 skipped"))
+
+    def test_no_test_at_all_is_a_failure(self):
+        self.assertEqual(summarise().returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Summarises test runs of CTest for tools/test.
+
+    summary.py PART=JUNIT.xml...   prints what failed, with its last lines, what was skipped and why, and
+                                   "N passed, N failed, N skipped"; exit code 1 if a test failed or none ran
+    summary.py --names             reads `ctest --show-only=json-v1` and prints the tests' names in groups
+"""
+import json
+import re
+import sys
+import xml.etree.ElementTree
+from collections import Counter
+from dataclasses import dataclass
+
+LINES_SHOWN = 25
+
+
+@dataclass
+class Result:
+    name: str
+    outcome: str  # "passed", "failed", "skipped"
+    output: str
+
+
+def outcome_of(case):
+    if case.find("skipped") is not None and "SKIP_" in case.find("skipped").get("message", ""):
+        return "skipped"
+    return "passed" if case.get("status") == "run" else "failed"
+
+
+def read_results(file):
+    """The results of one JUnit file of CTest."""
+    try:
+        cases = xml.etree.ElementTree.parse(file).getroot().iter("testcase")
+    except (OSError, xml.etree.ElementTree.ParseError) as error:
+        sys.exit(f"summary.py: {file}: {error}")
+    return [Result(case.get("name"), outcome_of(case), case.findtext("system-out") or "") for case in cases]
+
+
+def last_lines(output):
+    lines = [line for line in output.splitlines() if line.strip()]
+    return lines[-LINES_SHOWN:] or ["(no output)"]
+
+
+def reason_to_skip(output):
+    """What GTEST_SKIP() printed, or the last line of a script that exited with 77."""
+    by_gtest = re.search(r": Skipped\n(.+)", output)
+    return (by_gtest.group(1) if by_gtest else last_lines(output)[-1]).strip()
+
+
+def print_failed(part, results):
+    for result in results:
+        print(f"\nFAILED {part}: {result.name}")
+        for line in last_lines(result.output):
+            print(f"    {line}")
+
+
+def print_skipped(part, results):
+    """One line for each reason."""
+    names = {}
+    for result in results:
+        names.setdefault(reason_to_skip(result.output), []).append(result.name)
+    for reason, skipped in names.items():
+        print(f"skipped {part}: {', '.join(skipped)}: {reason}")
+
+
+def summarise(parts):
+    counts = Counter()
+    ran = {part: read_results(file) for part, file in parts}
+    for part, results in ran.items():
+        print_skipped(part, [result for result in results if result.outcome == "skipped"])
+    for part, results in ran.items():
+        print_failed(part, [result for result in results if result.outcome == "failed"])
+        counts.update(result.outcome for result in results)
+        if not results:
+            print(f"\nFAILED {part}: no test was run")
+            counts["failed"] += 1
+    print(f"\n{counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped")
+    return counts["failed"] == 0
+
+
+def print_names(tests):
+    """In groups: all of a program's, or a folder's, have the text before the first dot in common."""
+    groups = {}
+    for test in tests:
+        group, _, name = test["name"].partition(".")
+        groups.setdefault(group, []).append(name)
+    for group, names in sorted(groups.items()):
+        named = [name for name in names if name]
+        print(f"  {group}" + (f": {', '.join(named)}" if named else ""))
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--names"]:
+        print_names(json.load(sys.stdin)["tests"])
+    elif len(sys.argv) > 1 and all("=" in part for part in sys.argv[1:]):
+        sys.exit(0 if summarise([part.split("=", 1) for part in sys.argv[1:]]) else 1)
+    else:
+        sys.exit(__doc__)
