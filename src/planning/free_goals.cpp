@@ -51,6 +51,7 @@
 #include <utility>
 
 #include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/direct_legs.h"
 
 namespace grove::detail {
 namespace {
@@ -77,15 +78,20 @@ StopSet checked_set(const Sequence& prefix, StopSet all) {
 }  // namespace
 
 AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent)
-    : world_(&instance.world()),
+    : instance_(&instance),
+      world_(&instance.world()),
       agent_(agent),
       kind_(instance.agent(agent).kind),
       turn_steps_(instance.agent(agent).motion.turn_steps),
       start_(instance.agent(agent).start),
       start_place_(instance.world().place(start_)),
       destination_(instance.agent(agent).goal),
-      completions_(port_matrix(instance, agent, distances),
-                   distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent))) {
+      completions_(
+          port_matrix(instance, agent, distances),
+          distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent)),
+          [&instance, &distances, agent] {
+            return direct_legs(instance, agent, port_matrix(instance, agent, distances));
+          }) {
   ports_ = completions_.matrix().ports;
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);
@@ -160,17 +166,23 @@ Time AgentStops::turn(State state, int port) const {
 }
 
 FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work)
-    : FreeGoals(stops, std::move(work), stops.completions()) {}
-
-FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work, Completions& completions)
     : stops_(stops),
-      completions_(&completions),
+      completions_(&stops.completions()),
       class_(std::move(work)),
       free_(stops.all() & ~checked_set(class_.prefix, stops.all())),
       first_free_(free_ & ~class_.forbidden_next),
       rest_is_not_first_(stops.rests_on_last_stop() && first_free_ != free_ &&
                          std::popcount(free_) > 1),
-      stride_(static_cast<std::size_t>(stops.count())) {}
+      stride_(static_cast<std::size_t>(stops.count())) {
+  own_ = stops.completions().of_class(class_);
+  if (own_) completions_ = &*own_;
+}
+
+FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work, Completions& completions)
+    : FreeGoals(stops, std::move(work)) {
+  own_.reset();
+  completions_ = &completions;
+}
 
 bool FreeGoals::plausible() const {
   if (free_ != 0 && first_free_ == 0) return false;

@@ -18,6 +18,11 @@
 // search begun again, unless the cutoff is below beyond(): kAbove. And if no label was dropped for
 // its f or for its state, the search has seen all there is: kInfeasible, whatever the graph.
 //
+// Graphs by direct legs (sequence_dag.cpp) know paths instead of sequences: all stages of a path of
+// the class that costs less than beyond(), counted as early as possible, with completions that are
+// at most what it still pays. So every label along P has t + h <= cost(P) there as well, and the
+// rest of the argument is the same.
+//
 // Early ends. No path costs less than the first rest, so one that costs just that is optimal
 // whatever its sequence: where the first rest is later than beyond(), labels are kept up to there.
 //

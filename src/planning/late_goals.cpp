@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/direct_legs.h"
 #include "late_costs.h"
 
 namespace grove::detail {
@@ -17,6 +19,18 @@ Time least_cost(FreeGoals& goals) {
   return std::min(beyond, goals.distance(stage, goals.stops().start()));
 }
 
+// A direct leg costs at least what the late one by any way does. The last one is that of the plain
+// matrix, for the late one begins when all others are done (sequence_dag.cpp, Pairs).
+Completions late_completions(const AgentStops& stops, CostMatrix late) {
+  const auto make_direct = [&instance = stops.instance(), agent = stops.agent(), late,
+                            plain = stops.completions().matrix()] {
+    CostMatrix direct = direct_legs(instance, agent, late);
+    direct.cost.col(direct.cost.cols() - 1) = plain.cost.col(plain.cost.cols() - 1);
+    return direct;
+  };
+  return Completions(std::move(late), {}, make_direct);
+}
+
 }  // namespace
 
 FreeGoals* LateGoals::over(FreeGoals& plain, const Limits& limits) {
@@ -24,8 +38,15 @@ FreeGoals* LateGoals::over(FreeGoals& plain, const Limits& limits) {
   auto matrix = late_cost_matrix(world_, intervals_, plain.stops(), plain_cost);
   if (!matrix) return nullptr;
   goals_.reset();
-  if (!completions_ || completions_->matrix().cost != matrix->cost)
-    completions_.emplace(std::move(*matrix));  // else those of a call before serve on
+  const bool known = completions_ && agent_ == plain.stops().agent() &&
+                     class_ == plain.sequence_class() && completions_->matrix().cost == matrix->cost;
+  if (!known) {  // else those of a call before serve on
+    agent_ = plain.stops().agent();
+    class_ = plain.sequence_class();
+    completions_ = late_completions(plain.stops(), std::move(*matrix));
+    if (auto of_class = completions_->of_class(class_)) completions_ = std::move(of_class);
+  }
+  completions_->reset();
   goals_.emplace(plain.stops(), plain.sequence_class(), *completions_);
   while (completions_->beyond() <= plain_cost && least_cost(*goals_) >= completions_->beyond())
     if (!completions_->widen(completions_->beyond(), limits)) break;

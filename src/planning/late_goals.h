@@ -22,6 +22,8 @@ class LateGoals {
   const World& world_;
   SafeIntervals& intervals_;
   std::optional<Completions> completions_;
+  AgentIndex agent_ = 0;  // whose they are,
+  SequenceClass class_;   // and of which class
   std::optional<FreeGoals> goals_;  // over these
 };
 

@@ -87,7 +87,8 @@ class SafeIntervalSearch {
   // search.
   void begin(State start, Progress progress, Time first_layer, const ConflictAvoidanceTable* others,
              const Limits& limits);
-  // Goes on until so many labels are expanded, in all.
+  // Continues until exactly so many labels are expanded in all: what is done by then must not depend
+  // on the searches before.
   End run(std::int64_t pause_at);
   // Of what was found.
   Time cost() const { return finish_.time; }
@@ -112,7 +113,7 @@ class SafeIntervalSearch {
   };
 
   static constexpr std::int32_t kNoSlot = -1;
-  static constexpr std::int64_t kLabelsPerPoll = 256;  // of limits, and whether to pause
+  static constexpr std::int64_t kLabelsPerPoll = 256;  // of limits
 
   Label& label(const Entry& entry) { return planes_.label(entry.slot, entry.progress); }
   bool postpone(const Entry& entry, State state);
@@ -165,8 +166,8 @@ typename SafeIntervalSearch<Goals>::End SafeIntervalSearch<Goals>::run(std::int6
     }
     close_gate(entry, state, l.parent_progress);
     expand(entry, state);
-    if (++expanded_ % kLabelsPerPoll != 0) continue;
-    if (limits_->stop_requested()) return End::kStopped;
+    ++expanded_;
+    if (expanded_ % kLabelsPerPoll == 0 && limits_->stop_requested()) return End::kStopped;
     if (expanded_ >= pause_at) return End::kPaused;
   }
   return planes_.exhausted() ? End::kStopped : End::kExhausted;

@@ -106,7 +106,7 @@ class PrimalSearch::Impl {
     return (plans && planning_work_ < meetings * meeting_work_) ||
            (guided_ && guided_work_ < meetings * meeting_work_);
   }
-  bool optimal() const { return met_ == agents_ && best_ <= own_costs_; }
+  bool optimal() const { return met_ == agents_ && own_costs_are_least_ && best_ <= own_costs_; }
   std::int64_t work() const {
     return router_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
            joint_steps_ * agents_ + guided_work_;
@@ -163,6 +163,7 @@ class PrimalSearch::Impl {
 
   AgentIndex met_ = 0;  // agents from here on have not been met
   Cost own_costs_ = 0;  // of those met
+  bool own_costs_are_least_ = true;
   std::int64_t meeting_work_ = 0;
   std::optional<Plan> adopted_;  // before all agents were met
   bool improving_ = false;       // there is a plan in paths_
@@ -250,6 +251,7 @@ void PrimalSearch::Impl::meet(const Limits& limits) {
   const bool met = router_.meet(met_, limits);
   meeting_work_ += work() - before;
   if (!met) return;
+  own_costs_are_least_ = own_costs_are_least_ && router_.knows_best(met_);
   own_costs_ += router_.own_cost(met_++);
   if (met_ < agents_) return;
   begin_round(true);

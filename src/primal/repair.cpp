@@ -117,7 +117,9 @@ Cost sum_of_own_costs(const Problem& problem, AgentStopsStore& stops, const Limi
   Router router(problem, stops);
   Cost sum = 0;
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
-    if (router.meet(agent, limits)) sum += router.own_cost(agent);
+    if (router.meet(agent, limits))
+      sum += router.knows_best(agent) ? router.own_cost(agent)
+                                      : stops.of(agent).completions().relaxed_bound();
   return sum;
 }
 

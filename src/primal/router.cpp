@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "grove/detail/search/node.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/good_sequence.h"
 
 namespace grove::detail {
 namespace {
@@ -17,6 +19,7 @@ Router::Router(const Problem& problem, AgentStopsStore& stops)
     : problem_(problem),
       stops_(stops),
       low_level_(problem.instance.world()),
+      in_order_(problem.instance.agent_count()),
       goals_(problem.instance.agent_count()),
       own_paths_(problem.instance.agent_count()) {}
 
@@ -27,18 +30,31 @@ FreeGoals& Router::goals(AgentIndex agent) {
 }
 
 bool Router::meet(AgentIndex agent, const Limits& limits) {
-  if (!own_paths_[agent].empty()) return true;
+  Path& path = own_paths_[agent];
+  if (!path.empty()) return true;
   ++calls_;
-  switch (low_level_.find(goals(agent), {}, limits, own_paths_[agent])) {
+  switch (low_level_.find(goals(agent), {}, limits, path)) {
     case PathOutcome::kFound:
       return true;
     case PathOutcome::kStopped:
-      return false;
+      return !limits.stop_requested() && follow_good_sequence(agent, limits);
     case PathOutcome::kAbove:
     case PathOutcome::kInfeasible:
       break;
   }
   throw std::logic_error("internal error: an agent that can reach all its cells has no path");
+}
+
+// Where sequences are too many to tell the best one, a good one serves.
+bool Router::follow_good_sequence(AgentIndex agent, const Limits& limits) {
+  AgentStops& stops = stops_.of(agent);
+  const CostMatrix& matrix = stops.completions().matrix();
+  in_order_[agent] =
+      std::make_unique<Completions>(Completions::in_order(matrix, good_sequence(matrix)));
+  goals_[agent] = std::make_unique<FreeGoals>(stops, SequenceClass(), *in_order_[agent]);
+  ++calls_;
+  const PathQuery query{.known_sequences = true};
+  return low_level_.find(goals(agent), query, limits, own_paths_[agent]) == PathOutcome::kFound;
 }
 
 PathOutcome Router::find(AgentIndex agent, const PathQuery& query, const Limits& limits,

@@ -22,8 +22,9 @@ class Router {
   // Both must outlive this.
   Router(const Problem& problem, AgentStopsStore& stops);
 
-  // Finds the agent's best path when nobody else is there; to be called for an agent before any
-  // other question about it. False when a limit struck.
+  // Finds the agent's best path when nobody else is there, or a good one if its sequences are too
+  // many to tell; to be called for an agent before any other question about it. Returns false if a
+  // limit was reached.
   bool meet(AgentIndex agent, const Limits& limits);
 
   // As FreeLowLevelSearch::find.
@@ -40,7 +41,9 @@ class Router {
   void improve(AgentIndex agent, const Reservations& others, Time latest, const Limits& limits,
                Path& path);
 
-  // The agent's best path when nobody else is there, and its cost.
+  // Is the own path proven to be the best?
+  bool knows_best(AgentIndex agent) const { return in_order_[agent] == nullptr; }
+  // The agent's best or good path when nobody else is there, and its cost.
   const Path& own_path(AgentIndex agent) const { return own_paths_[agent]; }
   Time own_cost(AgentIndex agent) const { return static_cast<Time>(own_paths_[agent].size()) - 1; }
   // The order in which that path visits the agent's stops.
@@ -60,11 +63,14 @@ class Router {
 
  private:
   FreeGoals& goals(AgentIndex agent);
+  bool follow_good_sequence(AgentIndex agent, const Limits& limits);
 
   const Problem& problem_;
   AgentStopsStore& stops_;
   FreeLowLevelSearch low_level_;
-  std::vector<std::unique_ptr<FreeGoals>> goals_;  // by AgentIndex
+  // By AgentIndex. Of an agent that follows a good sequence: its completions.
+  std::vector<std::unique_ptr<Completions>> in_order_;
+  std::vector<std::unique_ptr<FreeGoals>> goals_;
   std::vector<Path> own_paths_;                    // by AgentIndex
   std::int64_t calls_ = 0;
   std::shared_ptr<const PriceList> prices_;

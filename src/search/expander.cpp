@@ -48,7 +48,7 @@ Expander::Expander(const Problem& problem, AgentStopsStore& stops, const SearchO
     : problem_(problem),
       techniques_(options.techniques),
       proof_(options.proof),
-      planner_(problem, stops, std::move(planner)),
+      planner_(problem, stops, std::move(planner), options.repeatable),
       memory_(planner_, std::move(memory), options.tuning.path_set_nodes),
       view_(problem, options, memory_),
       brancher_(problem, options, planner_, memory_),

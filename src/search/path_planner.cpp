@@ -17,13 +17,14 @@ constexpr std::size_t kMostClassesKept = 4;  // of an agent, with their states
 }  // namespace
 
 PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops,
-                         std::unique_ptr<AgentPlanner> free)
+                         std::unique_ptr<AgentPlanner> free, bool repeatable)
     : fixed_(problem.instance.world()),
       free_(free ? std::move(free)
                  : std::make_unique<FreeLowLevelSearch>(problem.instance.world())),
       optimal_(problem.instance.world()),
       timed_(problem.instance.world()),
       stops_(stops),
+      repeatable_(repeatable),
       free_goals_(problem.instance.agent_count()) {}
 
 PathOutcome PathPlanner::find(AgentIndex agent, const AgentOrder& order, PathQuery query,
@@ -91,6 +92,7 @@ FreeGoals& PathPlanner::free_goals(AgentIndex agent, const SequenceClass& work) 
     if (kept.size() == kMostClassesKept) kept.pop_back();
     kept.insert(kept.begin(), std::make_unique<FreeGoals>(stops_.of(agent), work));
   }
+  if (repeatable_) kept.front()->completions().reset();
   return *kept.front();
 }
 

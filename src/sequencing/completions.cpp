@@ -3,17 +3,28 @@
 // each time more is asked: far enough to let in about as many states as it had, so that all builds
 // together cost little more than the last. Each build holds every sequence up to its reach, so a
 // greater reach never has a smaller beyond().
+//
+// Where the graph of all sequences becomes too large, one by direct legs takes its place, which holds
+// all that a path of the class can come to within the reach. So its beyond() bounds paths instead of
+// sequences, and what it says of a state is a bound on the paths that go on from there. If that
+// becomes too large as well, nothing more is known: widen() fails, now and whenever as much is
+// asked again, so that no time and no memory is taken in vain.
 #include "grove/detail/sequencing/completions.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
+#include <vector>
 
 #include "grove/detail/model/assert.h"
 #include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/direct_legs.h"
 #include "grove/detail/sequencing/rtsp.h"
 #include "grove/detail/sequencing/sequence_dag.h"
 #include "held_karp_table.h"
 #include "path_relaxation.h"
 #include "rtsp_backends.h"
+#include "stop_set.h"
 
 namespace grove::detail {
 
@@ -29,6 +40,9 @@ class Completions::Store {
   virtual Time completion(StopSet left, int port) const = 0;
   // One with a beyond() > reach; null when a limit struck. Only if this has not.
   virtual std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const = 0;
+  virtual bool knows_all_or_nothing() const { return false; }
+  // One of a class; null if this serves.
+  virtual std::shared_ptr<const Store> of_class(const SequenceClass&) const { return nullptr; }
 
  protected:
   const std::shared_ptr<const CostMatrix>& shared_matrix() const { return matrix_; }
@@ -45,6 +59,7 @@ class Completions::Table : public Store {
 
   Time relaxed_bound() const override { return relaxation_bound(least_matrix(matrix())); }
   Time beyond() const override { return table_.built() ? kNever : 0; }
+  bool knows_all_or_nothing() const override { return true; }
   Time completion(StopSet left, int port) const override {
     return table_.built() ? table_.completion(left, port) : kNever;
   }
@@ -60,35 +75,141 @@ class Completions::Table : public Store {
 
 class Completions::Graph : public Store {
  public:
-  explicit Graph(std::shared_ptr<const CostMatrix> matrix)
+  Graph(std::shared_ptr<const CostMatrix> matrix, MakeDirectLegs make_direct)
       : Store(std::move(matrix)),
         relaxation_(std::make_shared<const PathRelaxation>(this->matrix())),
-        dag_(relaxation_->root_bound()) {}
-  Graph(const Graph& narrower, SequenceDag dag)
-      : Store(narrower.shared_matrix()), relaxation_(narrower.relaxation_), dag_(std::move(dag)) {}
+        make_direct_(std::move(make_direct)),
+        dag_(nothing_known()) {}
 
   Time relaxed_bound() const override { return relaxation_->root_bound(); }
-  Time beyond() const override { return dag_.beyond(); }
-  Time completion(StopSet left, int port) const override { return dag_.completion(left, port); }
+  Time beyond() const override { return dag_->beyond(); }
+  Time completion(StopSet left, int port) const override { return dag_->completion(left, port); }
   std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const override {
-    auto wider =
-        SequenceDag::build(matrix(), *relaxation_, std::max(reach, dag_.next_reach()), limits);
-    return wider ? std::make_shared<Graph>(*this, std::move(*wider)) : nullptr;
+    auto wider = std::make_shared<Graph>(*this);
+    return wider->widen(reach, limits) ? wider : nullptr;
+  }
+  std::shared_ptr<const Store> of_class(const SequenceClass& work) const override {
+    if (!make_direct_ || work == work_) return nullptr;
+    auto other = std::make_shared<Graph>(*this);
+    other->work_ = work;
+    if (direct_) other->dag_ = nothing_known();
+    return other;
+  }
+  // If there are any.
+  void turn_to_direct_legs() {
+    if (make_direct_) direct_ = std::make_shared<const DirectLegs>(make_direct_(), matrix());
   }
 
  private:
+  using End = SequenceDag::End;
+
+  bool widen(Time reach, const Limits& limits) {
+    const Time far = std::max(reach, dag_->next_reach());
+    if (!direct_) {
+      const End end = build(far, limits);
+      if (end != End::kTooLarge) return end == End::kBuilt;
+      turn_to_direct_legs();
+      return build(reach, limits) == End::kBuilt;
+    }
+    End end = build(far, limits);
+    if (end == End::kTooLarge && reach < far) end = build(reach, limits);
+    return end == End::kBuilt;
+  }
+
+  End build(Time reach, const Limits& limits) {
+    SequenceDag::Scope scope{matrix(), *relaxation_};
+    if (direct_) {
+      scope.direct = direct_.get();
+      scope.work = work_;
+      scope.most_states = kMostDirectStates;
+    } else if (make_direct_) {
+      scope.most_states = kMostStates;
+    }
+    SequenceDag built(0);
+    const End end = SequenceDag::build(scope, reach, limits, built);
+    if (end == End::kBuilt) dag_ = std::make_shared<const SequenceDag>(std::move(built));
+    return end;
+  }
+
+  std::shared_ptr<const SequenceDag> nothing_known() const {
+    return std::make_shared<const SequenceDag>(relaxation_->root_bound());
+  }
+
   std::shared_ptr<const PathRelaxation> relaxation_;
-  SequenceDag dag_;
+  MakeDirectLegs make_direct_;                // or none
+  std::shared_ptr<const DirectLegs> direct_;  // once the graph of all sequences was too large
+  SequenceClass work_;
+  std::shared_ptr<const SequenceDag> dag_;
 };
 
-Completions::Completions(CostMatrix matrix, SharedArray table) {
+// What it costs to go on in a given order, leaving out what is visited already.
+class Completions::Ordered : public Store {
+ public:
+  Ordered(std::shared_ptr<const CostMatrix> matrix, Sequence order)
+      : Store(std::move(matrix)), order_(std::move(order)), later_(order_.size()) {
+    StopSet later = 0;
+    for (auto stop = order_.rbegin(); stop != order_.rend(); ++stop) {
+      later_[*stop] = later;
+      later |= bit(*stop);
+    }
+  }
+
+  Time relaxed_bound() const override { return 0; }
+  Time beyond() const override { return 0; }
+  Time completion(StopSet left, int port) const override {
+    const int ports = matrix().ports;
+    const int stop = port / ports;
+    if ((left & ~later_[stop]) != 0) return kNever;
+    PortCosts onward;
+    int next = kNone;
+    const auto go_back_to = [&](int from) {
+      onward = next == kNone ? to_end(from) : through(from, next, onward);
+      next = from;
+    };
+    for (auto at = order_.rbegin(); at != order_.rend(); ++at)
+      if ((left & bit(*at)) != 0) go_back_to(*at);
+    go_back_to(stop);
+    return onward[port % ports];
+  }
+  std::shared_ptr<const Store> widened(Time, const Limits&) const override { return nullptr; }
+
+ private:
+  static constexpr int kMostPorts = 4;
+  static constexpr int kNone = -1;
+  using PortCosts = std::array<Time, kMostPorts>;
+
+  PortCosts to_end(int stop) const {
+    PortCosts costs;
+    costs.fill(kNever);
+    for (int port = 0; port < matrix().ports; ++port)
+      costs[port] = matrix().to_end(stop * matrix().ports + port);
+    return costs;
+  }
+  PortCosts through(int stop, int next, const PortCosts& onward) const {
+    const int ports = matrix().ports;
+    PortCosts costs;
+    costs.fill(kNever);
+    for (int from = 0; from < ports; ++from)
+      for (int to = 0; to < ports; ++to)
+        costs[from] = std::min(costs[from],
+                               add_costs(matrix().between(stop * ports + from, next * ports + to),
+                                         onward[to]));
+    return costs;
+  }
+
+  Sequence order_;
+  std::vector<StopSet> later_;  // by stop: those that come later
+};
+
+Completions::Completions(CostMatrix matrix, SharedArray table, MakeDirectLegs direct) {
   auto shared = std::make_shared<const CostMatrix>(std::move(matrix));
   if (shared->stops() > kTableStops)
-    store_ = std::make_shared<Graph>(std::move(shared));
+    store_ = std::make_shared<Graph>(std::move(shared), std::move(direct));
   else if (fits_narrow_table(*shared))
     store_ = std::make_shared<Table<std::int16_t>>(std::move(shared), table);
   else
     store_ = std::make_shared<Table<std::int32_t>>(std::move(shared), table);
+  mark();
 }
 
 std::size_t Completions::table_bytes(int stops, int ports) {
@@ -96,11 +217,27 @@ std::size_t Completions::table_bytes(int stops, int ports) {
   return HeldKarpTable<std::int16_t>::entries(stops, ports) * sizeof(std::int16_t);
 }
 
-Completions::Completions(std::shared_ptr<const Store> store) : store_(std::move(store)) {}
+Completions::Completions(std::shared_ptr<const Store> store)
+    : store_(std::move(store)), marked_(store_) {}
 
-Completions Completions::as_graph(CostMatrix matrix) {
+Completions Completions::in_order(const CostMatrix& matrix, Sequence order) {
   return Completions(
-      std::make_shared<Graph>(std::make_shared<const CostMatrix>(std::move(matrix))));
+      std::make_shared<Ordered>(std::make_shared<const CostMatrix>(matrix), std::move(order)));
+}
+
+Completions Completions::as_graph(CostMatrix matrix, MakeDirectLegs direct) {
+  auto graph = std::make_shared<Graph>(std::make_shared<const CostMatrix>(std::move(matrix)),
+                                       std::move(direct));
+  graph->turn_to_direct_legs();
+  return Completions(std::move(graph));
+}
+
+std::optional<Completions> Completions::of_class(const SequenceClass& work) const {
+  auto other = store_->of_class(work);
+  if (!other) return std::nullopt;
+  Completions completions(std::move(other));
+  if (marked_ != store_) completions.marked_ = marked_->of_class(work);
+  return completions;
 }
 
 const CostMatrix& Completions::matrix() const {
@@ -122,10 +259,33 @@ Time Completions::completion(StopSet left, int port) const {
 bool Completions::widen(Time reach, const Limits& limits) {
   GROVE_ASSERT(reach < kNever, "there is more to know");
   if (beyond() > reach) return true;
+  if (reach >= refused_) return false;
+  const auto known = std::ranges::find_if(widened_, [&](const Widened& widened) {
+    return widened.from == store_ && widened.reach == reach;
+  });
+  if (known != widened_.end()) {
+    std::rotate(widened_.begin(), known, known + 1);
+    store_ = widened_.front().to;
+    return true;
+  }
   auto wider = store_->widened(reach, limits);
-  if (!wider) return false;
+  if (!wider) {
+    if (!limits.stop_requested()) refused_ = reach;
+    return false;
+  }
+  if (resets_) {
+    if (widened_.size() == kMostWidenedKept) widened_.pop_back();
+    widened_.insert(widened_.begin(), {store_, reach, wider});
+  }
   store_ = std::move(wider);
   return true;
+}
+
+// Of a table all is known or nothing, and a search that knows nothing does nothing.
+void Completions::reset() {
+  if (store_->knows_all_or_nothing()) return;
+  resets_ = true;
+  store_ = marked_;
 }
 
 }  // namespace grove::detail

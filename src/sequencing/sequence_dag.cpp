@@ -24,6 +24,36 @@
 // On a grid all ways between two cells have the same parity, so all complete sequences have the
 // same one too, and so they have with work that takes time. Where the matrix shows that (verified,
 // not assumed), g + b is rounded up to that parity.
+//
+// *Direct legs.* In an aisle a sequence may skip any stops on the way in and visit them on the way
+// out, at the same cost: 2^n states lie on optimal sequences. But an agent that passes a plain stop
+// visits it. So with direct legs (direct_legs.h) the graph holds what agents can do instead of all
+// sequences. Definitions: a path of a class *counts* a stop when it is first on its place (or has
+// completed its work there), once the prefix and the first free stop are counted; so it realizes a
+// sequence of the class (planning/free_goals.cpp). c(S, v, w) is the least sum of direct legs from
+// v over stops outside S to w.
+// *Claim: a path from v to w that counts none of S between costs at least c(S, v, w).* Its places
+// of plain stops, in their order, are all outside S, and cut it into ways that pass no other plain
+// stop; each costs at least its direct leg.
+// So with c(S, v, w) for the cost of going on to w, g of a state is at most what a path pays that
+// comes there, and the invariant holds for paths: every state of a path that costs <= reach is
+// kept, and beyond() bounds all paths with a state outside. b stays a bound, for no direct leg costs
+// less than the matrix has. Legs of the prefix, and the one to the first free stop, may pass
+// anything: they cost what the matrix has. The graph is then of this class alone: another prefix
+// reaches states that no path of this class can.
+//
+// *Passed stops.* Where sequences alone matter, and of these a cheapest member of one class, the
+// graph holds its canonical sequences (passed_stops.cpp): the invariant and beyond() are of these,
+// and one of them is a cheapest member.
+//
+// *Pairs.* In a row the relaxation is far from the truth for states that leave gaps; so by direct
+// legs b is at least the cost of going by any two stops left, in the better order, to the end. Each
+// part of that is the least cost of a real part of the path: from a state on one stop to the next
+// of the two, or to the end. (So the last part must be that of any path. Late costs have one that
+// is of the last stop of a sequence alone: late_goals.cpp puts the other into its direct legs.)
+//
+// A hop from v over a stop u serves nobody if directly each stop is as near as by u
+// (DirectLegs::hops): the direct leg that replaces it passes no stop at all.
 #include "grove/detail/sequencing/sequence_dag.h"
 
 #include <array>
@@ -31,6 +61,8 @@
 
 #include "grove/detail/model/assert.h"
 #include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/direct_legs.h"
+#include "passed_stops.h"
 #include "path_relaxation.h"
 #include "stop_set.h"
 
@@ -95,34 +127,34 @@ Time SequenceDag::completion(StopSet left, int port) const {
 template <int kPorts>
 class SequenceDagBuilder {
  public:
-  SequenceDagBuilder(const CostMatrix& matrix, const PathRelaxation& relaxation, Time reach,
-                     const Limits& limits)
-      : matrix_(matrix),
-        relaxation_(relaxation),
+  SequenceDagBuilder(const SequenceDag::Scope& scope, Time reach, const Limits& limits)
+      : matrix_(scope.matrix),
+        relaxation_(scope.relaxation),
+        direct_(scope.direct),
+        passed_(scope.passed),
+        work_(scope.work),
+        most_states_(scope.most_states),
         reach_(reach),
         limits_(limits),
-        parity_(common_parity(matrix)) {
+        ways_(ways(scope.matrix, scope.direct)),
+        parity_(direct_ == nullptr || direct_->keeps_parity() ? common_parity(matrix_) : -1) {
     dag_.ports_ = kPorts;
   }
 
-  std::optional<SequenceDag> build() {
-    const StopSet all = matrix_.all();
-    for_each_stop(all, [&](int stop) {
-      PortCosts costs;
-      for (int port = 0; port < kPorts; ++port)
-        costs[port] = matrix_.from_start(stop * kPorts + port);
-      reach_state(all & ~bit(stop), stop, costs);
-    });
+  SequenceDag::End build(SequenceDag& dag) {
+    const int size_of_free = reach_first_states();
     std::size_t layer = 0;
-    for (int size = matrix_.stops(); size > 0; --size) {
+    for (int size = size_of_free; size > 0; --size) {
       close_layer();
       const std::size_t end = dag_.nodes_.size();
-      if (!expand(layer, end)) return std::nullopt;
+      if (!expand(layer, end))
+        return is_too_large() ? SequenceDag::End::kTooLarge : SequenceDag::End::kStopped;
       layer = end;
     }
-    if (!settle_completions()) return std::nullopt;
+    if (!settle_completions()) return SequenceDag::End::kStopped;
     dag_.next_reach_ = next_reach();
-    return std::move(dag_);
+    dag = std::move(dag_);
+    return SequenceDag::End::kBuilt;
   }
 
  private:
@@ -138,6 +170,39 @@ class SequenceDagBuilder {
     PortCosts costs;
     Stop stop;
   };
+
+  // Those of the first free stops after the prefix; returns how many free stops there are.
+  int reach_first_states() {
+    constexpr int kStart = -1;
+    int last = kStart;
+    PortCosts at_last;
+    at_last.fill(0);
+    const auto costs_at = [&](int stop) {
+      PortCosts costs;
+      costs.fill(kNever);
+      for (int to = 0; to < kPorts; ++to)
+        for (int from = 0; from < kPorts; ++from)
+          costs[to] = std::min(
+              costs[to], add_costs(at_last[from],
+                                   last == kStart
+                                       ? matrix_.from_start(stop * kPorts + to)
+                                       : matrix_.between(last * kPorts + from, stop * kPorts + to)));
+      return costs;
+    };
+    StopSet left = matrix_.all();
+    for (const Stop stop : work_.prefix) {
+      at_last = costs_at(stop);
+      last = stop;
+      left &= ~bit(stop);
+    }
+    for_each_stop(left & ~work_.forbidden_next,
+                  [&](int stop) { reach_state(left & ~bit(stop), stop, costs_at(stop)); });
+    if (left == 0 && last != kStart) {
+      reach_state(0, last, at_last);
+      close_layer();
+    }
+    return std::popcount(left);
+  }
 
   static Time least(const PortCosts& costs) { return *std::ranges::min_element(costs); }
 
@@ -161,9 +226,44 @@ class SequenceDagBuilder {
       drop(whole);
       costs[i] = kNever;
     }
+    if (direct_ != nullptr && left != 0) drop_by_pairs(left, stop, costs);
     if (least(costs) >= kNever) return;
     group.node.at |= bit(stop);
     states_.push_back({number, costs, static_cast<Stop>(stop)});
+  }
+
+  void drop_by_pairs(StopSet left, int stop, PortCosts& costs) {
+    const Time rest = bound_of_pairs(left, stop);
+    for (Time& cost : costs) {
+      const Time whole = round_up(add_costs(cost, rest));
+      if (cost >= kNever || whole <= reach_) continue;
+      drop(whole);
+      cost = kNever;
+    }
+  }
+  // The greatest, over two stops left, of the lesser of going by them in either order.
+  Time bound_of_pairs(StopSet left, int from) const {
+    Time bound = 0;
+    for_each_stop(left, [&](int one) {
+      const Time to_one = ways_.cost(from, one);
+      const Time from_one = ways_.cost(one, matrix_.stops());
+      bound = std::max(bound, add_costs(to_one, from_one));
+      for_each_stop(left & ~(bit(one) | (bit(one) - 1)), [&](int two) {
+        const Time one_first = add_costs(add_costs(to_one, ways_.cost(one, two)),
+                                         ways_.cost(two, matrix_.stops()));
+        const Time two_first =
+            add_costs(add_costs(ways_.cost(from, two), ways_.cost(two, one)), from_one);
+        bound = std::max(bound, std::min(one_first, two_first));
+      });
+    });
+    return bound;
+  }
+  // The least legs of the matrix, the last ones being those of any way to the end.
+  static CostMatrix ways(const CostMatrix& matrix, const DirectLegs* direct) {
+    if (direct == nullptr) return {};
+    CostMatrix any = matrix;
+    any.cost.col(any.cost.cols() - 1) = direct->matrix().cost.col(any.cost.cols() - 1);
+    return least_matrix(any);
   }
 
   void drop(Time whole) {
@@ -218,8 +318,10 @@ class SequenceDagBuilder {
     for (std::size_t i = begin; i < end; ++i) {
       if (i % kPollInterval == 0 && !may_go_on()) return false;
       const SequenceDag::Node& node = dag_.nodes_[i];
+      if (direct_ != nullptr) walk(node);
       for_each_stop(node.left, [&](int next) {
-        const PortCosts costs = costs_of_reaching(next, node);
+        const PortCosts costs =
+            direct_ != nullptr ? costs_of_walking_to(next) : costs_of_reaching(next, node);
         // Few pass: spares the others a tail of their own.
         Time whole = kNever;
         for (int port = 0; port < kPorts; ++port)
@@ -236,12 +338,45 @@ class SequenceDagBuilder {
     return true;
   }
 
+  StopSet visited(const SequenceDag::Node& node) const { return matrix_.all() & ~node.left; }
+
+  // The least costs of getting to each port of a visited stop, by direct legs from where the node's
+  // states are.
+  void walk(const SequenceDag::Node& node) {
+    walked_.fill(kNever);
+    walkers_.clear();
+    std::uint32_t state = node.first;
+    for_each_stop(node.at, [&](int stop) {
+      const Time* here = costs_of(state++);
+      for (int i = 0; i < kPorts; ++i) walk_to(stop * kPorts + i, here[i]);
+    });
+    for (std::size_t next = 0; next < walkers_.size(); ++next)
+      for (const int by : direct_->hops(walkers_[next]))
+        if ((node.left & bit(by / kPorts)) == 0)
+          walk_to(by, add_costs(walked_[walkers_[next]], direct_->leg(walkers_[next], by)));
+  }
+  void walk_to(int port, Time cost) {
+    if (cost >= walked_[port]) return;
+    walked_[port] = cost;
+    walkers_.push_back(port);
+  }
+  PortCosts costs_of_walking_to(int next) const {
+    PortCosts costs;
+    costs.fill(kNever);
+    for (const int from : walkers_)
+      for (int to = 0; to < kPorts; ++to)
+        costs[to] =
+            std::min(costs[to], add_costs(walked_[from], direct_->leg(from, next * kPorts + to)));
+    return costs;
+  }
+
   PortCosts costs_of_reaching(int next, const SequenceDag::Node& node) {
     PortCosts costs;
     costs.fill(kNever);
     std::uint32_t state = node.first;
     for_each_stop(node.at, [&](int stop) {
       const Time* here = costs_of(state++);
+      if (passed_ != nullptr && (passed_->on_leg(stop, next) & node.left) != 0) return;
       for (int from = 0; from < kPorts; ++from)
         for (int to = 0; to < kPorts; ++to)
           costs[to] = std::min(
@@ -260,15 +395,56 @@ class SequenceDagBuilder {
                               states_.capacity() * sizeof(State) + group_index_.bytes();
     if (bytes != asked_bytes_ && !limits_.memory_allows(bytes)) limits_.memory_exhausted();
     asked_bytes_ = bytes;
-    return !limits_.stop_requested();
+    return !is_too_large() && !limits_.stop_requested();
   }
+  bool is_too_large() const { return dag_.state_count() + states_.size() > most_states_; }
 
   bool settle_completions() {
     for (std::size_t i = dag_.nodes_.size(); i-- > 0;) {
       if (i % kPollInterval == 0 && !may_go_on()) return false;
-      settle(dag_.nodes_[i]);
+      if (direct_ != nullptr && dag_.nodes_[i].left != 0)
+        settle_walks(dag_.nodes_[i]);
+      else
+        settle(dag_.nodes_[i]);
     }
     return true;
+  }
+
+  // From each port of a visited stop by direct legs, until nothing changes.
+  void settle_walks(const SequenceDag::Node& node) {
+    walked_.fill(kNever);
+    std::array<Time, kMaxTasksPerAgent * kPorts> onward;
+    for_each_stop(node.left, [&](int next) {
+      for (int port = next * kPorts; port < (next + 1) * kPorts; ++port)
+        onward[port] = dag_.completion(node.left & ~bit(next), port);
+    });
+    const auto for_each_visited = [&](auto visit) {
+      for_each_stop(visited(node), [&](int stop) {
+        for (int port = stop * kPorts; port < (stop + 1) * kPorts; ++port) visit(port);
+      });
+    };
+    for_each_visited([&](int from) {
+      for_each_stop(node.left, [&](int next) {
+        for (int to = next * kPorts; to < (next + 1) * kPorts; ++to)
+          walked_[from] = std::min(walked_[from], add_costs(direct_->leg(from, to), onward[to]));
+      });
+    });
+    for (bool changed = true; changed;) {
+      changed = false;
+      for_each_visited([&](int from) {
+        for (const int by : direct_->hops(from)) {
+          if ((node.left & bit(by / kPorts)) != 0) continue;
+          const Time cost = add_costs(direct_->leg(from, by), walked_[by]);
+          if (cost >= walked_[from]) continue;
+          walked_[from] = cost;
+          changed = true;
+        }
+      });
+    }
+    std::uint32_t state = node.first;
+    for_each_stop(node.at, [&](int stop) {
+      std::copy_n(&walked_[stop * kPorts], kPorts, costs_of(state++));
+    });
   }
 
   // Ports that were dropped get the cost of their ways inside the graph too: those are real ways.
@@ -295,8 +471,13 @@ class SequenceDagBuilder {
 
   const CostMatrix& matrix_;
   const PathRelaxation& relaxation_;
+  const DirectLegs* const direct_;
+  const PassedStops* const passed_;
+  const SequenceClass& work_;
+  const std::size_t most_states_;
   const Time reach_;
   const Limits& limits_;
+  const CostMatrix ways_;  // by stop, if there are direct legs
   const int parity_;
 
   SequenceDag dag_{kNever};
@@ -306,14 +487,24 @@ class SequenceDagBuilder {
   std::vector<std::size_t> dropped_;  // by how much they exceed the reach, less 1
   StopSetIndex group_index_;
   std::size_t asked_bytes_ = 0;
+  // By port of a visited stop, of the node under way; and the ports that have a cost, some twice.
+  std::array<Time, kMaxTasksPerAgent * kPorts> walked_;
+  std::vector<int> walkers_;
 };
 
 std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,
                                               const PathRelaxation& relaxation, Time reach,
                                               const Limits& limits) {
-  if (matrix.ports == 1) return SequenceDagBuilder<1>(matrix, relaxation, reach, limits).build();
-  GROVE_ASSERT(matrix.ports == 4, "a stop has one port, or one for each heading");
-  return SequenceDagBuilder<4>(matrix, relaxation, reach, limits).build();
+  SequenceDag dag(0);
+  if (build({matrix, relaxation}, reach, limits, dag) != End::kBuilt) return std::nullopt;
+  return dag;
+}
+
+SequenceDag::End SequenceDag::build(const Scope& scope, Time reach, const Limits& limits,
+                                    SequenceDag& dag) {
+  if (scope.matrix.ports == 1) return SequenceDagBuilder<1>(scope, reach, limits).build(dag);
+  GROVE_ASSERT(scope.matrix.ports == 4, "a stop has one port, or one for each heading");
+  return SequenceDagBuilder<4>(scope, reach, limits).build(dag);
 }
 
 }  // namespace grove::detail

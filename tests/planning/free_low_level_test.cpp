@@ -11,6 +11,8 @@
 
 #include "grove/detail/planning/free_low_level_search.h"
 #include "grove/detail/planning/low_level_search.h"
+#include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/direct_legs.h"
 #include "grove/detail/sequencing/k_best_sequences.h"
 #include "tests/planning/free_problems.h"
 #include "tests/planning/free_reference.h"
@@ -34,7 +36,28 @@ using testing::SingleAgent;
 // One agent, its class and both searches.
 struct Agent : FreeAgent {
   explicit Agent(const FreeProblem& given)
-      : FreeAgent(given), free(*given.grid), fixed(*given.grid) {}
+      : FreeAgent(given),
+        direct(by_direct_legs(*this)),
+        direct_goals(stops, given.work, direct),
+        free(*given.grid),
+        fixed(*given.grid) {}
+
+  static Completions by_direct_legs(const FreeAgent& agent) {
+    const CostMatrix& matrix = agent.stops.completions().matrix();
+    const Completions graph = Completions::as_graph(
+        matrix, [&agent, matrix] { return direct_legs(agent.instance, 0, matrix); });
+    return graph.of_class(agent.problem.work).value_or(graph);
+  }
+  // The same by a graph of what paths can do.
+  std::optional<Time> direct_cost(const ConflictAvoidanceTable* others) {
+    Path found;
+    const Outcome outcome =
+        free.find(direct_goals, {problem.constraints, others, kNever}, Limits(), found);
+    EXPECT_NE(outcome, Outcome::kStopped);
+    if (outcome != Outcome::kFound) return std::nullopt;
+    expect_valid(found);
+    return static_cast<Time>(found.size()) - 1;
+  }
 
   Outcome find(Time cutoff, Path& found, const ConflictAvoidanceTable* others = nullptr) {
     return free.find(goals, {problem.constraints, others, cutoff}, Limits(), found);
@@ -71,6 +94,8 @@ struct Agent : FreeAgent {
     return best;
   }
 
+  Completions direct;
+  FreeGoals direct_goals;
   FreeLowLevelSearch free;
   LowLevelSearch fixed;
   Path path;
@@ -102,6 +127,7 @@ class Fuzzer {
     const std::optional<Time> expected = free_reference_cost(agent.problem);
     EXPECT_EQ(agent.cost(&others), expected);
     EXPECT_EQ(agent.cost(), expected);
+    EXPECT_EQ(agent.direct_cost(&others), expected);
     EXPECT_TRUE(agent.problem.stops.size() > 4 || agent.fixed_cost_of_class() == expected);
     check_cutoffs(agent, expected);
     if (!expected) ++infeasible;
@@ -137,6 +163,41 @@ TEST_P(FreeLowLevelFuzz, AgreesWithItsDefinition) {
   }
   EXPECT_GT(checked, 2 * seeds);
   EXPECT_GT(infeasible, seeds / 4);
+}
+
+// 2^n sequences cost the same, and of what agents do that visit what they pass few do.
+TEST(FreeLowLevel, RowOfTasksTakesFewLabels) {
+  for (const int n : {24, 64}) {
+    const Grid grid = grid_of({std::string(static_cast<std::size_t>(n) + 4, '.'),
+                               std::string(static_cast<std::size_t>(n) + 4, '.')});
+    for (const Cell start : {1, 10, n + 3})
+      for (const bool has_destination : {true, false}) {
+        FreeProblem problem{&grid, start, {}, {}, {}, {}};
+        for (Cell cell = 2; cell < n + 2; ++cell) problem.stops.push_back(cell);
+        if (has_destination) problem.destination = 0;
+        Agent agent(problem);
+        const Time far = n + 1;
+        const Time shut = start >= far ? start - 2 : std::min(far - start, start - 2) + far - 2;
+        const Time open = std::max(far - start, 0) + std::max(far, start);
+        EXPECT_EQ(agent.cost(), has_destination ? open : start < 2 ? far - start : shut);
+        EXPECT_LT(agent.free.expanded(), 200 * n);
+      }
+  }
+}
+
+// Counts of labels are those of the call, whatever was asked before.
+TEST(FreeLowLevel, StopsAtTheGivenNumberOfLabels) {
+  const Grid grid = grid_of(std::vector<std::string>(12, "............"));
+  FreeProblem problem{&grid, 0, {17, 30, 44, 50, 71, 90, 100, 119, 130, 141}, 143, {}, {}};
+  problem.constraints = {{17, kNoPlace, 0, 70}, {130, kNoPlace, 0, 70}};
+  Agent agent(problem);
+  for (const std::int64_t most : {1, 77, 300, 2, 1000}) {
+    const std::int64_t before = agent.free.expanded();
+    Path path;
+    const PathQuery query{.constraints = problem.constraints, .most_labels = most};
+    EXPECT_EQ(agent.free.find(agent.goals, query, Limits(), path), Outcome::kStopped);
+    EXPECT_EQ(agent.free.expanded() - before, most);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, FreeLowLevelFuzz, ::testing::Bool(),

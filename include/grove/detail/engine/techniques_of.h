@@ -13,7 +13,8 @@ inline Techniques techniques_of(const SolveOptions& options) {
 }
 
 inline SearchOptions search_options_of(const SolveOptions& options) {
-  return {techniques_of(options), options.seed, options.audit, options.tuning, options.proof};
+  return {techniques_of(options), options.seed, options.audit, options.tuning, options.proof,
+          options.deterministic};
 }
 
 }  // namespace grove::detail

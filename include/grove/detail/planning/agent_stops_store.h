@@ -22,7 +22,10 @@ class AgentStopsStore {
   AgentStopsStore(const AgentStopsStore& other)
       : instance_(other.instance_), distances_(other.distances_), stops_(other.stops_.size()) {
     for (std::size_t agent = 0; agent < stops_.size(); ++agent)
-      if (other.stops_[agent]) stops_[agent] = std::make_unique<AgentStops>(*other.stops_[agent]);
+      if (other.stops_[agent]) {
+        stops_[agent] = std::make_unique<AgentStops>(*other.stops_[agent]);
+        stops_[agent]->completions().mark();
+      }
   }
 
   AgentStops& of(AgentIndex agent) {

@@ -30,6 +30,7 @@ class AgentStops {
   // if that is shared.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
 
+  const Instance& instance() const { return *instance_; }
   AgentIndex agent() const { return agent_; }
   int count() const { return static_cast<int>(places_.size()); }
   State start() const { return start_; }
@@ -72,6 +73,7 @@ class AgentStops {
   // heading, or where there is but one port in any base state.
   Time turn(State state, int port) const;
 
+  // Of all sequences.
   const Completions& completions() const { return completions_; }
   Completions& completions() { return completions_; }
 
@@ -84,6 +86,7 @@ class AgentStops {
   static constexpr int kFirstWork = -2;
   static constexpr int kForeignWork = -128;
 
+  const Instance* instance_;
   const World* world_;
   AgentIndex agent_;
   int kind_;
@@ -130,8 +133,8 @@ class FreeGoals {
   // `stops` must outlive this. Throws std::invalid_argument for a prefix that repeats a stop or
   // names one that the agent does not have.
   FreeGoals(AgentStops& stops, SequenceClass work);
-  // The same with other completions than those of `stops`, over as many stops. They must outlive
-  // this.
+  // The same with other completions than those of `stops`, of this class and over as many stops.
+  // They must outlive this.
   FreeGoals(AgentStops& stops, SequenceClass work, Completions& completions);
 
   AgentStops& stops() { return stops_; }
@@ -219,6 +222,7 @@ class FreeGoals {
   void add_onward(Stage& stage);
 
   AgentStops& stops_;
+  std::optional<Completions> own_;  // of the class, if that is not all sequences
   Completions* completions_;
   SequenceClass class_;
   StopSet free_;            // the stops that are not in the prefix

@@ -23,9 +23,10 @@ namespace grove::detail {
 class PathPlanner {
  public:
   // `problem` and `stops` must outlive this; `stops` may be shared with others of the same thread.
-  // `free` plans where the order is open; null: Grove's own low level.
+  // `free` plans where the order is open; null: Grove's own low level. `repeatable`: the labels that
+  // a call expands do not depend on the calls before.
   PathPlanner(const Problem& problem, AgentStopsStore& stops,
-              std::unique_ptr<AgentPlanner> free = nullptr);
+              std::unique_ptr<AgentPlanner> free = nullptr, bool repeatable = false);
 
   // As AgentPlanner::find, with the agent's constraints of all kinds in the query.
   PathOutcome find(AgentIndex agent, const AgentOrder& order, PathQuery query, const Limits& limits,
@@ -75,6 +76,7 @@ class PathPlanner {
   OptimalPathsBuilder optimal_;
   TimedGraphs timed_;
   AgentStopsStore& stops_;
+  bool repeatable_;
   std::vector<std::vector<std::unique_ptr<FreeGoals>>>
       free_goals_;  // by AgentIndex: of the classes asked for last, the last of all in front
   std::vector<Constraint> on_path_;

@@ -19,6 +19,8 @@ struct SearchOptions {
   bool audit = false;
   Tuning tuning = {};
   ProofLog* proof = nullptr;  // where to write down why bounds hold; null: nowhere
+  // The work for a node, and its counts, do not depend on the nodes before. Slower with many tasks.
+  bool repeatable = false;
 };
 
 }  // namespace grove::detail

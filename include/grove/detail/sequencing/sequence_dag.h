@@ -3,16 +3,20 @@
 // stop where the agent stands; each with a cost for each port of that stop (cost_matrix.h).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "grove/detail/model/grid.h"
 #include "grove/detail/model/limits.h"
+#include "grove/detail/sequencing/rtsp.h"
 #include "grove/detail/sequencing/sequence.h"
 
 namespace grove::detail {
 
+class DirectLegs;
+class PassedStops;
 class PathRelaxation;
 
 // Maps sets to numbers: open addressing, linear probing.
@@ -46,10 +50,27 @@ class SequenceDag {
   // No state at all; `beyond` must be a proven lower bound on every sequence.
   explicit SequenceDag(Time beyond) : beyond_(beyond), next_reach_(beyond) {}
 
-  // With every sequence of cost <= reach. None when a limit struck.
+  // With every sequence of cost <= reach. Returns nullopt if a limit was reached.
   static std::optional<SequenceDag> build(const CostMatrix& matrix,
                                           const PathRelaxation& relaxation, Time reach,
                                           const Limits& limits);
+
+  // What is in a graph.
+  struct Scope {
+    const CostMatrix& matrix;
+    const PathRelaxation& relaxation;
+    // If given, only the ways of an agent that visits each plain stop of `work` that it passes, and
+    // what these cost: see the .cpp.
+    const DirectLegs* direct = nullptr;
+    // If given, only the canonical sequences of `work` (passed_stops.cpp); for matrices with one
+    // port a stop.
+    const PassedStops* passed = nullptr;
+    SequenceClass work = {};  // all sequences, unless there is `direct` or `passed`
+    std::size_t most_states = SIZE_MAX;
+  };
+  enum class End : std::uint8_t { kBuilt, kStopped, kTooLarge };
+  // The same within a scope. Changes `dag` only if it was built.
+  static End build(const Scope& scope, Time reach, const Limits& limits, SequenceDag& dag);
 
   // Proven: a sequence with a state outside the graph costs at least this. kNever: no such one.
   Time beyond() const { return beyond_; }

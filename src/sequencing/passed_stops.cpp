@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Where many stops lie in a row, a sequence may visit each of them on the way in or on the way out,
+// at the same cost. Of all these one is enough for an optimum.
+//
+// Let detour(v, u, w) = cost(v, u) + cost(u, w) - cost(v, w), v being a stop or the start, w a stop
+// or the end, and least(u) the least detour of u over all such v and w. Stop u *is passed* on the
+// leg from v to a stop w if detour(v, u, w) = least(u) and (cost(v, u), u) < (cost(v, w), w), in
+// lexicographic order. A sequence of a class is *canonical* if none of its legs after the first
+// free stop passes a stop that comes later.
+// *Claim: of each class with a sequence of finite cost a cheapest member is canonical.* Take a
+// cheapest member, and the first leg (v, w) that passes a later stop u. Move u between v and w: that
+// takes a detour away that is least(u) or more, and adds one of least(u), so the sequence costs no
+// more; the prefix and the first free stop stay, so it is of the class. What comes next after v has
+// become smaller in the order above, and legs before have not changed. That order is finite, so
+// after some moves the leg from v passes nothing that comes later, and no move after that changes
+// it; then the same holds for the next leg, and so on.
+// (If a leg from x to y does not exist, and one from x over u to y does, the detour is far below
+// zero; then so is least(u), which no leg of a sequence of finite cost has.)
+#include "passed_stops.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "stop_set.h"
+
+namespace grove::detail {
+
+PassedStops::PassedStops(const CostMatrix& matrix)
+    : stops_(matrix.stops()), passed_(static_cast<std::size_t>((stops_ + 1) * stops_), 0) {
+  const int n = stops_;
+  constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  const auto detour = [&](int from, int by, int to) {
+    const std::int64_t there = matrix.cost(from, by);
+    const std::int64_t on = matrix.cost(by, to);
+    return there >= kNever || on >= kNever ? kNone : there + on - matrix.cost(from, to);
+  };
+  const auto nearness = [&](int from, int to) { return std::pair(matrix.cost(from, to), to); };
+  for (int stop = 0; stop < n; ++stop) {
+    std::int64_t least = kNone;
+    for (int from = 0; from <= n; ++from)
+      for (int to = 0; to <= n; ++to)
+        if (from != stop && to != stop && (from != to || from == n))
+          least = std::min(least, detour(from, stop, to));
+    if (least == kNone) continue;
+    for (int from = 0; from <= n; ++from)
+      for (int to = 0; to < n; ++to) {
+        if (from == stop || to == stop || from == to) continue;
+        if (matrix.cost(from, to) < kNever && detour(from, stop, to) == least &&
+            nearness(from, stop) < nearness(from, to))
+          passed_[static_cast<std::size_t>(from * n + to)] |= bit(stop);
+      }
+  }
+}
+
+}  // namespace grove::detail
