@@ -109,7 +109,7 @@ class Making {
     else if (written_.priced >= made_.bound)
       write_prices(output);
     else
-      output.line("joint");
+      write_joint(output);
     output.line("end");
     made_.lemmas = lemmas.count();
     made_.bytes = output.commit();
@@ -121,6 +121,11 @@ class Making {
   // agents can do.
   bool is_evidently_infeasible(Cost claimed) const {
     return claimed >= kInfiniteCost && written_.trees.empty();
+  }
+
+  void write_joint(CertificateOutput& output) {
+    output.line("joint");
+    made_.by_joint_search = true;
   }
 
   void write_prices(CertificateOutput& output) const {

@@ -13,6 +13,7 @@
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/proof/certificate.h"
+#include "tools/common/standard_error.h"
 
 namespace grove::detail {
 namespace {
@@ -47,6 +48,34 @@ std::string text_of(const Certificate& made, Cost claimed) {
   if (made.bound < claimed)
     text += fmt::format(" (that {} is left uncertified)", cost_text(claimed));
   return text;
+}
+
+// A checker repeats a joint search, state by state and time by time: some 10 times as slowly as
+// Grove. Up to so many states that takes it seconds at most.
+constexpr std::int64_t kFewJointStates = 1000;
+
+// All that there are, if no more than kFewJointStates.
+bool has_few_joint_states(const Instance& instance) {
+  std::int64_t states = 1;
+  for (AgentIndex agent = 0; agent < instance.agent_count() && states <= kFewJointStates; ++agent)
+    states *= instance.world().state_count();
+  return states <= kFewJointStates;
+}
+
+void warn_of_joint_search(const fs::path& file, const Instance& instance, const Stats& stats) {
+  const auto searched = stats.counts.find("joint_states");
+  if (searched != stats.counts.end()) {
+    if (searched->second > kFewJointStates)
+      say_on_stderr(fmt::format(
+          "grove: warning: {}: the proof is a joint search of all agents, and a checker has to repeat "
+          "it; that took {} joint states here, and may take grove-verify 10 times as long",
+          file.string(), searched->second));
+  } else if (!has_few_joint_states(instance)) {
+    say_on_stderr(fmt::format(
+        "grove: warning: {}: the proof is a joint search of all agents that Grove did not need; it "
+        "may be too much for grove-verify",
+        file.string()));
+  }
 }
 
 }  // namespace
@@ -90,6 +119,7 @@ void ProofOutput::make(const Instance& instance, Solution& solution) const {
       solution.status == Status::kInfeasible ? kInfiniteCost : solution.lower_bound;
   const Certificate made = write_certificate(instance, parts, claimed, file_);
   solution.stats.texts["proof"] = text_of(made, claimed);
+  if (made.by_joint_search) warn_of_joint_search(file_, instance, solution.stats);
   if (goes_on_) return;
   for (const fs::path& part : parts) fs::remove(part);
 }

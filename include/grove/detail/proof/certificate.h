@@ -18,6 +18,7 @@ struct Certificate {
   std::int64_t leaves = 0;
   std::int64_t lemmas = 0;
   std::int64_t bytes = 0;
+  bool by_joint_search = false;  // nothing but `joint`: a checker does all the search again
 };
 
 // Makes a certificate of what was written down in these files (proof_parts.h), for a bound of
