@@ -149,7 +149,7 @@ class Confined(Hostile):
             self.write("s.scen", "version 1\n" + row.format(name))
             self.assertEqual(self.run_it("solve", "s.scen", "--agents", 1, "--quiet").returncode, 0)
             self.assertEqual(self.run_it("solve", "s.scen", "--agents", 1, "--confine", "--quiet").returncode, code)
-        self.write("ours.pgm", "P2 1 1 255 255\n", self.top)
+        self.write("ours.pgm", "P2 3 1 255 255 255 255\n", self.top)
         self.write("m.yaml", "image: ../ours.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n")
         self.assertEqual(self.run_it("convert", "m.yaml", "out.map", "--cell-size", 0.1).returncode, 0)
         self.assertIn("m.yaml: image: '../ours.pgm' leads out", self.refused("convert", "m.yaml", "out.map", "--cell-size", 0.1, "--confine"))
