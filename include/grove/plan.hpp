@@ -76,6 +76,9 @@ struct Solution {
   std::map<std::string, double> measures = {};  ///< Likewise, real numbers: "wall_s".
   /// Likewise, words: "stopped_by", the limit that struck; "reason", why there is no plan.
   std::map<std::string, std::string> texts = {};
+  /// False: everything claimed holds of plans in which no agent enters a place in the step in which
+  /// another leaves it (Rules::following).
+  bool following = true;
 
   /// (cost - lower bound) / lower bound: how much dearer than the best the plan is at most. None
   /// without a plan, or with a bound of 0 below a plan that costs something.
@@ -108,11 +111,11 @@ GROVE_API Plan plan_from_paths(const Instance& instance,
 GROVE_API Solution read_plan(const std::filesystem::path& path, const Instance& instance);
 /// The same of the text of such a file.
 GROVE_API Solution parse_plan(std::string_view text, const Instance& instance);
-/// Writes a plan file, whole or not at all. Throws InputError where it cannot be written, and
-/// InvalidArgument for a plan with places and ids that do not exist.
+/// Writes a plan file, whole or not at all. Throws InputError if it cannot be written, and
+/// InvalidArgument for a plan that check() refuses.
 GROVE_API void write_plan(const std::filesystem::path& path, const Instance& instance,
                           const Solution& solution);
-/// What write_plan() writes.
+/// The text that write_plan() writes. Throws InvalidArgument for a plan that check() refuses.
 GROVE_API std::string plan_text(const Instance& instance, const Solution& solution);
 
 }  // namespace grove

@@ -129,7 +129,8 @@ std::string text_of(const OwnSolution& solution) {
 
 OwnSolution unclaimed(const OwnPlan& plan) {
   return {plan.instance,
-          {.status = Status::feasible, .omega = std::numeric_limits<double>::infinity()},
+          {.status = plan.plan->cost == 0 ? Status::optimal : Status::feasible,
+           .omega = std::numeric_limits<double>::infinity()},
           plan};
 }
 
@@ -194,6 +195,9 @@ void add_plan(py::module_& module) {
           "Proven: no plan costs less.")
       .def_property_readonly(
           "omega", [](const OwnSolution& s) { return s.facts.omega; }, "That was asked for.")
+      .def_property_readonly(
+          "following", [](const OwnSolution& s) { return s.facts.following; },
+          "False: all claims hold of plans in which no robot follows another closely.")
       .def_property_readonly("gap", &gap_of,
                              "How much dearer than the best the plan is at most: 0.02 is 2 %. None "
                              "without a plan, or with a bound of 0.")
@@ -212,7 +216,7 @@ void add_plan(py::module_& module) {
           [](const OwnSolution& s, const std::filesystem::path& path) {
             write_plan(path, s.instance, s.whole());
           },
-          py::arg("path"), "Writes a plan file.")
+          py::arg("path"), "Writes a plan file, if check() finds nothing wrong.")
       .def("__repr__", &text_of);
   py::implicitly_convertible<OwnPlan, OwnSolution>();
   module.def("_check_plan", [](const OwnPlan& plan, std::size_t limit) {

@@ -88,9 +88,8 @@ detail::Plan plan_of(const detail::Instance& instance, const Plan& plan) {
 detail::Plan valid_plan_of(const detail::Instance& instance, const Plan& plan,
                            const std::string& field) {
   detail::Solution solution;
-  solution.status = detail::Status::kFeasible;
-  solution.may_follow = instance.may_follow();
   solution.plan = plan_of(instance, plan);
+  solution.status = detail::status_of(plan.cost, 0, solution.omega);
   const auto wrong = detail::check(instance, solution, 1);
   if (!wrong.empty()) throw InvalidArgument(field + wrong.front().place, wrong.front().message);
   return *std::move(solution.plan);
@@ -119,7 +118,7 @@ detail::Solution solution_of(const detail::Instance& instance, const Solution& s
   if (solution.plan) made.plan = plan_of(instance, *solution.plan);
   made.lower_bound = solution.lower_bound;
   made.omega = omega_of(solution.omega);
-  made.may_follow = instance.may_follow();
+  made.may_follow = solution.following;
   made.stats.counts = solution.counts;
   made.stats.measures = solution.measures;
   made.stats.texts = solution.texts;
@@ -133,6 +132,7 @@ Solution told_solution(const detail::Instance& instance, const detail::Solution&
   told.lower_bound = solution.lower_bound;
   told.omega = solution.omega.is_infinite() ? std::numeric_limits<double>::infinity()
                                             : solution.omega.value();
+  told.following = instance.may_follow() && solution.may_follow;
   told.counts = solution.stats.counts;
   told.measures = solution.stats.measures;
   told.texts = solution.stats.texts;
@@ -140,7 +140,7 @@ Solution told_solution(const detail::Instance& instance, const detail::Solution&
 }
 
 std::vector<Violation> check(const Instance& instance, const Plan& plan, std::size_t limit) {
-  Solution solution{.status = Status::feasible, .plan = plan};
+  Solution solution{.status = plan.cost == 0 ? Status::optimal : Status::feasible, .plan = plan};
   return check(instance, solution, limit);
 }
 
@@ -184,16 +184,32 @@ Solution parse_plan(std::string_view text, const Instance& instance) {
   });
 }
 
+namespace {
+
+// As translated(); a plan that the checker refuses is the user's.
+template <class Act>
+auto refusing_invalid_plans(Act&& act) {
+  return translated([&] {
+    try {
+      return act();
+    } catch (const detail::InvalidPlan& error) {
+      throw InvalidArgument(error.violation().place, error.violation().message);
+    }
+  });
+}
+
+}  // namespace
+
 void write_plan(const std::filesystem::path& path, const Instance& instance,
                 const Solution& solution) {
-  translated([&] {
+  refusing_invalid_plans([&] {
     const detail::Instance& inner = Access::instance(instance);
     detail::write_solution(path, inner, solution_of(inner, solution));
   });
 }
 
 std::string plan_text(const Instance& instance, const Solution& solution) {
-  return translated([&] {
+  return refusing_invalid_plans([&] {
     const detail::Instance& inner = Access::instance(instance);
     return detail::solution_text(inner, solution_of(inner, solution));
   });

@@ -10,6 +10,7 @@
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/io/text_file.h"
+#include "grove/detail/model/check.h"
 #include "json_value.h"
 #include "json_writer.h"
 #include "path_entry.h"
@@ -59,7 +60,8 @@ OrderedJson solution_json(const Instance& instance, const Solution& solution) {
   if (solution.plan) json["cost"] = solution.plan->cost;
   json["lower_bound"] = solution.lower_bound;
   json["omega"] = omega_json(solution.omega);
-  if (!instance.may_follow()) json["following"] = false;  // what is claimed is of that instance
+  if (!instance.may_follow() || !solution.may_follow)
+    json["following"] = false;  // what is claimed is of that instance
   if (solution.plan) {
     OrderedJson& agents = json["agents"] = OrderedJson::array();
     for (std::size_t i = 0; i < solution.plan->agents.size(); ++i)
@@ -174,6 +176,7 @@ Stats read_stats(const JsonValue& value) {
 }  // namespace
 
 std::string solution_text(const Instance& instance, const Solution& solution) {
+  require_valid_plan(instance, solution);
   return dump_by_lines(solution_json(instance, solution));
 }
 

@@ -506,4 +506,10 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
   return report.take();
 }
 
+void require_valid_plan(const Instance& instance, const Solution& solution) {
+  if (!solution.plan) return;
+  std::vector<Violation> wrong = check(instance, solution, 1);
+  if (!wrong.empty()) throw InvalidPlan(std::move(wrong.front()));
+}
+
 }  // namespace grove::detail

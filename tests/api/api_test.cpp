@@ -181,6 +181,29 @@ TEST(Api, PlansAsFiles) {
   EXPECT_EQ(again.omega, 0.5);
 }
 
+TEST(Api, WritesNoPlanThatTheCheckerRefuses) {
+  const Instance instance = small();
+  Solution solution = solve(instance, {.omega = 0.5});
+  TemporaryDirectory directory;
+  solution.plan->agents[0].path.erase(solution.plan->agents[0].path.begin());
+  EXPECT_EQ(field_of([&] { write_plan(directory / "p.json", instance, solution); }),
+            "/agents/0/path/0");
+  EXPECT_EQ(field_of([&] { plan_text(instance, solution); }), "/agents/0/path/0");
+  EXPECT_FALSE(std::filesystem::exists(directory / "p.json"));
+}
+
+// A bound of plans without following is none of plans with.
+TEST(Api, ClaimsWithoutFollowingStaySo) {
+  const Instance instance = small();
+  const Instance strict(instance.world(), instance.agents(), instance.tasks(),
+                        {.following = false});
+  const std::string text = plan_text(strict, solve(strict));
+  const Solution read = parse_plan(text, instance);
+  EXPECT_FALSE(read.following);
+  EXPECT_THAT(plan_text(instance, read), ::testing::HasSubstr("\"following\": false"));
+  EXPECT_TRUE(parse_plan(plan_text(instance, solve(instance)), instance).following);
+}
+
 TEST(Api, WhatIsWrongSaysWhere) {
   const World world = World::from_rows(kRows);
   const auto with = [&](Agent agent) {
@@ -296,6 +319,7 @@ TEST(Api, ASessionGoesOn) {
   EXPECT_THAT(after.plan->agents[1].tasks, ::testing::Contains("more"));
   EXPECT_EQ(field_of([&] { session.change({.dropped_tasks = {"none"}}); }), "/dropped_tasks/0");
   EXPECT_EQ(field_of([&] { session.advance(1, {{.agent = "green", .steps = 1}}); }), "/late/0");
+  EXPECT_EQ(field_of([&] { session.advance(1, {{.agent = "red", .steps = 2}}); }), "/late");
   Session with(small(), before);
   with.advance(1);
   EXPECT_TRUE(with.plan());

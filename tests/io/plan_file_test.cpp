@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <limits>
 
+#include "grove/detail/model/check.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
@@ -178,6 +180,40 @@ TEST_F(PlanFile, RefusesOmegasThatItCannotHold) {
 TEST_F(PlanFile, EveryTruncationIsRefused) {
   for (std::size_t size = 0; size + 2 < kWritten.size(); ++size)
     EXPECT_NE(refused(kWritten.substr(0, size)), "accepted") << size;
+}
+
+TEST_F(PlanFile, IsNotWrittenIfTheCheckerRefusesIt) {
+  Solution s = solution();
+  s.plan->agents[1].path = {3, 5};
+  try {
+    written(s);
+    FAIL();
+  } catch (const InvalidPlan& error) {
+    EXPECT_EQ(error.violation().place, "/agents/1/path/1");
+  }
+  s = solution();
+  s.lower_bound = 2;  // then it is not proven to be optimal
+  EXPECT_THROW(written(s), InvalidPlan);
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "out.json"));
+}
+
+// The rules are those of the instance, and those that the solution claims to keep to.
+TEST_F(PlanFile, SaysWhereNoneFollows) {
+  EXPECT_NE(solution_text(instance().without_following(), solution()).find("\"following\": false"),
+            std::string::npos);
+  Solution s = solution();
+  s.may_follow = false;
+  EXPECT_FALSE(read(written(s)).may_follow);
+  InstanceBuilder builder(Grid(3, 1, std::vector<bool>(3, true)));
+  builder.add_agent("a", {0, 0}, Position{1, 0});
+  builder.add_agent("b", {1, 0}, Position{2, 0});
+  const Instance row = std::move(builder).build();
+  s.plan = Plan{2, {{1, {}, {0, 1}}, {1, {}, {1, 2}}}};
+  s.lower_bound = 2;
+  EXPECT_THROW(solution_text(row, s), InvalidPlan);
+  s.may_follow = true;
+  EXPECT_THROW(solution_text(row.without_following(), s), InvalidPlan);
+  EXPECT_NO_THROW(solution_text(row, s));
 }
 
 TEST_F(PlanFile, CannotBeWrittenWhereThereIsNoFolder) {

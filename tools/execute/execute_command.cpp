@@ -142,6 +142,7 @@ class Execution {
     Solution solution;
     solution.plan = driven_plan(loaded_.instance, *claimed_.solution.plan, order_, drive);
     solution.lower_bound = 0;
+    solution.may_follow = claimed_.solution.may_follow;  // who waits for others still does not
     solution.status = status_of(solution.plan->cost, 0, solution.omega);
     solution.stats.texts["driven"] = a_.plan;
     solution.stats.texts["options"] = options_;
@@ -170,10 +171,7 @@ class Execution {
 
   // By the independent checker: a drive that collides is a bug.
   void require_valid(const Drive& drive) const {
-    const auto wrong = check(loaded_.instance, solution_of(drive), 1);
-    if (!wrong.empty())
-      throw std::logic_error(
-          fmt::format("a drive is not valid: {}: {}", wrong.front().place, wrong.front().message));
+    require_valid_plan(loaded_.instance, solution_of(drive));
   }
 
   void tell_stuck() const {

@@ -30,6 +30,9 @@ class Judges : public ::testing::Test {
   }
   Outcome verdict(const ChildEnd& end = {}) {
     write_solution(directory_ / "plan", instance_, solution_);
+    return verdict_on_what_is_there(end);
+  }
+  Outcome verdict_on_what_is_there(const ChildEnd& end = {}) {
     return judged(end, 60, instance_, directory_ / "plan", directory_ / "said");
   }
 
@@ -53,8 +56,10 @@ TEST_F(Judges, CountAPlanAfterTheTimeLimitAsUnsolved) {
 }
 
 TEST_F(Judges, RefuseWrongPlans) {
-  solution_.plan->agents[0].path = path({0, 1, 3, 3});
-  const Outcome outcome = verdict();
+  std::string text = solution_text(instance_, solution_);
+  text.replace(text.find("[2,0]"), 5, "[3,0]");
+  directory_.write("plan", text);
+  const Outcome outcome = verdict_on_what_is_there();
   EXPECT_TRUE(outcome.failed());
   EXPECT_FALSE(outcome.solved);
   EXPECT_EQ(outcome.cost, std::nullopt);

@@ -12,10 +12,13 @@
 
 namespace grove::detail {
 
-// What write_solution() writes.
+// What write_solution() writes. All plan files are made here, so no plan gets into one that the
+// independent checker refuses: throws InvalidPlan (model/check.h). "following" is false if the
+// instance forbids it or the solution claims so.
 std::string solution_text(const Instance& instance, const Solution& solution);
 
-// Writes `solution` whole or not at all. Throws InputError when the file cannot be written.
+// Writes `solution` whole or not at all. Throws InputError when the file cannot be written, and
+// InvalidPlan.
 void write_solution(const std::filesystem::path& path, const Instance& instance,
                     const Solution& solution, Outlives outlives = Outlives::kMachine);
 

@@ -5,7 +5,9 @@
 // the proof behind the lower bound; it checks only that bound, cost and status agree.
 #pragma once
 
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grove/detail/model/plan.h"
@@ -22,5 +24,21 @@ struct Violation {
 // A solution without a plan, or with fewer agents than the instance, is wrong: it proves nothing.
 std::vector<Violation> check(const Instance& instance, const Solution& solution,
                              std::size_t limit = 20);
+
+// A plan that Grove was about to return or write and that check() refuses.
+class InvalidPlan : public std::logic_error {
+ public:
+  explicit InvalidPlan(Violation violation)
+      : std::logic_error("the plan is not valid: " + violation.place + ": " + violation.message),
+        violation_(std::move(violation)) {}
+  const Violation& violation() const { return violation_; }
+
+ private:
+  Violation violation_;
+};
+
+// Throws InvalidPlan with the first violation of check(), under the rules of the instance and of
+// the solution. A solution without a plan passes: it says so itself.
+void require_valid_plan(const Instance& instance, const Solution& solution);
 
 }  // namespace grove::detail
