@@ -39,24 +39,32 @@ class GROVE_API Session {
   Session(Session&&) noexcept;             ///< Moves it.
   Session& operator=(Session&&) noexcept;  ///< Moves it.
 
-  /// As it is now, time from 0.
+  /// As it is now, time from 0. A robot without a destination that has visited everything is idle.
+  /// One with tasks left whose plan ends on a visited task has that place as its destination until
+  /// the next replan().
   Instance instance() const;
   /// A valid plan of it; none before the first replan(), after a change that concerns it, and where
   /// none was found.
   std::optional<Plan> plan() const;
 
-  /// So many steps pass, by the plan, which must be there; at their end these robots are late, and
-  /// others perhaps for their sake. Throws InvalidArgument, and nothing has changed.
+  /// `steps` steps pass, by the plan, which must be there; at their end these robots are late, and
+  /// others perhaps for their sake. Beyond the end of the plan all robots stand where it ends.
+  /// Throws InvalidArgument, and nothing has changed: field() is "/late" if a robot is said to be
+  /// later than `steps`, is named twice, or cannot be where it is said to be.
   void advance(int steps, const std::vector<Late>& late = {});
 
   /// From now on it is so; the next replan() heeds it. Throws InvalidArgument, and nothing has
-  /// changed, where it cannot be: somebody is on what is to be closed, or has to go there; an id is
-  /// taken, or there is none such. field() is "/new_tasks/<i>/...", "/dropped_tasks/<i>" or
+  /// changed, where it cannot be: a robot is on what is to be closed, or has to go there, or it is
+  /// a wall; an id is taken, or there is none such. field() is "/new_tasks/<i>/...",
+  /// "/dropped_tasks/<i>" or
   /// "/blocked/<i>".
   void change(const Change& change);
 
   /// Solves what is left, from the old plan repaired. All keep to the old plan, or what is left of
-  /// it, for `commit` steps, at least 0. (Options::start is not looked at.) Throws as solve() does,
+  /// it, for `commit` steps, at least 0. (Options::start is not looked at.) A robot without a
+  /// destination may end on any of its tasks that are left. If no plan is found that way, or none
+  /// as good as the old plan, which ended on a visited task, that place stays its destination, and
+  /// Solution::texts, "ends_of_old_plan", names the robot. Throws as solve() does,
   /// and InvalidArgument, "/commit", where a path is closed before the committed steps end.
   Solution replan(const Options& options = {}, int commit = 0);
 

@@ -7,18 +7,33 @@
 // the new one allows, too.
 #include "grove/detail/engine/session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/execution/advance.h"
 #include "grove/detail/model/assert.h"
+#include "grove/detail/model/check.h"
 #include "grove/detail/primal/repair.h"
 #include "grove/detail/search/feasibility.h"
 #include "grove/detail/search/problem.h"
 
 namespace grove::detail {
 namespace {
+
+// Throws InvalidPlan.
+void require_valid_plan_of(const Instance& instance, const Plan& plan) {
+  Solution solution;
+  solution.plan = plan;
+  solution.status = status_of(plan.cost, 0, solution.omega);
+  require_valid_plan(instance, solution);
+}
 
 // Shows the plans of what comes after the committed steps as whole ones.
 class WholePlans : public ForwardingObserver {
@@ -55,7 +70,11 @@ class WholePlans : public ForwardingObserver {
   }
 
  private:
-  Plan whole(const Plan& rest) const { return joined(instance_, plan_, commit_, later_, rest); }
+  Plan whole(const Plan& rest) const {
+    Plan plan = joined(instance_, plan_, commit_, later_, rest);
+    require_valid_plan_of(instance_, plan);
+    return plan;
+  }
 
   Progress of_whole(Progress progress) const {
     progress.lower_bound = lower_bound_;
@@ -128,6 +147,37 @@ std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affect
   return repaired(problem, stops, paths, options.seed, limits);
 }
 
+// The first of perhaps two searches: its end is the end of the run only if end() says so.
+class FirstSearch : public ForwardingObserver {
+ public:
+  using ForwardingObserver::ForwardingObserver;
+  void on_event(RunEvent event, const Progress& progress) override {
+    if (event == RunEvent::kEnd)
+      end_ = progress;
+    else
+      next().on_event(event, progress);
+  }
+  void on_infeasible(std::string_view reason) override { reason_ = reason; }
+
+  void end() {
+    if (reason_) next().on_infeasible(*reason_);
+    if (end_) next().on_event(RunEvent::kEnd, *end_);
+  }
+
+ private:
+  std::optional<Progress> end_;
+  std::optional<std::string> reason_;
+};
+
+bool any(const std::vector<bool>& agents) {
+  return std::ranges::count(agents, true) > 0;
+}
+
+std::vector<bool> either(std::vector<bool> agents, const std::vector<bool>& others) {
+  for (std::size_t i = 0; i < agents.size(); ++i) agents[i] = agents[i] || others[i];
+  return agents;
+}
+
 Solution solve_from(const Plan* plan, const std::vector<bool>& affected, const Problem& problem,
                     SolveOptions options, const Limits& limits, RunObserver& observer) {
   options.start = plan ? start_from(*plan, affected, problem, options, limits) : std::nullopt;
@@ -142,7 +192,8 @@ class Session::Impl {
       : instance_(std::move(instance)),
         plan_(std::move(plan)),
         old_(plan_),
-        affected_(static_cast<std::size_t>(instance_.agent_count())) {}
+        affected_(static_cast<std::size_t>(instance_.agent_count())),
+        ends_with_plan_(affected_) {}
 
   const Instance& instance() const { return instance_; }
   const std::optional<Plan>& plan() const { return plan_; }
@@ -152,19 +203,26 @@ class Session::Impl {
     const Plan driven =
         late.empty() ? *plan_
                      : late_plan(instance_, *plan_, PassingOrder(instance_, *plan_), steps, late);
-    Remainder rest = grove::detail::advance(instance_, driven, steps);
+    Remainder rest =
+        grove::detail::advance(instance_, driven, steps, Rests::kAnywhere, ends_with_plan_);
+    require_valid_plan_of(rest.instance, rest.plan);
     instance_ = std::move(rest.instance);
     plan_ = old_ = std::move(rest.plan);
+    ends_with_plan_ = std::move(rest.ends_with_plan);
   }
 
   void change(const InstanceChange& change) {
-    Changed changed = apply(instance_, old_ ? *old_ : standing_plan(instance_), change);
-    for (std::size_t agent = 0; agent < affected_.size(); ++agent)
+    const Instance before = without_ends_of_plan(instance_, ends_with_plan_);
+    Changed changed = apply(before, old_ ? *old_ : standing_plan(before), change);
+    for (std::size_t agent = 0; agent < affected_.size(); ++agent) {
       affected_[agent] = affected_[agent] || changed.affected[agent] || !old_;
-    instance_ = std::move(changed.instance);
+      // Who is planned anew may end where the instance says.
+      ends_with_plan_[agent] = ends_with_plan_[agent] && !affected_[agent];
+    }
+    instance_ = with_ends_of_plan(changed.instance, changed.plan, ends_with_plan_);
     old_ = std::move(changed.plan);
-    cut_ = std::move(changed.cut);
-    if (std::ranges::count(affected_, true) > 0)
+    cut_ = cut_.empty() ? std::move(changed.cut) : either(std::move(cut_), changed.cut);
+    if (any(affected_))
       plan_.reset();
     else
       plan_ = old_;
@@ -172,12 +230,56 @@ class Session::Impl {
 
   Solution solve(const SolveOptions& options, const Limits& limits, RunObserver& observer,
                  Time commit) {
-    auto now = std::make_unique<Kept>(instance_, limits, options.threads, kept_.get());
+    if (any(ends_with_plan_)) return solve_with_ends_of_plan(options, limits, observer, commit);
+    return adopt(search(instance_, affected_, options, limits, observer, commit));
+  }
+
+ private:
+  // First without the destinations that agents have only for the sake of the old plan. They get
+  // them again if that finds no plan, or a dearer one.
+  Solution solve_with_ends_of_plan(const SolveOptions& options, const Limits& limits,
+                                   RunObserver& observer, Time commit) {
+    const Instance free = without_ends_of_plan(instance_, ends_with_plan_);
+    const std::vector<bool> affected = either(affected_, ends_with_plan_);
+    FirstSearch first(observer);
+    Solution solution = search(free, affected, options, limits, first, commit);
+    if (!solution.plan || (plan_ && plan_->cost < solution.plan->cost)) {
+      observer.on_note("no plan as good as the old one ends on tasks that are left");
+      Solution other = search(instance_, affected_, options, limits, observer, commit);
+      if (other.plan) {
+        other.stats.texts["ends_of_old_plan"] = names(ends_with_plan_);
+        return adopt(std::move(other));
+      }
+    } else {
+      first.end();
+    }
+    instance_ = free;
+    affected_ = affected;
+    ends_with_plan_.assign(ends_with_plan_.size(), false);
+    return adopt(std::move(solution));
+  }
+
+  Solution search(const Instance& instance, const std::vector<bool>& affected,
+                  const SolveOptions& options, const Limits& limits, RunObserver& observer,
+                  Time commit) {
+    auto now = std::make_unique<Kept>(instance, limits, options.threads, kept_.get());
     Solution solution = commit > 0 && old_ && is_searched(now->problem)
-                            ? solve_later(*now, options, limits, observer, commit)
-                            : solve_from(old_ ? &*old_ : nullptr, affected_, now->problem, options,
+                            ? solve_later(*now, affected, options, limits, observer, commit)
+                            : solve_from(old_ ? &*old_ : nullptr, affected, now->problem, options,
                                          limits, observer);
+    require_valid_plan(now->instance, solution);
     kept_ = std::move(now);
+    return solution;
+  }
+
+  std::string names(const std::vector<bool>& agents) const {
+    std::vector<std::string> ids;
+    for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent)
+      if (agents[agent]) ids.push_back(instance_.agent(agent).id);
+    return fmt::format("{}", fmt::join(ids, ", "));
+  }
+
+  Solution adopt(Solution solution) {
     if (solution.plan) {
       plan_ = old_ = solution.plan;
       affected_.assign(affected_.size(), false);
@@ -186,7 +288,6 @@ class Session::Impl {
     return solution;
   }
 
- private:
   void require_open(Time commit) const {
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
       const Time end = static_cast<Time>(old_->agents[agent].path.size()) - 1;
@@ -194,28 +295,30 @@ class Session::Impl {
     }
   }
 
-  Solution solve_later(const Kept& now, const SolveOptions& options, const Limits& limits,
-                       RunObserver& observer, Time commit) {
+  Solution solve_later(const Kept& now, const std::vector<bool>& affected,
+                       const SolveOptions& options, const Limits& limits, RunObserver& observer,
+                       Time commit) {
     require_open(commit);
     std::optional<Remainder> rest;
     try {
-      rest = grove::detail::advance(instance_, *old_, commit, Rests::kWhereItMust);
+      rest = grove::detail::advance(now.instance, *old_, commit, Rests::kWhereItMust);
     } catch (const InstanceError& error) {
       return unknown(options, error.what());
     }
     const Kept later(std::move(rest->instance), limits, options.threads, &now);
     AgentStopsStore stops(now.instance, now.problem.distances);
     const Cost own_costs = sum_of_own_costs(now.problem, stops, limits);
-    WholePlans plans(observer, instance_, *old_, commit, later.instance, own_costs);
-    Solution solution = solve_from(&rest->plan, affected_, later.problem, options, limits, plans);
+    WholePlans plans(observer, now.instance, *old_, commit, later.instance, own_costs);
+    Solution solution = solve_from(&rest->plan, affected, later.problem, options, limits, plans);
     return plans.whole(std::move(solution));
   }
 
   Instance instance_;
-  std::optional<Plan> plan_;    // valid
-  std::optional<Plan> old_;     // valid but for who is affected
-  std::vector<bool> affected_;  // by agent
-  std::vector<bool> cut_;       // by agent: its path comes to what is closed; empty: nobody's
+  std::optional<Plan> plan_;          // valid
+  std::optional<Plan> old_;           // valid but for who is affected
+  std::vector<bool> affected_;        // by agent
+  std::vector<bool> cut_;             // by agent: its path comes to what is closed; empty: nobody's
+  std::vector<bool> ends_with_plan_;  // by agent (execution/advance.h)
   std::unique_ptr<Kept> kept_;
 };
 

@@ -29,22 +29,34 @@ Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex index
   return static_cast<Time>(std::ranges::find_if(plan.path, is_there) - plan.path.begin());
 }
 
+// An agent that rests on the last stop of its sequence may have visited that stop before, too.
+void end_on_the_place_of_rest(const Instance& instance, AgentIndex agent, AgentPlan& plan) {
+  if (!instance.rests_on_last_stop(agent)) return;
+  const Place rest = instance.world().place(plan.path.back());
+  std::stable_partition(plan.sequence.begin(), plan.sequence.end(),
+                        [&](TaskIndex task) { return instance.task(task).cell != rest; });
+}
+
 // One agent after `time` steps.
 class AgentLater {
  public:
   AgentLater(const Instance& instance, AgentIndex agent, const AgentPlan& plan, Time time,
-             Rests rests)
+             Rests rests, bool ended_with_plan)
       : instance_(instance),
         agent_index_(agent),
         agent_(instance.agent(agent)),
         plan_(plan),
         time_(time),
-        rests_(rests) {
+        rests_(rests),
+        has_goal_(agent_.goal && !ended_with_plan) {
     for (const TaskIndex task : agent_.tasks)
       if (!is_visited(task)) left_.push_back(task);
   }
 
   const std::vector<TaskIndex>& left() const { return left_; }
+  bool ends_with_plan() const {
+    return !has_goal_ && rests_ == Rests::kAnywhere && destination().has_value();
+  }
 
   AgentSpec spec() const {
     AgentSpec spec = instance_.spec(agent_index_);
@@ -78,8 +90,9 @@ class AgentLater {
 
   const WorkTime* work_under_way() const {
     const bool is_at_work = instance_.world().is_working(agent_.start);
+    const auto is_first = [&](const WorkTime& work) { return &work == &plan_.work.front(); };
     for (const WorkTime& work : plan_.work)
-      if (goes_on(work) && (work.begin < time_ || (time_ == 0 && is_at_work))) return &work;
+      if (goes_on(work) && (work.begin < time_ || (is_at_work && is_first(work)))) return &work;
     return nullptr;
   }
 
@@ -100,8 +113,8 @@ class AgentLater {
     const auto rests_on = [&](TaskIndex task) {
       return instance_.task(task).cell == place_of_rest();
     };
-    if (agent_.goal || agent_.is_idle()) return agent_.goal;
-    const bool is_own = std::ranges::any_of(agent_.tasks, rests_on);
+    if (has_goal_ || agent_.is_idle()) return agent_.goal;
+    const bool is_own = agent_.goal || std::ranges::any_of(agent_.tasks, rests_on);
     if (left_.empty()) {
       if (rests_ == Rests::kAnywhere) return std::nullopt;
       return is_own ? place_of_rest() : instance_.task(agent_.tasks.front()).cell;
@@ -121,18 +134,52 @@ class AgentLater {
   const AgentPlan& plan_;
   const Time time_;
   const Rests rests_;
+  const bool has_goal_;
   std::vector<TaskIndex> left_;
 };
 
+// The same instance, its agents as `spec` says.
+template <class Spec>
+Instance with_specs(const Instance& instance, const Spec& spec) {
+  InstanceBuilder builder = InstanceBuilder::like(instance);
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) builder.add_agent(spec(i));
+  for (const Task& task : instance.tasks()) {
+    std::vector<std::string> agents;
+    for (const AgentIndex agent : task.agents) agents.push_back(instance.agent(agent).id);
+    builder.add_task(task.id, task.cell, agents, task.duration);
+  }
+  return std::move(builder).build();
+}
+
 }  // namespace
 
-Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests rests) {
+Instance without_ends_of_plan(const Instance& instance, const std::vector<bool>& agents) {
+  if (std::ranges::count(agents, true) == 0) return instance;
+  return with_specs(instance, [&](AgentIndex i) {
+    AgentSpec spec = instance.spec(i);
+    if (agents[i]) spec.goal.reset();
+    return spec;
+  });
+}
+
+Instance with_ends_of_plan(const Instance& instance, const Plan& plan,
+                           const std::vector<bool>& agents) {
+  if (std::ranges::count(agents, true) == 0) return instance;
+  return with_specs(instance, [&](AgentIndex i) {
+    AgentSpec spec = instance.spec(i);
+    if (agents[i]) spec.goal = instance.world().place(plan.agents[i].path.back());
+    return spec;
+  });
+}
+
+Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests rests,
+                  const std::vector<bool>& before) {
   GROVE_ASSERT(time >= 0, "plans begin at time 0");
   std::vector<AgentLater> agents;
   InstanceBuilder builder = InstanceBuilder::like(instance);
   std::vector<std::vector<std::string>> visitors(instance.tasks().size());
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
-    agents.emplace_back(instance, i, plan.agents[i], time, rests);
+    agents.emplace_back(instance, i, plan.agents[i], time, rests, !before.empty() && before[i]);
     builder.add_agent(agents.back().spec());
     for (const TaskIndex task : agents.back().left())
       visitors[task].push_back(instance.agent(i).id);
@@ -143,10 +190,12 @@ Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests r
     if (!visitors[i].empty())
       later[i] = builder.add_task(task.id, task.cell, visitors[i], task.duration);
   }
-  Remainder rest{std::move(builder).build(), {}};
-  for (const AgentLater& agent : agents) {
-    rest.plan.agents.push_back(agent.plan(later));
-    rest.plan.cost += rest.plan.agents.back().cost;
+  Remainder rest{std::move(builder).build(), {}, {}};
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    rest.ends_with_plan.push_back(agents[i].ends_with_plan());
+    AgentPlan& own = rest.plan.agents.emplace_back(agents[i].plan(later));
+    end_on_the_place_of_rest(rest.instance, i, own);
+    rest.plan.cost += own.cost;
   }
   return rest;
 }
@@ -180,10 +229,7 @@ AgentPlan joined(const Instance& instance, AgentIndex agent, AgentPlan first, Ti
   }
   first.cost = rest.cost > 0 ? time + rest.cost : finish(first);
   first.path.resize(static_cast<std::size_t>(first.cost) + 1, first.path.back());
-  if (instance.rests_on_last_stop(agent))  // which may have been visited before
-    std::stable_partition(first.sequence.begin(), first.sequence.end(), [&](TaskIndex task) {
-      return instance.task(task).cell != instance.world().place(first.path.back());
-    });
+  end_on_the_place_of_rest(instance, agent, first);
   return first;
 }
 

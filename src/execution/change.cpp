@@ -119,6 +119,8 @@ class Applying {
   }
 
   void require_nothing_at(Place blocked, const std::string& field) const {
+    if (instance_.is_on_grid() && !instance_.grid().passable(blocked))
+      throw InstanceError(field, "it is blocked on the map already; expected a passable cell");
     for (const Agent& agent : instance_.agents()) {
       if (instance_.world().place(agent.start) == blocked)
         throw InstanceError(field, fmt::format("'{}' is there", agent.id));

@@ -41,6 +41,16 @@ OrderedJson point_json(const Instance& instance, const Frame& frame, State state
   return {at.x, at.y};
 }
 
+// When the plan has the action begin: below 0 if the robot starts at work on it.
+Time planned_begin(const Instance& instance, const PassingOrder& order, ActionIndex index) {
+  const Action& action = order.actions()[index];
+  const State start = instance.agent(action.agent).start;
+  const bool starts_at_it = index == order.begin_of(action.agent) &&
+                            action.kind == Action::Kind::kWork &&
+                            instance.world().is_working(start);
+  return starts_at_it ? -instance.world().work(start).done : action.begin;
+}
+
 OrderedJson action_json(const Instance& instance, const PassingOrder& order, const Frame& frame,
                         ActionIndex index, int ring) {
   const Action& action = order.actions()[index];
@@ -52,7 +62,7 @@ OrderedJson action_json(const Instance& instance, const PassingOrder& order, con
     json["to"] = pose_json(instance.map(), motion, instance.pose_of(action.to));
   if (action.kind == Action::Kind::kMove) json["at"] = point_json(instance, frame, action.to);
   json["steps"] = action.steps;
-  json["planned"] = action.begin;
+  json["planned"] = planned_begin(instance, order, index);
   if (const ActionIndex other = order.after(index); other != kNoAction) {
     const AgentIndex robot = order.actions()[other].agent;
     json["after"] = {{"robot", instance.agent(robot).id},

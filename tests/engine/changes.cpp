@@ -29,6 +29,7 @@ struct Asked {
   double time_limit_s = 0.2;
   std::uint64_t seed = 1;
   Time commit = 5;
+  bool may_follow = true;
 };
 
 // When the first plan was there, and its cost.
@@ -81,7 +82,7 @@ class Campaign {
     const Time end = std::ranges::max(plan_.agents, {}, &AgentPlan::cost).cost;
     const Time time = random.below(end * 3 / 4 + 1);
     try {
-      session.advance(time, testing::random_lateness(instance_, random));
+      session.advance(time, testing::random_lateness(instance_, time, random));
       const Instance before = session.instance();
       const Plan old = *session.plan();
       session.change(testing::random_change(before, random));
@@ -184,9 +185,11 @@ int main(int argc, char** argv) {
   app.add_option("--changes", asked.changes, "so many answers")->capture_default_str();
   app.add_option("--time-limit", asked.time_limit_s, "of each, in s")->capture_default_str();
   app.add_option("--commit", asked.commit, "steps")->capture_default_str();
+  app.add_flag("!--no-following", asked.may_follow, "of a plan in which none follows another");
   app.add_option("--seed", asked.seed, "of the first one")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   Instance instance = read_instance(asked.instance).instance;
+  if (!asked.may_follow) instance = instance.without_following();
   const Solution solution = read_solution(asked.plan, instance);
   const Results results = Campaign(asked, std::move(instance), *solution.plan).run();
   print(results);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace grove::detail::testing {
 namespace {
 
@@ -27,12 +29,13 @@ NewTask random_task(const Instance& instance, Random& random) {
 
 }  // namespace
 
-std::vector<Late> random_lateness(const Instance& instance, Random& random) {
+std::vector<Late> random_lateness(const Instance& instance, Time time, Random& random) {
   std::vector<Late> late;
+  if (time == 0) return late;
   for (int i = random.below(3); i > 0; --i) {
     const AgentIndex agent = random.below(instance.agent_count());
     if (late.empty() || late.front().agent != agent)
-      late.push_back({agent, static_cast<Time>(1 + random.below(kLatest))});
+      late.push_back({agent, static_cast<Time>(1 + random.below(std::min(kLatest, time)))});
   }
   return late;
 }

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "grove/detail/engine/session.h"
 #include "grove/detail/io/atomic_file.h"
@@ -16,13 +19,13 @@
 #include "grove/detail/io/roadmap_file.h"
 #include "grove/detail/io/text_file.h"
 #include "tools/common/commands.h"
-#include "tools/common/file_formats.h"
 #include "tools/common/options.h"
 #include "tools/common/signals.h"
 #include "tools/common/standard_error.h"
 #include "tools/execute/robots.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/replan/change_arguments.h"
+#include "tools/solve/plan_output.h"
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 
@@ -34,12 +37,18 @@ using Clock = std::chrono::steady_clock;
 
 constexpr IntegerRange kTimes{0, 1'000'000};
 constexpr double kTimeLimit_s = 1;
+constexpr const char* kInstanceSuffix = ".cts.json";
+constexpr const char* kPlanSuffix = ".plan.json";
 
 constexpr const char* kReplanFooter =
     R"(The instance as it is after T steps of the plan - where everybody stands, on a road, within a turn or
 at work, and what has been visited - with what has changed since, and a plan of it, both with times
 from 0. The search starts from the old plan; who has other tasks, or whose way is closed, is planned
 anew around the others. The bound is proven as always.
+
+Robots without a destination still have none: they end on a task that is left, or anywhere if none is
+(if no plan as good as the old one is found so, the old end is the destination, and it says so). A
+plan without following is replaced by one without.
 
 --late r3=5: r3 is where the plan had it five steps before T, and the others where the passing order
 then lets them be (see 'grove execute --help').
@@ -73,7 +82,8 @@ class Replanning {
         a_(arguments),
         options_(options_of_one_search(a_.solve)),
         loaded_(load(a_.solve)),
-        session_(loaded_.instance, *read_plan_to_drive(a_.plan, loaded_.instance).solution.plan) {}
+        plan_(read_plan()),
+        session_(loaded_.instance, plan_) {}
 
   void run() {
     advance();
@@ -83,7 +93,26 @@ class Replanning {
   }
 
  private:
+  // A plan without following is replaced by one without.
+  Plan read_plan() {
+    Solution driven = read_plan_to_drive(a_.plan, loaded_.instance).solution;
+    if (!driven.may_follow) loaded_.instance = loaded_.instance.without_following();
+    return *std::move(driven.plan);
+  }
+
+  // Afterwards all robots stand where they stand then.
+  void require_time_of_plan() const {
+    const Time end = std::ranges::max(plan_.agents, {}, &AgentPlan::cost).cost;
+    if (a_.at > end)
+      throw CLI::ValidationError(
+          "--at",
+          fmt::format("found {}; expected at most {}, when the last robot of the plan comes to "
+                      "rest",
+                      a_.at, end));
+  }
+
   void advance() {
+    require_time_of_plan();
     const std::vector<Late> late = late_robots(a_.change, loaded_.instance);
     try {
       session_.advance(static_cast<Time>(a_.at), late);
@@ -105,42 +134,86 @@ class Replanning {
     SolveArguments& s = a_.solve;
     s.keeps_cheaper = a_.commit == 0;  // others need not begin with the committed steps
     const std::string stem = fmt::format("{}-at-{}", s.instance.stem(), a_.at);
-    if (a_.output_instance.empty()) a_.output_instance = stem + ".cts.json";
-    if (s.output.empty()) s.output = stem + ".plan.json";
+    const bool names_plan = !s.output.empty() && is_name_of_file(s.output);
+    const bool names_instance = !a_.output_instance.empty();
+    if (!names_instance)
+      a_.output_instance = (names_plan ? stem_of(s.output) : stem) + kInstanceSuffix;
+    if (s.output.empty())
+      s.output = (names_instance ? stem_of(a_.output_instance) : stem) + kPlanSuffix;
     locks_ = prepare_outputs(s, loaded_);
-    for (const fs::path& file :
-         {s.instance.path(), loaded_.map_path, fs::path(a_.plan), s.output, fs::path(s.log)})
-      require_distinct_files(a_.output_instance, file, "another file of this run");
-    require_distinct_files(s.output, a_.plan, "the plan that is being driven");
+    require_files_of_their_own();
     require_writable(a_.output_instance);
   }
 
-  // A map on which something is closed is written beside the instance.
+  static bool is_name_of_file(const fs::path& output) {
+    return output != kStandardOutput && (!fs::exists(output) || fs::is_regular_file(output));
+  }
+
+  // "hall" of "hall.plan.json" and "hall.cts.json".
+  static std::string stem_of(const fs::path& file) {
+    const std::string name = file.string();
+    for (const std::string_view suffix : {kPlanSuffix, kInstanceSuffix, ".json"})
+      if (name.ends_with(suffix)) return name.substr(0, name.size() - suffix.size());
+    return name;
+  }
+
+  // Of several that are written, and those that are read, none is another.
+  void require_files_of_their_own() const {
+    const SolveArguments& s = a_.solve;
+    std::vector<fs::path> written{a_.output_instance, map_then(), fs::path(s.log)};
+    if (s.output != kStandardOutput) written.push_back(s.output);
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      require_distinct_files(written[i], s.instance.path(), "the instance");
+      require_distinct_files(written[i], loaded_.map_path, "the map");
+      require_distinct_files(written[i], a_.plan, "the plan that is being driven");
+      for (const std::string& tasks : a_.change.new_tasks)
+        require_distinct_files(written[i], tasks, "a file of new tasks");
+      for (std::size_t k = 0; k < i; ++k)
+        require_distinct_files(written[i], written[k], "another file of this run");
+    }
+  }
+
+  // A map on which something is closed is written beside the instance; empty: none is.
+  fs::path map_then() const {
+    if (a_.change.blocked.empty() && !loaded_.map_path.empty()) return {};
+    return stem_of(a_.output_instance) +
+           (session_.instance().is_on_grid() ? ".map" : ".roadmap.json");
+  }
+
   void write_instance_then() const {
     const Instance& now = session_.instance();
-    const bool is_closed = !a_.change.blocked.empty();
-    std::string map = loaded_.map_path.string();
-    if (is_closed || map.empty()) {
-      map = without_suffix(a_.output_instance.string()) +
-            (now.is_on_grid() ? ".map" : ".roadmap.json");
-      require_distinct_files(map, loaded_.map_path, "the map");
+    const fs::path map = map_then();
+    if (!map.empty()) {
+      const std::string before = fs::exists(map) ? read_text(map) : "";
       if (now.is_on_grid())
         write_map(map, now.grid());
       else
         write_roadmap(map, *now.roadmap());
+      if (!before.empty() && read_text(map) != before) tell_that_another_is_replaced(map, "map");
     }
-    const std::string text = instance_text(now, map_as_seen_from(a_.output_instance, map));
-    tell_if_another_is_replaced(text);
+    const std::string text = instance_text(
+        now, map_as_seen_from(a_.output_instance, (map.empty() ? loaded_.map_path : map).string()));
+    if (fs::exists(a_.output_instance) && read_text(a_.output_instance) != text)
+      tell_that_another_is_replaced(a_.output_instance, "instance");
     write_file_atomically(a_.output_instance, text);
   }
 
   // Plans of that one are then none of this.
-  void tell_if_another_is_replaced(const std::string& text) const {
-    if (!fs::exists(a_.output_instance) || read_text(a_.output_instance) == text) return;
+  static void tell_that_another_is_replaced(const fs::path& file, const std::string& what) {
     say_on_stderr(fmt::format(
-        "grove: {} held another instance, of which plans are none of this one; --output-instance "
+        "grove: {} held another {}, of which plans are none of this one; --output-instance "
         "names another file",
-        a_.output_instance.string()));
+        file.string(), what));
+  }
+
+  // The instance then says less than the one before: see docs/engineers.md.
+  static void tell_ends_of_old_plan(const Solution& solution) {
+    const auto ends = solution.stats.texts.find("ends_of_old_plan");
+    if (ends == solution.stats.texts.end()) return;
+    say_on_stderr(fmt::format(
+        "grove: the old plan's end is now the destination of {}: no plan as good was found that "
+        "ends on a task that is left; bound and status are of this instance",
+        one_line(ends->second)));
   }
 
   void solve() {
@@ -158,7 +231,8 @@ class Replanning {
     solution.stats.texts["instance"] = head.instance;
     if (solution.stats.counts.contains("lower_bound_committed")) tell_committed(solution, *log);
     write_instance_then();
-    report_failures({finish_run(s, now.instance, solution, *log)});
+    tell_ends_of_old_plan(solution);
+    report_failures({finish_run(s, session_.instance(), solution, *log)});
     if (s.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);
   }
 
@@ -184,7 +258,8 @@ class Replanning {
   ReplanArguments& a_;
   const Clock::time_point start_ = Clock::now();
   const SolveOptions options_;
-  const LoadedInstance loaded_;
+  LoadedInstance loaded_;
+  const Plan plan_;
   Session session_;
   std::vector<OutputLock> locks_;
 };
@@ -219,11 +294,11 @@ void add_replan_command(CLI::App& root) {
               "a cell that is closed; on a roadmap a vertex, or A,B: a road");
   add_integer(*app, "--commit", a.commit, kTimes, "so many steps of the old plan that all keep to");
   app->add_option("--output-instance", a.output_instance,
-                  "the instance then; by default the old one's name with -at-T.cts.json")
+                  "the instance then; by default it is called like the plan file, with .cts.json")
       ->type_name("FILE");
   app->add_option("-o,--output", a.solve.output,
-                  "the plan file; by default the old instance's name with -at-T.plan.json; - is "
-                  "standard output")
+                  "the plan file; by default it is called like the instance then, or like the old "
+                  "one with -at-T.plan.json; - is standard output")
       ->type_name("PLAN");
   app->add_flag("--require-plan", a.solve.require_plan,
                 "end with exit code 3 if no plan was found");

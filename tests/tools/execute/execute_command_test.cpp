@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,33 @@ TEST_F(ExecuteCommand, DrivesAreValidPlans) {
     const ProcessResult checked = run_grove({"check", instance_, directory_ / "driven.plan.json"});
     EXPECT_EQ(checked.exit_code, 0) << checked.err;
   }
+}
+
+TEST_F(ExecuteCommand, ADriveKeepsToNoFollowing) {
+  std::filesystem::remove(plan_);
+  ASSERT_EQ(
+      run_grove({"solve", instance_, "--quiet", "--no-following", "--output", plan_}).exit_code, 0);
+  ASSERT_EQ(execute({"--delays", "0.3", "--switch", "--output", directory_ / "driven.plan.json"})
+                .exit_code,
+            0);
+  EXPECT_EQ(read("driven.plan.json")["following"], false);
+  const ProcessResult checked = run_grove({"check", instance_, directory_ / "driven.plan.json"});
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+}
+
+// As plan files say it.
+TEST_F(ExecuteCommand, WorkBegunBeforeThePlanIsPlannedBelowZero) {
+  std::ofstream(directory_ / "row.map") << "type octile\nheight 1\nwidth 3\nmap\n...\n";
+  const std::string row = directory_ / "row.cts.json";
+  std::ofstream(row) << R"({"map": "row.map",
+      "agents": [{"id": "a", "start": [0, 0], "goal": [2, 0], "working": {"task": "t", "done": 2}}],
+      "tasks": [{"id": "t", "cell": [0, 0], "agents": ["a"], "duration": 5}]})";
+  const std::string plan = plan_of(row);
+  ASSERT_EQ(run_grove({"execute", row, plan, "--order", directory_ / "order.json"}).exit_code, 0);
+  const json actions = read("order.json")["robots"][0]["actions"];
+  EXPECT_EQ(actions[0]["planned"], -2);
+  EXPECT_EQ(actions[0]["steps"], 3);
+  EXPECT_EQ(actions[1]["planned"], 3);
 }
 
 TEST_F(ExecuteCommand, AStopTakesAsLongAsItIs) {

@@ -127,6 +127,124 @@ TEST_F(ReplanCommand, TasksComeAndGo) {
   EXPECT_EQ(std::ranges::count(tasks, left), 0);
 }
 
+// The plan file says so; --no-following need not be said again.
+TEST_F(ReplanCommand, APlanWithoutFollowingIsReplacedByOne) {
+  std::filesystem::remove(plan_);
+  ASSERT_EQ(run_grove({"solve", instance_, "--quiet", "--omega", "inf", "--no-following",
+                       "--output", plan_})
+                .exit_code,
+            0);
+  const std::string next = directory_ / "next.plan.json";
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{},
+        {"--commit", "5"},
+        {"--late", "a3=5"},
+        {"--late", "a1=7", "--commit", "5", "--no-following"}}) {
+    std::vector<std::string> words{"--at", "20"};
+    words.insert(words.end(), more.begin(), more.end());
+    std::filesystem::remove(directory_ / "then.plan.json");
+    expect_valid(words);
+    EXPECT_EQ(read("then.plan.json")["following"], false);
+    // And once more, from what it wrote.
+    ASSERT_EQ(run_grove({"replan", directory_ / "then.cts.json", directory_ / "then.plan.json",
+                         "--at", "3", "--quiet", "--output", next})
+                  .exit_code,
+              0);
+    EXPECT_EQ(read("next.plan.json")["following"], false);
+    EXPECT_EQ(run_grove({"check", directory_ / "next.cts.json", next}).exit_code, 0);
+  }
+}
+
+TEST_F(ReplanCommand, APlanWithFollowingIsRefusedWithNoFollowing) {
+  const std::string map = write("row.map", "type octile\nheight 1\nwidth 4\nmap\n....\n");
+  const std::string row = write("row.cts.json", R"({"map": "row.map", "tasks": [], "agents": [
+      {"id": "a", "start": [0, 0], "goal": [2, 0]}, {"id": "b", "start": [1, 0], "goal": [3, 0]}]})");
+  const std::string plan = directory_ / "row.plan.json";
+  ASSERT_EQ(run_grove({"solve", row, "--quiet", "--omega", "0", "--output", plan}).exit_code, 0);
+  const ProcessResult done = run_grove({"replan", row, plan, "--at", "1", "--no-following"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.err, HasSubstr("row.plan.json: /agents/0/path/1: is not valid"));
+}
+
+TEST_F(ReplanCommand, TheInstanceIsCalledLikeThePlan) {
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"replan", instance_, plan_, "--quiet", "--at", "20"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_grove(words);
+  };
+  ASSERT_EQ(run({"-o", directory_ / "first.plan.json"}).exit_code, 0);
+  ASSERT_EQ(run({"-o", directory_ / "second.plan.json", "--late", "a3=5"}).exit_code, 0);
+  for (const std::string name : {"first", "second"})
+    EXPECT_EQ(
+        run_grove({"check", directory_ / (name + ".cts.json"), directory_ / (name + ".plan.json")})
+            .exit_code,
+        0)
+        << name;
+  ASSERT_EQ(run({"--output-instance", directory_ / "third.cts.json"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "third.plan.json"));
+}
+
+TEST_F(ReplanCommand, WritesOverNothingThatItReads) {
+  const std::string tasks = R"({"id": "n1", "cell": [1, 1], "agents": ["a0"]})";
+  const std::string file = write("n1.json", tasks);
+  const auto refused = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"replan", instance_, plan_,        "--quiet",
+                                   "--at",   "20",      "--new-task", file};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProcessResult done = run_grove(words);
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_EQ(file_content(file), tasks);
+    return done.err;
+  };
+  EXPECT_THAT(refused({"-o", file}), HasSubstr("n1.json: is a file of new tasks"));
+  EXPECT_THAT(refused({"--output-instance", file}), HasSubstr("is a file of new tasks"));
+  EXPECT_THAT(refused({"-o", directory_ / "x.plan.json", "--log", file}),
+              HasSubstr("is a file of new tasks"));
+  EXPECT_THAT(refused({"-o", plan_}), HasSubstr("is the plan that is being driven"));
+  EXPECT_THAT(refused({"-o", directory_ / "x.plan.json", "--log", plan_}),
+              HasSubstr("is the plan that is being driven"));
+}
+
+TEST_F(ReplanCommand, RefusesTimesBeyondThePlan) {
+  const auto agents = read("p.plan.json")["agents"];
+  int end = 0;
+  for (const json& agent : agents) end = std::max(end, int(agent["cost"]));
+  expect_valid({"--at", std::to_string(end)});
+  EXPECT_EQ(read("then.plan.json")["cost"], 0);
+  std::filesystem::remove(directory_ / "then.cts.json");
+  EXPECT_THAT(complaint({"--at", std::to_string(end + 1)}),
+              HasSubstr("--at: found " + std::to_string(end + 1) + "; expected at most " +
+                        std::to_string(end)));
+  EXPECT_THAT(complaint({"--at", "20", "--late", "a3=21"}),
+              HasSubstr("--late: 'a3' cannot be 21 steps late; expected at most 20"));
+}
+
+TEST_F(ReplanCommand, RefusesToCloseAWall) {
+  const std::string map = file_content(data("rooms-32x32.map"));
+  const std::size_t first = map.find("map\n") + 4;
+  const std::size_t wall = map.find('@', first) - first;
+  const std::string cell = std::to_string(wall % 33) + "," + std::to_string(wall / 33);
+  EXPECT_THAT(complaint({"--at", "3", "--blocked", cell}),
+              HasSubstr("--blocked: '" + cell + "': it is blocked on the map already"));
+}
+
+// Without a destination a robot may end on any task that is left.
+TEST_F(ReplanCommand, GivesNoDestinationToWhoHasNone) {
+  write("row.map", "type octile\nheight 1\nwidth 5\nmap\n.....\n");
+  const std::string row = write("row.cts.json", R"({"map": "row.map",
+      "agents": [{"id": "a", "start": [2, 0]}],
+      "tasks": [{"id": "s", "cell": [2, 0], "agents": ["a"]}, {"id": "t", "cell": [4, 0], "agents": ["a"]}]})");
+  const std::string back =
+      write("back.plan.json", R"({"status": "feasible", "cost": 4, "lower_bound": 0,
+      "omega": "inf", "agents": [{"id": "a", "sequence": ["t", "s"], "cost": 4,
+      "path": [[2, 0], [3, 0], [4, 0], [3, 0], [2, 0]]}], "stats": {}})");
+  const std::string now = directory_ / "now.plan.json";
+  ASSERT_EQ(run_grove({"replan", row, back, "--at", "0", "--quiet", "-o", now}).exit_code, 0);
+  EXPECT_EQ(read("now.plan.json")["cost"], 2);
+  EXPECT_EQ(read("now.plan.json")["status"], "optimal");
+  EXPECT_FALSE(read("now.cts.json")["agents"][0].contains("goal"));
+}
+
 TEST_F(ReplanCommand, RefusesWhatCannotBe) {
   EXPECT_THAT(complaint({}), HasSubstr("--at"));
   EXPECT_THAT(complaint({"--at", "-1"}), HasSubstr("--at"));

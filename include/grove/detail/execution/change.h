@@ -36,7 +36,7 @@ struct Changed {
 // `plan` must be a valid one, or what an earlier change left of one. On a map on which nothing is
 // closed states keep their numbers, but for those of agents at work. Throws InstanceError: field
 // "new_tasks/<i>/...", "dropped_tasks/<i>", "blocked/<i>" or "closed_roads/<i>" - an agent is
-// there, is to end or has to visit there (and the task is not dropped).
+// there, is to end or has to visit there (and the task is not dropped), or it is a wall.
 Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change);
 
 }  // namespace grove::detail

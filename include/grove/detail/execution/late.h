@@ -16,7 +16,8 @@ struct Late {
   Time steps = 0;
 };
 
-// A robot said to be where it cannot be, for another one that is late is in its way.
+// A robot said to be where it cannot be: before its start, or where another one that is late is in
+// its way.
 class ImpossibleLateness : public std::invalid_argument {
  public:
   ImpossibleLateness(AgentIndex agent, const std::string& message)
@@ -31,7 +32,9 @@ class ImpossibleLateness : public std::invalid_argument {
 // `time` >= 0 the robots named stand where the plan had them earlier, and the others where the
 // order then lets them be, on time if it does; from `time` on all go on as soon as they may, so the
 // waits that serve nothing are gone. In steps as plans have them: who follows enters a place in the
-// step in which the other leaves it. With nobody late it is `plan` up to `time`. Throws
+// step in which the other leaves it, or, if Instance::may_follow() is false, in the next one. With
+// nobody late it is `plan` up to `time`. A late robot that starts at work goes on later than a
+// valid plan may say: its WorkTime is moved by its lateness, which is what advance() needs. Throws
 // ImpossibleLateness.
 Plan late_plan(const Instance& instance, const Plan& plan, const PassingOrder& order, Time time,
                std::span<const Late> late);
