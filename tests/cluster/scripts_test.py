@@ -26,7 +26,7 @@ VALUES = {
     "--method": "auto", "--policy": "fixed", "--rtsp": "dp", "--seed": "3", "--checkpoint": "other",
     "--checkpoint-interval": "60", "--resume": "never", "--start": "start.json",
     "--incumbents": "best", "--proof": "bound.proof", "--output": "other.json", "--require-plan": None, "--log": "run.log",
-    "--log-format": "jsonl", "--verbose": None, "--quiet": None,
+    "--log-format": "jsonl", "--verbose": None, "--quiet": None, "--confine": None,
 }
 TECHNIQUES = {"--without": "bypass", "--with": "sequence-splits"}  # of the policy free
 OF_SCENARIOS = {"--map": DATA / "empty-32x32.map", "--agents": "3"}

@@ -196,6 +196,7 @@ class Trial {
   }
 
   Solution solve(const Instance& instance) const {
+    fs::remove(part_);  // the previous case's
     ProofRecorder recorder(part_);
     SolveOptions options = case_.options;
     options.proof = &recorder;

@@ -217,7 +217,8 @@ class Files(Program):
         running = start(mpirun(2, "solve", instance, "--omega", 0, "--threads", 1, "--checkpoint", "kept",
                                "--quiet"), self.folder)
         ranks = self.searching_ranks(running, 2)  # by then the folder is locked
-        self.refuses(mpirun(2, "solve", instance, "--checkpoint", "kept", "--resume", "never"),
+        self.refuses(mpirun(2, "solve", instance, "--checkpoint", "kept", "--resume", "never",
+                            "--output", "other.json"),
                      "kept/checkpoint.lock: is locked by another run (process ", " on host ")
         self.end_well(running, ranks)
 
