@@ -13,6 +13,7 @@
 #include "grove/detail/search/feasibility.h"
 #include "prices.h"
 #include "tests/fuzz/random_instance.h"
+#include "tests/support/clocks.h"
 #include "tests/support/instances.h"
 #include "tests/support/sanitizers.h"
 
@@ -346,9 +347,12 @@ TEST(PrimalSearch, ShortMemoryEndsTheConfigurationsAlone) {
   const Instance instance = crowd(1);
   Search search(instance, 1);
   Limits limits;
+  testing::ManualClock clock(limits);
   limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 20));
-  for (int step = 0; step < 1000 && search.primal.counts().attempts < 3; ++step)
+  for (int step = 0; step < 1000 && search.primal.counts().attempts < 3; ++step) {
+    clock.advance(std::chrono::seconds(1));  // so the memory is measured at every step
     search.primal.step(limits);
+  }
   EXPECT_GE(search.primal.counts().attempts, 3);
   EXPECT_EQ(search.primal.counts().joint_steps, 0);
   EXPECT_FALSE(search.primal.expects_plan());

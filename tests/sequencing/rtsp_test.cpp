@@ -2,6 +2,7 @@
 // The three back ends against all permutations, on random classes with random cutoffs.
 #include "grove/detail/sequencing/rtsp.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
