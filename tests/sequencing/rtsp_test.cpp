@@ -2,9 +2,9 @@
 // The three back ends against all permutations, on random classes with random cutoffs.
 #include "grove/detail/sequencing/rtsp.h"
 
-#include <algorithm>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "brute_force.h"
