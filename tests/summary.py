@@ -14,6 +14,7 @@ from collections import Counter
 from dataclasses import dataclass
 
 LINES_SHOWN = 25
+NAMES_SHOWN = 12
 
 
 @dataclass
@@ -88,7 +89,8 @@ def print_names(tests):
         groups.setdefault(group, []).append(name)
     for group, names in sorted(groups.items()):
         named = [name for name in names if name]
-        print(f"  {group}" + (f": {', '.join(named)}" if named else ""))
+        text = ", ".join(named) if len(named) <= NAMES_SHOWN else f"{len(named)} tests"
+        print(f"  {group}" + (f": {text}" if named else ""))
 
 
 if __name__ == "__main__":
