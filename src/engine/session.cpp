@@ -216,7 +216,7 @@ class Session::Impl {
     Changed changed = apply(before, old_ ? *old_ : standing_plan(before), change);
     for (std::size_t agent = 0; agent < affected_.size(); ++agent) {
       affected_[agent] = affected_[agent] || changed.affected[agent] || !old_;
-      // Who is planned anew may end where the instance says.
+      // A re-planned agent may end where the instance says.
       ends_with_plan_[agent] = ends_with_plan_[agent] && !affected_[agent];
     }
     instance_ = with_ends_of_plan(changed.instance, changed.plan, ends_with_plan_);
@@ -236,7 +236,7 @@ class Session::Impl {
 
  private:
   // First without the destinations that agents have only for the sake of the old plan. They get
-  // them again if that finds no plan, or a dearer one.
+  // them again if that finds no plan, or a costlier one.
   Solution solve_with_ends_of_plan(const SolveOptions& options, const Limits& limits,
                                    RunObserver& observer, Time commit) {
     const Instance free = without_ends_of_plan(instance_, ends_with_plan_);
@@ -317,7 +317,7 @@ class Session::Impl {
   std::optional<Plan> plan_;          // valid
   std::optional<Plan> old_;           // valid but for who is affected
   std::vector<bool> affected_;        // by agent
-  std::vector<bool> cut_;             // by agent: its path comes to what is closed; empty: nobody's
+  std::vector<bool> cut_;             // by agent: its path comes to what is closed; empty: no agent's
   std::vector<bool> ends_with_plan_;  // by agent (execution/advance.h)
   std::unique_ptr<Kept> kept_;
 };

@@ -8,7 +8,7 @@
 // Where no agent may follow another, an action waits until the other one has ended, as robots do
 // when they drive (drive.h): it enters a place one step after the other has left it, or later. Such
 // a plan has no rings, so these waits do not go in circles either (passing_order.cpp); and with
-// nobody late it stays as it is, for its own actions wait as long.
+// no robot late it stays as it is, for its own actions wait as long.
 #include "grove/detail/execution/late.h"
 
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ void require_possible(const Instance& instance, Time time, std::span<const Late>
   }
 }
 
-// Work begun before the plan goes on at once, says every plan of the instance; of a late robot it
+// Work begun before the plan continues at once, says every plan of the instance; of a late robot it
 // does not.
 void delay_work_begun_before(const Instance& instance, std::span<const Late> late, Plan& plan) {
   for (const Late& l : late) {

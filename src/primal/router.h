@@ -22,7 +22,7 @@ class Router {
   // Both must outlive this.
   Router(const Problem& problem, AgentStopsStore& stops);
 
-  // Finds the agent's best path when nobody else is there, or a good one if its sequences are too
+  // Finds the agent's best path without other agents, or a good one if its sequences are too
   // many to tell; to be called for an agent before any other question about it. Returns false if a
   // limit was reached.
   bool meet(AgentIndex agent, const Limits& limits);
@@ -43,7 +43,7 @@ class Router {
 
   // Is the own path proven to be the best?
   bool knows_best(AgentIndex agent) const { return in_order_[agent] == nullptr; }
-  // The agent's best or good path when nobody else is there, and its cost.
+  // The agent's best or good path without other agents, and its cost.
   const Path& own_path(AgentIndex agent) const { return own_paths_[agent]; }
   Time own_cost(AgentIndex agent) const { return static_cast<Time>(own_paths_[agent].size()) - 1; }
   // The order in which that path visits the agent's stops.

@@ -52,7 +52,7 @@
 // of the two, or to the end. (So the last part must be that of any path. Late costs have one that
 // is of the last stop of a sequence alone: late_goals.cpp puts the other into its direct legs.)
 //
-// A hop from v over a stop u serves nobody if directly each stop is as near as by u
+// A hop from v over a stop u is useless if every stop is as near directly as by u
 // (DirectLegs::hops): the direct leg that replaces it passes no stop at all.
 #include "grove/detail/sequencing/sequence_dag.h"
 

@@ -33,7 +33,7 @@ class ImpossibleLateness : public std::invalid_argument {
 // order then lets them be, on time if it does; from `time` on all go on as soon as they may, so the
 // waits that serve nothing are gone. In steps as plans have them: who follows enters a place in the
 // step in which the other leaves it, or, if Instance::may_follow() is false, in the next one. With
-// nobody late it is `plan` up to `time`. A late robot that starts at work goes on later than a
+// no robot late it is `plan` up to `time`. A late robot that starts at work continues later than a
 // valid plan may say: its WorkTime is moved by its lateness, which is what advance() needs. Throws
 // ImpossibleLateness.
 Plan late_plan(const Instance& instance, const Plan& plan, const PassingOrder& order, Time time,
