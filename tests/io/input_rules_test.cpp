@@ -111,6 +111,10 @@ TEST_F(InputRulesTest, WhatDoesNotBeginAsAMapIsNotQuoted) {
     EXPECT_THAT(refused(R"("agents": [], "tasks": [])"), Not(HasSubstr("secret"))) << text;
   }
   EXPECT_THAT(refusal([] { parse_roadmap("\"secret\"", "r", nullptr); }), Not(HasSubstr("secret")));
+  EXPECT_EQ(refusal([] { parse_roadmap(R"({"secret": {"edges": 1}})", "r", nullptr); }),
+            "r: /: has none of the keys vertices, edges; expected a roadmap");
+  EXPECT_THAT(refusal([] { parse_roadmap(R"({"nodes": []})", "r", nullptr); }),
+              HasSubstr("unknown key 'nodes'; expected 'vertices'"));
 }
 
 }  // namespace input_rules_test

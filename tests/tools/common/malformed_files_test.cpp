@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Values, MalformedInstance,
     ::testing::Values(
-        instance_with("MissingKey", "\"start\"", "\"strat\"", "/agents/0: key 'start' is missing"),
+        instance_with("MissingKey", "\"start\"", "\"_start\"", "/agents/0: key 'start' is missing"),
         instance_with("WrongType", "\"a\"", "7", "/agents/0/id: "),
         instance_with("Fraction", "[0, 0]", "[0, 0.5]", "/agents/0/start/1: "),
         instance_with("Negative", "[0, 0]", "[0, -1]", "/agents/0/start/1: "),

@@ -262,7 +262,7 @@ TEST_F(ReplanCommand, RefusesWhatCannotBe) {
               HasSubstr("unknown.json: /tasks/0/agents/0: there is no agent 'zz'"));
   const std::string typo = write("typo.json", R"({"id": "n", "cell": [1, 1], "agent": ["a0"]})");
   EXPECT_THAT(complaint({"--at", "3", "--new-task", typo}),
-              HasSubstr("typo.json: /: key 'agents' is missing"));
+              HasSubstr("typo.json: /: unknown key 'agent'; expected 'agents'"));
   const std::string outside =
       write("outside.json", R"({"id": "n", "cell": [77, 1], "agents": ["a0"]})");
   EXPECT_THAT(complaint({"--at", "3", "--new-task", outside}), HasSubstr("outside.json: /cell"));

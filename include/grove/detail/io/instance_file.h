@@ -19,7 +19,7 @@ namespace grove::detail {
 struct LoadedInstance {
   Instance instance;
   std::filesystem::path map_path;     // the map file that was read; empty: the map was in the file
-  std::vector<std::string> warnings;  // one line each: unknown keys, unusual map characters, ...
+  std::vector<std::string> warnings;  // one line each: unusual map characters, ...
 };
 
 // Reads a *.cts.json file and the map it names (relative to the file).

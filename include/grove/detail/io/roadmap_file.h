@@ -13,8 +13,8 @@
 
 namespace grove::detail {
 
-// Reads a *.roadmap.json file. Throws InputError on anything malformed. Appends to `warnings` one
-// line for each key that it does not know.
+// Reads a *.roadmap.json file. Throws InputError on anything malformed, and on unknown keys; so
+// nothing is appended to `warnings`.
 Roadmap read_roadmap(const std::filesystem::path& path,
                      std::vector<std::string>* warnings = nullptr, const InputRules& rules = {});
 // The same of the text of such a file: `name` stands for it in messages.
