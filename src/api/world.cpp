@@ -114,6 +114,9 @@ World World::roadmap(std::vector<RoadmapVertex> vertices, std::vector<RoadmapEdg
     };
     roads.push_back(
         {end(edges[i].from, "from"), end(edges[i].to, "to"), edges[i].steps, edges[i].one_way});
+    if (roads.back().from == roads.back().to)
+      throw InvalidArgument(fmt::format("/edges/{}", i),
+                            "from and to are the same vertex; expected two different ones");
   }
   return made([&] { return detail::Roadmap(std::move(all), std::move(roads)); });
 }

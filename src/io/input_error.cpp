@@ -42,6 +42,10 @@ std::string joined(std::string_view file, std::string_view place, std::string_vi
 InputError::InputError(std::string_view file, std::string_view place, std::string_view message)
     : std::runtime_error(joined(file, place, message)) {}
 
+WrongFileKind::WrongFileKind(std::string_view file, std::string_view found,
+                             std::string_view expected)
+    : InputError(file, "/", fmt::format("found {}; expected {}", found, expected)), found_(found) {}
+
 void fail_to_read(const std::filesystem::path& path, int error) {
   throw InputError(path.string(), "", "cannot be read: " + std::generic_category().message(error));
 }

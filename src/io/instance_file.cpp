@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <initializer_list>
+#include <fstream>
 
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/expressible.h"
@@ -15,6 +15,7 @@
 #include "grove/detail/model/distance_field.h"
 #include "json_value.h"
 #include "json_writer.h"
+#include "known_keys.h"
 #include "path_entry.h"
 
 namespace grove::detail {
@@ -75,17 +76,16 @@ std::optional<Place> read_goal(const InstanceBuilder& builder, const JsonValue& 
   return read_pose(builder.map(), {}, *goal).place;
 }
 
-std::optional<WorkBegun> read_working(const JsonValue& agent, UnknownKeys& unknown) {
+std::optional<WorkBegun> read_working(const JsonValue& agent) {
   const auto working = agent.find("working");
   if (!working) return std::nullopt;
   if (!working->json().is_object()) working->fail_expected("{\"task\": ID, \"done\": STEPS}");
-  unknown.look_at(*working, {"task", "done"});
   return WorkBegun{
       working->member("task").text(),
       static_cast<Time>(working->member("done").integer(0, InstanceBuilder::kLongest))};
 }
 
-void add_agent(InstanceBuilder& builder, const JsonValue& agent, UnknownKeys& unknown) {
+void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
   AgentSpec spec{.id = agent.member("id").text(), .start = {}, .goal = {}};
   spec.motion = read_motion(builder, agent);
   spec.start = read_start_pose(builder, spec.motion, agent);
@@ -94,7 +94,7 @@ void add_agent(InstanceBuilder& builder, const JsonValue& agent, UnknownKeys& un
     spec.goal_heading = read_heading(*heading);
     if (!spec.goal) heading->fail("the agent has no goal; expected one, or no such key");
   }
-  spec.working = read_working(agent, unknown);
+  spec.working = read_working(agent);
   at_place_of(agent, [&] { builder.add_agent(std::move(spec)); });
 }
 
@@ -117,44 +117,16 @@ void add_task(InstanceBuilder& builder, const JsonValue& task) {
   }
 }
 
-// A key that would change the plan, were it in its place.
-void refuse_misplaced(const JsonValue& object, std::initializer_list<const char*> keys,
-                      std::string_view place) {
-  for (const char* key : keys)
-    if (const auto value = object.find(key))
-      value->fail(fmt::format("this key belongs to {}; expected it there", place));
-}
-
-void refuse_misplaced_keys(const JsonValue& root) {
-  const std::initializer_list<const char*> of_agents = {"motion", "turn_steps", "heading",
-                                                        "goal_heading", "working"};
-  refuse_misplaced(root, of_agents, "an agent");
-  refuse_misplaced(root, {"duration"}, "a task");
+void add_all(InstanceBuilder& builder, const JsonValue& root) {
   const JsonValue agents = root.member("agents");
-  for (std::size_t i = 0; i < agents.size(); ++i)
-    refuse_misplaced(agents.element(i), {"duration"}, "a task");
+  if (agents.size() == 0) agents.fail("expected at least one agent");
   const JsonValue tasks = root.member("tasks");
-  for (std::size_t i = 0; i < tasks.size(); ++i)
-    refuse_misplaced(tasks.element(i), of_agents, "an agent");
+  for (std::size_t i = 0; i < agents.size(); ++i) add_agent(builder, agents.element(i));
+  for (std::size_t i = 0; i < tasks.size(); ++i) add_task(builder, tasks.element(i));
 }
 
-void add_all(InstanceBuilder& builder, const JsonValue& root, UnknownKeys& unknown) {
-  const JsonValue agents = root.member("agents");
-  for (std::size_t i = 0; i < agents.size(); ++i) {
-    add_agent(builder, agents.element(i), unknown);
-    unknown.look_at(agents.element(i), {"id", "start", "goal", "motion", "turn_steps", "heading",
-                                        "goal_heading", "working"});
-  }
-  const JsonValue tasks = root.member("tasks");
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    add_task(builder, tasks.element(i));
-    unknown.look_at(tasks.element(i), {"id", "cell", "agents", "duration"});
-  }
-}
-
-Instance read_robots(InstanceBuilder builder, const JsonValue& root, UnknownKeys& unknown) {
-  add_all(builder, root, unknown);
-  refuse_misplaced_keys(root);
+Instance read_robots(InstanceBuilder builder, const JsonValue& root) {
+  add_all(builder, root);
   std::optional<Instance> instance;
   at_place_of(root, [&] { instance = std::move(builder).build(); });
   return *std::move(instance);
@@ -171,6 +143,29 @@ std::filesystem::path file_named_by(const JsonValue& value, const std::filesyste
                     std::filesystem::is_directory(path) ? "found the folder" : "there is no file",
                     path.string(), what, folder == "." ? "the current folder" : "this file"));
   return path;
+}
+
+// The first character but for blanks; NUL if there is none. It tells maps and roadmaps apart.
+char first_character(const std::filesystem::path& path) {
+  char first = 0;
+  std::ifstream(path) >> first;
+  return first;
+}
+
+// The files that "map" and "roadmap" name are not each other's.
+void require_map_not_roadmap(const JsonValue& value, const std::filesystem::path& path,
+                             bool is_roadmap) {
+  const bool is_json = first_character(path) == '{';
+  if (is_json && !is_roadmap)
+    value.fail(
+        fmt::format("'{}' is a JSON file; expected a map, or this name under the key "
+                    "\"roadmap\" if it is a roadmap",
+                    path.string()));
+  if (!is_json && is_roadmap && path.extension() == ".map")
+    value.fail(
+        fmt::format("'{}' is named like a map; expected a roadmap, or this name under the "
+                    "key \"map\"",
+                    path.string()));
 }
 
 void add_row(InstanceBuilder& builder, const std::string& file, const ScenarioRow& row,
@@ -248,8 +243,7 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   std::vector<std::string> warnings;
-  UnknownKeys unknown(name, &warnings, Misspelt::kRefused);
-  unknown.look_at(root, {"map", "roadmap", "agents", "tasks"});
+  require_known_keys(root, instance_keys());
 
   const auto roadmap = root.find("roadmap");
   if (roadmap && root.find("map"))
@@ -258,18 +252,18 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
     root.fail("key 'map' is missing; expected it, or 'roadmap', in this object");
   std::filesystem::path map_path = roadmap ? file_named_by(*roadmap, folder, "a roadmap")
                                            : file_named_by(root.member("map"), folder, "a map");
-  Map map = roadmap ? Map(read_roadmap(map_path, &warnings)) : Map(read_map(map_path, &warnings));
-  Instance instance = read_robots(InstanceBuilder(std::move(map)), root, unknown);
+  require_map_not_roadmap(roadmap ? *roadmap : root.member("map"), map_path, roadmap.has_value());
+  Map map = roadmap ? Map(read_roadmap(map_path)) : Map(read_map(map_path, &warnings));
+  Instance instance = read_robots(InstanceBuilder(std::move(map)), root);
   return {std::move(instance), std::move(map_path), std::move(warnings)};
 }
 
-Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const std::string& name,
-                           std::vector<std::string>* warnings) {
+Instance parse_instance_on(InstanceBuilder builder, std::string_view text,
+                           const std::string& name) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
-  UnknownKeys unknown(name, warnings, Misspelt::kRefused);
-  unknown.look_at(root, {"agents", "tasks"});
-  return read_robots(std::move(builder), root, unknown);
+  require_known_keys(root, robot_keys());
+  return read_robots(std::move(builder), root);
 }
 
 LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,

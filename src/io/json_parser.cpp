@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "grove/detail/io/input_error.h"
@@ -34,6 +35,43 @@ std::string tidy(const nlohmann::detail::exception& error) {
   }
   if (message.find("expected") == std::string::npos) message += "; expected JSON";
   return message;
+}
+
+// What people write into JSON and does not belong there, beginning at `rest`; empty: something
+// else.
+std::string_view common_mistake(std::string_view rest) {
+  struct Mistake {
+    std::string_view beginning;
+    std::string_view message;
+  };
+  constexpr std::string_view kNoComments =
+      "a comment, which JSON does not have; expected none, or a key that begins with '_' for it";
+  constexpr std::string_view kNoNumber = "this is no number in JSON; expected a finite number";
+  constexpr Mistake kMistakes[] = {{"//", kNoComments},
+                                   {"/*", kNoComments},
+                                   {"#", kNoComments},
+                                   {"NaN", kNoNumber},
+                                   {"nan", kNoNumber},
+                                   {"Infinity", kNoNumber},
+                                   {"-Infinity", kNoNumber},
+                                   {"inf", kNoNumber},
+                                   {"-inf", kNoNumber},
+                                   {"'", "a single quote; expected text in double quotes"},
+                                   {"True", "found True; expected true, in small letters"},
+                                   {"False", "found False; expected false, in small letters"},
+                                   {"None", "found None; expected null, or no such key"}};
+  for (const Mistake& mistake : kMistakes)
+    if (rest.starts_with(mistake.beginning)) return mistake.message;
+  return {};
+}
+
+// Where the token that the parser stumbled over begins. The parser has read its first letters by
+// then: "Na" of NaN, "//" of a comment.
+std::size_t begin_of_token(std::string_view text, std::size_t offset) {
+  constexpr std::string_view kBetween = " \t\r\n,:[]{}\"";
+  offset = std::min(offset, text.size());
+  while (offset > 0 && kBetween.find(text[offset - 1]) == std::string_view::npos) --offset;
+  return offset;
 }
 
 // Builds the document from the parser's events.
@@ -68,6 +106,10 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) override {
     const std::size_t offset = position > 0 ? position - 1 : 0;
+    for (const std::size_t begin : {begin_of_token(text_, offset), std::min(offset, text_.size())})
+      if (const auto mistake = common_mistake(text_.substr(begin)); !mistake.empty())
+        throw InputError(file_, line_and_column_at(text_, begin),
+                         fmt::format("malformed JSON: {}", mistake));
     throw InputError(file_, line_and_column_at(text_, offset), "malformed JSON: " + tidy(error));
   }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <utility>
 
@@ -16,6 +15,8 @@ namespace grove::detail {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr std::string_view kSchema = "$schema";  // for editors
 
 std::string description(const Json& json) {
   if (json.is_array()) return "an array";
@@ -106,11 +107,15 @@ std::vector<std::string> JsonValue::texts() const {
 
 Position JsonValue::position() const {
   require(json_->is_array() && json_->size() == 2, "a cell [x, y]");
-  constexpr int kMost = std::numeric_limits<int>::max();
-  const auto x = integer_within((*json_)[0], 0, kMost);
-  const auto y = integer_within((*json_)[1], 0, kMost);
-  if (!x || !y) element(x ? 1 : 0).integer(0, kMost);  // throws, with the path
-  return {static_cast<int>(*x), static_cast<int>(*y)};
+  return {element(0).coordinate(), element(1).coordinate()};
+}
+
+int JsonValue::coordinate() const {
+  if (json_->is_number_float())
+    fail_expected(
+        "the column or row of a cell, a whole number; places on maps are cells, not "
+        "metres");
+  return static_cast<int>(integer(0, std::numeric_limits<int>::max()));
 }
 
 JsonDocument::JsonDocument(const std::filesystem::path& path)
@@ -119,54 +124,12 @@ JsonDocument::JsonDocument(const std::filesystem::path& path)
 JsonDocument::JsonDocument(std::string_view text, std::string name)
     : file_(std::move(name)), json_(parse_json(text, file_)) {
   if (!json_.is_object()) root().fail_expected("a JSON object");
-  json_.erase("$schema");
 }
-
-namespace {
-
-// "One-Ways" as "oneway".
-std::string bare(std::string_view key) {
-  std::string text;
-  for (const char c : key)
-    if (c != '_' && c != '-' && c != ' ')
-      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (text.size() > 1 && text.back() == 's') text.pop_back();
-  return text;
-}
-
-// Do two words become one by one letter more, less or other, or by two in the other order?
-bool differ_by_one(std::string_view a, std::string_view b) {
-  if (a.size() > b.size()) std::swap(a, b);
-  if (b.size() - a.size() > 1) return false;
-  const auto [at_a, at_b] = std::ranges::mismatch(a, b);
-  const auto rest_a = std::string_view(at_a, a.end());
-  const auto rest_b = std::string_view(at_b, b.end());
-  if (rest_b.empty()) return true;
-  if (a.size() < b.size()) return rest_a == rest_b.substr(1);
-  const bool other_order = rest_a.size() > 1 && rest_a[0] == rest_b[1] && rest_a[1] == rest_b[0] &&
-                           rest_a.substr(2) == rest_b.substr(2);
-  return other_order || rest_a.substr(1) == rest_b.substr(1);
-}
-
-constexpr std::size_t kLeastMisspelt = 4;  // shorter ones are near to too much
-
-bool is_misspelt(const std::string& key, std::string_view known) {
-  const std::string a = bare(key);
-  const std::string b = bare(known);
-  return a == b || (std::min(a.size(), b.size()) >= kLeastMisspelt && differ_by_one(a, b));
-}
-
-}  // namespace
 
 void UnknownKeys::look_at(const JsonValue& object, std::initializer_list<std::string_view> known) {
   for (const auto& [key, value] : object.json().items()) {
     if (std::ranges::find(known, key) != known.end()) continue;
-    if (misspelt_ == Misspelt::kRefused)
-      for (const std::string_view meant : known)
-        if (!object.json().contains(meant) && is_misspelt(key, meant))
-          object.fail(fmt::format("unknown key '{}'; expected '{}', if that is what it means",
-                                  one_line(key), meant));
-    if (!seen_.insert(key).second) continue;
+    if (key == kSchema || !seen_.insert(key).second) continue;
     if (warnings_)
       warnings_->push_back(fmt::format("{}: {}: unknown key '{}' is ignored", one_line(file_),
                                        object.path().empty() ? "/" : object.path(), one_line(key)));

@@ -25,6 +25,7 @@ class JsonValue {
 
   const nlohmann::json& json() const { return *json_; }
   const std::string& path() const { return path_; }
+  const std::string& file() const { return *file_; }
 
   // Members of an object: one that must be there, and one that may be missing.
   JsonValue member(const char* key) const;
@@ -39,8 +40,9 @@ class JsonValue {
   bool boolean() const;
   std::string text() const;
   std::vector<std::string> texts() const;
-  // A cell [x, y]; both at least 0.
+  // A cell [x, y]; both at least 0. And one of them.
   Position position() const;
+  int coordinate() const;
 
   // "found 7; expected `expected`", as InputError here.
   [[noreturn]] void fail_expected(std::string_view expected) const;
@@ -57,7 +59,7 @@ class JsonValue {
 };
 
 // A parsed file. Throws InputError unless it is one JSON object of bounded depth in which no object
-// repeats a key. Its key "$schema" is for editors (docs/formats.md), and is left out.
+// repeats a key.
 class JsonDocument {
  public:
   explicit JsonDocument(const std::filesystem::path& path);
@@ -71,24 +73,19 @@ class JsonDocument {
   nlohmann::json json_;
 };
 
-// What becomes of a key that is nearly a known one, which is not there ("oneway")?
-enum class Misspelt : std::uint8_t { kIgnored, kRefused };
-
-// Collects one warning for each key that a reader does not know, however often the key occurs.
+// Of files of other tools, which may hold what does not concern Grove: collects one warning for
+// each key that a reader does not know, however often the key occurs. (Grove's own files:
+// known_keys.h.)
 class UnknownKeys {
  public:
-  UnknownKeys(std::string file, std::vector<std::string>* warnings,
-              Misspelt misspelt = Misspelt::kIgnored)
-      : file_(std::move(file)), warnings_(warnings), misspelt_(misspelt) {}
-
-  // Throws InputError for a key that is misspelt, if such are refused.
+  UnknownKeys(std::string file, std::vector<std::string>* warnings)
+      : file_(std::move(file)), warnings_(warnings) {}
 
   void look_at(const JsonValue& object, std::initializer_list<std::string_view> known);
 
  private:
   std::string file_;
   std::vector<std::string>* warnings_;  // may be null
-  Misspelt misspelt_;
   std::set<std::string> seen_;
 };
 

@@ -92,8 +92,7 @@ Pose read_turning_pose(const Grid& grid, Motion motion, const JsonValue& value) 
     value.fail_expected(
         "[x, y, heading], heading \"N\", \"E\", \"S\" or \"W\", or [x, y, heading, next, k], k "
         "steps of the turn to the next heading made, for an agent that turns");
-  const Position p{static_cast<int>(value.element(0).integer(0, kNever)),
-                   static_cast<int>(value.element(1).integer(0, kNever))};
+  const Position p{value.element(0).coordinate(), value.element(1).coordinate()};
   const Heading heading = read_heading(value.element(2));
   Pose pose{cell_on(grid, value, p), heading, heading, 0};
   if (value.size() == 3) return pose;

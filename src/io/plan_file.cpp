@@ -12,6 +12,7 @@
 #include "grove/detail/io/text_file.h"
 #include "json_value.h"
 #include "json_writer.h"
+#include "known_keys.h"
 #include "path_entry.h"
 
 namespace grove::detail {
@@ -106,9 +107,8 @@ Omega read_omega(const JsonValue& value) {
 
 class PlanReader {
  public:
-  PlanReader(const Instance& instance, UnknownKeys& unknown)
+  explicit PlanReader(const Instance& instance)
       : instance_(instance),
-        unknown_(unknown),
         agents_(index_by_id(instance.agents())),
         tasks_(index_by_id(instance.tasks())) {}
 
@@ -130,7 +130,6 @@ class PlanReader {
 
  private:
   AgentPlan read_agent(AgentIndex agent, const JsonValue& value) const {
-    unknown_.look_at(value, {"id", "sequence", "cost", "path", "work"});
     AgentPlan plan;
     plan.cost = static_cast<Time>(value.member("cost").integer(0, kNever));
     const JsonValue sequence = value.member("sequence");
@@ -147,7 +146,6 @@ class PlanReader {
     return plan;
   }
   WorkTime read_work(const JsonValue& value) const {
-    unknown_.look_at(value, {"task", "begin", "end"});
     const auto time = [&](const char* key) {
       return static_cast<Time>(value.member(key).integer(-kNever, kNever));
     };
@@ -155,7 +153,6 @@ class PlanReader {
   }
 
   const Instance& instance_;
-  UnknownKeys& unknown_;
   IndexById agents_;
   IndexById tasks_;
 };
@@ -182,17 +179,14 @@ void write_solution(const std::filesystem::path& path, const Instance& instance,
   write_file_atomically(path, solution_text(instance, solution), outlives);
 }
 
-Solution read_solution(const std::filesystem::path& path, const Instance& instance,
-                       std::vector<std::string>* warnings) {
-  return parse_solution(read_text(path), path.string(), instance, warnings);
+Solution read_solution(const std::filesystem::path& path, const Instance& instance) {
+  return parse_solution(read_text(path), path.string(), instance);
 }
 
-Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance,
-                        std::vector<std::string>* warnings) {
+Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
-  UnknownKeys unknown(name, warnings);
-  unknown.look_at(root, {"status", "cost", "lower_bound", "omega", "following", "agents", "stats"});
+  require_known_keys(root, plan_keys());
 
   Solution solution;
   solution.status = read_status(root.member("status"));
@@ -201,7 +195,7 @@ Solution parse_solution(std::string_view text, const std::string& name, const In
   solution.omega = read_omega(root.member("omega"));
   if (const auto following = root.find("following")) solution.may_follow = following->boolean();
   const bool has_plan = root.find("cost") || root.find("agents");
-  if (has_plan) solution.plan = PlanReader(instance, unknown).read(root);
+  if (has_plan) solution.plan = PlanReader(instance).read(root);
   if (const auto stats = root.find("stats")) solution.stats = read_stats(*stats);
   return solution;
 }

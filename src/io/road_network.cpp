@@ -57,11 +57,11 @@ void require_room(const RoadNetwork& network, const Link& link, std::int64_t pla
 }
 
 // One-way roads, those between the same vertices beside each other: in one direction, then in the
-// other, by steps. A road to where it begins has no opposite.
+// other, by steps.
 std::vector<int> by_ends(const std::vector<Road>& roads) {
   std::vector<int> order;
   for (std::size_t r = 0; r < roads.size(); ++r)
-    if (roads[r].one_way && roads[r].from != roads[r].to) order.push_back(static_cast<int>(r));
+    if (roads[r].one_way) order.push_back(static_cast<int>(r));
   std::ranges::sort(order, {}, [&](int r) {
     const Road& road = roads[r];
     return std::tuple(std::min(road.from, road.to), std::max(road.from, road.to),
@@ -107,6 +107,9 @@ SteppedRoads in_steps(const RoadNetwork& network, const StepScale& scale) {
   std::int64_t places = std::ssize(network.vertices);
   for (std::size_t k = 0; k < network.links.size(); ++k) {
     const Link& link = network.links[k];
+    if (link.from == link.to)
+      throw InputError(network.file, link.place,
+                       "leads from a node to itself; expected two different nodes");
     const Rounding rounding = rounded_up(network, static_cast<int>(k), scale);
     places += rounding.steps - 1;
     require_room(network, link, places);

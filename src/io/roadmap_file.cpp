@@ -10,6 +10,7 @@
 #include "grove/detail/io/text_file.h"
 #include "json_value.h"
 #include "json_writer.h"
+#include "known_keys.h"
 
 namespace grove::detail {
 namespace {
@@ -22,12 +23,11 @@ Point read_point(const JsonValue& value) {
   return {value.element(0).number(), value.element(1).number()};
 }
 
-std::vector<Vertex> read_vertices(const JsonValue& list, UnknownKeys& unknown, Numbers& numbers) {
+std::vector<Vertex> read_vertices(const JsonValue& list, Numbers& numbers) {
   std::vector<Vertex> vertices;
   if (list.size() == 0) list.fail("expected at least one vertex");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonValue vertex = list.element(i);
-    unknown.look_at(vertex, {"id", "at"});
     const JsonValue id = vertex.member("id");
     if (id.text().empty()) id.fail("expected an id that is not empty");
     if (!numbers.emplace(id.text(), static_cast<int>(i)).second)
@@ -52,14 +52,14 @@ Time read_steps(const JsonValue& value) {
   return static_cast<Time>(value.integer(1, Roadmap::kMostPlaces));
 }
 
-std::vector<Road> read_roads(const JsonValue& list, UnknownKeys& unknown, const Numbers& numbers,
-                             std::int64_t places) {
+std::vector<Road> read_roads(const JsonValue& list, const Numbers& numbers, std::int64_t places) {
   std::vector<Road> roads;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonValue edge = list.element(i);
-    unknown.look_at(edge, {"from", "to", "steps", "one_way"});
     Road road{read_end(edge.member("from"), numbers), read_end(edge.member("to"), numbers),
               read_steps(edge.member("steps")), false};
+    if (road.from == road.to)
+      edge.fail("from and to are the same vertex; expected two different ones");
     if (const auto one_way = edge.find("one_way")) road.one_way = one_way->boolean();
     places += road.steps - 1;
     if (places > Roadmap::kMostPlaces)
@@ -80,20 +80,17 @@ OrderedJson road_json(const Roadmap& roadmap, const Road& road) {
 
 }  // namespace
 
-Roadmap read_roadmap(const std::filesystem::path& path, std::vector<std::string>* warnings) {
-  return parse_roadmap(read_text(path), path.string(), warnings);
+Roadmap read_roadmap(const std::filesystem::path& path) {
+  return parse_roadmap(read_text(path), path.string());
 }
 
-Roadmap parse_roadmap(std::string_view text, const std::string& name,
-                      std::vector<std::string>* warnings) {
+Roadmap parse_roadmap(std::string_view text, const std::string& name) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
-  UnknownKeys unknown(name, warnings, Misspelt::kRefused);
-  unknown.look_at(root, {"vertices", "edges"});
+  require_known_keys(root, roadmap_keys());
   Numbers numbers;
-  std::vector<Vertex> vertices = read_vertices(root.member("vertices"), unknown, numbers);
-  std::vector<Road> roads =
-      read_roads(root.member("edges"), unknown, numbers, std::ssize(vertices));
+  std::vector<Vertex> vertices = read_vertices(root.member("vertices"), numbers);
+  std::vector<Road> roads = read_roads(root.member("edges"), numbers, std::ssize(vertices));
   return Roadmap(std::move(vertices), std::move(roads));
 }
 

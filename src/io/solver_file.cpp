@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <regex>
 
 #include "grove/detail/io/input_error.h"
 #include "json_value.h"
+#include "known_keys.h"
 
 namespace grove::detail {
 namespace {
@@ -53,12 +53,6 @@ auto one_of_names(const JsonValue& value, const Names& names) {
   return *it;
 }
 
-void refuse_unknown_keys(const JsonValue& object, std::initializer_list<std::string_view> known) {
-  for (const auto& [key, value] : object.json().items())
-    if (std::ranges::find(known, key) == known.end())
-      object.fail(fmt::format("unknown key; expected one of {}", fmt::join(known, ", ")), key);
-}
-
 std::string template_of(const JsonValue& value) {
   std::string text = value.text();
   const std::string mistake = template_mistake(text);
@@ -90,14 +84,12 @@ std::optional<LinePattern> claim_of(const JsonValue& claims, const char* key, st
   const auto value = claims.find(key);
   if (!value) return std::nullopt;
   if (!value->json().is_object()) return pattern_of(*value, groups);
-  refuse_unknown_keys(*value, {"file", "regex", "unit"});
   LinePattern pattern = pattern_of(*value, groups);
   if (const auto unit = value->find("unit")) pattern.scale = scale_of(*unit);
   return pattern;
 }
 
 TracePattern trace_of(const JsonValue& value) {
-  refuse_unknown_keys(value, {"file", "regex", "groups"});
   const JsonValue groups = value.member("groups");
   TracePattern trace;
   for (std::size_t i = 0; i < groups.size(); ++i)
@@ -129,8 +121,7 @@ bool is_plain_name(std::string_view name) {
 }
 
 SolverAdapter solver_of(const JsonValue& root) {
-  refuse_unknown_keys(root, {"name", "about", "command", "instance", "plan", "anytime", "threads",
-                             "claims", "trace"});
+  require_known_keys(root, solver_keys());
   SolverAdapter solver;
   const JsonValue name = root.member("name");
   solver.name = name.text();
@@ -144,7 +135,6 @@ SolverAdapter solver_of(const JsonValue& root) {
   if (const auto anytime = root.find("anytime")) solver.anytime = anytime->boolean();
   if (const auto threads = root.find("threads")) solver.threads = threads->integer(1, 1024);
   if (const auto claims = root.find("claims")) {
-    refuse_unknown_keys(*claims, {"solved", "cost", "lower_bound", "seconds", "first_plan"});
     solver.solved = claim_of(*claims, "solved", 0);
     solver.cost = claim_of(*claims, "cost", 1);
     solver.lower_bound = claim_of(*claims, "lower_bound", 1);

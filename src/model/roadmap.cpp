@@ -14,8 +14,9 @@ void require_roads_between(const std::vector<Road>& roads, std::size_t vertices)
   const auto is_vertex = [&](int v) { return v >= 0 && static_cast<std::size_t>(v) < vertices; };
   std::int64_t places = static_cast<std::int64_t>(vertices);
   for (const Road& road : roads) {
-    if (!is_vertex(road.from) || !is_vertex(road.to) || road.steps < 1)
-      throw std::invalid_argument("a road leads from vertex to vertex in one step or more");
+    if (!is_vertex(road.from) || !is_vertex(road.to) || road.from == road.to || road.steps < 1)
+      throw std::invalid_argument(
+          "a road leads from one vertex to another one in one step or more");
     places += road.steps - 1;
     if (places > Roadmap::kMostPlaces)
       throw std::invalid_argument(
@@ -40,7 +41,7 @@ Rows moves_on(const std::vector<Road>& roads, std::size_t vertices) {
   const std::vector<Place> first_inner = inner_places(roads, vertices);
   std::vector<std::vector<Place>> moves(static_cast<std::size_t>(first_inner.back()));
   const auto add = [&](Place from, Place to) {
-    if (from != to && std::ranges::count(moves[from], to) == 0) moves[from].push_back(to);
+    if (std::ranges::count(moves[from], to) == 0) moves[from].push_back(to);
   };
   for (std::size_t r = 0; r < roads.size(); ++r)
     for (Time step = 0; step < roads[r].steps; ++step) {

@@ -119,7 +119,6 @@ class Trial {
     case_.options.audit = false;
     if (part_of_search_ == Part::kAny && seed % 3 == 0) leave_to_the_tree(seed);
     const Instance instance = case_.instance.build();
-    if (!is_of_files(instance)) return;
     const oracle::Answer truth = oracle::solve_jointly(instance, kOracleStates);
     if (truth.verdict == oracle::Verdict::kTooLarge) return;
     optimum_ = truth.plan ? truth.plan->cost : kInfiniteCost;
@@ -175,14 +174,6 @@ class Trial {
     options.tuning.lagrangian_agents = 1;
     options.tuning.lagrangian_begins_work = 0;
     options.tuning.most_lagrangian = 100;
-  }
-
-  // Files know no roads from a place to itself.
-  static bool is_of_files(const Instance& instance) {
-    const Roadmap* const roadmap = instance.roadmap();
-    return roadmap == nullptr || std::ranges::none_of(roadmap->roads(), [](const Road& road) {
-             return road.from == road.to;
-           });
   }
 
   void write(const Instance& instance) const {

@@ -53,7 +53,9 @@ class Maker {
   void add_road(Position p, Position q) {
     if (random_.percent(50)) std::swap(p, q);
     const Time steps = random_.percent(65) ? 1 : random_.between(2, 4);
-    instance_.roads.push_back({p, q, steps, random_.percent(20)});
+    const bool one_way = random_.percent(20);
+    if (p == q) return;
+    instance_.roads.push_back({p, q, steps, one_way});
     places_ += steps - 1;
   }
 

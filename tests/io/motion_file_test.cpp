@@ -154,7 +154,7 @@ TEST_F(MotionFile, EachKeyIsRefusedWhereItIsWrong) {
       {R"("start": [9, 0, "N"], "motion": "turning")",
        "start: cell [9, 0] is outside the map; expected x in 0..3 and y in 0..1"},
       {R"("start": [0, -1, "N"], "motion": "turning")",
-       "start/1: found -1; expected an integer from 0 to 1073741824"},
+       "start/1: found -1; expected an integer from 0 to 2147483647"},
       {start + R"("working": 3)", R"(working: found 3; expected {"task": ID, "done": STEPS})"},
       {start + R"("working": {"done": 1})",
        "working: key 'task' is missing; expected it in this object"},
@@ -195,15 +195,17 @@ TEST_F(MotionFile, EachKeyIsRefusedWhereItIsWrong) {
 
 // A plan that heeds them not would be wrong for whoever wrote them.
 TEST_F(MotionFile, KeysInTheWrongPlaceAreRefused) {
-  EXPECT_EQ(refused_agent(R"("start": [0, 0], "duration": 3)"),
-            "i.json: /agents/0/duration: this key belongs to a task; expected it there");
-  EXPECT_EQ(refused_task(R"("heading": "N")"),
-            "i.json: /tasks/0/heading: this key belongs to an agent; expected it there");
+  EXPECT_EQ(
+      refused_agent(R"("start": [0, 0], "duration": 3)"),
+      "i.json: /agents/0: unknown key 'duration'; this key belongs to a task; expected it there");
+  EXPECT_EQ(
+      refused_task(R"("heading": "N")"),
+      "i.json: /tasks/0: unknown key 'heading'; this key belongs to an agent; expected it there");
   EXPECT_EQ(refusal([&] {
               instance(R"([{"id": "a", "start": [0, 0]}])", "[]",
                        R"("map": "m.map", "motion": "turning")");
             }),
-            "i.json: /motion: this key belongs to an agent; expected it there");
+            "i.json: /: unknown key 'motion'; this key belongs to an agent; expected it there");
 }
 
 TEST_F(MotionFile, AWorldHasItsLimits) {

@@ -71,18 +71,25 @@ TEST(RoadNetwork, TooManyPlacesAreRefused) {
             "take longer steps");
 }
 
+TEST(RoadNetwork, ALinkFromANodeToItselfIsRefused) {
+  const Link loop{1, 1, true, 5, {}, "line 7"};
+  EXPECT_EQ(refusal([&] {
+              in_steps(network({link(1), loop}), kHalfMetres);
+            }),
+            "f: line 7: leads from a node to itself; expected two different nodes");
+}
+
 TEST(RoadNetwork, OppositeRoadsOfAsManyStepsAreMerged) {
   const std::vector<Road> roads = {
-      {0, 1, 3, true}, {1, 2, 4, true}, {1, 0, 2, true},  {1, 0, 3, true},
-      {2, 1, 5, true}, {0, 2, 1, true}, {2, 0, 1, true},  {0, 1, 3, true},
-      {0, 0, 2, true}, {0, 0, 2, true}, {0, 1, 2, false},
+      {0, 1, 3, true}, {1, 2, 4, true}, {1, 0, 2, true}, {1, 0, 3, true},  {2, 1, 5, true},
+      {0, 2, 1, true}, {2, 0, 1, true}, {0, 1, 3, true}, {0, 1, 2, false},
   };
   const OppositeRoads count = opposite_roads(roads);
   EXPECT_EQ(count.alike, 2);   // 0 and 3, 5 and 6
   EXPECT_EQ(count.unlike, 2);  // 2 and 7, 1 and 4
   EXPECT_EQ(count.of_step, 1);
   const std::vector<Road> merged = with_merged_lanes(roads);
-  ASSERT_EQ(merged.size(), 9u);
+  ASSERT_EQ(merged.size(), 7u);
   EXPECT_EQ(merged[0].steps, 3);
   EXPECT_FALSE(merged[0].one_way);
   EXPECT_TRUE(merged[1].one_way);

@@ -67,24 +67,10 @@ TEST_F(RoadmapFile, IsReadAsItIsWritten) {
   EXPECT_TRUE(again.roads()[2].one_way);
 }
 
-TEST_F(RoadmapFile, WarnsOfUnknownKeys) {
-  std::vector<std::string> warnings;
-  parse_roadmap(R"({"vertices": [{"id": "A", "at": [0, 0], "z": 1}], "edges": [], "unit": "m"})",
-                "r.json", &warnings);
-  EXPECT_EQ(warnings,
-            (std::vector<std::string>{"r.json: /: unknown key 'unit' is ignored",
-                                      "r.json: /vertices/0: unknown key 'z' is ignored"}));
-}
-
-TEST_F(RoadmapFile, RefusesAKeyThatIsMisspelt) {
-  for (const char* key : {"oneway", "One-Way", "one_ways"})
-    EXPECT_EQ(refused_roads(fmt::format(R"({{"vertices": [{{"id": "A", "at": [0, 0]}}, )"
-                                        R"({{"id": "B", "at": [1, 0]}}], "edges": [)"
-                                        R"({{"from": "A", "to": "B", "steps": 1, "{}": true}}]}})",
-                                        key)),
-              fmt::format("r.json: /edges/0: unknown key '{}'; expected 'one_way', if that is what "
-                          "it means",
-                          key));
+TEST_F(RoadmapFile, RefusesARoadFromAVertexToItself) {
+  EXPECT_EQ(refused_roads(R"({"vertices": [{"id": "A", "at": [0, 0]}], "edges": [)"
+                          R"({"from": "A", "to": "A", "steps": 3}]})"),
+            "r.json: /edges/0: from and to are the same vertex; expected two different ones");
 }
 
 TEST_F(RoadmapFile, EachWrongKeyIsRefusedWithItsPlace) {

@@ -67,11 +67,10 @@ TEST(SolverFiles, NeedLittle) {
 TEST(SolverFiles, AreRefusedWithThePlace) {
   EXPECT_EQ(refused("[]"), "s.json: /: found an array; expected a JSON object");
   EXPECT_EQ(refused_with("\"threads\"", "\"thread\""),
-            "s.json: /thread: unknown key; expected one of name, about, command, instance, plan, "
-            "anytime, threads, claims, trace");
+            "s.json: /: unknown key 'thread'; expected 'threads', if that is what it means");
   EXPECT_EQ(refused_with("\"cost\": ", "\"price\": "),
-            "s.json: /claims/price: unknown key; expected one of solved, cost, lower_bound, "
-            "seconds, first_plan");
+            "s.json: /claims: unknown key 'price'; expected one of solved, cost, lower_bound, "
+            "seconds, first_plan, or a name that begins with '_' for a remark");
   EXPECT_EQ(refused_with("{agents}", "{agent}"),
             "s.json: /command: found {agent}; expected one of {program}, {map}, {scenario}, "
             "{agents}, {instance}, {time_limit}, {time_limit_ms}, {time_limit_whole}, {seed}, "

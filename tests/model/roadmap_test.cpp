@@ -66,11 +66,10 @@ TEST(Roadmap, NamesItsPlaces) {
   EXPECT_THAT(roadmap.roads_between(2, 0), IsEmpty());
 }
 
-TEST(Roadmap, TwoRoadsOfOneStepAreOneMoveAndALoopOfOneIsNone) {
-  const Roadmap roadmap({{"A", {}}, {"B", {}}},
-                        {{0, 1, 1, false}, {1, 0, 1, true}, {0, 0, 1, false}, {0, 0, 3, false}});
+TEST(Roadmap, TwoRoadsOfOneStepAreOneMove) {
+  const Roadmap roadmap({{"A", {}}, {"B", {}}}, {{0, 1, 1, false}, {1, 0, 1, true}});
   EXPECT_THAT(roadmap.moves(1), ElementsAre(0));
-  EXPECT_THAT(roadmap.moves(0), UnorderedElementsAre(1, 2, 3));
+  EXPECT_THAT(roadmap.moves(0), ElementsAre(1));
 }
 
 TEST(Roadmap, RefusesWhatIsNone) {
@@ -79,6 +78,7 @@ TEST(Roadmap, RefusesWhatIsNone) {
   EXPECT_THROW(Roadmap({{"A", {}}, {"A", {}}}, {}), std::invalid_argument);
   EXPECT_THROW(Roadmap({{"", {}}}, {}), std::invalid_argument);
   EXPECT_THROW(Roadmap(two, {{0, 2, 1, false}}), std::invalid_argument);
+  EXPECT_THROW(Roadmap(two, {{0, 0, 3, false}}), std::invalid_argument);
   EXPECT_THROW(Roadmap(two, {{0, 1, 0, false}}), std::invalid_argument);
   EXPECT_THROW(Roadmap(two, {{0, 1, Roadmap::kMostPlaces, false}}), std::invalid_argument);
 }

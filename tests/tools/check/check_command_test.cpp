@@ -112,11 +112,21 @@ TEST_F(CheckCommand, ChecksBarePathLists) {
             "text: /cost: the agents' costs add up to 4, but the plan says 3\n");
 }
 
-TEST_F(CheckCommand, PrintsWarnings) {
+TEST_F(CheckCommand, RefusesUnknownKeys) {
   const ProcessResult result = check(kClaims + ", \"note\": 1", kAgentA + ", " + kAgentB);
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err,
-            "grove: warning: " + (directory_ / "p.json") + ": /: unknown key 'note' is ignored\n");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_NE(result.err.find("p.json: /: unknown key 'note'; expected one of status,"),
+            std::string::npos);
+}
+
+TEST_F(CheckCommand, SaysThatTheInstanceComesFirst) {
+  check(kClaims, kAgentA + ", " + kAgentB);  // writes both
+  const ProcessResult result = run_grove({"check", directory_ / "p.json", directory_ / "i.json"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(said(result),
+            "grove: error: p.json: found a plan; expected an instance, and its plan after it: "
+            "'grove check INSTANCE PLAN'\n");
 }
 
 }  // namespace check_command_test

@@ -171,8 +171,10 @@ TEST(LargestStrongComponent, IsTheFirstLargestPart) {
     std::vector<Vertex> vertices;
     for (int k = 0; k < count; ++k) vertices.push_back({std::to_string(k), {}});
     std::vector<Road> roads;
-    for (int k = random.below(2 * count); k > 0; --k)
-      roads.push_back({random.below(count), random.below(count), 1, random.below(4) > 0});
+    for (int k = random.below(2 * count); k > 0; --k) {
+      const Road road{random.below(count), random.below(count), 1, random.below(4) > 0};
+      if (road.from != road.to) roads.push_back(road);
+    }
     const Roadmap roadmap(vertices, roads);
     std::vector<int> largest;
     for (int v = 0; v < count; ++v) {

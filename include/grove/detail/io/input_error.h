@@ -19,6 +19,16 @@ class InputError : public std::runtime_error {
   InputError(std::string_view file, std::string_view place, std::string_view message);
 };
 
+// A file of Grove, but of another kind than is read here: "found a plan; expected an instance".
+class WrongFileKind : public InputError {
+ public:
+  WrongFileKind(std::string_view file, std::string_view found, std::string_view expected);
+  const std::string& found() const { return found_; }
+
+ private:
+  std::string found_;
+};
+
 // The system refuses to read or write the file, as `error` of errno.h says.
 [[noreturn]] void fail_to_read(const std::filesystem::path& path, int error = errno);
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error = errno);

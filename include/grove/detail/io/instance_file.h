@@ -18,7 +18,7 @@ namespace grove::detail {
 struct LoadedInstance {
   Instance instance;
   std::filesystem::path map_path;     // the map file that was read; empty: the map was in the file
-  std::vector<std::string> warnings;  // one line each: unknown keys, unusual map characters, ...
+  std::vector<std::string> warnings;  // one line each: unusual map characters, ...
 };
 
 // Reads a *.cts.json file and the map it names (relative to the file).
@@ -28,9 +28,8 @@ LoadedInstance read_instance(const std::filesystem::path& path);
 LoadedInstance parse_instance(std::string_view text, const std::string& name,
                               const std::filesystem::path& folder);
 // What such a file says of agents and tasks, {"agents": [...], "tasks": [...]}, added to `builder`,
-// which has the map. Appends to `warnings`.
-Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const std::string& name,
-                           std::vector<std::string>* warnings);
+// which has the map.
+Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const std::string& name);
 
 // Classical MAPF: the first `agents` rows of a scenario as they stand, ids a0, a1, ...; no tasks.
 LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,

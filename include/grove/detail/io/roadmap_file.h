@@ -5,20 +5,16 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/model/roadmap.h"
 
 namespace grove::detail {
 
-// Reads a *.roadmap.json file. Throws InputError on anything malformed. Appends to `warnings` one
-// line for each key that it does not know.
-Roadmap read_roadmap(const std::filesystem::path& path,
-                     std::vector<std::string>* warnings = nullptr);
+// Reads a *.roadmap.json file. Throws InputError on anything malformed and on unknown keys.
+Roadmap read_roadmap(const std::filesystem::path& path);
 // The same of the text of such a file: `name` stands for it in messages.
-Roadmap parse_roadmap(std::string_view text, const std::string& name,
-                      std::vector<std::string>* warnings = nullptr);
+Roadmap parse_roadmap(std::string_view text, const std::string& name);
 
 // Writes it whole or not at all. Throws InputError when the file cannot be written.
 void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap,
