@@ -55,10 +55,14 @@ class GROVE_API Session {
   /// "/blocked/<i>".
   void change(const Change& change);
 
+  /// The defaults of replan(), which are those of `grove replan`: the ones of Options, but a time
+  /// limit of 1 second, for robots are driving meanwhile.
+  static Options default_options();
+
   /// Solves what is left, from the old plan repaired. All keep to the old plan, or what is left of
   /// it, for `commit` steps, at least 0. (Options::start is not looked at.) Throws as solve() does,
   /// and InvalidArgument, "/commit", where a path is closed before the committed steps end.
-  Solution replan(const Options& options = {}, int commit = 0);
+  Solution replan(const Options& options = default_options(), int commit = 0);
 
  private:
   struct Impl;
