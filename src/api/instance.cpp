@@ -161,7 +161,7 @@ Instance parse_instance(std::string_view text, const std::filesystem::path& fold
 }
 
 Instance parse_instance(std::string_view text, const World& world, Rules rules,
-                        std::vector<std::string>* warnings) {
+                        std::vector<std::string>* /*warnings*/) {
   return translated([&] {
     detail::InstanceBuilder builder(Access::map(world));
     if (!rules.following) builder.forbid_following();
