@@ -27,7 +27,7 @@ threads go on. `grove.__version__` is a text, "0.1.0".
 SECTIONS = {
     "Worlds and instances": ["World", "Instance", "instance_from_dict", "instance_from_arrays", "read_instance",
                              "read_scenario"],
-    "Solving": ["solve", "Solution", "Progress", "Session"],
+    "Solving": ["solve", "Solution", "Progress", "Session", "default_threads", "default_memory_limit"],
     "Plans": ["Plan", "AgentPlan", "check", "read_plan", "visits", "data_frame"],
     "Looking": ["view", "View", "picture"],
     "Errors": ["Error", "InputError", "InvalidArgument"],

@@ -175,7 +175,7 @@ class Study {
     Limits limits;
     limits.watch_interrupt(&interrupted);
     options_.start = a_.solve.start.empty() ? find_plan(problem, options_, limits, a_.primal_steps)
-                                            : read_start_plan(a_.solve.start, loaded_.instance);
+                                            : read_valid_plan(a_.solve.start, loaded_.instance);
     note(options_.start ? fmt::format("begins with a plan of cost {}", options_.start->cost)
                         : "begins without a plan");
   }

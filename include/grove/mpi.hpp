@@ -21,6 +21,8 @@ namespace grove::mpi {
 /// the one that initialised MPI, with MPI_THREAD_FUNNELED or more. Rank 0 returns the solution, the
 /// others nothing. The time limit, the stop token and the functions of rank 0 count; any rank's
 /// memory limit ends the run. Nothing else may go on in the communicator meanwhile.
+/// The defaults of threads and memory are those of one process on a host: divide them by the ranks
+/// there, unless each is bound to cores of its own and has been granted memory of its own.
 ///
 /// Throws on all ranks what grove::solve() throws, if any of them is given what it refuses; and
 /// InvalidArgument, "/instance", if they are not given the same one, "/deterministic" if that is

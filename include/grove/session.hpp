@@ -60,13 +60,17 @@ class GROVE_API Session {
   /// "/blocked/<i>".
   void change(const Change& change);
 
+  /// The defaults of replan(), which are those of `grove replan`: the ones of Options, but a time
+  /// limit of 1 second, for robots are driving meanwhile.
+  static Options default_options();
+
   /// Solves what is left, from the old plan repaired. All keep to the old plan, or what is left of
   /// it, for `commit` steps, at least 0. (Options::start is not looked at.) A robot without a
   /// destination may end on any of its tasks that are left. If no plan is found that way, or none
   /// as good as the old plan, which ended on a visited task, that place stays its destination, and
   /// Solution::texts, "ends_of_old_plan", names the robot. Throws as solve() does,
   /// and InvalidArgument, "/commit", where a path is closed before the committed steps end.
-  Solution replan(const Options& options = {}, int commit = 0);
+  Solution replan(const Options& options = default_options(), int commit = 0);
 
  private:
   struct Impl;

@@ -24,21 +24,28 @@ struct Progress {
   std::optional<std::int64_t> cost = {};  ///< Of the best plan so far.
 };
 
-/// How solve() goes about it; the defaults ask for an optimal plan, however long that takes.
+/// Threads for all cores that this process may use, at most 1024: the default of Options::threads.
+GROVE_API int default_threads();
+/// 80 % of the memory of the machine, or of what a container or batch system grants, in bytes: the
+/// default of Options::memory_limit.
+GROVE_API std::size_t default_memory_limit();
+
+/// How solve() goes about it. The defaults are those of `grove solve`: a plan within 1 % of
+/// optimal, or the best plan of 180 seconds, on all cores.
 struct Options {
   /// How far from optimal a plan may be: its cost is to be at most 1 + omega times the lower bound.
   /// 0: optimal; infinity: any plan. In steps of 1e-9.
-  double omega = 0;
+  double omega = 0.01;
   /// Seconds, from 0. When it is over the best plan so far comes back, with the bound proven so
   /// far. None: no limit.
-  std::optional<double> time_limit = std::nullopt;
+  std::optional<double> time_limit = 180;
   /// Bytes that the process may hold. Near it the search forgets what can be found again, then
   /// gives up its worst nodes, whose bound still counts; if that does not help it ends like the
   /// time limit. None: no limit.
-  std::optional<std::size_t> memory_limit = std::nullopt;
+  std::optional<std::size_t> memory_limit = default_memory_limit();
   /// Ends the run like a limit; from any thread.
   std::stop_token stop = {};
-  int threads = 1;  ///< That search: from 1 to 1024.
+  int threads = default_threads();  ///< That search: from 1 to 1024.
   /// The same plan for any number of threads, limits aside.
   bool deterministic = false;
   std::uint64_t seed = 0;  ///< Of what is left to chance; any will do.

@@ -17,11 +17,7 @@ Instance warned(Read&& read) {
 }
 
 // Of what a file would say, as Python has it; numbers and arrays of numpy are lists.
-Instance made(const World& world, const py::object& agents, const py::object& tasks,
-              bool following) {
-  py::dict all;
-  all["agents"] = agents;
-  all["tasks"] = tasks;
+Instance of_dict(const World& world, const py::dict& all, bool following) {
   const py::object plain =
       py::module_::import("grove").attr("_plain");  // what json does not know
   const auto text = py::module_::import("json")
@@ -30,6 +26,14 @@ Instance made(const World& world, const py::object& agents, const py::object& ta
   return warned([&](auto* warnings) {
     return parse_instance(text, world, {.following = following}, warnings);
   });
+}
+
+Instance made(const World& world, const py::object& agents, const py::object& tasks,
+              bool following) {
+  py::dict all;
+  all["agents"] = agents;
+  all["tasks"] = tasks;
+  return of_dict(world, all, following);
 }
 
 py::object told(const Instance& instance, const char* key) {
@@ -64,6 +68,7 @@ void add_instance(py::module_& module) {
              write_instance(path, i);
            }, py::arg("path"), "Writes *.cts.json and its map or roadmap beside it.")
       .def("__repr__", &text_of);
+  module.def("_instance_of_dict", &of_dict);
   module.def(
       "read_instance",
       [](const std::filesystem::path& path, bool confine, std::optional<std::size_t> memory_limit) {

@@ -110,7 +110,16 @@ py::list work_of(const AgentPlan& agent) {
   return all;
 }
 
-OwnPlan from_paths(const Instance& instance, const std::vector<std::vector<Place>>& paths) {
+OwnPlan from_paths(const Instance& instance, const py::object& given) {
+  std::vector<std::vector<Place>> paths;
+  for (const py::object& path :
+       elements_of(given, "/paths", "a list of paths, one for each agent")) {
+    const std::string field = "/paths/" + std::to_string(paths.size());
+    std::vector<Place>& places = paths.emplace_back();
+    for (const py::object& place : elements_of(path, field, "a list of places, one for each time"))
+      places.push_back(
+          value_of<Place>(place, field + "/" + std::to_string(places.size()), kPlaceExpected));
+  }
   return {instance, std::make_shared<const Plan>(plan_from_paths(instance, paths))};
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <map>
 #include <vector>
 
 #include "python/binding/solving.h"
@@ -16,18 +15,32 @@ std::vector<Task> tasks_of(const Session& session, const py::object& tasks) {
   return module.attr("Instance")(now.world(), agents, tasks).cast<const Instance&>().tasks();
 }
 
-void change(Session& session, const py::object& new_tasks, std::vector<std::string> dropped,
-            std::vector<Place> blocked) {
-  session.change({.new_tasks = py::len(new_tasks) > 0 ? tasks_of(session, new_tasks)
-                                                      : std::vector<Task>{},
-                  .dropped_tasks = std::move(dropped),
-                  .blocked = std::move(blocked)});
+// The elements of a list, each as `expected`.
+template <class T>
+std::vector<T> values_of(const py::object& list, const std::string& field,
+                         const std::string& expected) {
+  std::vector<T> values;
+  for (const py::object& element : elements_of(list, field, "a list, each element " + expected))
+    values.push_back(value_of<T>(element, field + "/" + std::to_string(values.size()), expected));
+  return values;
 }
 
-void advance(Session& session, int steps, const std::map<std::string, int>& late) {
+void change(Session& session, const py::object& new_tasks, const py::object& dropped,
+            const py::object& blocked) {
+  Change change{
+      .new_tasks = {},
+      .dropped_tasks = values_of<std::string>(dropped, "/dropped_tasks", "the id of a task"),
+      .blocked = values_of<Place>(blocked, "/blocked", kPlaceExpected)};
+  if (py::len(new_tasks) > 0) change.new_tasks = tasks_of(session, new_tasks);
+  session.change(change);
+}
+
+void advance(Session& session, const py::object& steps, const py::dict& late) {
   std::vector<Late> all;
-  for (const auto& [agent, by] : late) all.push_back({agent, by});
-  session.advance(steps, all);
+  for (const auto& [agent, by] : late)
+    all.push_back({value_of<std::string>(agent, "/late", "ids of agents"),
+                   value_of<int>(by, "/late", "a whole number of steps for each agent")});
+  session.advance(value_of<int>(steps, "/steps", "a whole number"), all);
 }
 
 OwnSolution replan(Session& session, int commit, const py::dict& arguments) {

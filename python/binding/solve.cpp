@@ -21,12 +21,12 @@ std::shared_ptr<py::object> shared(const py::object& function) {
 }
 
 template <class T>
-T argument(const py::dict& arguments, const char* name) {
+T argument(const py::dict& arguments, const char* name, const char* expected) {
   try {
     return arguments[name].cast<T>();
   } catch (const py::cast_error&) {
-    const std::string found = py::repr(arguments[name]);
-    throw py::type_error(std::string(name) + ": found " + found + ", of another type than expected");
+    throw py::type_error(std::string(name) + ": found " + text_of_found(arguments[name]) +
+                         "; expected " + expected);
   }
 }
 
@@ -80,17 +80,24 @@ class Aside {
 }  // namespace
 
 Call::Call(const Instance& instance, const py::dict& arguments) : stop(arguments["stop"]) {
-  options.omega = argument<double>(arguments, "omega");
-  options.time_limit = argument<std::optional<double>>(arguments, "time_limit");
-  options.memory_limit = argument<std::optional<std::size_t>>(arguments, "memory_limit");
+  const auto is_set = [&](const char* name) {
+    return !py::isinstance<py::str>(arguments[name]) ||
+           arguments[name].cast<std::string>() != "auto";
+  };
+  options.omega = argument<double>(arguments, "omega", "a number");
+  options.time_limit = argument<std::optional<double>>(arguments, "time_limit", "seconds, or None");
+  if (is_set("memory_limit"))
+    options.memory_limit =
+        argument<std::optional<std::size_t>>(arguments, "memory_limit", "bytes, \"auto\" or None");
   options.stop = source.get_token();
-  options.threads = argument<int>(arguments, "threads");
-  options.deterministic = argument<bool>(arguments, "deterministic");
-  options.seed = argument<std::uint64_t>(arguments, "seed");
-  options.method = argument<std::string>(arguments, "method");
-  if (const auto start = argument<std::optional<OwnPlan>>(arguments, "start"))
+  if (is_set("threads"))
+    options.threads = argument<int>(arguments, "threads", "a whole number, or \"auto\"");
+  options.deterministic = argument<bool>(arguments, "deterministic", "True or False");
+  options.seed = argument<std::uint64_t>(arguments, "seed", "a whole number from 0");
+  options.method = argument<std::string>(arguments, "method", "the name of a method");
+  if (const auto start = argument<std::optional<OwnPlan>>(arguments, "start", "a Plan, or None"))
     options.start = *start->plan;
-  options.progress_interval = argument<double>(arguments, "progress_interval");
+  options.progress_interval = argument<double>(arguments, "progress_interval", "seconds");
   set_callbacks(options, instance, arguments);
 }
 
@@ -130,6 +137,16 @@ void add_solve(py::module_& module) {
         return "<grove.Progress: cost " + (p.cost ? std::to_string(*p.cost) : "-") +
                ", lower bound " + std::to_string(p.lower_bound) + ">";
       });
+  // The library's, for the signatures of Python's functions.
+  const Options defaults;
+  module.attr("_omega") = defaults.omega;
+  module.attr("_time_limit") = *defaults.time_limit;
+  module.attr("_replan_time_limit") = *Session::default_options().time_limit;
+  module.def("default_threads", &default_threads,
+             "Threads for all cores that this process may use.");
+  module.def("default_memory_limit", &default_memory_limit,
+             "80 % of the memory of the machine, or of what a container or batch system grants, in "
+             "bytes.");
   module.def("_solve", [](const Instance& instance, const py::dict& arguments) {
     Call call(instance, arguments);
     return OwnSolution::of(instance,

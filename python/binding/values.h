@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "grove/grove.hpp"
 
@@ -50,6 +51,43 @@ inline const char* name_of(Heading heading) {
   constexpr const char* kNames[] = {"north", "east", "south", "west"};
   return kNames[static_cast<int>(heading)];
 }
+
+// What was handed over, for messages: arrays by type and shape, all else as Python writes it, if
+// that is short.
+inline std::string text_of_found(const py::handle& value) {
+  constexpr std::size_t kLongest = 60;
+  if (py::hasattr(value, "dtype") && py::hasattr(value, "shape"))
+    return "an array of " + std::string(py::str(value.attr("dtype"))) + " of shape " +
+           std::string(py::str(value.attr("shape")));
+  const std::string text = py::repr(value);
+  if (text.size() <= kLongest) return text;
+  return "a " + std::string(py::str(py::type::of(value).attr("__name__")));
+}
+
+// Throws InvalidArgument, which names the argument and what is expected, in place of pybind's
+// words.
+template <class T>
+T value_of(const py::handle& value, const std::string& field, const std::string& expected) {
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    throw InvalidArgument(field, "found " + text_of_found(value) + "; expected " + expected);
+  }
+}
+
+// The elements of a list, an array or another iterable.
+inline std::vector<py::object> elements_of(const py::handle& value, const std::string& field,
+                                           const std::string& expected) {
+  if (!py::isinstance<py::iterable>(value) || py::isinstance<py::str>(value))
+    throw InvalidArgument(field, "found " + text_of_found(value) + "; expected " + expected);
+  std::vector<py::object> all;
+  for (const py::handle& element : value)
+    all.push_back(py::reinterpret_borrow<py::object>(element));
+  return all;
+}
+
+inline constexpr const char* kPlaceExpected =
+    "a cell (x, y), a vertex 'A', or a place on a road ('A', 'B', steps)";
 
 void add_world(py::module_& module);
 void add_instance(py::module_& module);

@@ -14,7 +14,8 @@ using Bools = py::array_t<bool, py::array::c_style>;
 // Lines of one text, or a list of them.
 World from_rows(const py::object& rows) {
   if (!py::isinstance<py::str>(rows))
-    return World::from_rows(rows.cast<std::vector<std::string>>());
+    return World::from_rows(value_of<std::vector<std::string>>(
+        rows, "/rows", "a text, or a list of texts, one for each row; World.grid() takes arrays"));
   const py::object lines = rows.attr("strip")("\n").attr("splitlines")();
   std::vector<std::string> stripped;
   for (const py::handle& line : lines)
@@ -22,28 +23,41 @@ World from_rows(const py::object& rows) {
   return World::from_rows(stripped);
 }
 
-World grid(const Bools& passable) {
+World grid(const py::object& given) {
+  constexpr const char* kExpected = "an array of bool of two dimensions, rows and columns";
+  const auto passable = value_of<Bools>(given, "/passable", kExpected);
   if (passable.ndim() != 2)
-    throw InvalidArgument("/passable", "expected an array of two dimensions, rows and columns");
+    throw InvalidArgument("/passable",
+                          "found " + text_of_found(passable) + "; expected " + kExpected);
   const bool* cells = passable.data();
   return World::grid(static_cast<int>(passable.shape(1)), static_cast<int>(passable.shape(0)),
                      std::vector<bool>(cells, cells + passable.size()));
 }
 
-World roadmap(const py::dict& vertices, const py::iterable& roads) {
+RoadmapEdge edge_of(const py::object& road, const std::string& field) {
+  constexpr const char* kExpected = "(from, to, steps) or (from, to, steps, one_way)";
+  const std::vector<py::object> parts = elements_of(road, field, kExpected);
+  if (parts.size() < 3 || parts.size() > 4)
+    throw InvalidArgument(field, "found " + text_of_found(road) + "; expected " + kExpected);
+  const auto part = [&](std::size_t k) { return field + "/" + std::to_string(k); };
+  return {value_of<std::string>(parts[0], part(0), "the id of a vertex"),
+          value_of<std::string>(parts[1], part(1), "the id of a vertex"),
+          value_of<int>(parts[2], part(2), "a whole number of steps"),
+          parts.size() == 4 && value_of<bool>(parts[3], part(3), "True or False")};
+}
+
+World roadmap(const py::object& vertices, const py::object& roads) {
   std::vector<RoadmapVertex> points;
-  for (const auto& [id, at] : vertices) {
-    const auto place = at.cast<std::pair<double, double>>();
-    points.push_back({id.cast<std::string>(), place.first, place.second});
+  const auto places = value_of<py::dict>(vertices, "/vertices", "a dict {'A': (x, y), ...}");
+  for (const auto& [id, at] : places) {
+    const auto name = value_of<std::string>(id, "/vertices", "texts as ids");
+    const auto place =
+        value_of<std::pair<double, double>>(at, "/vertices/" + name, "(x, y) in metres");
+    points.push_back({name, place.first, place.second});
   }
   std::vector<RoadmapEdge> edges;
-  for (const py::handle& road : roads) {
-    const auto parts = py::cast<py::sequence>(road);
-    if (parts.size() < 3 || parts.size() > 4)
-      throw InvalidArgument("/roads", "expected (from, to, steps) or (from, to, steps, one_way)");
-    edges.push_back({parts[0].cast<std::string>(), parts[1].cast<std::string>(),
-                     parts[2].cast<int>(), parts.size() == 4 && parts[3].cast<bool>()});
-  }
+  for (const py::object& road : elements_of(roads, "/roads", "a list of roads"))
+    edges.push_back(edge_of(road, "/roads/" + std::to_string(edges.size())));
   return World::roadmap(std::move(points), std::move(edges));
 }
 

@@ -11,7 +11,7 @@
 ...     agents=[{"id": "red", "start": (0, 0), "goal": (5, 2)},
 ...             {"id": "blue", "start": (5, 0), "goal": (0, 2)}],
 ...     tasks=[{"id": "press", "cell": (3, 1), "agents": ["red", "blue"]}])
->>> solution = grove.solve(instance)
+>>> solution = grove.solve(instance, threads=1)
 >>> solution
 <grove.Solution: optimal, cost 14, lower bound 14>
 >>> solution.plan.positions()[0, :4].tolist()       # of red: x and y at times 0, 1, 2, 3
@@ -24,6 +24,7 @@ InputError for files, InvalidArgument for values. See docs/python.md.
 from __future__ import annotations
 
 import html as _html
+import operator as _operator
 import os as _os
 
 from grove import _grove
@@ -38,6 +39,8 @@ from grove._grove import (
     Solution,
     World,
     __version__,
+    default_memory_limit,
+    default_threads,
     read_instance,
     read_plan,
     read_scenario,
@@ -45,9 +48,9 @@ from grove._grove import (
 
 __all__ = [
     "AgentPlan", "Error", "InputError", "Instance", "InvalidArgument", "Plan", "Progress", "Session",
-    "Solution", "View", "World", "__version__", "check", "data_frame", "instance_from_arrays",
-    "instance_from_dict", "picture", "read_instance", "read_plan", "read_scenario", "solve", "view",
-    "visits",
+    "Solution", "View", "World", "__version__", "check", "data_frame", "default_memory_limit",
+    "default_threads", "instance_from_arrays", "instance_from_dict", "picture", "read_instance",
+    "read_plan", "read_scenario", "solve", "view", "visits",
 ]
 
 
@@ -56,6 +59,39 @@ def _plain(value):
     if hasattr(value, "tolist"):
         return value.tolist()
     raise TypeError(f"{value!r} is a {type(value).__name__}; expected numbers, words, lists or dicts")
+
+
+def _invalid(field, value, expected):
+    shape = getattr(value, "shape", None)
+    found = f"an array of {value.dtype} of shape {shape}" if shape is not None else repr(value)
+    error = InvalidArgument(f"/{field}: found {found}; expected {expected}")
+    error.field = f"/{field}"
+    return error
+
+
+def _rows(field, value, expected):
+    """The elements of a list or an array."""
+    if isinstance(value, (str, bytes, dict)) or not hasattr(value, "__iter__"):
+        raise _invalid(field, value, expected)
+    try:
+        return list(value)
+    except TypeError:  # an array without dimensions
+        raise _invalid(field, value, expected) from None
+
+
+def _cells(field, value):
+    """Cells (x, y) as tuples of int, from a list or an array of them."""
+    rows = _rows(field, value, "a list or an array of cells (x, y)")
+    cells = []
+    for i, row in enumerate(rows):
+        expected = "a cell (x, y), two whole numbers"
+        parts = _rows(f"{field}/{i}", row, expected)
+        try:
+            x, y = (_operator.index(part) for part in parts)
+        except (TypeError, ValueError):
+            raise _invalid(f"{field}/{i}", row, expected) from None
+        cells.append((x, y))
+    return cells
 
 
 # --- instances ---
@@ -70,16 +106,12 @@ def instance_from_dict(data, folder=".", *, following=True):
     worlds = [data[key] for key in ("map", "roadmap") if key in data]
     if len(worlds) != 1:
         raise InvalidArgument("expected 'map' or 'roadmap', and not both")
-    unknown = set(rest) - {"agents", "tasks", "$schema"}
-    if unknown:
-        raise InvalidArgument(f"there is no key {sorted(unknown)[0]!r} of an instance; "
-                              "expected 'map' or 'roadmap', 'agents' and 'tasks'")
     world = worlds[0]
     if isinstance(world, (str, _os.PathLike)):
         world = World.read(_os.path.join(folder, world))
     elif not isinstance(world, World):
         world = World(world)
-    return Instance(world, rest.get("agents", []), rest.get("tasks", []), following=following)
+    return _grove._instance_of_dict(world, {"tasks": [], **rest}, following)
 
 
 def instance_from_arrays(world, starts, goals=None, tasks=None, *, following=True):
@@ -92,6 +124,11 @@ def instance_from_arrays(world, starts, goals=None, tasks=None, *, following=Tru
     >>> instance_from_arrays(World("....\\n...."), starts=[(0, 0), (3, 0)], tasks=[[(3, 1)], [(0, 1)]])
     <grove.Instance: 2 agents, 2 tasks>
     """
+    starts = _cells("starts", starts)
+    goals = None if goals is None else _cells("goals", goals)
+    if tasks is not None:
+        tasks = [_cells(f"tasks/{i}", cells)
+                 for i, cells in enumerate(_rows("tasks", tasks, "a list of cells for each agent"))]
     count = len(starts)
     for name, rows in (("goals", goals), ("tasks", tasks)):
         if rows is not None and len(rows) != count:
@@ -102,7 +139,7 @@ def instance_from_arrays(world, starts, goals=None, tasks=None, *, following=Tru
     visitors = {}
     for agent, cells in zip(agents, tasks if tasks is not None else []):
         for cell in cells:
-            ids = visitors.setdefault((int(cell[0]), int(cell[1])), [])
+            ids = visitors.setdefault(cell, [])
             if agent["id"] not in ids:
                 ids.append(agent["id"])
     all_tasks = [{"id": f"t{i}", "cell": cell, "agents": ids}
@@ -112,14 +149,16 @@ def instance_from_arrays(world, starts, goals=None, tasks=None, *, following=Tru
 
 # --- solving ---
 
-def solve(instance, *, omega=0.0, time_limit=None, memory_limit=None, threads=1, deterministic=False,
-          seed=0, method="auto", start=None, progress=None, incumbent=None, progress_interval=0.1,
-          stop=None):
+def solve(instance, *, omega=_grove._omega, time_limit=_grove._time_limit, memory_limit="auto",
+          threads="auto", deterministic=False, seed=0, method="auto", start=None, progress=None,
+          incumbent=None, progress_interval=0.1, stop=None):
     """Finds a plan, and proves how good it is.
 
     omega: how far from the best a plan may be: at most 1 + omega times the lower bound; 0: the best.
-    time_limit, memory_limit: seconds, and bytes of this process; the best plan so far comes back.
-    threads, deterministic, seed: the same plan for any number of threads, if deterministic.
+    time_limit: seconds, then the best plan so far comes back; None: no limit.
+    memory_limit: bytes of this process; "auto": default_memory_limit(); None: no limit.
+    threads: that search; "auto": default_threads().
+    deterministic, seed: the same plan for any number of threads, if deterministic.
     method: "auto", or a published method to compare with (`grove solve --help` lists them).
     start: a valid plan to begin with.
     progress: called with a Progress every `progress_interval` seconds.
@@ -173,10 +212,13 @@ class Session:
         """What else is to be done, what no more (ids), and what is closed (cells, vertices)."""
         self._session.change(list(new_tasks), list(dropped_tasks), list(blocked))
 
-    def replan(self, *, commit=0, omega=0.0, time_limit=None, memory_limit=None, threads=1,
-               deterministic=False, seed=0, method="auto", progress=None, incumbent=None,
-               progress_interval=0.1, stop=None):
-        """Solves what is left, from the old plan repaired, to which all keep for `commit` steps."""
+    def replan(self, *, commit=0, omega=_grove._omega, time_limit=_grove._replan_time_limit,
+               memory_limit="auto", threads="auto", deterministic=False, seed=0, method="auto",
+               progress=None, incumbent=None, progress_interval=0.1, stop=None):
+        """Solves what is left, from the old plan repaired, to which all keep for `commit` steps.
+
+        The other arguments are those of solve().
+        """
         return self._session.replan(commit, {
             "omega": omega, "time_limit": time_limit, "memory_limit": memory_limit,
             "threads": threads, "deterministic": deterministic, "seed": seed, "method": method,

@@ -2,7 +2,7 @@
 import os
 import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Union
+from typing import Any, Literal, Union
 
 import numpy
 import numpy.typing
@@ -10,9 +10,9 @@ import pandas  # type: ignore
 
 __all__ = [
     "AgentPlan", "Error", "InputError", "Instance", "InvalidArgument", "Plan", "Progress", "Session",
-    "Solution", "View", "World", "__version__", "check", "data_frame", "instance_from_arrays",
-    "instance_from_dict", "picture", "read_instance", "read_plan", "read_scenario", "solve", "view",
-    "visits",
+    "Solution", "View", "World", "__version__", "check", "data_frame", "default_memory_limit",
+    "default_threads", "instance_from_arrays", "instance_from_dict", "picture", "read_instance",
+    "read_plan", "read_scenario", "solve", "view", "visits",
 ]
 
 __version__: str
@@ -133,8 +133,11 @@ def instance_from_dict(data: Mapping[str, Any], folder: _Path = ".", *,
                        following: bool = True) -> Instance: ...
 def instance_from_arrays(world: World, starts: Any, goals: Any = None, tasks: Any = None, *,
                          following: bool = True) -> Instance: ...
-def solve(instance: Instance, *, omega: float = 0.0, time_limit: float | None = None,
-          memory_limit: int | None = None, threads: int = 1, deterministic: bool = False,
+def default_threads() -> int: ...
+def default_memory_limit() -> int: ...
+def solve(instance: Instance, *, omega: float = 0.01, time_limit: float | None = 180.0,
+          memory_limit: int | Literal["auto"] | None = "auto",
+          threads: int | Literal["auto"] = "auto", deterministic: bool = False,
           seed: int = 0, method: str = "auto", start: Plan | None = None,
           progress: Callable[[Progress], object] | None = None,
           incumbent: Callable[[Plan, Progress], object] | None = None,
@@ -150,8 +153,9 @@ class Session:
     def advance(self, steps: int, late: Mapping[str, int] | None = None) -> None: ...
     def change(self, new_tasks: Iterable[Mapping[str, Any]] = (), dropped_tasks: Iterable[str] = (),
                blocked: Iterable[_Place] = ()) -> None: ...
-    def replan(self, *, commit: int = 0, omega: float = 0.0, time_limit: float | None = None,
-               memory_limit: int | None = None, threads: int = 1, deterministic: bool = False,
+    def replan(self, *, commit: int = 0, omega: float = 0.01, time_limit: float | None = 1.0,
+               memory_limit: int | Literal["auto"] | None = "auto",
+               threads: int | Literal["auto"] = "auto", deterministic: bool = False,
                seed: int = 0, method: str = "auto",
                progress: Callable[[Progress], object] | None = None,
                incumbent: Callable[[Plan, Progress], object] | None = None,

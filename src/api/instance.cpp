@@ -179,12 +179,11 @@ Instance parse_instance(std::string_view text, const std::filesystem::path& fold
 }
 
 Instance parse_instance(std::string_view text, const World& world, Rules rules,
-                        std::vector<std::string>* warnings) {
+                        std::vector<std::string>* /*warnings*/) {
   return translated([&] {
     detail::InstanceBuilder builder(Access::map(world));
     if (!rules.following) builder.forbid_following();
-    return Access::told(
-        detail::parse_instance_on(std::move(builder), text, "the instance", warnings));
+    return Access::told(detail::parse_instance_on(std::move(builder), text, "the instance"));
   });
 }
 

@@ -85,6 +85,12 @@ void Session::change(const Change& change) {
   translated([&] { session.change(made); });
 }
 
+Options Session::default_options() {
+  Options options;
+  options.time_limit = 1;
+  return options;
+}
+
 Solution Session::replan(const Options& options, int commit) {
   detail::Session& session = impl_->session;
   if (commit < 0)

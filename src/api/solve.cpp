@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "access.h"
+#include "grove/detail/model/resources.h"
 #include "run.h"
 
 namespace grove {
@@ -32,6 +35,17 @@ void require_numbers(const Options& options) {
 }
 
 }  // namespace
+
+int default_threads() {
+  return std::min(detail::usable_cores(), kMostThreads);
+}
+
+// (In units of 10 MB, as the command line tells it.)
+std::size_t default_memory_limit() {
+  constexpr std::uint64_t kUnit = 10'000'000;
+  static const std::uint64_t granted = detail::usable_memory();
+  return static_cast<std::size_t>(std::max<std::uint64_t>(1, granted / 10 * 8 / kUnit) * kUnit);
+}
 
 detail::SolveOptions search_options_of(const detail::Instance& instance, const Options& options) {
   require_numbers(options);

@@ -22,8 +22,7 @@ NewTask read_task(const JsonValue& json, const Instance& instance) {
 
 }  // namespace
 
-std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const Instance& instance,
-                                     std::vector<std::string>* /*warnings*/) {
+std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const Instance& instance) {
   const JsonDocument document(path);
   const auto list = document.root().find("tasks");
   require_known_keys(document.root(), list ? new_tasks_keys() : new_task_keys());

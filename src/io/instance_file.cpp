@@ -272,14 +272,14 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
                                        ? file_named_by(*roadmap, folder, "a roadmap", rules)
                                        : file_named_by(root.member("map"), folder, "a map", rules);
   require_map_not_roadmap(roadmap ? *roadmap : root.member("map"), map_path, roadmap.has_value());
-  Map map = roadmap ? Map(read_roadmap(map_path, nullptr, rules))
+  Map map = roadmap ? Map(read_roadmap(map_path, rules))
                     : Map(read_map(map_path, &warnings, rules));
   Instance instance = read_robots(InstanceBuilder(std::move(map)), root, name, rules);
   return {std::move(instance), std::move(map_path), std::move(warnings)};
 }
 
-Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const std::string& name,
-                           std::vector<std::string>* /*warnings*/) {
+Instance parse_instance_on(InstanceBuilder builder, std::string_view text,
+                           const std::string& name) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   require_known_keys(root, robot_keys());

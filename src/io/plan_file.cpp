@@ -182,13 +182,11 @@ void write_solution(const std::filesystem::path& path, const Instance& instance,
   write_file_atomically(path, solution_text(instance, solution), outlives);
 }
 
-Solution read_solution(const std::filesystem::path& path, const Instance& instance,
-                       std::vector<std::string>* /*warnings*/) {
+Solution read_solution(const std::filesystem::path& path, const Instance& instance) {
   return parse_solution(read_text(path), path.string(), instance);
 }
 
-Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance,
-                        std::vector<std::string>* /*warnings*/) {
+Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   require_known_keys(root, plan_keys());

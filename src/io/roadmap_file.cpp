@@ -83,13 +83,11 @@ OrderedJson road_json(const Roadmap& roadmap, const Road& road) {
 
 }  // namespace
 
-Roadmap read_roadmap(const std::filesystem::path& path, std::vector<std::string>* /*warnings*/,
-                     const InputRules& rules) {
-  return parse_roadmap(read_text(path), path.string(), nullptr, rules);
+Roadmap read_roadmap(const std::filesystem::path& path, const InputRules& rules) {
+  return parse_roadmap(read_text(path), path.string(), rules);
 }
 
-Roadmap parse_roadmap(std::string_view text, const std::string& name,
-                      std::vector<std::string>* /*warnings*/, const InputRules& rules) {
+Roadmap parse_roadmap(std::string_view text, const std::string& name, const InputRules& rules) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   require_known_keys(root, roadmap_keys());

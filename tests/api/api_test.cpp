@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <stop_token>
@@ -228,6 +229,10 @@ TEST(Api, WhatIsWrongSaysWhere) {
               World::roadmap({{"A", 0, 0}}, {{.from = "A", .to = "B"}});
             }),
             "/edges/0/to");
+  EXPECT_EQ(field_of([] {
+              World::roadmap({{"A", 0, 0}}, {{.from = "A", .to = "A", .steps = 3}});
+            }),
+            "/edges/0");
   const auto asked = [](Options options) { return field_of([&] { solve(small(), options); }); };
   EXPECT_EQ(asked({.omega = -1}), "/omega");
   EXPECT_EQ(asked({.omega = std::numeric_limits<double>::quiet_NaN()}), "/omega");
@@ -240,6 +245,41 @@ TEST(Api, WhatIsWrongSaysWhere) {
   EXPECT_THROW(parse_instance("{"), InputError);
   EXPECT_THROW(World::read("none.map"), InputError);
   EXPECT_THROW(parse_plan("[]", small()), InputError);
+}
+
+TEST(Api, TextsWithUnknownKeysAreRefused) {
+  const auto said = [](const std::function<void()>& act) -> std::string {
+    try {
+      act();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const World world = World::from_rows({"...."});
+  const std::string agent = R"({"id": "a", "start": [0, 0], "gaol": [3, 0]})";
+  EXPECT_EQ(
+      said([&] { parse_instance(R"({"agents": [)" + agent + R"(], "tasks": []})", world); }),
+      "the instance: /agents/0: unknown key 'gaol'; expected 'goal', if that is what it means");
+  std::string plan = plan_text(small(), solve(small()));
+  EXPECT_EQ(said([&] { parse_plan(plan, small()); }), "accepted");
+  plan.insert(1, R"("priority": 1, )");
+  EXPECT_EQ(
+      said([&] { parse_plan(plan, small()); }),
+      "the plan: /: unknown key 'priority'; Grove does not model priorities; expected no such "
+      "key");
+}
+
+TEST(Api, DefaultsAreLimitedAndForAllCores) {
+  const Options options;
+  EXPECT_EQ(options.omega, 0.01);
+  EXPECT_EQ(options.time_limit, 180);
+  EXPECT_EQ(options.threads, default_threads());
+  EXPECT_GE(options.threads, 1);
+  EXPECT_EQ(options.memory_limit, default_memory_limit());
+  EXPECT_GT(*options.memory_limit, 0U);
+  EXPECT_EQ(Session::default_options().time_limit, 1);
+  EXPECT_EQ(Session::default_options().omega, options.omega);
 }
 
 TEST(Api, TellsHowItGoes) {

@@ -70,7 +70,7 @@ TEST_F(InputRulesTest, MemoryIsRefusedBeforeItIsTaken) {
   constexpr std::string_view kRoads =
       R"({"vertices": [{"id": "A", "at": [0, 0]}, {"id": "B", "at": [1, 0]}],
     "edges": [{"from": "A", "to": "B", "steps": 67000000}]})";
-  EXPECT_THAT(refusal([&] { parse_roadmap(kRoads, "r.json", nullptr, kLittle); }),
+  EXPECT_THAT(refusal([&] { parse_roadmap(kRoads, "r.json", kLittle); }),
               HasSubstr("r.json: /edges/0: 67000001 places of the roads up to this one need about "
                         "8.6 GB of memory; expected at most 0.1 GB, the memory limit"));
   const RoadNetwork network{"n", {{"A", {}}, {"B", {}}}, {{0, 1, false, 67e6, {}, "line 1"}}};
@@ -78,10 +78,10 @@ TEST_F(InputRulesTest, MemoryIsRefusedBeforeItIsTaken) {
               HasSubstr("n: line 1: 67000001 places"));
   const std::string map =
       directory_.write("large.map", "type octile\nheight 8000\nwidth 8000\nmap\n");
-  EXPECT_THAT(refusal([&] { read_map(map, nullptr, kLittle); }), HasSubstr("64000000 cells need"));
+  EXPECT_THAT(refusal([&] { read_map(map, kLittle); }), HasSubstr("64000000 cells need"));
   const std::string yaml =
       directory_.write("i.yaml", "map: {dimensions: [4000, 4000], obstacles: []}\n");
-  EXPECT_THAT(refusal([&] { read_libmrp_instance(yaml, nullptr, kLittle); }),
+  EXPECT_THAT(refusal([&] { read_libmrp_instance(yaml, kLittle); }),
               HasSubstr("16000000 cells need"));
 }
 
@@ -110,10 +110,10 @@ TEST_F(InputRulesTest, WhatDoesNotBeginAsAMapIsNotQuoted) {
     directory_.write("m.map", text);
     EXPECT_THAT(refused(R"("agents": [], "tasks": [])"), Not(HasSubstr("secret"))) << text;
   }
-  EXPECT_THAT(refusal([] { parse_roadmap("\"secret\"", "r", nullptr); }), Not(HasSubstr("secret")));
-  EXPECT_EQ(refusal([] { parse_roadmap(R"({"secret": {"edges": 1}})", "r", nullptr); }),
+  EXPECT_THAT(refusal([] { parse_roadmap("\"secret\"", "r"); }), Not(HasSubstr("secret")));
+  EXPECT_EQ(refusal([] { parse_roadmap(R"({"secret": {"edges": 1}})", "r"); }),
             "r: /: has none of the keys vertices, edges; expected a roadmap");
-  EXPECT_THAT(refusal([] { parse_roadmap(R"({"nodes": []})", "r", nullptr); }),
+  EXPECT_THAT(refusal([] { parse_roadmap(R"({"nodes": []})", "r"); }),
               HasSubstr("unknown key 'nodes'; expected 'vertices'"));
 }
 

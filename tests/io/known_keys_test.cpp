@@ -56,11 +56,10 @@ class KnownKeys : public ::testing::Test {
         return parse_instance(with(kInstance, -1, ""), "i", directory_.path()).instance;
       };
       if (kind == "instance") parse_instance(text, "f", directory_.path());
-      if (kind == "robots")
-        parse_instance_on(InstanceBuilder(instance().map()), text, "f", nullptr);
+      if (kind == "robots") parse_instance_on(InstanceBuilder(instance().map()), text, "f");
       if (kind == "roadmap") parse_roadmap(text, "f");
       if (kind == "plan") parse_solution(text, "f", instance());
-      if (kind == "tasks") read_new_tasks(directory_.write("f", text), instance(), nullptr);
+      if (kind == "tasks") read_new_tasks(directory_.write("f", text), instance());
       if (kind == "solver") parse_solver(text, "f");
     });
   }

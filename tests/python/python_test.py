@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: MIT
 """The Python module, as its users use it.
 
-    python_test.py SOURCE_DIR PACKAGE_DIR
+    python_test.py SOURCE_DIR PACKAGE_DIR [GROVE]
 
 Exit code 77: a package that only tests need is not there.
 """
 import contextlib
 import doctest
 import importlib.util
+import inspect
 import json
 import os
 import re
@@ -21,6 +22,7 @@ import unittest
 from pathlib import Path
 
 SOURCE, PACKAGE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+GROVE = Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else None
 sys.path.insert(0, str(PACKAGE))
 import grove  # noqa: E402
 
@@ -261,7 +263,16 @@ class Errors(unittest.TestCase):
             (lambda: grove.World(["..", "."]), grove.InvalidArgument, "row"),
             (lambda: grove.read_instance("nowhere.cts.json"), grove.InputError, "nowhere.cts.json"),
             (lambda: grove.instance_from_dict({"agents": []}), grove.InvalidArgument, "map"),
-            (lambda: grove.instance_from_dict({"map": ROWS, "agent": []}), grove.InvalidArgument, "'agent'"),
+            (lambda: grove.instance_from_dict({"map": ROWS, "agent": [robot]}), grove.InputError,
+             "unknown key 'agent'; expected 'agents'"),
+            (lambda: grove.instance_from_dict({"map": ROWS, "agents": [robot], "objective": "makespan"}), grove.InputError,
+             "Grove does not model objectives"),
+            (lambda: grove.Instance(world, [{**robot, "gaol": (4, 2)}]), grove.InputError, "/agents/0: unknown key 'gaol'"),
+            (lambda: grove.Instance(world, [robot], [{"id": "t", "cell": (0, 0), "agents": ["r"], "dur": 1}]), grove.InputError,
+             "/tasks/0: unknown key 'dur'; expected 'duration'"),
+            (lambda: grove.Session(small()).change(new_tasks=[{"id": "t", "cell": (0, 0), "agents": ["red"], "deadline": 1}]),
+             grove.InputError, "Grove does not model deadlines"),
+            (lambda: grove.Instance(world, [{**robot, "start": (0, float("nan"))}]), grove.InputError, "this is no number in JSON"),
             (lambda: grove.instance_from_arrays(world, [(0, 0)], []), grove.InvalidArgument, "goals"),
             (lambda: grove.Plan(small(), [[(0, 0)], [(4, 0)]]), grove.InvalidArgument, "tasks take time"),
             (lambda: grove.picture(small(), "x.bmp"), grove.InvalidArgument, ".svg"),
@@ -273,10 +284,90 @@ class Errors(unittest.TestCase):
                 act()
             self.assertIn(part, str(caught.exception))
 
+    def test_remarks_are_free(self):
+        data = {"map": ROWS, "_by": "me", "$schema": "instance.schema.json",
+                "agents": [{"id": "r", "start": (0, 0), "goal": (4, 2), "_battery": {"full": True}}]}
+        self.assertEqual(len(grove.instance_from_dict(data).agents), 1)
+
+    def test_wrong_arrays(self):
+        import numpy as np
+
+        world = grove.World(ROWS)
+        free = small()
+        arrays = grove.instance_from_arrays
+        plain = arrays(world, [(0, 0)], [(4, 2)])
+        for act, field, parts in (
+                (lambda: arrays(world, 5), "/starts", ["found 5", "a list or an array of cells (x, y)"]),
+                (lambda: arrays(world, [0, 0]), "/starts/0", ["found 0", "a cell (x, y), two whole numbers"]),
+                (lambda: arrays(world, np.zeros((2, 3), int)), "/starts/0", ["an array of int64 of shape (3,)", "two whole numbers"]),
+                (lambda: arrays(world, np.zeros((2, 2))), "/starts/0", ["float64", "two whole numbers"]),
+                (lambda: arrays(world, np.array(1)), "/starts", ["of shape ()"]),
+                (lambda: arrays(world, [(0, 0)], [(0.5, 1)]), "/goals/0", ["found (0.5, 1)", "two whole numbers"]),
+                (lambda: arrays(world, [(0, 0)], tasks=[(3, 1)]), "/tasks/0/0", ["found 3", "a cell (x, y)"]),
+                (lambda: arrays(world, [(0, 0)], tasks=3), "/tasks", ["found 3", "a list of cells for each agent"]),
+                (lambda: grove.World.grid(np.zeros((2, 2))), "/passable", ["float64", "array of bool of two dimensions"]),
+                (lambda: grove.World.grid(np.zeros(4, bool)), "/passable", ["bool of shape (4,)", "two dimensions"]),
+                (lambda: grove.World.grid([[True], [True, False]]), "/passable", ["array of bool of two dimensions"]),
+                (lambda: grove.World(np.zeros((2, 2), bool)), "/rows", ["array of bool", "World.grid() takes arrays"]),
+                (lambda: grove.World(3), "/rows", ["found 3", "one for each row"]),
+                (lambda: grove.World.roadmap({"A": 3}, []), "/vertices/A", ["found 3", "(x, y) in metres"]),
+                (lambda: grove.World.roadmap([], []), "/vertices", ["found []", "a dict {'A': (x, y), ...}"]),
+                (lambda: grove.World.roadmap({"A": (0, 0), "B": (1, 0)}, [("A", "B")]), "/roads/0", ["(from, to, steps)"]),
+                (lambda: grove.World.roadmap({"A": (0, 0), "B": (1, 0)}, [("A", "B", 1.5)]), "/roads/0/2", ["found 1.5", "steps"]),
+                (lambda: grove.World.roadmap({"A": (0, 0)}, [("A", "A", 1)]), "/edges/0", ["the same vertex"]),
+                (lambda: grove.Plan(plain, 3), "/paths", ["found 3", "a list of paths, one for each agent"]),
+                (lambda: grove.Plan(plain, [3]), "/paths/0", ["found 3", "a list of places"]),
+                (lambda: grove.Plan(plain, [[(0, 0), (1, 2, 3, 4, 5)]]), "/paths/0/1", ["found (1, 2, 3, 4, 5)", "a cell (x, y)"]),
+                (lambda: grove.Plan(plain, np.zeros((1, 4, 3))), "/paths/0/0", ["a cell (x, y)"]),
+                (lambda: grove.Session(free).change(blocked=[3]), "/blocked/0", ["found 3", "a cell (x, y)"]),
+                (lambda: grove.Session(free).change(dropped_tasks=[3]), "/dropped_tasks/0", ["found 3", "the id of a task"]),
+                (lambda: grove.Session(free).advance("x"), "/steps", ["found 'x'", "a whole number"])):
+            with self.subTest(field=field, parts=parts):
+                with self.assertRaises(grove.InvalidArgument) as caught:
+                    act()
+                self.assertEqual(caught.exception.field, field)
+                for part in parts:
+                    self.assertIn(part, str(caught.exception))
+                self.assertNotIn("incompatible", str(caught.exception))
+
     def test_fields(self):
         with self.assertRaises(grove.InvalidArgument) as caught:
             grove.solve(small(), time_limit=-1)
         self.assertEqual(caught.exception.field, "/time_limit")
+
+
+class Defaults(unittest.TestCase):
+    """Those of the library are those of Python and of the programs."""
+
+    @staticmethod
+    def of_python(function):
+        found = {name: parameter.default for name, parameter in inspect.signature(function).parameters.items()}
+        auto = {"threads": grove.default_threads, "memory_limit": grove.default_memory_limit}
+        return {name: auto[name]() if name in auto and value == "auto" else value for name, value in found.items()}
+
+    @staticmethod
+    def of_program(command, option):
+        text = subprocess.run([GROVE, command, "--help"], capture_output=True, text=True, check=True, timeout=60).stdout
+        return re.search(rf"{option} [^\[]*\[(.*?)\]", text)[1]
+
+    def test_solve(self):
+        found = self.of_python(grove.solve)
+        self.assertEqual((found["omega"], found["time_limit"]), (0.01, 180))
+        self.assertEqual(found["threads"], len(os.sched_getaffinity(0)))
+        physical = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+        self.assertTrue(0 < found["memory_limit"] <= 0.8 * physical)
+        solution = grove.solve(small())
+        self.assertEqual(solution.omega, found["omega"])
+
+    @unittest.skipUnless(GROVE, "grove is not built")
+    def test_programs(self):
+        for command, function in (("solve", grove.solve), ("replan", grove.Session.replan)):
+            found = self.of_python(function)
+            for name in ("omega", "time_limit", "threads", "seed", "method"):
+                told = self.of_program(command, "--" + name.replace("_", "-"))
+                self.assertEqual(told if name == "method" else float(told), found[name], (command, name))
+            gigabytes = float(self.of_program(command, "--memory-limit"))
+            self.assertAlmostEqual(gigabytes, found["memory_limit"] / 1e9, places=6)
 
 
 class Looking(unittest.TestCase):

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "tools/bench/bench_run.h"
+#include "tools/solve/solve_arguments.h"
 
 namespace grove::detail {
 
 // What holds for runs that do not say otherwise.
 struct RunDefaults {
-  double time_limit_s = 180;
+  double time_limit_s = *kDefaults.time_limit;
   std::optional<double> memory_limit_gb = {};  // none: by the machine
   std::int64_t seed = 0;
 };

@@ -64,12 +64,21 @@ void print_violations(const std::string& file, const std::vector<Violation>& vio
     say_on_stderr(fmt::format("{}: stopped after {} violations", one_line(file), kMostViolations));
 }
 
+LoadedInstance load_before_plan(const InstanceArguments& instance) {
+  try {
+    return instance.load();
+  } catch (const WrongFileKind& error) {
+    throw InputError(instance.name(), "",
+                     fmt::format("found {}; expected an instance, and its plan after it: 'grove "
+                                 "check INSTANCE PLAN'",
+                                 error.found()));
+  }
+}
+
 void run(const CheckArguments& arguments) {
-  const LoadedInstance loaded = arguments.instance.load();
-  std::vector<std::string> warnings;
+  const LoadedInstance loaded = load_before_plan(arguments.instance);
   const std::string plan = arguments.plan == "-" ? "/dev/stdin" : arguments.plan;
-  const ClaimedPlan claimed = read_plan_of_any_tool(plan, loaded.instance, &warnings);
-  print_warnings(warnings);
+  const ClaimedPlan claimed = read_plan_of_any_tool(plan, loaded.instance);
   const auto violations = check(loaded.instance, claimed.solution, kMostViolations);
   if (violations.empty()) return print_verdict(claimed);
   print_violations(plan, violations);

@@ -4,39 +4,16 @@
 #include <fmt/format.h>
 #include <sched.h>
 #include <sys/utsname.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <thread>
 
-#include "tools/common/memory_granted.h"
+#include "grove/detail/model/resources.h"
 
 namespace grove::detail {
 
-namespace {
-
-double physical_memory_gb() {
-  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e9;
-}
-
-}  // namespace
-
 double usable_memory_gb() {
-  const auto granted = memory_granted();
-  return std::min(physical_memory_gb(), granted ? static_cast<double>(*granted) / 1e9 : HUGE_VAL);
-}
-
-double default_memory_gb() {
-  return std::floor(80 * usable_memory_gb()) / 100;
-}
-
-int usable_cores() {
-  cpu_set_t cores;
-  if (::sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;
-  return std::max(1, CPU_COUNT(&cores));
+  return static_cast<double>(usable_memory()) / 1e9;
 }
 
 std::string usable_cores_text() {
@@ -52,10 +29,10 @@ std::string machine_text() {
   utsname name{};
   ::uname(&name);
   const double usable = usable_memory_gb();
-  return fmt::format(
-      "{} {} {}, {} cores, {:.1f} GB{}", name.nodename, name.sysname, name.machine,
-      std::thread::hardware_concurrency(), physical_memory_gb(),
-      usable < physical_memory_gb() ? fmt::format(", {:.1f} GB of them granted", usable) : "");
+  const double physical = static_cast<double>(physical_memory()) / 1e9;
+  return fmt::format("{} {} {}, {} cores, {:.1f} GB{}", name.nodename, name.sysname, name.machine,
+                     std::thread::hardware_concurrency(), physical,
+                     usable < physical ? fmt::format(", {:.1f} GB of them granted", usable) : "");
 }
 
 std::string processor_text() {

@@ -4,33 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include "grove/detail/io/spelling.h"
 
 namespace grove::detail {
 namespace {
 
 using Words = std::vector<std::string>;
-
-constexpr std::size_t kMostTypos = 2;
-constexpr std::size_t kShortest = 4;  // of what resembles only few others
-
-// Levenshtein's distance: letters to add, drop or change.
-std::size_t distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t changed = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row.back();
-}
 
 Words commands_of(const CLI::App& app) {
   Words names;
@@ -57,11 +39,8 @@ std::string unknown_text(const CLI::App& command) {
 }  // namespace
 
 std::string suggestion(const std::string& word, const Words& known) {
-  if (word.size() < kShortest) return {};
-  const auto typos = [&](const std::string& name) { return distance(word, name); };
-  const auto nearest = std::ranges::min_element(known, {}, typos);
-  if (nearest == known.end() || typos(*nearest) > kMostTypos) return {};
-  return fmt::format("; did you mean '{}'?", *nearest);
+  const auto nearest = nearest_word(word, {known.begin(), known.end()});
+  return nearest ? fmt::format("; did you mean '{}'?", *nearest) : "";
 }
 
 std::string parse_error_text(const CLI::App& command, const CLI::ParseError& error) {
@@ -71,6 +50,29 @@ std::string parse_error_text(const CLI::App& command, const CLI::ParseError& err
                              command.get_require_subcommand_min() > 0;
   if (!wants_command) return error.what();  // CLI11 would only say that one is required
   return unknown_command_text(command, command.remaining().front());
+}
+
+std::string misplaced_command_text(const CLI::App& program, const Words& words) {
+  if (!words.empty() && words.front() == "help") return {};
+  const CLI::App* command = &program;
+  std::string name = program.get_name();
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Words commands = commands_of(*command);
+    const auto names_one = [&](const std::string& word) {
+      return std::ranges::find(commands, word) != commands.end();
+    };
+    const auto named =
+        std::find_if(words.begin() + static_cast<std::ptrdiff_t>(i), words.end(), names_one);
+    if (named == words.end()) return {};
+    if (named != words.begin() + static_cast<std::ptrdiff_t>(i))
+      return fmt::format(
+          "found '{}' before the command; expected '{} {} ...', options and files "
+          "after it",
+          words[i], name, *named);
+    name += " " + words[i];
+    command = command->get_subcommand(words[i]);
+  }
+  return {};
 }
 
 std::string unknown_command_text(const CLI::App& command, const std::string& word) {

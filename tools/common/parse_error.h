@@ -16,6 +16,10 @@ std::string parse_error_text(const CLI::App& command, const CLI::ParseError& err
 // "; did you mean 'KNOWN'?", of the known word that resembles this one; empty if none does.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
+// That the words of a command line name a command, but not first: "my.cts.json solve"; empty if
+// they do not.
+std::string misplaced_command_text(const CLI::App& program, const std::vector<std::string>& words);
+
 // That `command` has no such subcommand, and which one resembles it.
 std::string unknown_command_text(const CLI::App& command, const std::string& word);
 

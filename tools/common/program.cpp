@@ -38,7 +38,9 @@ std::string full_name(const CLI::App& command) {
   return parent ? full_name(*parent) + " " + command.get_name() : command.get_name();
 }
 
-std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error, const Words& words) {
+  if (const std::string text = misplaced_command_text(app, words); !text.empty())
+    return fmt::format("{} (see '{} --help')", text, app.get_name());
   const CLI::App& command = reached_command(app);
   return fmt::format("{} (see '{} --help')", parse_error_text(command, error), full_name(command));
 }
@@ -124,7 +126,7 @@ int run_program(CLI::App& app, int argc, char** argv, bool speaks,
     if (speaks) app.exit(help_or_version);
     return flush_output(app);
   } catch (const CLI::ParseError& error) {
-    return say(usage_text(app, error));
+    return say(usage_text(app, error, Words(argv + 1, argv + argc)));
   } catch (const InputError& error) {
     return say(error.what());
   } catch (const CommandFailed& failure) {

@@ -78,9 +78,7 @@ void write_plan_as(const ConvertArguments& arguments, const LoadedInstance& load
 void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to) {
   const LoadedInstance loaded = load(arguments, from);
   print_warnings(loaded.warnings);
-  std::vector<std::string> warnings;
-  const Solution solution = read_solution(arguments.plan, loaded.instance, &warnings);
-  print_warnings(warnings);
+  const Solution solution = read_solution(arguments.plan, loaded.instance);
   const auto violations = check(loaded.instance, solution, 1);
   if (!violations.empty())
     throw InputError(arguments.plan, violations.front().place, violations.front().message);

@@ -9,7 +9,6 @@
 
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/model/check.h"
-#include "tools/common/instance_arguments.h"
 
 namespace grove::detail {
 
@@ -28,9 +27,7 @@ AgentIndex robot_of(const std::string& option, const std::string& text, const st
 }
 
 ClaimedPlan read_plan_to_drive(const std::string& file, const Instance& instance) {
-  std::vector<std::string> warnings;
-  ClaimedPlan claimed = read_plan_of_any_tool(file, instance, &warnings);
-  print_warnings(warnings);
+  ClaimedPlan claimed = read_plan_of_any_tool(file, instance);
   const auto wrong = check(instance, claimed.solution, 1);
   if (!wrong.empty())
     throw InputError(

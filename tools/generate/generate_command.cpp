@@ -48,8 +48,11 @@ Scenario load_scenario(const std::string& file, const std::string& map, const Gr
   return scenario;
 }
 
-Scenario draw_scenario(const std::string& map, const Grid& grid, int rows, std::int64_t seed) {
-  return {map, random_scenario(grid, map, rows, static_cast<std::uint64_t>(seed))};
+Scenario draw_scenario(const std::string& map, const Grid& grid, const InstanceRequest& request,
+                       std::int64_t seed) {
+  return {map,
+          random_scenario(grid, map, rows_needed(request), static_cast<std::uint64_t>(seed),
+                          fmt::format("{} agents and {} tasks", request.agents, request.tasks))};
 }
 
 std::string map_as_seen_from(const std::filesystem::path& instance, const std::string& map) {

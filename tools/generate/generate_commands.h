@@ -33,8 +33,9 @@ Grid load_map(const std::string& map);
 // All rows of a scenario file, which must be for `map`.
 Scenario load_scenario(const std::string& file, const std::string& map, const Grid& grid);
 
-// A scenario of `rows` rows drawn for `map`.
-Scenario draw_scenario(const std::string& map, const Grid& grid, int rows, std::int64_t seed);
+// A scenario drawn for `map`, with as many rows as the instance takes.
+Scenario draw_scenario(const std::string& map, const Grid& grid, const InstanceRequest& request,
+                       std::int64_t seed);
 
 // `map` as an instance file at `instance` must name it.
 std::string map_as_seen_from(const std::filesystem::path& instance, const std::string& map);

@@ -68,10 +68,9 @@ std::vector<NumberedScenario> draw_scenarios(const DatasetArguments& arguments, 
                                 .tasks = static_cast<int>(std::ranges::max(arguments.tasks))};
   std::vector<NumberedScenario> scenarios;
   for (std::int64_t k = 0; k < arguments.scenarios_to_draw; ++k)
-    scenarios.push_back(
-        {std::to_string(k + 1),
-         draw_scenario(arguments.map, grid, rows_needed(largest), arguments.seed + k),
-         arguments.seed});
+    scenarios.push_back({std::to_string(k + 1),
+                         draw_scenario(arguments.map, grid, largest, arguments.seed + k),
+                         arguments.seed});
   return scenarios;
 }
 

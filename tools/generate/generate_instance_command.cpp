@@ -8,7 +8,6 @@
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/instance_file.h"
 #include "grove/detail/io/roadmap_file.h"
-#include "tools/common/instance_arguments.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/roadmap_instance.h"
@@ -28,11 +27,12 @@ struct ScenarioArguments {
 
 void run_scenario(const ScenarioArguments& arguments) {
   const Grid grid = load_map(arguments.map);
-  const Scenario scenario =
-      draw_scenario(arguments.map, grid, static_cast<int>(arguments.rows), arguments.seed);
+  const std::vector<ScenarioRow> rows = random_scenario(
+      grid, arguments.map, static_cast<int>(arguments.rows),
+      static_cast<std::uint64_t>(arguments.seed), fmt::format("{} scenario rows", arguments.rows));
   require_distinct_files(arguments.output, arguments.map, "the map");
-  write_scenario(arguments.output, scenario.rows, scenario_lengths(grid, scenario.rows));
-  fmt::print("wrote {}: {} rows\n", arguments.output, scenario.rows.size());
+  write_scenario(arguments.output, rows, scenario_lengths(grid, rows));
+  fmt::print("wrote {}: {} rows\n", arguments.output, rows.size());
 }
 
 constexpr const char* kInstanceFooter =
@@ -85,18 +85,15 @@ void require_fitting(const CLI::App& command) {
 
 Instance instance_on_map(const NewInstanceArguments& arguments, const InstanceRequest& request) {
   const Grid grid = load_map(arguments.map);
-  const Scenario scenario =
-      arguments.scenario.empty()
-          ? draw_scenario(arguments.map, grid, rows_needed(request), arguments.seed)
-          : load_scenario(arguments.scenario, arguments.map, grid);
+  const Scenario scenario = arguments.scenario.empty()
+                                ? draw_scenario(arguments.map, grid, request, arguments.seed)
+                                : load_scenario(arguments.scenario, arguments.map, grid);
   return generate_instance(grid, scenario, request);
 }
 
 Instance instance_on_roadmap(const CLI::App& command, const NewInstanceArguments& arguments,
                              const InstanceRequest& request) {
-  std::vector<std::string> warnings;
-  Site site{arguments.roadmap, read_roadmap(arguments.roadmap, &warnings)};
-  print_warnings(warnings);
+  Site site{arguments.roadmap, read_roadmap(arguments.roadmap)};
   if (command.count("--agents-on") > 0) site.agents_on = arguments.agents_on;
   if (command.count("--tasks-on") > 0) site.tasks_on = arguments.tasks_on;
   return generate_instance(site, request);

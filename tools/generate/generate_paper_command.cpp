@@ -127,8 +127,7 @@ MapSet draw_map_set(const PaperArguments& arguments, const std::string& name, Gr
   MapSet set{map, std::move(grid), {}};
   for (const std::int64_t k : arguments.scenarios) {
     const std::int64_t seed = arguments.seed + k;
-    set.scenarios.push_back(
-        {std::to_string(k), draw_scenario(map, set.grid, rows_needed(largest), seed), seed});
+    set.scenarios.push_back({std::to_string(k), draw_scenario(map, set.grid, largest, seed), seed});
   }
   return set;
 }

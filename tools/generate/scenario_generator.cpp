@@ -15,13 +15,12 @@
 namespace grove::detail {
 
 std::vector<ScenarioRow> random_scenario(const Grid& grid, const std::string& map, int count,
-                                         std::uint64_t seed) {
+                                         std::uint64_t seed, const std::string& purpose) {
   std::vector<Cell> starts = largest_component(grid);
   if (starts.size() < static_cast<std::size_t>(std::max(count, 2)))
     throw InputError(map, "",
-                     fmt::format("has {} connected passable cells; expected at least {} for {} "
-                                 "scenario rows",
-                                 starts.size(), std::max(count, 2), count));
+                     fmt::format("has {} connected passable cells; expected at least {} for {}",
+                                 starts.size(), std::max(count, 2), purpose));
   std::vector<Cell> goals = starts;
   Random random = random_for(RandomUse::kScenario, seed);
   random.shuffle(starts);

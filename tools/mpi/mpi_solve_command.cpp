@@ -89,7 +89,7 @@ class Run {
 
   void prepare() {
     locks_ = prepare_outputs(a_, *loaded_);
-    if (!a_.start.empty()) options_.start = read_start_plan(a_.start, loaded_->instance);
+    if (!a_.start.empty()) options_.start = read_valid_plan(a_.start, loaded_->instance);
     checkpoints_ = prepare_checkpoints(a_.checkpoints, loaded_->instance, options_);
     log_ = open_log(a_, false);
     if (!checkpoints_.resumed) ProofOutput::remove_old(a_);

@@ -8,7 +8,6 @@
 
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/model/parse_number.h"
-#include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
 #include "tools/execute/robots.h"
 
@@ -58,12 +57,10 @@ AskedChange::AskedChange(const ChangeArguments& arguments, const Instance& insta
 }
 
 void AskedChange::read_new_tasks(const std::string& file, const Instance& instance) {
-  std::vector<std::string> warnings;
-  for (ReadTask& read : grove::detail::read_new_tasks(file, instance, &warnings)) {
+  for (ReadTask& read : grove::detail::read_new_tasks(file, instance)) {
     change_.new_tasks.push_back(std::move(read.task));
     new_tasks_.push_back({file, read.place});
   }
-  print_warnings(warnings);
 }
 
 void AskedChange::block(const std::string& text, const Instance& instance) {

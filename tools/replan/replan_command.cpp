@@ -18,6 +18,7 @@
 #include "grove/detail/io/map_file.h"
 #include "grove/detail/io/roadmap_file.h"
 #include "grove/detail/io/text_file.h"
+#include "grove/session.hpp"
 #include "tools/common/commands.h"
 #include "tools/common/options.h"
 #include "tools/common/signals.h"
@@ -36,7 +37,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr IntegerRange kTimes{0, 1'000'000};
-constexpr double kTimeLimit_s = 1;
 constexpr const char* kInstanceSuffix = ".cts.json";
 constexpr const char* kPlanSuffix = ".plan.json";
 
@@ -302,7 +302,7 @@ void add_replan_command(CLI::App& root) {
       ->type_name("PLAN");
   app->add_flag("--require-plan", a.solve.require_plan,
                 "end with exit code 3 if no plan was found");
-  a.solve.time_limit_s = kTimeLimit_s;
+  a.solve.time_limit_s = *grove::Session::default_options().time_limit;
   add_search_options(*app, a.solve);
   a.solve.instance.add_rules_to(*app);
   add_log_options(*app, a.solve);

@@ -55,7 +55,7 @@ void start_from_incumbent(const std::filesystem::path& file, const Instance& ins
   if (!is_whole(file))
     return say_on_stderr(fmt::format(
         "grove: warning: {}: ends in the middle; goes on without that plan", file.string()));
-  Plan plan = read_start_plan(file, instance);
+  Plan plan = read_valid_plan(file, instance);
   if (!options.start || plan.cost < options.start->cost) options.start = std::move(plan);
 }
 

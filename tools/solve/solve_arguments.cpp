@@ -16,7 +16,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr const char* kDefaultOmega = "0.01";
+const std::string kDefaultOmega = fmt::format("{}", kDefaults.omega);
 constexpr IntegerRange kTreeNodes{0, 1'000'000};
 const std::map<std::string, Policy> kPolicies{
     {"auto", Policy::kAuto}, {"fixed", Policy::kFixed}, {"free", Policy::kFree}};

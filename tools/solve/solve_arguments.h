@@ -4,7 +4,6 @@
 
 #include <CLI/App.hpp>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -12,27 +11,30 @@
 
 #include "grove/detail/engine/method.h"
 #include "grove/detail/model/limits.h"
+#include "grove/solve.hpp"
 #include "tools/common/instance_arguments.h"
-#include "tools/common/machine.h"
 #include "tools/solve/checkpoint_arguments.h"
 
 namespace grove::detail {
 
+// Those of the library: what is not said is the same for programs and for their users.
+inline const Options kDefaults;
+
 struct SolveArguments {
   InstanceArguments instance;
   std::string omega;  // empty: not given
-  double time_limit_s = 180;
-  double memory_limit_gb = default_memory_gb();
-  std::int64_t threads = usable_cores();
-  std::string method = "auto";
+  double time_limit_s = *kDefaults.time_limit;
+  double memory_limit_gb = static_cast<double>(*kDefaults.memory_limit) / 1e9;
+  std::int64_t threads = kDefaults.threads;
+  std::string method = kDefaults.method;
   bool anytime = false;
   std::string policy = "auto";
   std::string rtsp = "auto";
-  std::int64_t seed = 0;
+  std::int64_t seed = static_cast<std::int64_t>(kDefaults.seed);
   std::vector<std::string> with;
   std::vector<std::string> without;
   std::vector<std::string> tune;
-  bool deterministic = false;
+  bool deterministic = kDefaults.deterministic;
   CheckpointArguments checkpoints;
   std::filesystem::path start;
   std::string incumbents;

@@ -37,7 +37,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   SolveOptions options = solve_options(a);
   const LoadedInstance loaded = load(a);
   const std::vector<OutputLock> locks = prepare_outputs(a, loaded);
-  if (!a.start.empty()) options.start = read_start_plan(a.start, loaded.instance);
+  if (!a.start.empty()) options.start = read_valid_plan(a.start, loaded.instance);
   require_fit(a, loaded.instance, options);
   const CheckpointFolder checkpoints = prepare_checkpoints(a.checkpoints, loaded.instance, options);
   if (!checkpoints.resumed) ProofOutput::remove_old(a);

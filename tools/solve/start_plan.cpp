@@ -8,13 +8,11 @@
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/io/plan_file.h"
 #include "grove/detail/model/check.h"
-#include "tools/common/instance_arguments.h"
 
 namespace grove::detail {
 
-Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance,
-                     std::vector<std::string>* warnings) {
-  Solution solution = read_solution(path, instance, warnings);
+Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance) {
+  Solution solution = read_solution(path, instance);
   if (!solution.plan)
     throw InputError(path.string(), "/agents",
                      fmt::format("no plan (status {}); expected a valid plan for this instance",
@@ -25,13 +23,6 @@ Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance
     throw InputError(path.string(), violations[0].place,
                      fmt::format("not a plan of this instance: {}", violations[0].message));
   return std::move(*solution.plan);
-}
-
-Plan read_start_plan(const std::filesystem::path& path, const Instance& instance) {
-  std::vector<std::string> warnings;
-  Plan plan = read_valid_plan(path, instance, &warnings);
-  print_warnings(warnings);
-  return plan;
 }
 
 }  // namespace grove::detail

@@ -3,19 +3,13 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "grove/detail/model/plan.h"
 
 namespace grove::detail {
 
 // The plan in the file, which must be valid for `instance`; what else the file claims (status,
-// bound) does not count. Appends to `warnings`. Throws InputError that tells what is wrong.
-Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance,
-                     std::vector<std::string>* warnings = nullptr);
-
-// The same, with the warnings on stderr.
-Plan read_start_plan(const std::filesystem::path& path, const Instance& instance);
+// bound) does not count. Throws InputError that tells what is wrong.
+Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

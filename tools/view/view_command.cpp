@@ -226,8 +226,8 @@ void run(const ViewArguments& arguments) {
   std::vector<std::string> warnings;
   std::vector<NamedPlan> plans;
   for (const std::string& file : arguments.plans)
-    plans.push_back({fs::path(file).filename().string(),
-                     read_plan_of_any_tool(file, loaded.instance, &warnings)});
+    plans.push_back(
+        {fs::path(file).filename().string(), read_plan_of_any_tool(file, loaded.instance)});
   if (!arguments.drive.empty()) return show_drive(arguments, loaded.instance, plans.front());
   if (!arguments.proof.empty()) return show_proof(arguments, loaded.instance, plans);
   for (const NamedPlan& plan : plans) note_what_is_wrong(loaded.instance, plan, warnings);

@@ -120,10 +120,13 @@ TEST_F(CheckCommand, RefusesUnknownKeys) {
             std::string::npos);
 }
 
-TEST_F(CheckCommand, SaysWhichFileIsAPlan) {
+TEST_F(CheckCommand, SaysThatTheInstanceComesFirst) {
   check(kClaims, kAgentA + ", " + kAgentB);  // writes both
-  EXPECT_EQ(said(run_grove({"check", directory_ / "p.json", directory_ / "i.json"})),
-            "grove: error: p.json: /: found a plan; expected an instance\n");
+  const ProcessResult result = run_grove({"check", directory_ / "p.json", directory_ / "i.json"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(said(result),
+            "grove: error: p.json: found a plan; expected an instance, and its plan after it: "
+            "'grove check INSTANCE PLAN'\n");
 }
 
 }  // namespace check_command_test

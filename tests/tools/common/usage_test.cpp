@@ -76,6 +76,20 @@ TEST(Usage, WrongUsageGetsOneLineAndAHint) {
             "unexpected argument 'a\\nb' (see 'grove generate map empty --help')");
 }
 
+TEST(Usage, TheCommandComesFirst) {
+  const auto said = [](const Arguments& arguments) { return complaint(run_grove(arguments)); };
+  EXPECT_EQ(said({"my.cts.json", "solve"}),
+            "found 'my.cts.json' before the command; expected 'grove solve ...', options and files "
+            "after it (see 'grove --help')");
+  EXPECT_EQ(said({"--threads", "2", "solve", "my.cts.json"}),
+            "found '--threads' before the command; expected 'grove solve ...', options and files "
+            "after it (see 'grove --help')");
+  EXPECT_EQ(said({"generate", "--width", "3", "map"}),
+            "found '--width' before the command; expected 'grove generate map ...', options and "
+            "files after it (see 'grove --help')");
+  EXPECT_EQ(said({"help", "solve", "frob"}), "unknown command 'frob' (see 'grove --help')");
+}
+
 // As with compilers: a script's own options can so be overruled.
 TEST(Usage, OfAnOptionGivenTwiceTheLastCounts) {
   const TemporaryDirectory directory;

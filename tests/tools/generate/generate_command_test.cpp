@@ -365,7 +365,7 @@ TEST(GenerateCommand, RefusesCountsThatDoNotFitAndLeavesNothing) {
             "my.scen: has 40 rows, enough for 20 of 21 tasks; they are taken from row 21 on");
   EXPECT_EQ(
       said("instance --map my.map --agents 50 --tasks 51 -o x"),
-      "my.map: has 100 connected passable cells; expected at least 101 for 101 scenario rows");
+      "my.map: has 100 connected passable cells; expected at least 101 for 50 agents and 51 tasks");
   EXPECT_EQ(said("instance --map my.map --agents 1 --tasks 70 -o x"),
             "my.map: 70 tasks for 1 agents do not fit: agent 'a0' has more than 64 tasks; expected "
             "at most 64");

@@ -18,7 +18,7 @@ const Grid& grid() {
 }
 
 Scenario scenario(int rows = 100) {
-  return {"m.scen", random_scenario(grid(), "m.map", rows, 3)};
+  return {"m.scen", random_scenario(grid(), "m.map", rows, 3, "rows")};
 }
 
 Instance generate(const InstanceRequest& request) {

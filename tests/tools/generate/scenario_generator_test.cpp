@@ -21,7 +21,7 @@ TEST(RandomScenario, UsesEveryCellOfTheLargestPartOnce) {
     const Grid grid = two_parts();
     std::set<Cell> starts;
     std::set<Cell> goals;
-    for (const ScenarioRow& row : random_scenario(grid, "maps/m.map", 6, seed)) {
+    for (const ScenarioRow& row : random_scenario(grid, "maps/m.map", 6, seed, "rows")) {
       EXPECT_EQ(row.map, "m.map");
       EXPECT_FALSE(row.start == row.goal);
       EXPECT_LT(row.start.x, 3);
@@ -35,9 +35,9 @@ TEST(RandomScenario, UsesEveryCellOfTheLargestPartOnce) {
 }
 
 TEST(RandomScenario, RefusesMoreRowsThanCells) {
-  EXPECT_THROW(random_scenario(two_parts(), "m.map", 7, 0), InputError);
-  EXPECT_THROW(random_scenario(Grid(1, 1, {true}), "m.map", 1, 0), InputError);
-  EXPECT_THROW(random_scenario(Grid(1, 1, {false}), "m.map", 1, 0), InputError);
+  EXPECT_THROW(random_scenario(two_parts(), "m.map", 7, 0, "rows"), InputError);
+  EXPECT_THROW(random_scenario(Grid(1, 1, {true}), "m.map", 1, 0, "rows"), InputError);
+  EXPECT_THROW(random_scenario(Grid(1, 1, {false}), "m.map", 1, 0, "rows"), InputError);
 }
 
 TEST(ScenarioLengths, AreDistancesOnTheGrid) {

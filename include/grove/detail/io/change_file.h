@@ -16,9 +16,8 @@ struct ReadTask {
 };
 
 // {"tasks": [...]}, each as in an instance, or one alone: {"id": "t9", "cell": [3, 4], "agents":
-// ["a0"]}. Appends to `warnings` (may be null). Throws InputError for what cannot be a task of
-// `instance`, whoever its agents are.
-std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const Instance& instance,
-                                     std::vector<std::string>* warnings);
+// ["a0"]}. Throws InputError for unknown keys, and for what cannot be a task of `instance`, whoever
+// its agents are.
+std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

@@ -29,9 +29,8 @@ LoadedInstance read_instance(const std::filesystem::path& path, const InputRules
 LoadedInstance parse_instance(std::string_view text, const std::string& name,
                               const std::filesystem::path& folder, const InputRules& rules = {});
 // What such a file says of agents and tasks, {"agents": [...], "tasks": [...]}, added to `builder`,
-// which has the map. Appends to `warnings`.
-Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const std::string& name,
-                           std::vector<std::string>* warnings);
+// which has the map.
+Instance parse_instance_on(InstanceBuilder builder, std::string_view text, const std::string& name);
 
 // Classical MAPF: the first `agents` rows of a scenario as they stand, ids a0, a1, ...; no tasks.
 LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,

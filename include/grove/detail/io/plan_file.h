@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/model/plan.h"
@@ -24,12 +23,10 @@ void write_solution(const std::filesystem::path& path, const Instance& instance,
 
 // Reads a plan file and translates its ids with `instance`; believes every number it finds, for
 // check() to refute. Agents come back by AgentIndex whatever their order in the file; an agent that
-// the file leaves out has an empty path. Throws InputError on malformed files, unknown or repeated
-// ids. Appends to `warnings`.
-Solution read_solution(const std::filesystem::path& path, const Instance& instance,
-                       std::vector<std::string>* warnings = nullptr);
+// the file leaves out has an empty path. Throws InputError on malformed files, unknown keys, and
+// unknown or repeated ids.
+Solution read_solution(const std::filesystem::path& path, const Instance& instance);
 // The same of the text of such a file: `name` stands for it in messages.
-Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance,
-                        std::vector<std::string>* warnings = nullptr);
+Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance);
 
 }  // namespace grove::detail

@@ -36,9 +36,8 @@ Plan plan_of_paths(const Instance& instance, std::vector<Path> paths);
 //   - the YAML of libMultiRobotPlanning, MGCBS and ITA-CBS: below "schedule:" a list of x, y, t for
 //     each agent, by its id, or by its number as "agent7". Claims the "cost" of its "statistics".
 // Agents are those of `instance`, in its order; one that is left out has an empty path. Throws
-// InputError on anything else, and when a path leads out of the map. Appends to `warnings`.
-ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Instance& instance,
-                                  std::vector<std::string>* warnings = nullptr);
+// InputError on anything else, and when a path leads out of the map.
+ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Instance& instance);
 
 // A plan of any tool, its costs counted anew by the one definition there is: the sum of the times
 // from which agents rest for good. Nothing is left of what was claimed but this.

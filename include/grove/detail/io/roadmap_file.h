@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/input_rules.h"
@@ -13,13 +12,11 @@
 
 namespace grove::detail {
 
-// Reads a *.roadmap.json file. Throws InputError on anything malformed, and on unknown keys; so
-// nothing is appended to `warnings`.
-Roadmap read_roadmap(const std::filesystem::path& path,
-                     std::vector<std::string>* warnings = nullptr, const InputRules& rules = {});
+// Reads a *.roadmap.json file. Throws InputError on anything malformed, and on unknown keys.
+Roadmap read_roadmap(const std::filesystem::path& path, const InputRules& rules = {});
 // The same of the text of such a file: `name` stands for it in messages.
 Roadmap parse_roadmap(std::string_view text, const std::string& name,
-                      std::vector<std::string>* warnings = nullptr, const InputRules& rules = {});
+                      const InputRules& rules = {});
 
 // Writes it whole or not at all. Throws InputError when the file cannot be written.
 void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap,

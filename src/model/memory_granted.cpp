@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/common/memory_granted.h"
+#include "grove/detail/model/memory_granted.h"
 
 #include <algorithm>
 #include <fstream>
@@ -38,8 +38,12 @@ std::uint64_t limit_within(const fs::path& folder, std::string_view group) {
 
 // "a,b,c" with `name` among them.
 bool lists(std::string_view controllers, std::string_view name) {
-  return ("," + std::string(controllers) + ",").find("," + std::string(name) + ",") !=
-         std::string::npos;
+  while (!controllers.empty()) {
+    const std::string_view first = controllers.substr(0, controllers.find(','));
+    if (first == name) return true;
+    controllers.remove_prefix(std::min(controllers.size(), first.size() + 1));
+  }
+  return false;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/common/memory_granted.h"
+#include "grove/detail/model/memory_granted.h"
 
 #include <gtest/gtest.h>
 

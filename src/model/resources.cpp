@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "grove/detail/model/resources.h"
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "grove/detail/model/memory_granted.h"
+
+namespace grove::detail {
+
+std::uint64_t physical_memory() {
+  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t usable_memory() {
+  return std::min(physical_memory(), memory_granted().value_or(UINT64_MAX));
+}
+
+int usable_cores() {
+  cpu_set_t cores;
+  if (::sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;
+  return std::max(1, CPU_COUNT(&cores));
+}
+
+}  // namespace grove::detail
