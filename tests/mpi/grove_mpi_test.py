@@ -494,6 +494,7 @@ class Batches(Program):
         (self.folder / "instances").write_text(f"{ONE_WAY}\n", encoding="utf-8")
         self.run_well(mpirun(2, *self.batch("--method", "hcbs", "--ranks-per-instance", 2)))
         row, = self.rows().values()
+        self.assertEqual(row["status"], "unsuitable")
         self.assertIn("one way", row["error"])
 
     def test_input_is_complained_about_once(self):
