@@ -15,6 +15,7 @@
 #include "grove/detail/batch/manifest.h"
 #include "grove/detail/batch/result_table.h"
 #include "grove/detail/batch/scenario_sweep.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/bench/bench_methods.h"
 #include "tools/bench/bench_run.h"
 #include "tools/bench/rehearsal.h"
