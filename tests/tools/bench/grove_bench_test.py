@@ -229,7 +229,7 @@ class Refusals(Program):
         self.easy(1)
         (self.folder / "instances/broken.cts.json").write_text("{")
         running = self.start(*self.bench(runs=["x: --omega 0"]))
-        _, err = running.communicate(timeout=PATIENCE_S)
+        _, err = running.communicate(timeout=HANG_S)
         self.assertEqual(running.returncode, 0, err)
         self.assertRegex(err, r"(?m)^grove: warning: instances/broken\.cts\.json: .*; its rows are errors$")
         row = self.rows()["broken", "x"]
@@ -239,7 +239,7 @@ class Refusals(Program):
 
     def test_unsuitable_instances_are_no_errors(self):
         """Whichever comes first: the method takes classical agents, but none that turn."""
-        for name, motion in (("a_turns", '"motion": "turning", '), ("b_plain", ""), ("c_turns", '"motion": "turning", ')):
+        for name, motion in (("a_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, '), ("b_plain", ""), ("c_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, ')):
             path = self.folder / f"instances/{name}.cts.json"
             path.parent.mkdir(exist_ok=True)
             path.write_text(f'{{"map": "{DATA}/rooms-32x32.map", "agents": [{{"id": "a", {motion}"start": [1, 1], '
