@@ -12,7 +12,7 @@
 
 namespace grove::detail {
 
-MpiSession::MpiSession(int& argc, char**& argv) {
+MpiSession::MpiSession(int& argc, char**& argv) : has_mpi_(true) {
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   if (provided < MPI_THREAD_FUNNELED)
@@ -22,10 +22,11 @@ MpiSession::MpiSession(int& argc, char**& argv) {
 }
 
 MpiSession::~MpiSession() {
-  MPI_Finalize();
+  if (has_mpi_) MPI_Finalize();
 }
 
 std::vector<std::string> MpiSession::gather(const std::string& mine) const {
+  if (!has_mpi_) return {mine};
   const auto ranks = static_cast<std::size_t>(ranks_);
   const int length = static_cast<int>(mine.size());
   std::vector<int> lengths(ranks);

@@ -17,6 +17,9 @@ namespace grove::detail {
 // the transports. What all ranks must call together is marked so.
 class MpiSession {
  public:
+  // Without MPI: rank 0 of 1, which may gather() and nothing else. It serves programs that only
+  // print their help, which must work where MPI cannot start.
+  MpiSession() = default;
   // Throws std::runtime_error if MPI cannot be started.
   MpiSession(int& argc, char**& argv);
   ~MpiSession();
@@ -35,8 +38,9 @@ class MpiSession {
   [[noreturn]] void abort(int exit_code) const;
 
  private:
+  bool has_mpi_ = false;
   int rank_ = 0;
-  int ranks_ = 0;
+  int ranks_ = 1;
 };
 
 }  // namespace grove::detail

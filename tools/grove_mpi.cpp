@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <exception>
+#include <span>
+#include <string_view>
 
 #include "mpi/mpi_session.h"
 #include "tools/common/commands.h"
@@ -26,9 +29,24 @@ constexpr const char* kProgramFooter = R"(Exit codes:
 
 'grove-mpi help COMMAND' and 'grove-mpi COMMAND --help' explain a command, with examples.)";
 
-int main(int argc, char** argv) {
-  stop_on_signals();  // one may come while MPI begins, and would kill the job
-  MpiSession session(argc, argv);
+// Whether the program is asked only about itself: needs no MPI, which may not start here.
+bool asks_for_help(std::span<char* const> arguments) {
+  if (arguments.empty() || std::string_view(arguments.front()) == "help") return true;
+  for (const std::string_view word : arguments) {
+    if (word == "--") return false;
+    if (word == "--help" || word == "-h" || word == "--version") return true;
+  }
+  return false;
+}
+
+// Of the processes that mpirun or srun started, as their environment says; else the only one.
+bool is_first_process() {
+  for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "SLURM_PROCID"})
+    if (const char* rank = std::getenv(variable)) return std::string_view(rank) == "0";
+  return true;
+}
+
+int run(MpiSession& session, bool speaks, int argc, char** argv) {
   CLI::App app(kDescription, "grove-mpi");
   app.footer(kProgramFooter);
   prepare_program(app);
@@ -36,12 +54,22 @@ int main(int argc, char** argv) {
   add_mpi_solve_command(app, session, lines);
   add_mpi_batch_command(app, session, lines);
   try {
-    return run_program(app, argc, argv, session.rank() == 0,
+    return run_program(app, argc, argv, speaks,
                        [&](const std::string& why) { lines.refuse(why); });
   } catch (const std::exception& error) {
     complain(app, fmt::format("internal failure of rank {}: {}", session.rank(), error.what()));
     session.abort(kExitInternalFailure);
   }
+}
+
+int main(int argc, char** argv) {
+  if (asks_for_help(std::span(argv, static_cast<std::size_t>(argc)).subspan(1))) {
+    MpiSession session;
+    return run(session, is_first_process(), argc, argv);
+  }
+  stop_on_signals();  // one may come while MPI begins, and would kill the job
+  MpiSession session(argc, argv);
+  return run(session, session.rank() == 0, argc, argv);
 }
 
 }  // namespace

@@ -2,9 +2,13 @@
 #include "grove/detail/model/memory_granted.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <string_view>
+
+#include "grove/detail/model/parse_number.h"
 
 namespace grove::detail {
 namespace {
@@ -46,11 +50,35 @@ bool lists(std::string_view controllers, std::string_view name) {
   return false;
 }
 
+// A number from 1 on; nullopt if it is none, or not set.
+std::optional<std::int64_t> count(const Environment& environment, const char* name) {
+  const char* value = environment(name);
+  if (value == nullptr) return std::nullopt;
+  return parse_number<std::int64_t>(value, 1, std::numeric_limits<std::int32_t>::max());
+}
+
+// Slurm counts in MB of 1024 kB. With `--mem=0`, all memory of the node, it sets no variable.
+std::uint64_t limit_of_slurm(const Environment& environment) {
+  constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20;
+  std::uint64_t least = kUnlimited;
+  if (const auto node = count(environment, "SLURM_MEM_PER_NODE"))
+    least = static_cast<std::uint64_t>(*node) * kMegabyte;
+  const auto core = count(environment, "SLURM_MEM_PER_CPU");
+  const auto cores = count(environment, "SLURM_CPUS_ON_NODE");
+  if (core && cores)
+    least = std::min(least, static_cast<std::uint64_t>(*core * *cores) * kMegabyte);
+  return least;
+}
+
 }  // namespace
 
-std::optional<std::uint64_t> memory_granted(const fs::path& root) {
+std::optional<std::uint64_t> memory_granted() {
+  return memory_granted("/", [](const char* name) -> const char* { return std::getenv(name); });
+}
+
+std::optional<std::uint64_t> memory_granted(const fs::path& root, const Environment& environment) {
   const fs::path groups = root / "sys/fs/cgroup";
-  std::uint64_t least = kUnlimited;
+  std::uint64_t least = limit_of_slurm(environment);
   std::ifstream file(root / "proc/self/cgroup");
   for (std::string line; std::getline(file, line);) {  // "number:controllers:group"
     const std::size_t first = line.find(':');

@@ -69,11 +69,11 @@ class Scripts(unittest.TestCase):
         subprocess.run([program("GROVE"), "solve", INSTANCE, "--quiet", "-o", plan], cwd=self.folder,
                        check=True)
 
-    def run_script(self, name, *arguments, grove_mpi=None, code=0):
+    def run_script(self, name, *arguments, grove_mpi=None, code=0, granted=None):
         environment = {
             **os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}", "SLURM_JOB_ID": "7",
-            "SLURM_MEM_PER_NODE": "2000", "SLURM_CPUS_PER_TASK": "1", "SLURM_NTASKS_PER_NODE": "1",
-            "SLURM_ARRAY_TASK_ID": "1", "GROVE_MPI": str(grove_mpi or program("GROVE_MPI"))}
+            "SLURM_CPUS_PER_TASK": "1", "SLURM_NTASKS_PER_NODE": "1",
+            "SLURM_ARRAY_TASK_ID": "1", "GROVE_MPI": str(grove_mpi or program("GROVE_MPI")), **(granted or {})}
         done = subprocess.run(["bash", CLUSTER / name, *map(str, arguments)], cwd=self.folder, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment,
                               check=False)
@@ -102,6 +102,23 @@ class Scripts(unittest.TestCase):
         self.run_script("preempt.sbatch", INSTANCE)
         checked_plan(INSTANCE, self.folder / "first.plan.json")
         self.assertTrue((self.folder / "first.checkpoint/checkpoint.grove").exists())
+
+    def test_memory_is_what_slurm_grants(self):
+        cores = {"SLURM_MEM_PER_CPU": "500", "SLURM_CPUS_ON_NODE": "2"}
+        for granted, said in (({"SLURM_MEM_PER_NODE": "2000"}, "2.1 GB of them granted"), ({}, ""),
+                                (cores, "1.0 GB of them granted")):
+            for script, what in (("solve.sbatch", INSTANCE), ("array.sbatch", "instances.txt"),
+                                 ("preempt.sbatch", INSTANCE)):
+                self.run_script(script, what, "--log", "run.log", granted=granted)
+                self.assertIn(said, (self.folder / "run.log").read_text(encoding="utf-8"))
+
+    def test_array_counts_a_last_line_without_an_end(self):
+        command = re.search(r'--array=1-"\$\((.*?)\)"', (CLUSTER / "array.sbatch").read_text(encoding="utf-8")).group(1)
+        (self.folder / "instances.txt").write_text(f"{DATA}/missing.cts.json\n{INSTANCE}", encoding="utf-8")
+        lines = subprocess.run(["sh", "-c", command], cwd=self.folder, check=True, text=True, stdout=subprocess.PIPE).stdout
+        self.assertEqual(lines, "2\n")
+        self.run_script("array.sbatch", "instances.txt", granted={"SLURM_ARRAY_TASK_ID": "2"})
+        checked_plan(INSTANCE, self.folder / "plans/2-first.plan.json")
 
     def test_scenarios(self):
         for script in ("solve.sbatch", "preempt.sbatch"):

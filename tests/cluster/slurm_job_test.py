@@ -23,6 +23,16 @@ class SolveScript(unittest.TestCase):
             plan = checked_plan(EASY, Path(folder) / "plan.json")
             self.assertEqual(plan["status"], "optimal", log)
 
+    def test_memory_and_nodes_as_users_ask_for_them(self):
+        for options in (["--mem=0"], ["--mem-per-cpu=500M"], ["--exclusive"], ["--exclusive", "--mem-per-cpu=500M"], []):
+            with self.subTest(options), tempfile.TemporaryDirectory() as folder:
+                codes = submit_and_wait("--cpus-per-task=1", "--output=log", *options, CLUSTER / "solve.sbatch", EASY,
+                                        "--output", "plan.json", cwd=folder)
+                log = (Path(folder) / "log").read_text(encoding="utf-8")
+                self.assertEqual(codes, [0], log)
+                checked_plan(EASY, Path(folder) / "plan.json")
+                self.assertEqual("0.5 GB of them granted" in log, "--mem-per-cpu=500M" in options, log)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "tests/support/temporary_directory.h"
@@ -18,7 +19,14 @@ class MemoryGranted : public ::testing::Test {
   void limit(const std::string& file, const std::string& value) {
     write("sys/fs/cgroup/" + file, value + "\n");
   }
-  std::optional<std::uint64_t> granted() const { return memory_granted(directory_.path()); }
+  std::optional<std::uint64_t> granted() const {
+    return memory_granted(directory_.path(), [this](const std::string& name) {
+      const auto variable = environment_.find(name);
+      return variable == environment_.end() ? nullptr : variable->second.c_str();
+    });
+  }
+
+  std::map<std::string, std::string> environment_;
 
  private:
   void write(const std::string& file, const std::string& content) {
@@ -72,6 +80,31 @@ TEST_F(MemoryGranted, IsFoundUnderAPathOfTheHost) {
   limit("memory.max", "6000");
   limit("outside/memory.max", "1");
   EXPECT_EQ(granted(), 6000u);
+}
+
+constexpr std::uint64_t kMegabyte = 1 << 20;
+
+TEST_F(MemoryGranted, IsThatOfASlurmJob) {
+  environment_["SLURM_MEM_PER_NODE"] = "16384";
+  EXPECT_EQ(granted(), 16384 * kMegabyte);
+  environment_["SLURM_MEM_PER_NODE"] = "0";  // all of it
+  EXPECT_EQ(granted(), std::nullopt);
+  environment_.clear();
+  environment_["SLURM_MEM_PER_CPU"] = "500";
+  EXPECT_EQ(granted(), std::nullopt);
+  environment_["SLURM_CPUS_ON_NODE"] = "8";
+  EXPECT_EQ(granted(), 4000 * kMegabyte);
+  environment_["SLURM_MEM_PER_CPU"] = "much";
+  EXPECT_EQ(granted(), std::nullopt);
+}
+
+TEST_F(MemoryGranted, IsTheLeastOfSlurmAndGroups) {
+  environment_["SLURM_MEM_PER_NODE"] = "1000";
+  own_groups("0::/job\n");
+  limit("job/memory.max", "512000000");
+  EXPECT_EQ(granted(), 512000000u);
+  limit("job/memory.max", "2000000000");
+  EXPECT_EQ(granted(), 1000 * kMegabyte);
 }
 
 TEST_F(MemoryGranted, IgnoresWhatItDoesNotUnderstand) {

@@ -84,6 +84,24 @@ class Program(unittest.TestCase):
         return said
 
 
+class Help(Program):
+    def test_help_needs_no_mpi(self):
+        """Neither mpirun, nor what MPI_Init takes: with a transport that is not there it fails."""
+        variables = {"PATH": "/nonexistent", "OMPI_MCA_btl": "nonexistent", "OMPI_MCA_pml": "nonexistent"}
+        for words in (["--help"], ["--version"], ["help", "solve"], ["solve", "-h"], ["help", "--completion", "bash"]):
+            asked = start([GROVE_MPI, *words], self.folder, **variables)
+            said, _ = asked.communicate(timeout=60)
+            self.assertEqual(asked.returncode, 0, said)
+            self.assertIn("grove", said)
+        solve = start([GROVE_MPI, "solve", EASY], self.folder, **variables)
+        solve.communicate(timeout=60)
+        self.assertNotEqual(solve.returncode, 0)
+
+    def test_one_rank_prints_the_help(self):
+        said = self.run_well(mpirun(3, "--version"))
+        self.assertEqual(said.count("grove"), 1, said)
+
+
 class Answers(Program):
     def test_any_number_of_ranks_and_threads_finds_the_optimum(self):
         instance = self.generate(16, 20, 5)  # some thousand nodes
@@ -477,6 +495,7 @@ class Batches(Program):
         (self.folder / "instances").write_text(f"{ONE_WAY}\n", encoding="utf-8")
         self.run_well(mpirun(2, *self.batch("--method", "hcbs", "--ranks-per-instance", 2)))
         row, = self.rows().values()
+        self.assertEqual(row["status"], "unsuitable")
         self.assertIn("one way", row["error"])
 
     def test_input_is_complained_about_once(self):

@@ -15,6 +15,7 @@
 #include "grove/detail/batch/manifest.h"
 #include "grove/detail/batch/result_table.h"
 #include "grove/detail/batch/scenario_sweep.h"
+#include "grove/detail/io/input_error.h"
 #include "tools/bench/bench_methods.h"
 #include "tools/bench/bench_run.h"
 #include "tools/bench/rehearsal.h"
@@ -178,12 +179,19 @@ std::vector<batch::Entry> entries_of(const BenchArguments& a) {
   return std::move(swept.entries);
 }
 
+void warn_of_unreadable(const std::vector<bench::BenchInstance>& instances) {
+  for (const bench::BenchInstance& instance : instances)
+    if (!instance.error.empty())
+      say_on_stderr(fmt::format("grove: warning: {}; its rows are errors", one_line(instance.error)));
+}
+
 void run(const CLI::App& app, BenchArguments& a) {
   if (app.count("--memory-limit") > 0) a.defaults.memory_limit_gb = a.memory_limit_gb;
   std::vector<bench::Method> methods = methods_of(a);
   const int jobs = jobs_of(a, methods);
   share_memory(methods, jobs);
   const auto instances = bench::balanced(entries_of(a));
+  warn_of_unreadable(instances);
 
   stop_on_signals();
   batch::ProgressDisplay display(stderr_style());

@@ -1,14 +1,40 @@
 // SPDX-License-Identifier: MIT
 #include "tools/bench/bench_instances.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "grove/detail/io/input_error.h"
+
 namespace grove::detail::bench {
+namespace {
+
+// What decides whether a method takes an instance (require_fit() of engine/method.h).
+std::string kind_of(const batch::InstanceFacts& facts, const Instance& instance) {
+  const bool idles = std::ranges::any_of(instance.agents(), &Agent::is_idle);
+  const bool shares_cells = std::ranges::any_of(
+      instance.agents(), [](const Agent& agent) { return agent.stops.size() < agent.tasks.size(); });
+  return fmt::format("{}{}{}{}{}", facts.problem, instance.motion_world() ? " motion" : "",
+                     instance.world().is_plain() ? "" : " one-way", idles ? " idle" : "",
+                     shares_cells ? " shared-cells" : "");
+}
+
+BenchInstance read(const batch::Entry& entry) {
+  try {
+    const LoadedInstance loaded = load(entry);
+    const batch::InstanceFacts facts = facts_of(entry, loaded);
+    return {.entry = entry, .facts = facts, .kind = kind_of(facts, loaded.instance)};
+  } catch (const InputError& error) {
+    return {.entry = entry, .facts = {}, .error = error.what()};
+  }
+}
+
+}  // namespace
 
 std::vector<BenchInstance> balanced(const std::vector<batch::Entry>& entries) {
   std::vector<BenchInstance> instances;
-  for (const batch::Entry& entry : entries)
-    instances.push_back({entry, facts_of(entry, load(entry))});
+  for (const batch::Entry& entry : entries) instances.push_back(read(entry));
   std::ranges::stable_sort(instances, {}, [](const BenchInstance& instance) {
     return instance.facts.scenario.value_or(0);
   });

@@ -160,9 +160,8 @@ class Bench {
                    .threads = method.threads,
                    .solver = method.solver ? method.solver->adapter.name : ""};
     try {
-      if (const auto why = method.unsuitable.find(row.facts.problem);
-          why != method.unsuitable.end())
-        row.outcome = {.status = batch::kUnsuitable, .error = why->second};
+      if (const std::string& why = instances_[instance_index(run)].error; !why.empty())
+        row.outcome = {.error = why};
       else if (!(method.solver ? solve_by_other(row, run, files_of(worker))
                                : solve(row, run, files_of(worker))))
         return;
@@ -202,7 +201,10 @@ class Bench {
     const ChildEnd end = run_one(command, row, files, true, std::nullopt);
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     const LoadedInstance loaded = load(instances_[index].entry);
-    row.outcome = judged(end, limit, loaded.instance, files.plan, files.said);
+    row.outcome = is_refusal(end)
+                      ? batch::Outcome{.status = batch::kUnsuitable,
+                                       .error = refusal(files.said, instances_[index].entry.path)}
+                      : judged(end, limit, loaded.instance, files.plan, files.said);
     if (!row.outcome.failed()) row.outcome.trace = trace_of_log(files.log);
     if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
     if (fs::exists(files.proof) && !certify(row.outcome, index, loaded, files)) return false;

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,8 +26,6 @@ struct Method {
   std::optional<double> memory_gb = {};
   // A program of someone else; null: Grove's own.
   std::shared_ptr<const ForeignSolver> solver = {};
-  // Of problems (cts, mg, ...) that it is not for: why.
-  std::map<std::string, std::string> unsuitable = {};
 };
 
 struct BenchOptions {

@@ -13,6 +13,7 @@
 #include "grove/detail/io/input_error.h"
 #include "grove/detail/io/plan_file.h"
 #include "grove/detail/io/text_file.h"
+#include "tools/common/commands.h"
 
 namespace grove::detail::bench {
 namespace {
@@ -47,6 +48,17 @@ std::string last_words(const std::filesystem::path& said) {
   } catch (const InputError&) {
     return "";
   }
+}
+
+bool is_refusal(const ChildEnd& end) {
+  return end.kind == ChildEnd::Kind::kExited && end.code == kExitBadInput;
+}
+
+std::string refusal(const std::filesystem::path& said, const std::string& instance) {
+  std::string words = last_words(said);
+  for (const std::string& told : {std::string(), instance})
+    if (words.starts_with(told + ": ")) words.erase(0, told.size() + 2);
+  return words;
 }
 
 bool is_verified(batch::Outcome& outcome, const ChildEnd& end, const std::filesystem::path& said) {

@@ -34,6 +34,11 @@ inline constexpr std::size_t kMostTracePoints = 200;
 // is not there, or cut off, tells what it tells.
 std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log);
 
+// Whether grove refused its instance or its options.
+bool is_refusal(const ChildEnd& end);
+// Why, without the name of the instance, which the reader knows.
+std::string refusal(const std::filesystem::path& said, const std::string& instance);
+
 // The last line that grove said, after a colon and a blank; empty if it said nothing.
 std::string last_words(const std::filesystem::path& said);
 

@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kRefused = 2;
 constexpr double kPatience_s = 60;  // to read an instance
 
 class Scratch {
@@ -41,34 +40,34 @@ class Scratch {
   fs::path folder_;
 };
 
-// The last words of a run; that they begin with the instance goes without saying.
-std::string reason(const fs::path& said, const std::string& instance) {
-  std::string words = last_words(said);
-  for (const std::string& told : {std::string(), instance})
-    if (words.starts_with(told + ": ")) words.erase(0, told.size() + 2);
-  return words;
-}
-
 }  // namespace
 
-void rehearse(const std::vector<BenchInstance>& instances, std::vector<Method>& methods,
+void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
               const BenchOptions& options) {
-  std::map<std::string, const BenchInstance*> first;  // of each problem
-  for (const BenchInstance& instance : instances) first.emplace(instance.facts.problem, &instance);
+  std::map<std::string, const BenchInstance*> first;  // of each kind
+  for (const BenchInstance& instance : instances)
+    if (instance.error.empty()) first.emplace(instance.kind, &instance);
   const Scratch scratch;
-  for (Method& method : methods) {
+  for (const Method& method : methods) {
     if (method.solver) continue;
-    for (const auto& [problem, instance] : first) {
+    const BenchInstance* refused = nullptr;
+    std::string why;
+    for (const auto& [kind, instance] : first) {
       const ChildEnd end =
           run_child(solve_command(options.program, instance->entry, method, 0, scratch / "plan"),
                     scratch / "said", {.seconds = kPatience_s, .cancelled = options.stopped});
-      if (end.kind == ChildEnd::Kind::kExited && end.code == kRefused)
-        method.unsuitable[problem] = reason(scratch / "said", instance->entry.path);
+      if (!is_refusal(end)) {
+        refused = nullptr;
+        break;
+      }
+      if (refused == nullptr) {
+        refused = instance;
+        why = refusal(scratch / "said", instance->entry.path);
+      }
     }
-    if (method.unsuitable.size() < first.size() || first.empty()) continue;
-    const auto& [problem, why] = *method.unsuitable.begin();
-    throw InputError(first[problem]->entry.path, "",
-                     fmt::format("is not for the run '{}': {}", method.settings.method, why));
+    if (refused != nullptr)
+      throw InputError(refused->entry.path, "",
+                       fmt::format("is not for the run '{}': {}", method.settings.method, why));
   }
 }
 

@@ -8,11 +8,10 @@
 
 namespace grove::detail::bench {
 
-// Lets every method begin on one instance of each problem there is (cts, mg, ...), with a time
-// limit of 0. What it refuses (exit code 2) is noted in Method::unsuitable, with the program's
-// words: so would it refuse every other. Throws InputError if it refuses all there are. What else
-// may go wrong is left to rows, and so are solvers of others. Leaves nothing behind.
-void rehearse(const std::vector<BenchInstance>& instances, std::vector<Method>& methods,
+// Starts every method on one instance of each kind, with a time limit of 0. Throws InputError if it
+// refuses all of them (exit code 2): then an option is wrong, or the method suits no instance. Any
+// other failure, and solvers of others, are left to the rows. Leaves nothing behind.
+void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
               const BenchOptions& options);
 
 }  // namespace grove::detail::bench

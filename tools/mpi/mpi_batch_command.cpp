@@ -190,7 +190,6 @@ class BatchRun {
       batch::Entry mine = entry;
       mine.rules = rules();
       loaded = batch::load(mine);
-      require_fit(method_of(a_.solve), loaded->instance, options_);
     } catch (const std::exception& failure) {
       error = failure.what();
     }
@@ -202,6 +201,16 @@ class BatchRun {
     return std::move(*loaded);
   }
 
+  // Why the method is not for this instance; empty: it is.
+  std::string misfit(const Instance& instance) const {
+    try {
+      require_fit(method_of(a_.solve), instance, options_);
+      return "";
+    } catch (const std::invalid_argument& error) {
+      return one_line(error.what());
+    }
+  }
+
   std::filesystem::path plan_path(const batch::Entry& entry) const {
     return std::filesystem::path(a_.output) / batch::plan_file(entry.id);
   }
@@ -210,6 +219,10 @@ class BatchRun {
     const Clock::time_point start = Clock::now();
     const LoadedInstance loaded = load(entry, poll);
     row.facts = facts_of(entry, loaded);
+    if (const std::string why = misfit(loaded.instance); !why.empty()) {
+      row.outcome = {.status = batch::kUnsuitable, .error = why};
+      return;
+    }
     Limits limits;
     set_limits(limits, a_.solve, start);
     FirstPlanClock observer(start);

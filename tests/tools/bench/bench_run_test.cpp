@@ -200,14 +200,14 @@ TEST_F(Benches, LeaveNoRowOfWhatWasUnderWayWhenStopped) {
   EXPECT_EQ(rows().size(), 3U);
 }
 
-TEST_F(Benches, AreRehearsedOnEveryProblem) {
+TEST_F(Benches, AreRehearsedOnEveryKind) {
   instances(3);
   methods(2);
-  instances_[2].facts.problem = "mg";
+  instances_[2].kind = "mg";
   solver("");
   rehearse(instances_, methods_, options_);
   const std::string text = file_content(directory_ / "log");
-  ASSERT_EQ(split_lines(text).size(), 4U);  // 2 methods, 2 problems
+  ASSERT_EQ(split_lines(text).size(), 2U);  // 2 methods, each accepted at once
   for (const std::string_view line : split_lines(text))
     EXPECT_NE(line.find(" --time-limit 0 "), std::string_view::npos) << line;
 
@@ -215,15 +215,38 @@ TEST_F(Benches, AreRehearsedOnEveryProblem) {
     solver(other);
     EXPECT_NO_THROW(rehearse(instances_, methods_, options_));
   }
-  solver("case $(tail -n 1 \"$log\") in *i2.cts.json*--k\\ 1*) echo 'grove: error: " +
-         instances_[2].entry.path + ": not for me'; exit 2;; esac");
-  rehearse(instances_, methods_, options_);
-  EXPECT_TRUE(methods_[0].unsuitable.empty());
-  EXPECT_EQ(methods_[1].unsuitable, (std::map<std::string, std::string>{{"mg", "not for me"}}));
+  solver("case $(tail -n 1 \"$log\") in *i0.cts.json*--k\\ 1*) echo 'grove: error: " +
+         instances_[0].entry.path + ": not for me'; exit 2;; esac");
+  EXPECT_NO_THROW(rehearse(instances_, methods_, options_));
   solver("echo 'grove: error: not for me'; exit 2");
   EXPECT_EQ(refusal([&] { rehearse(instances_, methods_, options_); }).substr(2),
             ".cts.json: is not for the run 'm0': not for me");
   EXPECT_FALSE(fs::exists(options_.folder));
+}
+
+TEST_F(Benches, ARefusedInstanceIsUnsuitable) {
+  instances(2);
+  methods(1);
+  solver("case $(tail -n 1 \"$log\") in *i1.cts.json*) echo 'grove: error: " +
+         instances_[1].entry.path + ": not for me'; exit 2;; esac; cp '" + (directory_ / "good") +
+         "' \"$plan\"");
+  const BenchState state = run();
+  EXPECT_EQ(state.counts.at("m0").unsuitable, 1);
+  EXPECT_EQ(state.counts.at("m0").errors, 0);
+  ASSERT_EQ(rows().size(), 2U);
+  EXPECT_EQ(rows()[1].outcome.status, batch::kUnsuitable);
+  EXPECT_EQ(rows()[1].outcome.error, "not for me");
+}
+
+TEST_F(Benches, AnUnreadableInstanceIsARow) {
+  instances(2);
+  methods(1);
+  instances_[0].error = "i0.cts.json: is broken";
+  const BenchState state = run();
+  EXPECT_EQ(state.counts.at("m0").errors, 1);
+  EXPECT_EQ(state.counts.at("m0").solved, 1);
+  ASSERT_EQ(rows().size(), 2U);
+  EXPECT_EQ(rows()[0].outcome.error, "i0.cts.json: is broken");
 }
 
 TEST_F(Benches, EndWhenTheyCannotGoOn) {

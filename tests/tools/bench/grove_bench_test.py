@@ -226,9 +226,31 @@ class Refusals(Program):
             (self.folder / "list.txt").write_text(text)
             self.refuses(["bench", "list.txt", "--run", "x:", "--output-dir", "out"], "list.txt",
                          complaint)
-        (self.folder / "instances/broken.cts.json").write_text("{")
-        self.refuses(self.bench(), "broken.cts.json")
         self.assertFalse((self.folder / "out").exists())
+
+    def test_unreadable_instance_is_a_row(self):
+        self.easy(1)
+        (self.folder / "instances/broken.cts.json").write_text("{")
+        running = self.start(*self.bench(runs=["x: --omega 0"]))
+        _, err = running.communicate(timeout=HANG_S)
+        self.assertEqual(running.returncode, 0, err)
+        self.assertRegex(err, r"(?m)^grove: warning: instances/broken\.cts\.json: .*; its rows are errors$")
+        row = self.rows()["broken", "x"]
+        self.assertEqual(row["status"], "error")
+        self.assertIn("broken.cts.json", row["error"])
+        self.assertTrue(self.rows()["easy_s1_n3_m4", "x"]["solved"])
+
+    def test_unsuitable_instances_are_no_errors(self):
+        """Whichever comes first: the method takes classical agents, but none that turn."""
+        for name, motion in (("a_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, '), ("b_plain", ""), ("c_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, ')):
+            path = self.folder / f"instances/{name}.cts.json"
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(f'{{"map": "{DATA}/rooms-32x32.map", "agents": [{{"id": "a", {motion}"start": [1, 1], '
+                            '"goal": [3, 1]}], "tasks": []}')
+        said = self.run_well(*self.bench(runs=["x: --method hcbs"]))
+        self.assertRegex(said, r"(?m)^method .* errors +unsuitable$")
+        self.assertRegex(said, r"(?m)^x +1/1 .* 0 +2$")
+        self.assertEqual([self.rows()[name, "x"]["status"] for name in ("a_turns", "c_turns")], ["unsuitable"] * 2)
 
     def test_another_bench_in_the_same_folder(self):
         self.hard(2)
