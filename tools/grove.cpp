@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The program: subcommands, and what becomes of their failures.
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "tools/common/commands.h"
+#include "tools/common/companion.h"
 #include "tools/common/program.h"
 #include "tools/common/signals.h"
+#include "tools/view/view_command.h"
 
 namespace grove::detail {
 namespace {
@@ -33,7 +37,8 @@ int main(int argc, char** argv) {
   add_check_command(app);
   add_execute_command(app);
   add_replan_command(app);
-  add_view_command(app);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  add_view_command(app, {.hand_over = [&] { become("grove-picture", words, "grove-pictures"); }, .draw = {}});
   add_proof_command(app);
   add_generate_command(app);
   add_convert_command(app);

@@ -33,7 +33,6 @@ void add_replan_command(CLI::App& app);
 void add_companion_commands(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
-void add_view_command(CLI::App& app);
 void add_proof_command(CLI::App& app);
 
 }  // namespace grove::detail

@@ -56,12 +56,15 @@ std::string program_beside(const std::string& name) {
   return program.string();
 }
 
-void become(const std::string& companion, const std::vector<std::string>& arguments) {
+void become(const std::string& companion, const std::vector<std::string>& arguments,
+            const std::string& package) {
   const std::string program = place_of(companion).string();
   if (!fs::exists(program))
     throw InputError(program, "",
-                     "there is no such file; expected it beside grove (build the target grove), or "
-                     "in ../libexec/grove where grove is installed");
+                     fmt::format("there is no such file; expected it beside grove (build the target "
+                                 "grove), or in ../libexec/grove where the Debian package {} is "
+                                 "installed",
+                                 package));
   replace_process(program, arguments);
   const int error = errno;
   // It is there, so what is not is its interpreter.

@@ -16,7 +16,9 @@ void become_standard_input(std::string_view text);
 // A program of users that is built and installed beside this one. Throws InputError if it is not.
 std::string program_beside(const std::string& name);
 
-// Becomes that program; returns never. Throws InputError if it is not there or cannot be run.
-[[noreturn]] void become(const std::string& companion, const std::vector<std::string>& arguments);
+// Becomes that program; does not return. Throws InputError if it is not there or cannot be run.
+// `package`: the Debian package that holds it.
+[[noreturn]] void become(const std::string& companion, const std::vector<std::string>& arguments,
+                         const std::string& package = "grove");
 
 }  // namespace grove::detail

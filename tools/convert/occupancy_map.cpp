@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/convert/occupancy_map.h"
 
-#include <cairo.h>
 #include <fmt/format.h>
+#include <png.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -100,60 +100,30 @@ class PgmReader {
   std::size_t at_ = 0;
 };
 
-// The width and height that a PNG image begins with; before them stand a signature, and the length
-// and the name of the first chunk.
-void require_size_of_png(const std::string& file, const std::string& bytes,
-                         const InputRules& rules) {
-  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-  constexpr std::size_t kWidth = 16;
-  constexpr std::size_t kHeight = 20;
-  if (!bytes.starts_with(kSignature) || bytes.size() < kHeight + 4)
-    throw InputError(file, "", "does not begin as a PNG image does; expected one");
-  const auto number = [&](std::size_t at) {
-    std::int64_t value = 0;
-    for (std::size_t i = at; i < at + 4; ++i)
-      value = 256 * value + static_cast<unsigned char>(bytes[i]);
-    return value;
-  };
-  require_size(file, number(kWidth), number(kHeight), rules);
-}
-
-struct UnreadBytes {
-  std::string_view bytes;
-
-  // For cairo.
-  static cairo_status_t read(void* closure, unsigned char* target, unsigned length) {
-    auto& unread = static_cast<UnreadBytes*>(closure)->bytes;
-    if (unread.size() < length) return CAIRO_STATUS_READ_ERROR;
-    std::copy_n(unread.begin(), length, target);
-    unread.remove_prefix(length);
-    return CAIRO_STATUS_SUCCESS;
-  }
-};
-
+// What is transparent counts as black.
 Image read_png(const fs::path& path, const InputRules& rules) {
   const std::string bytes = read_text(path);
-  require_size_of_png(path.string(), bytes, rules);
-  UnreadBytes unread{bytes};
-  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
-      cairo_image_surface_create_from_png_stream(&UnreadBytes::read, &unread),
-      cairo_surface_destroy);
-  if (const auto status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
-    throw InputError(path.string(), "",
-                     fmt::format("no PNG image: {}", cairo_status_to_string(status)));
-  const auto format = cairo_image_surface_get_format(surface.get());
-  if (format != CAIRO_FORMAT_RGB24 && format != CAIRO_FORMAT_ARGB32)
-    throw InputError(path.string(), "", "expected a PNG image of 8 bits a channel");
+  if (!bytes.starts_with("\x89PNG\r\n\x1a\n"))
+    throw InputError(path.string(), "", "does not begin as a PNG image does; expected one");
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  const std::unique_ptr<png_image, void (*)(png_image*)> freed_at_last(&png, png_image_free);
+  const auto require = [&](int succeeded) {
+    if (succeeded == 0)
+      throw InputError(path.string(), "", fmt::format("no PNG image: {}", png.message));
+  };
+  require(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()));
+  require_size(path.string(), png.width, png.height, rules);
+  png.format = PNG_FORMAT_RGBA;
+  std::vector<png_byte> pixels(PNG_IMAGE_SIZE(png));
+  require(png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr));
   Image image;
-  image.width = cairo_image_surface_get_width(surface.get());
-  image.height = cairo_image_surface_get_height(surface.get());
-  const unsigned char* data = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const unsigned char* pixel = data + y * stride + 4 * x;
-      image.light.push_back((pixel[0] + pixel[1] + pixel[2]) / (3 * 255.0));
-    }
+  image.width = static_cast<int>(png.width);
+  image.height = static_cast<int>(png.height);
+  image.light.reserve(pixels.size() / 4);
+  for (std::size_t i = 0; i < pixels.size(); i += 4)
+    image.light.push_back((pixels[i] + pixels[i + 1] + pixels[i + 2]) * pixels[i + 3] /
+                          (3 * 255.0 * 255.0));
   return image;
 }
 

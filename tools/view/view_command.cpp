@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/view/view_command.h"
+
 #include "grove/detail/execution/passing_order.h"
 #include "grove/detail/io/atomic_file.h"
 #include "grove/detail/io/input_error.h"
@@ -26,7 +28,6 @@
 #include "tools/view/drive_data.h"
 #include "tools/view/page.h"
 #include "tools/view/page_data.h"
-#include "tools/view/picture/picture.h"
 #include "tools/view/run_log_file.h"
 
 namespace grove::detail {
@@ -80,14 +81,9 @@ struct ViewArguments {
   std::string proof;  // a certificate
   bool follow = false;
   std::int64_t port = 0;
-  std::string svg;
-  std::string png;
-  std::string gif;
-  std::vector<double> moments;
-  std::int64_t width = 800;
-  double speed = 4;
+  PictureOrder pictures;
 
-  bool wants_pictures() const { return !svg.empty() || !png.empty() || !gif.empty(); }
+  bool wants_pictures() const { return !pictures.is_empty(); }
 };
 
 std::string size_text(std::size_t bytes) {
@@ -127,18 +123,13 @@ void write_page(const ViewArguments& arguments, const Instance& instance,
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
 
-void write_pictures(const ViewArguments& arguments, const Instance& instance,
+void write_pictures(const PictureMaker& maker, PictureOrder order, const Instance& instance,
                     const std::vector<NamedPlan>& plans) {
   const Plan* plan = nullptr;
   if (!plans.empty() && plans.front().claimed.solution.plan)
     plan = &*plans.front().claimed.solution.plan;
-  const Drawing drawing(instance, plan);
-  std::vector<double> moments = arguments.moments;
-  if (moments.empty()) moments.push_back(0);
-  const int width = static_cast<int>(arguments.width);
-  if (!arguments.svg.empty()) write(arguments.svg, svg_picture(drawing, moments, width));
-  if (!arguments.png.empty()) write(arguments.png, png_picture(drawing, moments, width));
-  if (!arguments.gif.empty()) write(arguments.gif, gif_picture(drawing, width, arguments.speed));
+  if (order.moments.empty()) order.moments.push_back(0);
+  maker.draw(order, instance, plan, write);
 }
 
 // What is to be shown, with the log as it grows, goes on as standard input.
@@ -215,13 +206,14 @@ void note_what_is_wrong(const Instance& instance, const NamedPlan& plan,
                                    wrong.front().place, one_line(wrong.front().message)));
 }
 
-void run(const ViewArguments& arguments) {
+void run(const ViewArguments& arguments, const PictureMaker& maker) {
+  if (arguments.wants_pictures() && maker.hand_over) maker.hand_over();
   if (!arguments.run.empty()) return show_run(arguments);
   const LoadedInstance loaded = arguments.instance.load();
   require_own_files({{"--output", page_file(arguments)},
-                     {"--svg", arguments.svg},
-                     {"--png", arguments.png},
-                     {"--gif", arguments.gif}},
+                     {"--svg", arguments.pictures.svg},
+                     {"--png", arguments.pictures.png},
+                     {"--gif", arguments.pictures.gif}},
                     arguments.instance, loaded, arguments.plans);
   std::vector<std::string> warnings;
   std::vector<NamedPlan> plans;
@@ -237,7 +229,7 @@ void run(const ViewArguments& arguments) {
     warnings.push_back(fmt::format("a page shows {} plans; {} and those after it are left out",
                                    kMostPlans, one_line(plans[kMostPlans].name)));
   print_warnings(warnings);
-  if (arguments.wants_pictures()) write_pictures(arguments, loaded.instance, plans);
+  if (arguments.wants_pictures()) write_pictures(maker, arguments.pictures, loaded.instance, plans);
   if (!page_file(arguments).empty()) write_page(arguments, loaded.instance, plans);
 }
 
@@ -276,7 +268,7 @@ void require_fit(const CLI::App& command) {
 
 }  // namespace
 
-void add_view_command(CLI::App& app) {
+void add_view_command(CLI::App& app, const PictureMaker& maker) {
   const auto arguments = std::make_shared<ViewArguments>();
   CLI::App* command = app.add_subcommand("view", "Show an instance and its plans as a page");
   command->footer(kViewFooter);
@@ -289,24 +281,24 @@ void add_view_command(CLI::App& app) {
           "page to write, whole or not at all; by default named after plan, log or certificate")
       ->type_name("FILE.html");
   command->add_flag("--open", arguments->open, "show the page in the browser");
-  command->add_option("--svg", arguments->svg, "vector picture to write")->type_name("FILE.svg");
-  command->add_option("--png", arguments->png, "picture to write")->type_name("FILE.png");
-  command->add_option("--gif", arguments->gif, "animation to write")->type_name("FILE.gif");
+  command->add_option("--svg", arguments->pictures.svg, "vector picture to write")->type_name("FILE.svg");
+  command->add_option("--png", arguments->pictures.png, "picture to write")->type_name("FILE.png");
+  command->add_option("--gif", arguments->pictures.gif, "animation to write")->type_name("FILE.gif");
   command
-      ->add_option("--at", arguments->moments, "moments of --svg and --png, in steps; by default 0")
+      ->add_option("--at", arguments->pictures.moments, "moments of --svg and --png, in steps; by default 0")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1e9).description(""))
       ->type_name("T,T,...");
-  add_integer(*command, "--width", arguments->width, kWidths, "pixels of a moment");
-  command->add_option("--speed", arguments->speed, "steps that --gif plays in a second")
+  add_integer(*command, "--width", arguments->pictures.width, kWidths, "pixels of a moment");
+  command->add_option("--speed", arguments->pictures.speed, "steps that --gif plays in a second")
       ->check(CLI::Range(0.1, 50.0).description(""))
       ->type_name("X")
       ->capture_default_str();
   add_log_options(*command, *arguments);
   command->get_option("INSTANCE")->required(false);
-  command->callback([command, arguments] {
+  command->callback([command, arguments, maker] {
     require_fit(*command);
-    run(*arguments);
+    run(*arguments, maker);
   });
 }
 
