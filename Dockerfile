@@ -11,7 +11,8 @@ RUN tools/package
 FROM debian:12-slim
 COPY --from=build /grove/build/package/*.deb /packages/
 RUN apt-get update \
- && apt-get install -y --no-install-recommends /packages/grove_*.deb /packages/python3-grove_*.deb \
+ && apt-get install -y --no-install-recommends /packages/grove_*.deb /packages/grove-mpi_*.deb \
+      /packages/grove-pictures_*.deb /packages/python3-grove_*.deb \
       openmpi-bin python3-matplotlib python3-numpy \
  && rm -rf /packages /var/lib/apt/lists/* \
  && /usr/share/grove/smoke-test

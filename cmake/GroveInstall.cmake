@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What `cmake --install` installs. Components: libraries, mpi_libraries, development, python, programs;
-# each is a package (GrovePackage.cmake).
+# What `cmake --install` installs. Components: libraries, mpi_libraries, development, python, programs,
+# pictures, mpi_programs; each is a package (GrovePackage.cmake).
 include(CMakePackageConfigHelpers)
 
 install(TARGETS grove_library EXPORT groveTargets
@@ -65,6 +65,10 @@ if(GROVE_WITH_PYTHON)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/python/grove DESTINATION "\${grove_packages}" COMPONENT python
     PATTERN __pycache__ EXCLUDE)
   if(NOT SKBUILD)
+    install(CODE "
+      include(\"${CMAKE_CURRENT_LIST_DIR}/compile_python.cmake\")
+      compile_python(\"${Python_EXECUTABLE}\" \"\${CMAKE_INSTALL_PREFIX}/\${grove_packages}/grove\")"
+      COMPONENT python)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/python
       DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT python)
   endif()
@@ -76,7 +80,12 @@ endif()
 
 install(TARGETS grove grove-sim RUNTIME COMPONENT programs)
 if(GROVE_WITH_MPI)
-  install(TARGETS grove-mpi RUNTIME COMPONENT programs)
+  install(TARGETS grove-mpi RUNTIME COMPONENT mpi_programs)
+  install(FILES ${PROJECT_SOURCE_DIR}/cluster/hostfile.example
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/grove/cluster COMPONENT mpi_programs)
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/cluster/solve.sbatch ${PROJECT_SOURCE_DIR}/cluster/array.sbatch
+    ${PROJECT_SOURCE_DIR}/cluster/preempt.sbatch
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/grove/cluster COMPONENT mpi_programs)
 endif()
 if(GROVE_WITH_VERIFY)
   install(PROGRAMS ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/grove-verify TYPE BIN COMPONENT programs)
@@ -86,6 +95,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bench/solvers
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/smoke-test
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)
+file(GLOB grove_pages ${PROJECT_SOURCE_DIR}/docs/*.md)
+install(FILES ${grove_pages} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/benchmarks/data/
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT programs
   FILES_MATCHING PATTERN "*.map" PATTERN "*.scen" PATTERN "*.json")
@@ -93,6 +104,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/benchmarks/data/
 # it for what calls that.
 set(grove_companions ${CMAKE_INSTALL_LIBEXECDIR}/grove)
 install(TARGETS grove-follow RUNTIME DESTINATION ${grove_companions} COMPONENT programs)
+install(TARGETS grove-picture RUNTIME DESTINATION ${grove_companions} COMPONENT pictures)
 foreach(program report toio vda5050)
   install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/${program}/grove-${program}
     DESTINATION ${grove_companions} COMPONENT programs)
@@ -101,6 +113,11 @@ foreach(package driving report toio vda5050)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/${package}/grove_${package}
     DESTINATION ${grove_companions} COMPONENT programs PATTERN __pycache__ EXCLUDE)
 endforeach()
+install(CODE "
+  include(\"${CMAKE_CURRENT_LIST_DIR}/compile_python.cmake\")
+  foreach(package driving report toio vda5050)
+    compile_python(/usr/bin/python3 \"\${CMAKE_INSTALL_PREFIX}/${grove_companions}/grove_\${package}\")
+  endforeach()" COMPONENT programs)
 file(RELATIVE_PATH grove_from_companions
   ${CMAKE_INSTALL_FULL_LIBEXECDIR}/grove ${CMAKE_INSTALL_FULL_BINDIR}/grove)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/companion)

@@ -50,14 +50,27 @@ set(grove_abi ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(grove_same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 
 set(CPACK_COMPONENTS_ALL "")
-# Python runs three of the commands; figures of `grove report`, processes of grove-mpi, robots by
-# Bluetooth and MQTT are for some: each says what it lacks.
+# Python runs three of the commands. Few need the rest, which brings MPI, X11 or a hundred packages; a
+# command that lacks something says what.
 grove_package(programs grove science
   "solver for multi-agent path finding with tasks and proven bounds"
-  "${grove_what}the programs: grove, grove-mpi for many processes
-and machines, and grove-sim, which predicts how that would fare."
-  DEPENDS python3 RECOMMENDS "openmpi-bin, python3-matplotlib"
-  SUGGESTS "python3-bleak, python3-paho-mqtt, python3-grove")
+  "${grove_what}the programs: grove, grove-sim, which predicts how
+many processes would fare, and grove-verify, which checks proofs. Package
+grove-mpi has the program for many processes and machines, grove-pictures
+what draws plans as SVG, PNG and GIF."
+  DEPENDS python3
+  SUGGESTS "grove-pictures, grove-mpi, python3-matplotlib, python3-bleak, python3-paho-mqtt, python3-grove")
+grove_package(pictures grove-pictures science
+  "solver for multi-agent path finding with tasks - pictures of plans"
+  "${grove_what}what draws plans as SVG, PNG and GIF for grove view."
+  DEPENDS "grove ${grove_same}")
+if(GROVE_WITH_MPI)
+  grove_package(mpi_programs grove-mpi science
+    "solver for multi-agent path finding with tasks - many machines"
+    "${grove_what}grove-mpi, which solves on many processes and
+machines, and scripts for Slurm."
+    DEPENDS "grove ${grove_same}" RECOMMENDS openmpi-bin)
+endif()
 grove_package(libraries libgrove${grove_abi} libs
   "solver for multi-agent path finding with tasks - shared library"
   "${grove_what}the library for programs in C++.")

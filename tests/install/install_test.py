@@ -9,6 +9,7 @@ a project that holds Grove as a folder of its own, without MPI and CBC (some min
 """
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -97,7 +98,7 @@ class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp())
-        cls.prefix = cls.folder / "prefix"
+        cls.prefix = cls.folder / "pre fix"  # a blank must not matter
         run(CMAKE, "--install", BUILD, "--prefix", cls.prefix)
         cls.library = next(cls.prefix.glob("lib/**/libgrove.so"))
 
@@ -134,7 +135,8 @@ class Installed(unittest.TestCase):
     def test_pkg_config(self):
         folder = self.project("pkg", "", "")
         flags = run("pkg-config", "--cflags", "--libs", "grove",
-                    PKG_CONFIG_PATH=self.library.parent / "pkgconfig").split()
+                    PKG_CONFIG_PATH=self.library.parent / "pkgconfig")
+        flags = shlex.split(flags)  # as a shell would with eval
         run(COMPILER, "-std=c++20", "main.cpp", *flags, "-o", "stranger", folder=folder)
         self.assertEqual(run(folder / "stranger", LD_LIBRARY_PATH=self.library.parent), "cost 3\n")
 
@@ -214,6 +216,39 @@ class Installed(unittest.TestCase):
         self.assertIn("valid", run(program, "check", data / "first.cts.json", plan))
         for command in ("report", "toio", "vda5050"):  # programs of their own, which lie apart
             self.assertIn(f"grove {command}", run(program, command, "--help"))
+
+    def test_cluster(self):
+        if not (self.prefix / "bin/grove-mpi").exists():
+            self.skipTest("Grove is built without MPI")
+        for name in ("solve.sbatch", "array.sbatch", "preempt.sbatch"):
+            run("bash", "-n", self.prefix / "share/grove/cluster" / name)
+        self.assertTrue(next(self.prefix.glob("share/doc/**/operators.md")).is_file())
+
+    def test_pictures_are_a_part(self):
+        """grove itself needs neither MPI nor what draws, and says which package does."""
+        program = self.prefix / "bin/grove"
+        self.assertNotRegex(run("ldd", program), r"lib(mpi|cairo|X11|hwloc|OpenCL|tbb)\b")
+        data = Path(SOURCE) / "benchmarks/data"
+        run(program, "view", data / "first.cts.json", "--svg", self.folder / "a.svg", folder=self.folder)
+        self.assertIn("<svg", (self.folder / "a.svg").read_text())
+        bare = self.folder / "bare/bin"
+        bare.mkdir(parents=True)
+        shutil.copy(program, bare)
+        with self.assertRaisesRegex(AssertionError, "exit 2.*\n.*Debian package grove-pictures"):
+            run(bare / "grove", "view", data / "first.cts.json", "--svg", "b.svg", folder=self.folder)
+
+    def test_uninstalling_leaves_nothing(self):
+        prefix = self.folder / "gone soon"
+        run(CMAKE, "--install", BUILD, "--prefix", prefix)
+        manifest = (Path(BUILD) / "install_manifest.txt").read_text()
+        for command in ("report", "toio", "vda5050"):
+            run(prefix / "bin/grove", command, "--help")
+        if PYTHON:
+            module = next(prefix.glob("lib/python*/*-packages"))
+            run(PYTHON, "-c", "import grove", PYTHONPATH=module)
+        for file in manifest.splitlines():
+            Path(file).unlink()
+        self.assertEqual([file for file in prefix.rglob("*") if not file.is_dir()], [])
 
     def test_smoke(self):
         said = run(self.prefix / "share/grove/smoke-test")

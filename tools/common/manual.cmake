@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Manual pages and completions of a program, from its own table of options: in build/<preset>/manual,
-# and where cmake --install puts them.
-function(grove_manual program)
+# and where cmake --install puts them, as a part of that component.
+function(grove_manual program component)
   set(folder ${PROJECT_BINARY_DIR}/manual)
   set(pages ${folder}/man1/${program})
   add_custom_command(OUTPUT ${folder}/${program}.bash ${folder}/_${program} ${folder}/${program}.fish ${pages}
@@ -16,10 +16,10 @@ function(grove_manual program)
   if(NOT GROVE_INSTALL)
     return()
   endif()
-  install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
+  install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
   install(FILES ${folder}/${program}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-    RENAME ${program} COMPONENT programs)
-  install(FILES ${folder}/_${program} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT programs)
+    RENAME ${program} COMPONENT ${component})
+  install(FILES ${folder}/_${program} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT ${component})
   install(FILES ${folder}/${program}.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
-    COMPONENT programs)
+    COMPONENT ${component})
 endfunction()
