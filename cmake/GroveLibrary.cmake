@@ -38,7 +38,7 @@ add_library(grove_static STATIC ${objects})
 add_library(grove::grove_static ALIAS grove_static)
 grove_library(grove_static grove)
 # Who links it links what it needs: by name, since they are where the linker looks.
-set(grove_needs fmt tbb z yaml-cpp pugixml pthread)
+set(grove_needs fmt z yaml-cpp pugixml pthread)
 if(GROVE_WITH_CBC)
   list(APPEND grove_needs Cbc Cgl OsiClp ClpSolver Clp Osi CoinUtils)
 endif()

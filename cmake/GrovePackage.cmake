@@ -76,7 +76,7 @@ grove_package(libraries libgrove${grove_abi} libs
   "${grove_what}the library for programs in C++.")
 set(CPACK_DEBIAN_LIBRARIES_PACKAGE_CONTROL_EXTRA ${grove_debian}/triggers)
 set(grove_needs_libraries "libgrove${grove_abi} ${grove_same}")
-set(grove_may_need "libfmt-dev, libtbb-dev, zlib1g-dev, libyaml-cpp-dev, libpugixml-dev")
+set(grove_may_need "libfmt-dev, zlib1g-dev, libyaml-cpp-dev, libpugixml-dev")
 if(GROVE_WITH_CBC)
   string(APPEND grove_may_need ", coinor-libcbc-dev")
 endif()

@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: MIT
-// A worker is a TBB task that takes turns until there is nothing to do. Then it ends, for a task
-// that waits holds up a thread; whoever brings work back starts it again.
+// A worker has a thread and takes turns until there is nothing to do. Then it parks, and a worker
+// that brings work back wakes it.
 //
 // No work is overlooked: a worker parks under the lock under which it saw that no node was open,
-// and a node is pushed before that lock is taken to look for who is parked. So either the parking
-// worker sees the node or the pushing one sees the worker. And nobody parks while no node is live:
-// then the next tree is due, or the run is over, and somebody must find out. Nor does the last one
-// who is awake: where ranks share a search, nodes come from elsewhere, and none of those who push
-// them there calls anybody; and a node may be live that nobody here has in hand, for it is in
-// custody.
+// and a node is pushed before that lock is taken to look for parked workers. So either the parking
+// worker sees the node or the pushing one sees the worker. No worker parks while no node is live:
+// then the next tree is due, or the run is over, and a worker must find out. Nor does the last one
+// that is awake: where ranks share a search, nodes come from elsewhere, and no thread that pushes
+// them wakes a worker; and a live node may be in no worker's hands here, because it is in custody.
 #include "grove/detail/engine/multicore.h"
-
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <new>
 #include <thread>
 #include <vector>
 
-#include "tasks.h"
+#include "grove/detail/model/thread_team.h"
 
 namespace grove::detail {
 namespace {
@@ -35,58 +32,74 @@ class Crew {
   Crew(SharedSearch& shared, const Limits& limits, const BetweenTurns& between_turns)
       : shared_(shared), limits_(limits), between_turns_(between_turns) {}
 
-  void run(std::span<const std::unique_ptr<Worker>> workers) {
-    workers_ = workers.size();
-    for (const auto& worker : workers) start(*worker);
-    tasks_.wait();
-  }
-
- private:
-  void start(Worker& worker) {
-    tasks_.run([this, &worker] { work(worker); });
-  }
-
   void work(Worker& worker) {
+    begin();
     try {
       for (; !shared_.over(); between_turns_())
         if (worker.turn())
           call_another();
-        else if (park(worker))
-          return;
-        else
+        else if (!park())
           std::this_thread::sleep_for(kPause);
     } catch (const std::bad_alloc&) {
       limits_.memory_exhausted();
     } catch (...) {
-      limits_.end_work();
+      end();
       throw;
     }
-    limits_.end_work();
+    end();
   }
 
-  bool park(Worker& worker) {
+ private:
+  void begin() {
     const std::lock_guard lock(mutex_);
-    const bool is_last_awake = parked_.size() + 1 == workers_;
-    if (is_last_awake || shared_.over() || shared_.may_take()) return false;
-    parked_.push_back(&worker);
+    ++awake_;
+  }
+
+  void end() {
+    limits_.end_work();
+    {
+      const std::lock_guard lock(mutex_);
+      --awake_;
+      ended_ = true;
+    }
+    called_.notify_all();
+  }
+
+  // Waits until another worker calls, or the run has ended. False: this one must not wait.
+  bool park() {
+    std::unique_lock lock(mutex_);
+    if (awake_ == 1 || ended_ || shared_.over() || shared_.may_take()) return false;
+    --awake_;
+    ++parked_;
+    called_.wait(lock, [this] { return ended_ || calls_ > 0; });
+    if (calls_ > 0)
+      --calls_;
+    else
+      --parked_;
+    ++awake_;
     return true;
   }
 
-  // Starts a parked worker if there is work for it.
+  // Wakes a parked worker if there is work for it.
   void call_another() {
-    const std::lock_guard lock(mutex_);
-    if (parked_.empty() || !shared_.may_take()) return;
-    start(*parked_.back());
-    parked_.pop_back();
+    {
+      const std::lock_guard lock(mutex_);
+      if (parked_ == 0 || !shared_.may_take()) return;
+      --parked_;
+      ++calls_;
+    }
+    called_.notify_one();
   }
 
   SharedSearch& shared_;
   const Limits& limits_;
   const BetweenTurns& between_turns_;
-  Tasks tasks_;
-  std::size_t workers_ = 0;
-  std::mutex mutex_;
-  std::vector<Worker*> parked_;
+  std::mutex mutex_;  // guards all below
+  std::condition_variable called_;
+  int awake_ = 0;
+  int parked_ = 0;  // and not called
+  int calls_ = 0;   // of workers that have not woken yet
+  bool ended_ = false;
 };
 
 // Of a deterministic run: what a worker does in a round.
@@ -114,15 +127,13 @@ std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers)
   return units;
 }
 
-// Calls `what` with each unit, on as many threads as the arena has, and waits for all.
+// Calls `what` with each unit and the thread that does it, and waits for all.
 template <class What>
-void for_each_unit(std::vector<Unit>& units, int threads, Tasks& tasks, const What& what) {
+void for_each_unit(std::vector<Unit>& units, ThreadTeam& team, const What& what) {
   std::atomic<std::size_t> next{0};
-  for (int i = 0; i < threads; ++i)
-    tasks.run([&] {
-      for (std::size_t u = next++; u < units.size(); u = next++) what(units[u]);
-    });
-  tasks.wait();
+  team.run([&](int thread) {
+    for (std::size_t u = next++; u < units.size(); u = next++) what(units[u], thread);
+  });
 }
 
 }  // namespace
@@ -133,39 +144,31 @@ void solve_alone(Worker& worker, const SharedSearch& shared, const BetweenTurns&
 
 void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                     const Limits& limits, const BetweenTurns& between_turns) {
-  const auto threads = static_cast<int>(workers.size());
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
   struct AllowWork {
     const Limits& limits;
     ~AllowWork() { limits.allow_work(); }
   } const at_last{limits};
-  tbb::task_arena arena(threads);
-  arena.execute([&] { Crew(shared, limits, between_turns).run(workers); });
+  Crew crew(shared, limits, between_turns);
+  ThreadTeam(static_cast<int>(workers.size())).run([&](int thread) {
+    crew.work(*workers[static_cast<std::size_t>(thread)]);
+  });
 }
 
 void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                      int threads, const BetweenTurns& between_turns) {
-  threads = std::min(threads, static_cast<int>(workers.size()));
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
+  ThreadTeam team(std::min(threads, static_cast<int>(workers.size())));
   // More expanders than threads would compete for the cache.
-  const auto perform = [&](Unit& unit) {
-    const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-    unit.worker->perform(unit.turn, workers[thread]->expander());
+  const auto perform = [&](Unit& unit, int thread) {
+    unit.worker->perform(unit.turn, workers[static_cast<std::size_t>(thread)]->expander());
   };
-  const auto publish = [](Unit& unit) { Worker::publish(unit.turn); };
-  arena.execute([&] {
-    Tasks tasks;
-    while (!shared.over()) {
-      std::vector<Unit> units = choose_round(workers);
-      for_each_unit(units, threads, tasks, perform);
-      for_each_unit(units, threads, tasks, publish);
-      for (Unit& unit : units) unit.worker->commit(unit.turn);
-      between_turns();
-    }
-  });
+  const auto publish = [](Unit& unit, int) { Worker::publish(unit.turn); };
+  while (!shared.over()) {
+    std::vector<Unit> units = choose_round(workers);
+    for_each_unit(units, team, perform);
+    for_each_unit(units, team, publish);
+    for (Unit& unit : units) unit.worker->commit(unit.turn);
+    between_turns();
+  }
 }
 
 }  // namespace grove::detail

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
-#include <mutex>
 #include <optional>
-#include <system_error>
-#include <thread>
+
+#include "grove/detail/model/thread_team.h"
 
 namespace grove::detail {
 namespace {
@@ -146,30 +144,6 @@ class Walker {
   std::vector<State> queue_;
 };
 
-// Calls what() on so many threads, of which this is one. The system may grant fewer.
-template <class What>
-void on_threads(int threads, const What& what) {
-  std::exception_ptr thrown;
-  std::mutex throwing;
-  const auto safely = [&] {
-    try {
-      what();
-    } catch (...) {
-      const std::lock_guard lock(throwing);
-      thrown = std::current_exception();
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    try {
-      for (int i = 1; i < threads; ++i) others.emplace_back(safely);
-    } catch (const std::system_error&) {
-    }
-    safely();
-  }
-  if (thrown) std::rethrow_exception(thrown);
-}
-
 }  // namespace
 
 DistanceField distance_field(const World& world, std::span<const State> targets) {
@@ -199,9 +173,10 @@ DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, i
   }
   for (const Place place : targets.places) fields_.push_back(field_to(place, known));
   if (sets * states < kStatesForThreads) threads = 1;
+  ThreadTeam team(threads);
   std::atomic<std::size_t> next{0};
   if (arrays)
-    on_threads(threads, [&] {
+    team.run([&](int) {
       Walker walker(instance.world());
       for (std::size_t i = next++; i < sets && !limits.stop_requested(); i = next++) {
         const std::size_t set = (arrays->first_of(sets) + i) % sets;
@@ -212,7 +187,7 @@ DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, i
       }
     });
   next = 0;
-  on_threads(threads, [&] {
+  team.run([&](int) {
     Walker walker(instance.world());
     for (std::size_t set = next++; set < sets; set = next++) {
       if (fields_[set]) continue;
