@@ -12,6 +12,7 @@
 #include "tests/engine/random_change.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
+#include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
@@ -21,10 +22,7 @@ namespace session_test {
 using testing::AgentSpec;
 using testing::instance_of;
 
-Limits& within(Limits& limits, std::chrono::milliseconds time) {
-  limits.set_deadline(std::chrono::steady_clock::now() + time);
-  return limits;
-}
+constexpr std::int64_t kLooks = 10'000;  // at the limits, of a solve
 
 SolveOptions with_omega(Omega omega) {
   SolveOptions options;
@@ -32,10 +30,8 @@ SolveOptions with_omega(Omega omega) {
   return options;
 }
 
-Solution solved(Session& session, Omega omega, Time commit = 0, int milliseconds = 100) {
-  Limits limits;
-  within(limits, std::chrono::milliseconds(milliseconds));
-  return session.solve(with_omega(omega), limits, nullptr, commit);
+Solution solved(Session& session, Omega omega, Time commit = 0) {
+  return session.solve(with_omega(omega), testing::LimitOfLooks(kLooks), nullptr, commit);
 }
 
 std::string wrong_with(const Instance& instance, const Solution& solution) {
@@ -206,7 +202,7 @@ TEST(SessionFuzz, EveryAnswerHoldsAndKeepsWhatIsCommitted) {
     SCOPED_TRACE(seed);
     Random random(seed);
     Session session(fuzz::random_world(seed).build());
-    if (!solved(session, Omega::infinite(), 0, 100).plan) continue;
+    if (!solved(session, Omega::infinite()).plan) continue;
     for (int round = 0; round < 4 && session.plan(); ++round) {
       const Time time = random.below(6);
       try {
@@ -231,9 +227,8 @@ TEST(SessionFuzz, EveryAnswerHoldsAndKeepsWhatIsCommitted) {
         ++changes;
         ASSERT_EQ(wrong_with(session.instance(), best), "") << seed;
         // Nothing that is proven is refuted by what another search finds.
-        Limits limits;
         const Solution anew = grove::detail::solve(session.instance(), with_omega(Omega()),
-                                           within(limits, std::chrono::milliseconds(100)));
+                                                   testing::LimitOfLooks(kLooks));
         ASSERT_LE(best.lower_bound, anew.plan ? anew.plan->cost : best.plan->cost) << seed;
         ASSERT_GE(best.plan->cost, anew.lower_bound) << seed;
         if (commit == 0) continue;
@@ -257,7 +252,7 @@ TEST(SessionFuzz, TheBoundOfWhatIsCommittedIsReached) {
   int optimal = 0;
   for (std::uint64_t seed = 1000; seed < 1100; ++seed) {
     Session session(fuzz::random_world(seed).build());
-    if (!solved(session, Omega::infinite(), 0, 100).plan) continue;
+    if (!solved(session, Omega::infinite()).plan) continue;
     const Solution solution = solved(session, Omega(), 2);
     ASSERT_TRUE(solution.plan) << seed;
     ASSERT_EQ(wrong_with(session.instance(), solution), "") << seed;
