@@ -13,6 +13,7 @@
 #include "grove/detail/planning/free_low_level_search.h"
 #include "tests/planning/free_problems.h"
 #include "tests/planning/free_reference.h"
+#include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
@@ -95,7 +96,6 @@ TEST_P(Baselines, SayNothingWhenStopped) {
 
 // A limit that strikes on the way proves nothing.
 TEST_P(Baselines, SayNothingWhenStoppedOnTheWay) {
-  using std::chrono::nanoseconds;
   const Instance instance =
       instance_of(std::vector<std::string>(16, std::string(16, '.')),
                   {{{0, 0}, Position{15, 15}, {{15, 0}, {0, 15}, {8, 7}, {12, 3}}}});
@@ -105,23 +105,16 @@ TEST_P(Baselines, SayNothingWhenStoppedOnTheWay) {
   AgentStops stops(instance, distances, 0);
   FreeGoals goals(stops, {});
   const auto search = make_agent_planner(GetParam(), instance.grid());
-  const auto start = Limits::Clock::now();
-  search->find(goals, {constraints}, Limits(), path_);
-  const nanoseconds whole = Limits::Clock::now() - start;
-  int stopped = 0;
-  constexpr int kRuns = 60;
-  for (int run = 0; run < kRuns; ++run) {
-    Limits limits;
-    limits.set_deadline(Limits::Clock::now() + whole * run / kRuns);
-    const Outcome outcome = search->find(goals, {constraints}, limits, path_);
-    if (outcome == Outcome::kStopped) {
-      ++stopped;
-    } else {
-      ASSERT_EQ(outcome, Outcome::kFound);
-      ASSERT_EQ(static_cast<Time>(path_.size()) - 1, truth);
-    }
+  const testing::LimitOfLooks whole(testing::kNoEnd);
+  ASSERT_EQ(search->find(goals, {constraints}, whole, path_), Outcome::kFound);
+  ASSERT_EQ(static_cast<Time>(path_.size()) - 1, truth);
+  ASSERT_GT(whole.looks(), 3);
+  const std::int64_t stride = 1 + whole.looks() / 60;
+  for (std::int64_t looks = 0; looks < whole.looks(); looks += stride) {
+    SCOPED_TRACE(looks);
+    const testing::LimitOfLooks limits(looks);
+    ASSERT_EQ(search->find(goals, {constraints}, limits, path_), Outcome::kStopped);
   }
-  EXPECT_GT(stopped, 0);
 }
 
 // From the last constraint on all times are one: of those the least counts.

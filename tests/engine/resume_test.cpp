@@ -12,6 +12,7 @@
 #include "grove/detail/model/check.h"
 #include "grove/detail/model/fingerprint.h"
 #include "tests/primal/crowd.h"
+#include "tests/support/clocks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove::detail {
@@ -33,6 +34,7 @@ class Interrupter : public RunObserver {
 
   void on_expanded(const NodePtr&, const Expansion&, int) override {
     if (--left_ == 0) interrupted = true;
+    if (left_ % 7 == 0) asked = true;
   }
   void on_checkpoint(const CheckpointReport& report) override {
     EXPECT_EQ(report.failure, "");
@@ -40,6 +42,7 @@ class Interrupter : public RunObserver {
   }
 
   std::atomic<bool> interrupted{false};
+  std::atomic<bool> asked{false};  // for a checkpoint
   int written = 0;
 
  private:
@@ -48,16 +51,14 @@ class Interrupter : public RunObserver {
 
 Solution solve_for(const Instance& instance, const SolveOptions& options,
                    Interrupter& interrupter) {
-  Limits limits;
+  testing::LimitOfHangs limits;
   limits.watch_interrupt(&interrupter.interrupted);
-  limits.set_deadline(Limits::Clock::now() + std::chrono::seconds(20));
   return solve(instance, options, limits, &interrupter);
 }
 
 // Goes on from the checkpoint in `folder`, if there is one, for so many expansions.
 Solution go_on(const Instance& instance, SolveOptions options, const std::filesystem::path& folder,
                std::int64_t expansions) {
-  options.checkpoints = {folder, 0.02, nullptr};
   std::unique_ptr<CheckpointReader> reader;
   if (std::filesystem::exists(checkpoint_file(folder))) {
     const Policy policy = options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
@@ -65,6 +66,7 @@ Solution go_on(const Instance& instance, SolveOptions options, const std::filesy
     options.resume = reader.get();
   }
   Interrupter interrupter(expansions);
+  options.checkpoints = {folder, 1e9, &interrupter.asked};
   Solution solution = solve_for(instance, options, interrupter);
   EXPECT_GT(interrupter.written, 0);
   return solution;
@@ -147,7 +149,7 @@ TEST(Resume, WhatWasProvenIsSaidEvenIfThereIsNoTimeToSearch) {
   SolveOptions options = plain();
   options.resume = &reader;
   Limits limits;
-  limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  limits.set_deadline(testing::kPast);
   const Solution none = solve(instance, options, limits);
   EXPECT_EQ(none.lower_bound, first.lower_bound);
   EXPECT_EQ(none.plan.has_value(), first.plan.has_value());

@@ -13,6 +13,7 @@
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
+#include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
@@ -22,10 +23,7 @@ namespace session_test {
 using testing::AgentSpec;
 using testing::instance_of;
 
-Limits& within(Limits& limits, std::chrono::milliseconds time) {
-  limits.set_deadline(std::chrono::steady_clock::now() + time);
-  return limits;
-}
+constexpr std::int64_t kLooks = 10'000;  // at the limits, of a solve
 
 SolveOptions with_omega(Omega omega) {
   SolveOptions options;
@@ -33,10 +31,8 @@ SolveOptions with_omega(Omega omega) {
   return options;
 }
 
-Solution solved(Session& session, Omega omega, Time commit = 0, int milliseconds = 100) {
-  Limits limits;
-  within(limits, std::chrono::milliseconds(milliseconds));
-  return session.solve(with_omega(omega), limits, nullptr, commit);
+Solution solved(Session& session, Omega omega, Time commit = 0) {
+  return session.solve(with_omega(omega), testing::LimitOfLooks(kLooks), nullptr, commit);
 }
 
 std::string wrong_with(const Instance& instance, const Solution& solution) {
@@ -375,7 +371,7 @@ TEST(SessionFuzz, EveryAnswerHoldsAndKeepsWhatIsCommitted) {
     SCOPED_TRACE(seed);
     Random random(seed);
     Session session(random_instance(seed));
-    if (!solved(session, Omega::infinite(), 0, 100).plan) continue;
+    if (!solved(session, Omega::infinite()).plan) continue;
     for (int round = 0; round < 4 && session.plan(); ++round) {
       advance_and_look(session, random.below(6), random);
       if (HasFatalFailure()) return;
@@ -424,7 +420,7 @@ TEST(SessionFuzz, TheBoundOfWhatIsCommittedIsReached) {
   int optimal = 0;
   for (std::uint64_t seed = 1000; seed < 1100; ++seed) {
     Session session(random_instance(seed));
-    if (!solved(session, Omega::infinite(), 0, 100).plan) continue;
+    if (!solved(session, Omega::infinite()).plan) continue;
     const Solution solution = solved(session, Omega(), 2);
     ASSERT_TRUE(solution.plan) << seed;
     ASSERT_EQ(wrong_with(session.instance(), solution), "") << seed;

@@ -9,6 +9,7 @@
 #include "grove/detail/engine/solve.h"
 #include "grove/detail/model/check.h"
 #include "tests/fuzz/random_instance.h"
+#include "tests/support/clocks.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {
@@ -43,8 +44,7 @@ TEST(Advance, WhatIsLeftIsAPlanOfWhatIsLeft) {
     const Instance instance = fuzz::random_world(seed).build();
     SolveOptions options;
     options.omega = Omega::infinite();
-    Limits limits;
-    limits.set_deadline(std::chrono::steady_clock::now() + std::chrono::milliseconds(100));
+    const testing::LimitOfLooks limits(10'000);
     const auto plan = solve(instance, options, limits).plan;
     if (!plan) continue;
     const Time end = std::ranges::max(plan->agents, {}, &AgentPlan::cost).cost;

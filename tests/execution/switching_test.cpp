@@ -12,6 +12,7 @@
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
+#include "tests/support/clocks.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {
@@ -25,8 +26,7 @@ using testing::instance_of;
 std::optional<Plan> solved(const Instance& instance) {
   SolveOptions options;
   options.omega = Omega::infinite();
-  Limits limits;
-  limits.set_deadline(std::chrono::steady_clock::now() + std::chrono::milliseconds(100));
+  const testing::LimitOfLooks limits(10'000);
   return solve(instance, options, limits).plan;
 }
 

@@ -12,6 +12,7 @@
 #include "src/engine/destinations.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/random_instance.h"
+#include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
@@ -41,8 +42,7 @@ struct Ended {
 Ended run(Method method, const Instance& instance, SolveOptions options, bool anytime = false,
           RunObserver* observer = nullptr) {
   options = options_of(method, options);
-  Limits limits;
-  limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(1500));
+  const testing::LimitOfLooks limits(100'000);
   Ended ended{solve_by(method, anytime, instance, options, limits, observer)};
   ended.stopped = ended.solution.stats.texts.count("stopped_by") > 0;
   return ended;
@@ -269,8 +269,7 @@ TEST(AdaptationC, IsStoppedByWhatStoppedAIfBFindsNothing) {
   options.omega = Omega::parse("0");
   options.techniques = options.techniques.without(Technique::kJointSearch);  // it would end
   for (const bool anytime : {false, true}) {
-    Limits limits;
-    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(300));
+    const testing::LimitOfLooks limits(5'000);
     const Solution solution =
         solve_by(Method::kCtsCbsC, anytime, instance, options, limits, nullptr);
     EXPECT_EQ(solution.status, Status::kUnknown);
@@ -354,8 +353,7 @@ TEST(AdaptationC, EndsWithTheBestOfBothSearches) {
     SolveOptions options;
     options.omega = Omega::parse("0");
     options.policy = seed % 4 < 2 ? Policy::kFixed : Policy::kFree;
-    Limits limits;
-    limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(60 + 20 * (seed % 4)));
+    const testing::LimitOfLooks limits(1'000 + 300 * (seed % 4));
     Heard heard;
     const Solution solution =
         solve_by(Method::kCtsCbsC, seed % 2 == 0, instance, options, limits, &heard);

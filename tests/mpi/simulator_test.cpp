@@ -15,6 +15,7 @@
 #include "mpi/simulator/timed_transport.h"
 #include "tests/primal/crowd.h"
 #include "tests/search/node_at_hand.h"
+#include "tests/support/clocks.h"
 
 namespace grove::detail {
 namespace simulator_test {
@@ -39,8 +40,7 @@ const std::vector<Case>& cases() {
     std::vector<Case> found;
     for (std::uint64_t seed = 0; found.size() < 2; ++seed) {
       Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, seed);
-      Limits limits;
-      limits.set_deadline(Limits::Clock::now() + std::chrono::seconds(2));
+      const testing::LimitOfLooks limits(200'000);
       SolveOptions options;
       options.omega = Omega();
       Solution truth = solve(instance, options, limits);
@@ -196,7 +196,7 @@ TEST(Simulator, StopsAtItsLimits) {
   const Case& c = cases().front();
   Limits limits;
   const Problem problem(c.instance, limits);
-  limits.set_deadline(Limits::Clock::now());
+  limits.set_deadline(testing::kPast);
   const SimulatedRun run = simulate(problem, with_start(c), limits, 16, kMachine);
   EXPECT_FALSE(run.ended);
   EXPECT_LE(run.solution.lower_bound, c.truth.lower_bound);

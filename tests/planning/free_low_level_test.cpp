@@ -18,6 +18,7 @@
 #include "tests/planning/free_reference.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
+#include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
@@ -449,7 +450,7 @@ TEST(FreeLowLevel, StopsWithoutAnAnswerWhenALimitStrikes) {
   const Grid grid = grid_of({"......"});
   Agent agent(corridor(grid, {5, 1}, 0));
   Limits limits;
-  limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  limits.set_deadline(testing::kPast);
   Path path;
   EXPECT_EQ(agent.free.find(agent.goals, {}, limits, path), Outcome::kStopped);
   Limits memory;

@@ -13,6 +13,7 @@
 #include "src/primal/visit_orders.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
+#include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
@@ -238,8 +239,7 @@ TEST(ConfigurationSearch, LeavesTheLastMemoryToOthers) {
 TEST(ConfigurationSearch, StopsAtADeadline) {
   const Instance instance = hopeless();
   Trial run(instance);
-  Limits limits;
-  limits.set_deadline(Limits::Clock::now() + std::chrono::milliseconds(5));
+  const testing::LimitOfLooks limits(5);
   EXPECT_EQ(run.search.run(limits, kWithoutEnd), Outcome::kStopped);
   EXPECT_EQ(limits.reason(), StopReason::kTime);
 }

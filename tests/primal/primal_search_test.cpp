@@ -98,8 +98,7 @@ TEST(PrimalSearch, LimitsLeaveItWhole) {
     if (!searchable(instance)) continue;
     Search search(instance, seed);
     for (int round = 0; round < 5; ++round) {
-      Limits limits;
-      limits.set_deadline(Limits::Clock::now() + std::chrono::microseconds(random() % 60));
+      const testing::LimitOfLooks limits(random() % 20);
       for (int step = 0; step < 3; ++step)
         if (const auto plan = search.primal.step(limits)) {
           EXPECT_EQ(first_violation(instance, *plan), "");
@@ -113,7 +112,7 @@ TEST(PrimalSearch, LimitsLeaveItWhole) {
 TEST(PrimalSearch, APastDeadlineDoesNothing) {
   const Instance instance = instance_of({"....."}, {{{0, 0}, Position{4, 0}, {{2, 0}}}});
   Search search(instance);
-  search.limits.set_deadline(Limits::Clock::now());
+  search.limits.set_deadline(testing::kPast);
   EXPECT_FALSE(search.primal.step(search.limits));
   EXPECT_EQ(search.primal.counts().low_level_calls, 0);
   EXPECT_FALSE(search.primal.best_cost());
@@ -325,8 +324,7 @@ TEST(PrimalSearch, LimitsLeaveTheRaceWhole) {
     Search search(instance, seed);
     std::optional<Cost> best;
     for (int round = 0; round < 60; ++round) {
-      Limits limits;
-      limits.set_deadline(Limits::Clock::now() + std::chrono::microseconds(random() % 1000));
+      const testing::LimitOfLooks limits(random() % 100);
       while (limits.reason() == StopReason::kNone)
         if (const auto plan = search.primal.step(limits)) {
           EXPECT_EQ(first_violation(instance, *plan), "");

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/search/node_at_hand.h"
+#include "tests/support/clocks.h"
 
 namespace grove::detail {
 namespace brancher_test {
@@ -85,7 +86,7 @@ TEST(Brancher, ClosesSidesThatReachTheCutoff) {
 
 TEST(Brancher, StopsWithoutChildrenWhenALimitStrikes) {
   Branched s(kDoor, kHeadOn, {kCardinal, 0, true});
-  s.limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  s.limits.set_deadline(testing::kPast);
   EXPECT_EQ(s.branch(), Brancher::Outcome::kStopped);
   EXPECT_TRUE(s.children.empty());
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/search/node_at_hand.h"
+#include "tests/support/clocks.h"
 
 namespace grove::detail {
 namespace dependencies_test {
@@ -135,7 +136,7 @@ TEST(Dependencies, AreSettledByJointSearchWhereSplitsDoNotEnd) {
 
 TEST(Dependencies, StopAtALimit) {
   Bounded s(kDoor, kHeadOn);
-  s.limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  s.limits.set_deadline(testing::kPast);
   Cost bound = -1;
   EXPECT_EQ(s.dependencies.find_bound(s.root, s.view, kInfiniteCost, Haste::kNone, s.limits, bound),
             Outcome::kStopped);

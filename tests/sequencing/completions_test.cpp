@@ -10,6 +10,7 @@
 
 #include "grove/detail/sequencing/rtsp.h"
 #include "tests/sequencing/matrices.h"
+#include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
@@ -153,7 +154,7 @@ TEST(Completions, ALimitChangesNothing) {
     Completions completions(testing::metric_matrix(n, Variant::kCts, random));
     const Time beyond = completions.beyond();
     Limits limits;
-    limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+    limits.set_deadline(testing::kPast);
     EXPECT_FALSE(completions.widen(beyond, limits));
     EXPECT_EQ(completions.beyond(), beyond);
   }

@@ -4,17 +4,17 @@
 
 #include <atomic>
 #include <cmath>
-#include <ctime>
 #include <thread>
 
 #include "brute_force.h"
 #include "grove/detail/sequencing/k_best_joint_sequences.h"
 #include "matrices.h"
+#include "tests/support/clocks.h"
 
 namespace grove::detail::testing {
 namespace limits_in_sequencing_test {
 
-using std::chrono::milliseconds;
+using testing::LimitOfLooks;
 
 class LimitsInSequencing : public ::testing::TestWithParam<RtspBackend> {
  protected:
@@ -35,7 +35,7 @@ std::string name_of(const ::testing::TestParamInfo<RtspBackend>& info) {
 TEST_P(LimitsInSequencing, AnExpiredDeadlineStops) {
   Random random(51);
   Limits limits;
-  limits.set_deadline(Limits::Clock::now());
+  limits.set_deadline(testing::kPast);
   expect_stopped(metric_matrix(8, Variant::kCts, random), limits);
 }
 
@@ -70,13 +70,10 @@ CostMatrix points_in_the_plane(int n, Random& random) {
 TEST_P(LimitsInSequencing, StopsInTime) {
   Random random(54);
   const CostMatrix matrix = points_in_the_plane(64, random);
-  Limits limits;
-  const std::clock_t begin = std::clock();  // a busy machine takes longer by the wall
-  limits.set_deadline(Limits::Clock::now() + milliseconds(20));
+  LimitOfLooks limits(20);
   limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 30));
   const auto solver = make_rtsp_solver(GetParam(), matrix, limits);
   const RtspAnswer answer = solver->best({}, kNever);
-  EXPECT_LT(std::clock() - begin, CLOCKS_PER_SEC * 52 / 100);
   EXPECT_EQ(answer.kind, RtspAnswer::Kind::kStopped);
   EXPECT_GE(answer.cost, solver->root_bound());
 }
@@ -103,7 +100,7 @@ TEST_P(LimitsInSequencing, AJointListNeitherHangsNorClaimsTheEnd) {
   const CostMatrix two = metric_matrix(5, Variant::kMg, random);
   const Cost best = all_costs(one, {}).front() + all_costs(two, {}).front();
   Limits limits;
-  limits.set_deadline(Limits::Clock::now());
+  limits.set_deadline(testing::kPast);
   std::vector<KBestSequences> lists;
   for (const CostMatrix* matrix : {&one, &two})
     lists.emplace_back(make_rtsp_solver(GetParam(), *matrix, limits), *matrix, limits);
@@ -123,22 +120,19 @@ TEST(HeldKarp, RefusesATableOfFortyStops) {
   EXPECT_EQ(limits.reason(), StopReason::kMemory);
 }
 
-// In clock ticks of the processor.
-std::clock_t building_takes(const CostMatrix& matrix, const Limits& limits,
-                            RtspAnswer::Kind expected) {
-  const std::clock_t begin = std::clock();
-  const auto solver = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
-  EXPECT_EQ(solver->best({}, kNever).kind, expected);
-  return std::clock() - begin;
+RtspAnswer::Kind answer_of_held_karp(const CostMatrix& matrix, const Limits& limits) {
+  return make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits)->best({}, kNever).kind;
 }
 
 TEST(HeldKarp, StopsInTheMiddleOfATable) {
   Random random(58);
   const CostMatrix matrix = points_in_the_plane(20, random);
-  const std::clock_t whole = building_takes(matrix, Limits(), RtspAnswer::Kind::kExact);
-  Limits limits;
-  limits.set_deadline(Limits::Clock::now() + milliseconds(2));
-  EXPECT_LT(building_takes(matrix, limits, RtspAnswer::Kind::kStopped), whole / 2);
+  const LimitOfLooks whole(kNoEnd);
+  EXPECT_EQ(answer_of_held_karp(matrix, whole), RtspAnswer::Kind::kExact);
+  ASSERT_GT(whole.looks(), 20);
+  const LimitOfLooks limits(whole.looks() / 10);
+  EXPECT_EQ(answer_of_held_karp(matrix, limits), RtspAnswer::Kind::kStopped);
+  EXPECT_LT(limits.looks(), whole.looks() / 5);
 }
 
 TEST(Cbc, ServesThreadsOneAtATime) {

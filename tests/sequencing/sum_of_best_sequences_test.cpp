@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "grove/detail/model/distance_field.h"
+#include "tests/support/clocks.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail::testing {
@@ -57,7 +58,7 @@ TEST(SumOfBestSequences, IsInfiniteWhereThereIsNoWay) {
 
 TEST(SumOfBestSequences, IsNotKnownWhenALimitStrikes) {
   Limits limits;
-  limits.set_deadline(Limits::Clock::now());
+  limits.set_deadline(testing::kPast);
   EXPECT_EQ(
       sum_of_best_sequences(instance_of(kRooms, {{{0, 0}, Position{7, 4}, {{5, 0}}}}), limits),
       std::nullopt);

@@ -71,12 +71,11 @@ int wait_for(pid_t child, const ProcessOptions& options, bool& timed_out) {
   bool signalled = options.signal == 0;
   int status = 0;
   while (::waitpid(child, &status, WNOHANG) == 0) {
-    const auto elapsed = Clock::now() - begin;
-    if (!signalled && elapsed >= options.signal_after) {
+    if (!signalled && options.signal_when()) {
       ::kill(child, options.signal);
       signalled = true;
     }
-    if (!timed_out && elapsed >= options.timeout) {
+    if (!timed_out && Clock::now() - begin >= options.timeout) {
       ::kill(child, SIGKILL);
       timed_out = true;
     }

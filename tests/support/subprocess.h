@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,13 @@ struct ProcessResult {
 };
 
 struct ProcessOptions {
-  std::string directory;                      // to run in; empty: where the test runs
-  std::string input = {};                     // on stdin
-  std::chrono::milliseconds timeout{60'000};  // then it is killed
-  rlim_t largest_file = RLIM_INFINITY;        // in bytes; counts for out and err too
-  // Sends `signal` after `signal_after`; 0: none.
+  std::string directory;                // to run in; empty: where the test runs
+  std::string input = {};               // on stdin
+  std::chrono::minutes timeout{5};      // then it is killed: it hangs
+  rlim_t largest_file = RLIM_INFINITY;  // in bytes; counts for out and err too
+  // Sends `signal` once, as soon as `signal_when` says so; 0: never.
   int signal = 0;
-  std::chrono::milliseconds signal_after{0};
+  std::function<bool()> signal_when = {};
 };
 
 // Runs `command` (program and arguments, no shell) and waits for it. Throws

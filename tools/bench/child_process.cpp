@@ -20,8 +20,6 @@
 namespace grove::detail::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kLookInterval_ms = 100;
 
 [[noreturn]] void fail(const char* what) {
@@ -58,8 +56,8 @@ void kill_all(pid_t pid) {
   ::kill(pid, SIGKILL);
 }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+double system_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
@@ -77,7 +75,8 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   rlimit memory{};
   memory.rlim_cur = memory.rlim_max = static_cast<rlim_t>(limits.memory_gb.value_or(0) * 1e9);
   const pid_t parent = ::getpid();
-  const Clock::time_point start = Clock::now();
+  const std::function<double()> seconds = limits.clock ? limits.clock : system_seconds;
+  const double start = seconds();
   const pid_t pid = ::fork();
   if (pid < 0) fail("fork");
   if (pid == 0)
@@ -99,11 +98,11 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
     if (::poll(&wait, 1, kLookInterval_ms) > 0) break;
     if (killed != ChildEnd::Kind::kExited) continue;
     if (limits.cancelled()) killed = ChildEnd::Kind::kCancelled;
-    if (seconds_since(start) > limits.seconds) killed = ChildEnd::Kind::kTooLong;
+    if (seconds() - start > limits.seconds) killed = ChildEnd::Kind::kTooLong;
     if (killed != ChildEnd::Kind::kExited) kill_all(pid);
   }
   kill_all(pid);  // what it left behind
-  const double wall_s = seconds_since(start);
+  const double wall_s = seconds() - start;
   ChildEnd end = ended(pid);
   end.wall_s = wall_s;
   const bool was_killed = end.kind == ChildEnd::Kind::kSignalled && end.code == SIGKILL;

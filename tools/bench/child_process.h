@@ -15,6 +15,8 @@ struct ChildLimits {
   double seconds = 0;                    // then it is killed, and what it has started with it
   std::function<bool()> cancelled;       // asked several times a second; then likewise
   std::optional<double> memory_gb = {};  // of data; it gets no more
+  // In seconds, from any moment on; empty: the system's.
+  std::function<double()> clock = {};
 };
 
 struct ChildEnd {

@@ -19,6 +19,7 @@
 #include "grove/detail/planning/optimal_paths.h"
 #include "grove/detail/sequencing/cost_matrix.h"
 #include "tests/planning/free_reference.h"
+#include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 #include "tests/support/sanitizers.h"
@@ -527,10 +528,14 @@ TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
     return outcome == OptimalPathsBuilder::Outcome::kBuilt &&
            graph.node_count() == whole.node_count();
   };
-  for (int step = 0; step < 60; ++step) {
-    Limits limits;
-    limits.set_deadline(Limits::Clock::now() + step * std::chrono::microseconds(100));
-    EXPECT_TRUE(is_sound(limits)) << "time " << step;
+  const testing::LimitOfLooks whole_run(testing::kNoEnd);
+  EXPECT_TRUE(is_sound(whole_run));
+  ASSERT_GT(whole_run.looks(), 5);
+  const std::int64_t stride = 1 + whole_run.looks() / 60;
+  for (std::int64_t looks = 0; looks < whole_run.looks(); looks += stride) {
+    const testing::LimitOfLooks limits(looks);
+    EXPECT_TRUE(is_sound(limits)) << looks << " looks";
+    EXPECT_EQ(limits.reason(), StopReason::kTime) << looks << " looks";
   }
 #ifndef GROVE_SANITIZERS_MEMORY
   for (int step = 0; step < 16; ++step) {

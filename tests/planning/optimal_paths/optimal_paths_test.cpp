@@ -15,6 +15,7 @@
 #include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"
 #include "tests/planning/step_rules.h"
+#include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
@@ -251,7 +252,7 @@ TEST(OptimalPaths, SaysWhichLimitStruck) {
   EXPECT_TRUE(agent.graph.empty());
   EXPECT_EQ(agent.build(3), Outcome::kNone);
   Limits limits;
-  limits.set_deadline(Limits::Clock::now() - std::chrono::seconds(1));
+  limits.set_deadline(testing::kPast);
   EXPECT_EQ(agent.builder.build(agent.goals, {}, 4, kPlenty, limits, agent.graph),
             Outcome::kStopped);
 }

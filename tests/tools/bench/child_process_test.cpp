@@ -2,13 +2,14 @@
 #include "tools/bench/child_process.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
-#include <thread>
+#include <string>
 
 #include "tests/support/temporary_directory.h"
 
@@ -17,13 +18,34 @@ namespace child_process_test {
 
 class Children : public ::testing::Test {
  protected:
-  ChildEnd run(const std::string& script, double seconds = 60, bool cancelled = false) {
+  ChildEnd run(const std::string& script, bool cancelled = false) {
     return run_child({"/bin/sh", "-c", script}, directory_ / "said",
-                     {.seconds = seconds, .cancelled = [cancelled] { return cancelled; }});
+                     {.seconds = 60,
+                      .cancelled = [cancelled] { return cancelled; },
+                      .clock = [this] { return now_; }});
+  }
+  // Of a child that ends when it has been looked after three times, each some seconds after the
+  // last.
+  ChildEnd run_for(double seconds) {
+    const std::string go = directory_ / "go";
+    EXPECT_EQ(::mkfifo(go.c_str(), 0600), 0);
+    int looks = 0;
+    const auto look = [&] {
+      now_ += seconds / 3;
+      if (++looks == 3) std::ofstream(go) << "!\n";
+      return false;
+    };
+    ChildEnd end = run_child({"/bin/sh", "-c", "read line < '" + go + "'"}, directory_ / "said",
+                             {.seconds = 60, .cancelled = look, .clock = [this] { return now_; }});
+    std::filesystem::remove(go);
+    return end;
   }
 
   TemporaryDirectory directory_;
+  double now_ = 1000;
 };
+
+constexpr const char* kWithoutEnd = "exec sleep 600";
 
 TEST_F(Children, EndByThemselves) {
   ChildEnd end = run("exit 3");
@@ -34,24 +56,29 @@ TEST_F(Children, EndByThemselves) {
   EXPECT_EQ(end.code, SIGSEGV);
   end = run("kill -KILL $$");  // not by us
   EXPECT_EQ(end.kind, ChildEnd::Kind::kSignalled);
-  EXPECT_EQ(run("sleep 0.2").kind, ChildEnd::Kind::kExited);
 }
 
 TEST_F(Children, AreTimed) {
-  const ChildEnd end = run("sleep 0.2");
-  EXPECT_GE(end.wall_s, 0.2);
-  EXPECT_LT(end.wall_s, 30);
+  const ChildEnd end = run_for(42);
+  EXPECT_EQ(end.kind, ChildEnd::Kind::kExited);
+  EXPECT_GE(end.wall_s, 42);
+  EXPECT_LT(end.wall_s, 60);
 }
 
 TEST_F(Children, AreKilledWhenTheyLastTooLong) {
-  const ChildEnd end = run("sleep 60", 0.1);
+  const auto look = [this] {
+    now_ += 25;
+    return false;
+  };
+  const ChildEnd end =
+      run_child({"/bin/sh", "-c", kWithoutEnd}, directory_ / "said",
+                {.seconds = 60, .cancelled = look, .clock = [this] { return now_; }});
   EXPECT_EQ(end.kind, ChildEnd::Kind::kTooLong);
-  EXPECT_GE(end.wall_s, 0.1);
-  EXPECT_LT(end.wall_s, 30);
+  EXPECT_EQ(end.wall_s, 75);
 }
 
 TEST_F(Children, AreKilledOnRequest) {
-  EXPECT_EQ(run("sleep 60", 60, true).kind, ChildEnd::Kind::kCancelled);
+  EXPECT_EQ(run(kWithoutEnd, true).kind, ChildEnd::Kind::kCancelled);
 }
 
 TEST_F(Children, SpeakIntoAFileAndHearNothing) {
@@ -80,30 +107,23 @@ TEST_F(Children, AreInAGroupOfTheirOwn) {
 }
 
 TEST_F(Children, DieWithTheirParent) {
+  const std::string told = directory_ / "told";
+  ASSERT_EQ(::mkfifo(told.c_str(), 0600), 0);
   const pid_t parent = ::fork();
   ASSERT_GE(parent, 0);
   if (parent == 0) {
-    run("echo $$; exec sleep 60");
+    run("exec 3> '" + told + "'; echo $$ >&3; " + kWithoutEnd);
     ::_exit(0);
   }
+  std::ifstream from_child(told);
   pid_t child = 0;
-  for (int i = 0; i < 1000 && child == 0; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    std::ifstream(directory_ / "said") >> child;
-  }
+  from_child >> child;
   ::kill(parent, SIGKILL);
   ::waitpid(parent, nullptr, 0);
-  ASSERT_GT(child, 0);
-  // Someone else reaps it: it may be a zombie for a while.
-  const auto lives = [child] {
-    std::string state;
-    std::ifstream file("/proc/" + std::to_string(child) + "/stat");
-    file >> state >> state >> state;
-    return file.good() && state != "Z" && state != "X";
-  };
-  for (int i = 0; i < 1000 && lives(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  EXPECT_FALSE(lives());
+  EXPECT_GT(child, 0);
+  // It holds the other end of the pipe as long as it lives.
+  from_child >> child;
+  EXPECT_TRUE(from_child.eof());
 }
 
 }  // namespace child_process_test

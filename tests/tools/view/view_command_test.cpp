@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
@@ -160,6 +159,7 @@ TEST_F(ViewCommand, PicturesShowAnExchangeAtItsEnd) {
 
 TEST_F(ViewCommand, OpensThePageByTheDesktopsOpener) {
   directory_.write("xdg-open", "#!/bin/sh\necho \"$1\" > opened\n");
+  ASSERT_EQ(::mkfifo((directory_ / "opened").c_str(), 0600), 0);  // so it can be waited for
   std::filesystem::permissions(directory_ / "xdg-open", std::filesystem::perms::owner_all);
   ProcessOptions options;
   options.directory = directory_.path();
@@ -167,9 +167,8 @@ TEST_F(ViewCommand, OpensThePageByTheDesktopsOpener) {
   const ProcessResult done =
       run_grove({"view", data("first.cts.json"), "-o", "p.html", "--open"}, options);
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  for (int i = 0; i < 100 && read("opened").empty(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_EQ(read("opened"), (directory_.path() / "p.html").string() + "\n");
+  EXPECT_EQ(run_program({"/bin/cat", "opened"}, options).out,
+            (directory_.path() / "p.html").string() + "\n");
 }
 
 constexpr const char* kHeader = R"({"event": "header", "instance": "</script>"})";
