@@ -11,6 +11,7 @@ import unittest
 from pathlib import Path
 
 from support import CLUSTER, DATA, ROOT, checked_plan, hard_instance, program
+from mpi_test import MpiTest  # found by support
 
 INSTANCE = DATA / "first.cts.json"
 SLURM = {
@@ -48,7 +49,7 @@ def until(condition):
     return f"until {condition} || ! kill -0 $!; do sleep 0.05; done 2>/dev/null"
 
 
-class Scripts(unittest.TestCase):
+class Scripts(MpiTest):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)

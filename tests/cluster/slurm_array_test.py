@@ -7,11 +7,12 @@ import unittest
 from pathlib import Path
 
 from support import CLUSTER, DATA, checked_plan, submit_and_wait
+from mpi_test import MpiTest  # found by support
 
 NAMES = ["rooms-32x32_n5_m10", "empty-32x32_n5_m10", "first"]
 
 
-class ArrayScript(unittest.TestCase):
+class ArrayScript(MpiTest):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)

@@ -8,9 +8,10 @@ from pathlib import Path
 
 from support import (CLUSTER, EASY, checked_plan, recorded_hosts, recording_program,
                      submit_and_wait)
+from mpi_test import MpiTest  # found by support
 
 
-class SolveScript(unittest.TestCase):
+class SolveScript(MpiTest):
     def test_ranks_on_two_nodes_solve_one_instance(self):
         with tempfile.TemporaryDirectory() as folder:
             codes = submit_and_wait(

@@ -7,9 +7,10 @@ import unittest
 from pathlib import Path
 
 from support import CLUSTER, EASY, checked_plan, recorded_hosts, recording_program, run
+from mpi_test import MpiTest  # found by support
 
 
-class TwoHosts(unittest.TestCase):
+class TwoHosts(MpiTest):
     def solve(self, folder, *mpirun_options):
         run("mpirun", "--hostfile", CLUSTER / "hostfile.example", *mpirun_options,
             "--mca", "btl_tcp_if_include", "grove0", "--mca", "oob_tcp_if_include", "grove0",

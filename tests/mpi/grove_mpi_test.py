@@ -15,6 +15,7 @@ from pathlib import Path
 import kill_and_resume
 from mpi_program import (DATA, ENVIRONMENT, GROVE, GROVE_MPI, held_by, mpirun, plan_of, processes_of,
                          run, searches, start)
+from mpi_test import MpiTest
 from waiting import progress_of, state_of, text_of, wait_until
 
 EASY = DATA / "rooms-32x32_n10_m30.cts.json"
@@ -27,7 +28,7 @@ def end_process(process):
         os.kill(process, signal.SIGKILL)
 
 
-class Program(unittest.TestCase):
+class Program(MpiTest):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)

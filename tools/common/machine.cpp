@@ -9,11 +9,16 @@
 #include <thread>
 
 #include "grove/detail/model/resources.h"
+#include "grove/solve.hpp"
 
 namespace grove::detail {
 
 double usable_memory_gb() {
   return static_cast<double>(usable_memory()) / 1e9;
+}
+
+double default_memory_gb() {
+  return static_cast<double>(default_memory_limit()) / 1e9;
 }
 
 std::string usable_cores_text() {

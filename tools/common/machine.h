@@ -10,6 +10,8 @@ namespace grove::detail {
 
 // See usable_memory().
 double usable_memory_gb();
+// What a run may use unless told otherwise: default_memory_limit(), in GB.
+double default_memory_gb();
 // Which cores this process may use; the same text, the same cores.
 std::string usable_cores_text();
 // "host Linux x86_64, 8 cores, 16.0 GB", and ", 4.0 GB of them granted" where that is less

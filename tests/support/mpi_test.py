@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""The test case of programs that run under mpirun."""
+import functools
+import unittest
+
+# Open MPI 4 says so now and then of a job whose ranks all ended well (open-mpi/ompi, issue 7833), once in
+# thousands of jobs; and whenever a rank ends without MPI_Finalize.
+LOST_BY_MPIRUN = "mpirun has exited due to process rank"
+
+
+class MpiTest(unittest.TestCase):
+    """A test that fails because mpirun took a rank for lost is set up and run once more."""
+
+    def __init_subclass__(cls, **more):
+        super().__init_subclass__(**more)
+        for name, method in list(vars(cls).items()):
+            if name.startswith("test_"):
+                setattr(cls, name, at_most_twice(method))
+
+
+def at_most_twice(method):
+    @functools.wraps(method)
+    def attempt(self):
+        try:
+            return method(self)
+        except AssertionError as failure:
+            if LOST_BY_MPIRUN not in str(failure):
+                raise
+        self.doCleanups()
+        self.setUp()
+        return method(self)
+    return attempt
