@@ -115,7 +115,7 @@ TEST(Solve, ACrowdWithoutRoomIsSeenToBeOne) {
   const Solution solution = solve_to(
       instance_of({"...", "@.@"},
                   {{{0, 0}, Position{2, 0}}, {{2, 0}, Position{1, 1}}, {{1, 0}, Position{0, 0}}}),
-      "0", 0.2);
+      "0");
   EXPECT_EQ(solution.status, Status::kInfeasible);
   EXPECT_FALSE(solution.stats.texts.at("reason").empty());
 }

@@ -78,10 +78,10 @@ TEST_F(InputRulesTest, MemoryIsRefusedBeforeItIsTaken) {
               HasSubstr("n: line 1: 67000001 places"));
   const std::string map =
       directory_.write("large.map", "type octile\nheight 8000\nwidth 8000\nmap\n");
-  EXPECT_THAT(refusal([&] { read_map(map, kLittle); }), HasSubstr("64000000 cells need"));
+  EXPECT_THAT(refusal([&] { read_map(map, nullptr, kLittle); }), HasSubstr("64000000 cells need"));
   const std::string yaml =
       directory_.write("i.yaml", "map: {dimensions: [4000, 4000], obstacles: []}\n");
-  EXPECT_THAT(refusal([&] { read_libmrp_instance(yaml, kLittle); }),
+  EXPECT_THAT(refusal([&] { read_libmrp_instance(yaml, nullptr, kLittle); }),
               HasSubstr("16000000 cells need"));
 }
 
