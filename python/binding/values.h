@@ -71,8 +71,10 @@ T value_of(const py::handle& value, const std::string& field, const std::string&
   try {
     return value.cast<T>();
   } catch (const py::cast_error&) {
-    throw InvalidArgument(field, "found " + text_of_found(value) + "; expected " + expected);
+  } catch (const py::error_already_set& error) {  // of numpy, which converts arrays
+    if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
   }
+  throw InvalidArgument(field, "found " + text_of_found(value) + "; expected " + expected);
 }
 
 // The elements of a list, an array or another iterable.

@@ -48,8 +48,10 @@ RoadmapEdge edge_of(const py::object& road, const std::string& field) {
 
 World roadmap(const py::object& vertices, const py::object& roads) {
   std::vector<RoadmapVertex> points;
-  const auto places = value_of<py::dict>(vertices, "/vertices", "a dict {'A': (x, y), ...}");
-  for (const auto& [id, at] : places) {
+  if (!py::isinstance<py::dict>(vertices))
+    throw InvalidArgument(
+        "/vertices", "found " + text_of_found(vertices) + "; expected a dict {'A': (x, y), ...}");
+  for (const auto& [id, at] : py::reinterpret_borrow<py::dict>(vertices)) {
     const auto name = value_of<std::string>(id, "/vertices", "texts as ids");
     const auto place =
         value_of<std::pair<double, double>>(at, "/vertices/" + name, "(x, y) in metres");

@@ -67,7 +67,7 @@ class Documents(unittest.TestCase):
             done = subprocess.run([sys.executable, example], cwd=folder, capture_output=True, text=True,
                                   env={**os.environ, "PYTHONPATH": str(PACKAGE)}, timeout=120)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIn("optimal", done.stdout)
+            self.assertIn("lower bound", done.stdout)
             self.assertTrue((Path(folder) / "warehouse.gif").read_bytes().startswith(b"GIF89a"))
             self.assertIn("<html", (Path(folder) / "warehouse.html").read_text())
 
@@ -348,7 +348,7 @@ class Defaults(unittest.TestCase):
     @staticmethod
     def of_program(command, option):
         text = subprocess.run([GROVE, command, "--help"], capture_output=True, text=True, check=True, timeout=60).stdout
-        return re.search(rf"{option} [^\[]*\[(.*?)\]", text)[1]
+        return re.search(rf"{option} [A-Z]\S*=(\S+)", text)[1]
 
     def test_solve(self):
         found = self.of_python(grove.solve)

@@ -509,7 +509,7 @@ class Usage(Folder):
         program = self.copy()
         self.assertEqual(self.complaint(run=run, program=program), "bin/grove-report: there is no such file; "
                          "expected it beside grove (build the target grove), or in "
-                         "../libexec/grove where grove is installed")
+                         "../libexec/grove where the Debian package grove is installed")
 
     def test_without_python(self):
         program = self.copy()
