@@ -37,7 +37,7 @@ endif()
 
 # grove_compile(<target> [HOT | UNHURRIED])
 # How the sources of a target are compiled. HOT: most time is spent in it. UNHURRIED: hardly any, and
-# its headers take long to optimise.
+# its headers take long to optimise; all its sources are compiled as one.
 function(grove_compile target)
   cmake_parse_arguments(COMPILE "HOT;UNHURRIED" "" "" ${ARGN})
   target_link_libraries(${target} PRIVATE grove_options)
@@ -47,6 +47,9 @@ function(grove_compile target)
   else()
     target_compile_options(${target} PRIVATE $<$<AND:$<BOOL:${COMPILE_UNHURRIED}>,$<CONFIG:Release>>:-O1>)
     target_precompile_headers(${target} REUSE_FROM grove_headers)
+    if(COMPILE_UNHURRIED)
+      set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
+    endif()
   endif()
 endfunction()
 

@@ -40,7 +40,7 @@ py::object told(const Instance& instance, const char* key) {
   return py::module_::import("json").attr("loads")(instance_text(instance))[key];
 }
 
-std::string text_of(const Instance& instance) {
+std::string instance_summary(const Instance& instance) {
   return "<grove.Instance: " + std::to_string(instance.agents().size()) + " agents, " +
          std::to_string(instance.tasks().size()) + " tasks>";
 }
@@ -67,7 +67,7 @@ void add_instance(py::module_& module) {
       .def("write", [](const Instance& i, const std::filesystem::path& path) {
              write_instance(path, i);
            }, py::arg("path"), "Writes *.cts.json and its map or roadmap beside it.")
-      .def("__repr__", &text_of);
+      .def("__repr__", &instance_summary);
   module.def("_instance_of_dict", &of_dict);
   module.def(
       "read_instance",

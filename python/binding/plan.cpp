@@ -129,7 +129,7 @@ py::list told(const std::vector<Violation>& violations) {
   return all;
 }
 
-std::string text_of(const OwnSolution& solution) {
+std::string solution_summary(const OwnSolution& solution) {
   std::string text = "<grove.Solution: " + std::string(to_string(solution.facts.status));
   if (solution.plan) text += ", cost " + std::to_string(solution.plan->plan->cost);
   if (solution.facts.status == Status::infeasible) return text + ">";
@@ -226,7 +226,7 @@ void add_plan(py::module_& module) {
             write_plan(path, s.instance, s.whole());
           },
           py::arg("path"), "Writes a plan file, if check() finds nothing wrong.")
-      .def("__repr__", &text_of);
+      .def("__repr__", &solution_summary);
   py::implicitly_convertible<OwnPlan, OwnSolution>();
   module.def("_check_plan", [](const OwnPlan& plan, std::size_t limit) {
     return told(check(plan.instance, *plan.plan, limit));

@@ -84,7 +84,7 @@ py::list roads(const World& world) {
   return all;
 }
 
-std::string text_of(const World& world) {
+std::string world_summary(const World& world) {
   const auto count = [](std::size_t n) { return std::to_string(n); };
   if (!world.is_grid())
     return "<grove.World: " + count(world.vertices().size()) + " vertices, " +
@@ -116,7 +116,7 @@ void add_world(py::module_& module) {
       .def_property_readonly("passable", &passable, "An array of rows and columns, true where one can go.")
       .def_property_readonly("vertices", &vertices, "{'A': (x, y), ...}, in metres.")
       .def_property_readonly("roads", &roads, "[(from, to, steps, one_way), ...].")
-      .def("__repr__", &text_of);
+      .def("__repr__", &world_summary);
 }
 
 }  // namespace grove::python

@@ -28,7 +28,7 @@ Words words_of(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-[[noreturn]] void refuse(const std::string& text, const std::string& why) {
+[[noreturn]] void refuse_method(const std::string& text, const std::string& why) {
   throw CLI::ValidationError(fmt::format("--run '{}'", one_line(text)), why);
 }
 
@@ -47,7 +47,7 @@ NameAndOptions split(const std::string& text) {
   };
   if (name.size() != 1 || !std::ranges::all_of(name[0], is_plain) ||
       std::isalnum(static_cast<unsigned char>(name[0][0])) == 0)
-    refuse(text,
+    refuse_method(text,
            "expected 'NAME: OPTIONS OF grove solve', the name of letters, digits and -_.+= without "
            "blanks");
   if (colon == std::string::npos) return {name[0], {"--method", name[0]}};
@@ -70,7 +70,7 @@ std::set<std::string> file_options() {
 void refuse_file_options(const CLI::App& app, const std::string& text) {
   for (const std::string& name : file_options())
     if (app.count(name) > 0)
-      refuse(text, name + ": which files a run reads and writes is up to the bench");
+      refuse_method(text, name + ": which files a run reads and writes is up to the bench");
 }
 
 // What was given, as one would type it, but for the time limit.
@@ -109,9 +109,9 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   try {
     app.parse(words);
   } catch (const CLI::Success&) {
-    refuse(text, "asks for help; expected options of a search");
+    refuse_method(text, "asks for help; expected options of a search");
   } catch (const CLI::ParseError& error) {
-    refuse(text, parse_error_text(app, error));
+    refuse_method(text, parse_error_text(app, error));
   }
   refuse_file_options(app, text);
   try {
@@ -122,7 +122,7 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
                        .time_limit_s = a.time_limit_s,
                        .memory_limit_gb = defaults.memory_limit_gb};
   } catch (const CLI::ValidationError& error) {  // they do not fit together
-    refuse(text, error.what());
+    refuse_method(text, error.what());
   }
   method.threads = a.threads;
   std::optional<double>& memory_limit_gb = method.settings.memory_limit_gb;
@@ -142,7 +142,7 @@ std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
   for (const std::string& text : texts) {
     methods.push_back(read_run(text, defaults));
     if (!names.insert(methods.back().settings.method).second)
-      refuse(text, "a second run of that name; expected distinct ones");
+      refuse_method(text, "a second run of that name; expected distinct ones");
   }
   return methods;
 }

@@ -20,7 +20,7 @@ constexpr std::string_view kFree = ". _0GSE";
 constexpr std::string_view kWalls = "#@TOWXx1*";
 
 // "ros" or "ascii"; empty where neither --from nor the suffix tells.
-std::string source_format(const ConvertArguments& arguments) {
+std::string map_source_format(const ConvertArguments& arguments) {
   if (!arguments.from.empty()) return arguments.from;
   if (arguments.instance.ends_with(".yaml") || arguments.instance.ends_with(".yml")) return "ros";
   return arguments.instance.ends_with(".txt") ? "ascii" : "";
@@ -127,7 +127,7 @@ void convert_map(const ConvertArguments& arguments) {
         fmt::format("found '{}'; {} holds a map: expected map, or a "
                     "file *.map",
                     arguments.to.empty() ? arguments.output : arguments.to, arguments.from));
-  const std::string format = source_format(arguments);
+  const std::string format = map_source_format(arguments);
   if (format == "ros") return convert_occupancy(arguments);
   if (arguments.frame.given() || arguments.robot_radius > 0)
     throw CLI::ValidationError("--cell-size, --robot-radius", "expected only with a map of ROS");

@@ -19,7 +19,7 @@ namespace grove::detail {
 namespace {
 
 // "graphml" or "lif"; empty where neither --from nor the suffix tells.
-std::string source_format(const ConvertArguments& arguments) {
+std::string roadmap_source_format(const ConvertArguments& arguments) {
   if (!arguments.from.empty()) return arguments.from;
   if (arguments.instance.ends_with(".graphml")) return "graphml";
   return arguments.instance.ends_with(".lif.json") ? "lif" : "";
@@ -30,8 +30,8 @@ bool is_roadmap_target(const ConvertArguments& arguments) {
          (arguments.to.empty() && arguments.output.ends_with(".roadmap.json"));
 }
 
-std::string require_source_format(const ConvertArguments& arguments) {
-  const std::string format = source_format(arguments);
+std::string require_roadmap_source_format(const ConvertArguments& arguments) {
+  const std::string format = roadmap_source_format(arguments);
   if (format == "graphml" || format == "lif") return format;
   if (!format.empty())
     throw CLI::ValidationError(
@@ -152,12 +152,12 @@ void print_roadmap(const std::string& file, const Roadmap& roadmap) {
 }  // namespace
 
 bool is_about_roads(const ConvertArguments& arguments) {
-  const std::string format = source_format(arguments);
+  const std::string format = roadmap_source_format(arguments);
   return format == "graphml" || format == "lif" || is_roadmap_target(arguments);
 }
 
 void convert_roadmap(const ConvertArguments& arguments) {
-  const std::string format = require_source_format(arguments);
+  const std::string format = require_roadmap_source_format(arguments);
   require_roadmap_target(arguments, format);
   if (format != "lif" && (!arguments.layout.empty() || !arguments.vehicle_type.empty()))
     throw CLI::ValidationError(arguments.layout.empty() ? "--vehicle-type" : "--layout",
