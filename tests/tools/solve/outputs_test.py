@@ -148,6 +148,7 @@ class FullDisk(Outputs):
         self.assertIn("Lower bound", done.stdout)
         self.assertIn("No space left on device", done.stderr)
 
+    @unittest.skipUnless(os.access("/dev", os.W_OK), "only root can write the parts of a certificate beside /dev/full")
     def test_of_a_certificate(self):
         done = self.run_it("solve", QUICK, "-o", "x.plan.json", "--proof", "/dev/full")
         self.assertIn("Lower bound", done.stdout)
