@@ -3,8 +3,8 @@
 import functools
 import unittest
 
-# Open MPI 4 says so now and then of a job whose ranks all ended well (open-mpi/ompi, issue 7833), once in
-# thousands of jobs; and whenever a rank ends without MPI_Finalize.
+# Open MPI 4 sometimes prints this for a job whose ranks all ended well (open-mpi/ompi, issue 7833), and
+# always when a rank ends without MPI_Finalize.
 LOST_BY_MPIRUN = "mpirun has exited due to process rank"
 
 

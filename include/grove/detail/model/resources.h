@@ -6,8 +6,9 @@
 
 namespace grove::detail {
 
+// The memory of the machine, in bytes.
 std::uint64_t physical_memory();
-// Bytes: the machine's memory, or less where a container or a batch system grants no more.
+// In bytes: the machine's memory, or less where a container or a batch system grants no more.
 std::uint64_t usable_memory();
 // The cores that this process may use; at least 1.
 int usable_cores();

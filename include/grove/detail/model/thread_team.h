@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-// One thread at a time may use it: the one that made it.
+// Only the thread that made it may use it.
 class ThreadTeam {
  public:
   // `threads` >= 1, of which the caller's is one. The system may grant fewer.
