@@ -160,18 +160,34 @@ class ProofRecorder::Stream {
   }
 
   void add(Kind kind, const Numbers& numbers) {
-    const std::lock_guard lock(mutex_);
     const std::int64_t head[] = {kind, std::ssize(numbers)};
-    compressor_.add({reinterpret_cast<const char*>(head), sizeof head});
-    compressor_.add({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Cost)});
+    unless_failed([&] {
+      compressor_.add({reinterpret_cast<const char*>(head), sizeof head});
+      compressor_.add({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Cost)});
+    });
   }
 
-  void flush() {
+  std::string flush() {
+    unless_failed([&] { compressor_.end(); });
     const std::lock_guard lock(mutex_);
-    compressor_.end();
+    return failure_;
   }
 
  private:
+  template <class Write>
+  void unless_failed(Write write) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_.empty()) return;
+    try {
+      write();
+    } catch (const InputError& error) {
+      failure_ = error.what();
+      file_ = Descriptor(-1);
+      std::error_code ignored;
+      std::filesystem::remove(path_, ignored);
+    }
+  }
+
   void write(std::string_view bytes) {
     if (!write_all(file_.get(), bytes)) fail_to_write(path_);
   }
@@ -180,6 +196,7 @@ class ProofRecorder::Stream {
   Descriptor file_;
   std::mutex mutex_;  // guards:
   ZstdCompressor compressor_;
+  std::string failure_;  // why nothing more is recorded
 };
 
 ProofRecorder::ProofRecorder(std::filesystem::path path)
@@ -234,8 +251,8 @@ void ProofRecorder::joint(Cost bound) {
   stream_->add(kJoint, {bound});
 }
 
-void ProofRecorder::flush() {
-  stream_->flush();
+std::string ProofRecorder::flush() {
+  return stream_->flush();
 }
 
 void read_proof_part(const std::filesystem::path& path, ProofLog& log) {

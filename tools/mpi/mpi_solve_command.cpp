@@ -111,7 +111,7 @@ class Run {
     IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
                             options_.omega, rows);
     Solution solution = *solve_with(observer);
-    if (missing_ == 0) proof_->write(loaded_->instance, solution);
+    if (missing_ == 0) proof_->write(loaded_->instance, solution, unrecorded_);
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
     if (missing_ > 0) {
@@ -144,13 +144,13 @@ class Run {
     if (std::ranges::count(found, "") == session_.ranks()) {
       auto solution = solve_by_all(problem, observer);
       if (missing_ > 0) return solution;
-      proof_->close();
-      session_.gather("");  // now all have
+      for (const std::string& failure : session_.gather(proof_->close()))
+        if (unrecorded_.empty()) unrecorded_ = failure;
       return solution;
     }
     if (!is_first()) return std::nullopt;
     auto solution = answer ? answer : solve(loaded_->instance, options_, limits_, &observer);
-    proof_->close();
+    unrecorded_ = proof_->close();
     return solution;
   }
 
@@ -186,6 +186,7 @@ class Run {
   std::unique_ptr<LogFormat> log_;
   std::optional<ProofOutput> proof_;
   std::unique_ptr<SharedMemory> memory_;
+  std::string unrecorded_;    // why a part of the certificate is missing; of rank 0
   std::int64_t missing_ = 0;  // ranks that the job is to end without
 };
 

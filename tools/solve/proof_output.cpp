@@ -95,14 +95,18 @@ void ProofOutput::remove_old(const SolveArguments& a) {
   for (const fs::path& part : parts_of(a.proof)) fs::remove(part);
 }
 
-void ProofOutput::close() {
-  if (recorder_) recorder_->flush();
+std::string ProofOutput::close() {
+  return recorder_ ? recorder_->flush() : "";
 }
 
-void ProofOutput::write(const Instance& instance, Solution& solution) {
+void ProofOutput::write(const Instance& instance, Solution& solution, const std::string& failure) {
   if (!recorder_) return;
+  failure_ = failure;
   try {
-    make(instance, solution);
+    if (failure.empty())
+      make(instance, solution);
+    else
+      remove_parts();
   } catch (const InputError& error) {
     failure_ = error.what();
   } catch (const std::bad_alloc&) {
@@ -120,8 +124,12 @@ void ProofOutput::make(const Instance& instance, Solution& solution) const {
   const Certificate made = write_certificate(instance, parts, claimed, file_);
   solution.stats.texts["proof"] = text_of(made, claimed);
   if (made.by_joint_search) warn_of_joint_search(file_, instance, solution.stats);
+  remove_parts();
+}
+
+void ProofOutput::remove_parts() const {
   if (goes_on_) return;
-  for (const fs::path& part : parts) fs::remove(part);
+  for (const fs::path& part : parts_of(file_)) fs::remove(part);
 }
 
 }  // namespace grove::detail

@@ -27,17 +27,19 @@ class ProofOutput {
 
   // For SolveOptions; null if none is asked for.
   ProofLog* log() { return recorder_.get(); }
-  // All that this rank has written down is in its file; it writes no more.
-  void close();
-  // Once all ranks have closed theirs: makes the certificate, and notes in the solution's
-  // statistics what it proves. What fails is told by failure(), for the plan is to be written
-  // first.
-  void write(const Instance& instance, Solution& solution);
+  // This rank writes no more. Returns why not all that it has written down is in its file; empty:
+  // all is.
+  std::string close();
+  // Once all ranks have closed theirs, with what close() returned on one that failed: makes the
+  // certificate, and notes in the solution's statistics what it proves. What fails is told by
+  // failure(), for the plan is to be written first.
+  void write(const Instance& instance, Solution& solution, const std::string& failure);
   // Why there is no certificate; empty: there is one, or none was asked for.
   const std::string& failure() const { return failure_; }
 
  private:
   void make(const Instance& instance, Solution& solution) const;
+  void remove_parts() const;
 
   const std::filesystem::path file_;
   const bool goes_on_;  // a later run may

@@ -55,8 +55,7 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
   Solution solution =
       solve_by(method_of(a), a.anytime, loaded.instance, options, limits, &observer);
 
-  proof.close();
-  proof.write(loaded.instance, solution);
+  proof.write(loaded.instance, solution, proof.close());
   add_run_facts(solution, app, a, start);
   report_failures({finish_run(a, loaded.instance, solution, *log), proof.failure()});
   if (a.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);

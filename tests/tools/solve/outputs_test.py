@@ -148,6 +148,22 @@ class FullDisk(Outputs):
         self.assertIn("Lower bound", done.stdout)
         self.assertIn("No space left on device", done.stderr)
 
+    def test_while_a_certificate_is_recorded(self):
+        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", PATIENCE_S, "-o", "x.plan.json", "--proof", "x.proof",
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000)))
+        part = self.folder / "x.proof.part-0-0"
+        said = self.say(running, "lower bound")
+        while part.exists():  # until it is full
+            self.assertIsNone(running.poll())
+        running.send_signal(signal.SIGTERM)
+        rest, _ = running.communicate(timeout=PATIENCE_S)
+        self.assertEqual(running.returncode, 1, said + rest)
+        self.assertRegex(rest, r"\nCost +\d+\nLower bound +\d+\n")
+        self.assertRegex(rest, r"\nProof file +x\.proof: none was written\n")
+        self.assertIn("grove: error: x.proof.part-0-0: cannot be written: File too large\n", rest)
+        self.assertEqual(self.run_it("check", self.hard, "x.plan.json").returncode, 0)
+        self.assertEqual(list(self.folder.glob("*.part-*")), [])
+
     @unittest.skipUnless(os.access("/dev", os.W_OK), "only root can write the parts of a certificate beside /dev/full")
     def test_of_a_certificate(self):
         done = self.run_it("solve", QUICK, "-o", "x.plan.json", "--proof", "/dev/full")

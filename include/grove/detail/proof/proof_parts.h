@@ -5,16 +5,18 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "grove/detail/search/proof_log.h"
 
 namespace grove::detail {
 
 // Writes all that it is told to a file, compressed, as it comes; holds no more than some hundred
-// kilobytes.
+// kilobytes. When the disk is full, it removes the file and records nothing more: the search goes
+// on, and its plan needs the space. A certificate without this file proves less, never too much.
 class ProofRecorder : public ProofLog {
  public:
-  // Throws InputError, as all but the destructor do, when the file cannot be written.
+  // Throws InputError when the file cannot be created.
   explicit ProofRecorder(std::filesystem::path path);
   ~ProofRecorder() override;
 
@@ -25,8 +27,8 @@ class ProofRecorder : public ProofLog {
   void prices(Cost bound, std::span<const ChargedRow> rows) override;
   void joint(Cost bound) override;
 
-  // All that was said so far is in the file then.
-  void flush();
+  // All that was said so far is in the file then. Returns why it is not: empty if it is.
+  std::string flush();
 
  private:
   class Stream;
