@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Summarises test runs of CTest for tools/test.
+"""Summarises test runs of CTest for tools/test. The cases of a GoogleTest program count as tests.
 
     summary.py PART=JUNIT.xml...   prints what failed, with its last lines, what was skipped and why, and
                                    "N passed, N failed, N skipped"; exit code 1 if a test failed or none ran
@@ -15,6 +15,8 @@ from dataclasses import dataclass
 
 LINES_SHOWN = 25
 NAMES_SHOWN = 12
+IS_GTEST = re.compile(r"^\[==========\] Running ", re.MULTILINE)
+OUTCOMES = {"OK": "passed", "FAILED": "failed", "SKIPPED": "skipped"}
 
 
 @dataclass
@@ -30,13 +32,34 @@ def outcome_of(case):
     return "passed" if case.get("status") == "run" else "failed"
 
 
+def cases_of(program):
+    """The results of a GoogleTest program's cases, by its output."""
+    cases = []
+    name, lines = None, []
+    for line in program.output.splitlines():
+        mark = re.match(r"\[ *(RUN|OK|FAILED|SKIPPED) *\] ([^\s,(]+)", line)
+        if mark and mark[1] == "RUN":
+            name, lines = f"{program.name}.{mark[2]}", []
+        elif mark and name:
+            cases.append(Result(name, OUTCOMES[mark[1]], "\n".join(lines)))
+            name = None
+        elif name:
+            lines.append(line)
+    if name:
+        cases.append(Result(name, "failed", "\n".join([*lines, f"{program.name} ended here; its other cases did not run"])))
+    elif program.outcome == "failed" and all(case.outcome != "failed" for case in cases):
+        cases.append(program)
+    return cases
+
+
 def read_results(file):
     """The results of one JUnit file of CTest."""
     try:
         cases = xml.etree.ElementTree.parse(file).getroot().iter("testcase")
     except (OSError, xml.etree.ElementTree.ParseError) as error:
         sys.exit(f"summary.py: {file}: {error}")
-    return [Result(case.get("name"), outcome_of(case), case.findtext("system-out") or "") for case in cases]
+    results = [Result(case.get("name"), outcome_of(case), case.findtext("system-out") or "") for case in cases]
+    return [case for result in results for case in (cases_of(result) if IS_GTEST.search(result.output) else [result])]
 
 
 def last_lines(output):

@@ -96,7 +96,7 @@ class Packaging(unittest.TestCase):
         cmake = "".join(path.read_text() for path in [SOURCE / "CMakeLists.txt", SOURCE / "python/CMakeLists.txt",
                                                       *(SOURCE / "cmake").glob("*.cmake")])
         for option in ours["cmake"]["define"]:
-            self.assertRegex(cmake, rf"option\({option}\b")
+            self.assertTrue(re.search(rf"(option|set)\({option}\b", cmake), option)
         for target in ours["build"]["targets"]:
             self.assertIn(f"module({target} ", cmake)
         for component in ours["install"]["components"]:

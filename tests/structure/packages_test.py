@@ -76,8 +76,8 @@ def packages_of(text):
 
 
 def default_of(cmake, option):
-    found = re.search(rf'option\(\s*{option}\s+"[^"]*"\s*([^)\s]*)\s*\)', cmake)
-    return found and found.group(1)
+    found = re.search(rf'option\(\s*{option}\s+"[^"]*"\s*([^)\s]*)\s*\)|set\({option} (\S+) CACHE ', cmake)
+    return found and (found.group(1) or found.group(2))
 
 
 class ThePackages(unittest.TestCase):

@@ -22,6 +22,29 @@ def summarise(*cases):
         return subprocess.run([sys.executable, SUMMARY, f"release={file}"], capture_output=True, text=True)
 
 
+GTEST = """Running main() from gtest_main.cc
+[==========] Running 5 tests from 1 test suite.
+[----------] 5 tests from Maps
+[ RUN      ] Maps.Reads
+[       OK ] Maps.Reads (0 ms)
+[ RUN      ] Maps.Writes
+a_test.cpp:3: Failure
+Expected: 1
+[  FAILED  ] Maps.Writes, where GetParam() = 1 (2 ms)
+[ RUN      ] Kinds/Maps.Real/0
+a_test.cpp:9: Skipped
+no maps
+
+[  SKIPPED ] Kinds/Maps.Real/0 (0 ms)
+[ RUN      ] Kinds/Maps.Real/1
+[       OK ] Kinds/Maps.Real/1 (0 ms)
+[==========] 4 tests from 1 test suite ran. (0 ms total)
+[  PASSED  ] 2 tests.
+[  SKIPPED ] 1 test, listed below:
+[  SKIPPED ] Kinds/Maps.Real/0
+[  FAILED  ] 1 test, listed below:
+[  FAILED  ] Maps.Writes, where GetParam() = 1
+"""
 PASSED = case("io.reads", "run", "fine")
 
 
@@ -45,6 +68,25 @@ class Summary(unittest.TestCase):
         self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (0, "1 passed, 0 failed, 2 skipped"))
         self.assertIn("view.types: no tsc\n", run.stdout)
         self.assertIn("io.maps: no maps\n", run.stdout)
+
+    def test_counts_the_cases_of_a_googletest_program(self):
+        run = summarise(PASSED, case("io_test", "fail", GTEST))
+        self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, "3 passed, 1 failed, 1 skipped"))
+        self.assertIn("FAILED release: io_test.Maps.Writes\n    a_test.cpp:3: Failure\n    Expected: 1\n", run.stdout)
+        self.assertIn("skipped release: io_test.Kinds/Maps.Real/0: no maps\n", run.stdout)
+
+    def test_a_googletest_program_that_ends_early_has_failed(self):
+        for kept, passed, name in (("[ RUN      ] Maps.Writes\n", 1, "io_test.Maps.Writes"),
+                                   ("[----------] 5 tests from Maps\n", 0, "io_test")):
+            run = summarise(case("io_test", "fail", GTEST[:GTEST.index(kept) + len(kept)] + "Segmentation fault"))
+            self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, f"{passed} passed, 1 failed, 0 skipped"))
+            self.assertIn(f"FAILED release: {name}\n", run.stdout)
+            self.assertIn("    Segmentation fault\n", run.stdout)
+
+    def test_a_googletest_program_that_fails_after_its_cases_has_failed(self):
+        run = summarise(case("io_test", "fail", GTEST[:GTEST.index("[ RUN      ] Maps.Writes")] + "ERROR: LeakSanitizer"))
+        self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, "1 passed, 1 failed, 0 skipped"))
+        self.assertIn("FAILED release: io_test\n", run.stdout)
 
     def test_a_program_that_could_not_be_started_has_failed(self):
         run = summarise(PASSED, case("io.gone", "notrun", "", "Unable to find executable"))
