@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
 # Sourced by tools/package-test and tools/fresh-machine: a bare Debian 12 in a folder, and commands in it.
-# As root, with debootstrap. Packages come from where apt of this machine has them from.
+# As root, with debootstrap. Packages come from this machine's apt sources.
 
 give_up() { echo "tools/${0##*/}: error: $*" >&2; exit 2; }
 

@@ -96,8 +96,7 @@ GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::
                                   const Trust& trust, std::vector<std::string>* warnings = nullptr);
 /// What such a file says of agents and tasks, `{"agents": [...], "tasks": [...]}`, in this world.
 /// Throws InputError.
-GROVE_API Instance parse_instance(std::string_view text, const World& world, Rules rules = {},
-                                  std::vector<std::string>* warnings = nullptr);
+GROVE_API Instance parse_instance(std::string_view text, const World& world, Rules rules = {});
 /// Its agents and tasks as parse_instance() reads them in its world.
 GROVE_API std::string instance_text(const Instance& instance);
 /// Classical MAPF: the first `agents` rows of a Moving AI scenario, as agents a0, a1, ... Throws

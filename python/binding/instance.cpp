@@ -23,9 +23,7 @@ Instance of_dict(const World& world, const py::dict& all, bool following) {
   const auto text = py::module_::import("json")
                         .attr("dumps")(all, py::arg("default") = plain)
                         .cast<std::string>();
-  return warned([&](auto* warnings) {
-    return parse_instance(text, world, {.following = following}, warnings);
-  });
+  return parse_instance(text, world, {.following = following});
 }
 
 Instance made(const World& world, const py::object& agents, const py::object& tasks,

@@ -178,8 +178,7 @@ Instance parse_instance(std::string_view text, const std::filesystem::path& fold
       [&] { return loaded(detail::parse_instance(text, "the instance", folder), warnings); });
 }
 
-Instance parse_instance(std::string_view text, const World& world, Rules rules,
-                        std::vector<std::string>* /*warnings*/) {
+Instance parse_instance(std::string_view text, const World& world, Rules rules) {
   return translated([&] {
     detail::InstanceBuilder builder(Access::map(world));
     if (!rules.following) builder.forbid_following();

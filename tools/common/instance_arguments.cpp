@@ -26,7 +26,7 @@ constexpr std::string_view kScenario = ".scen";
 
 void add_confine_option(CLI::App& command, bool& confined) {
   command.add_flag("--confine", confined,
-                   "for instances of strangers: refuse those that name files outside of their own "
+                   "for untrusted instances: refuse those that name files outside of their own "
                    "folder");
 }
 

@@ -18,6 +18,8 @@ struct IntegerRange {
 
 // Any seed.
 inline constexpr IntegerRange kSeeds{0, INT64_MAX};
+// Steps of a plan: a time, a delay or how long something takes.
+inline constexpr IntegerRange kPlanSteps{0, 1'000'000};
 
 CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t& value,
                          IntegerRange range, const std::string& description);

@@ -17,7 +17,6 @@
 namespace grove::detail {
 namespace {
 
-constexpr IntegerRange kTroubleSteps{0, 1'000'000};
 constexpr double kMostSlow = 1000;
 
 double factor_of(const std::string& option, const std::string& text, const std::string& number) {
@@ -55,14 +54,14 @@ void Troubles::read_stops(const TroubleArguments& arguments, const Instance& ins
       refuse("--stop", text, "ROBOT@TIME=STEPS");
     stops_.push_back(
         {robot_of("--stop", text, text.substr(0, at), instance),
-         static_cast<Time>(parse_integer("--stop", text.substr(at + 1, split - at - 1), kTroubleSteps)),
-         static_cast<Time>(parse_integer("--stop", text.substr(split + 1), kTroubleSteps))});
+         static_cast<Time>(parse_integer("--stop", text.substr(at + 1, split - at - 1), kPlanSteps)),
+         static_cast<Time>(parse_integer("--stop", text.substr(split + 1), kPlanSteps))});
   }
   for (const std::string& text : arguments.dies) {
     const auto at = text.rfind('@');
     if (at == std::string::npos) refuse("--dies", text, "ROBOT@TIME");
     stops_.push_back({robot_of("--dies", text, text.substr(0, at), instance),
-                      static_cast<Time>(parse_integer("--dies", text.substr(at + 1), kTroubleSteps)),
+                      static_cast<Time>(parse_integer("--dies", text.substr(at + 1), kPlanSteps)),
                       kNever});
   }
 }

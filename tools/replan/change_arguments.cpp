@@ -14,7 +14,6 @@
 namespace grove::detail {
 namespace {
 
-constexpr IntegerRange kLateSteps{0, 1'000'000};
 
 // "new_tasks/3/agents/0" as its parts "new_tasks", 3 and "/agents/0".
 struct Field {
@@ -42,7 +41,7 @@ std::vector<Late> late_robots(const ChangeArguments& arguments, const Instance& 
     if (std::ranges::count(late, robot, &Late::agent) > 0)
       refuse("--late", text, "each robot once");
     late.push_back(
-        {robot, static_cast<Time>(parse_integer("--late", text.substr(split + 1), kLateSteps))});
+        {robot, static_cast<Time>(parse_integer("--late", text.substr(split + 1), kPlanSteps))});
   }
   return late;
 }

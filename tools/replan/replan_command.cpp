@@ -36,7 +36,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr IntegerRange kTimes{0, 1'000'000};
 constexpr const char* kInstanceSuffix = ".cts.json";
 constexpr const char* kPlanSuffix = ".plan.json";
 
@@ -285,14 +284,14 @@ void add_replan_command(CLI::App& root) {
                   "solver's paths")
       ->required()
       ->type_name("");
-  add_integer(*app, "--at", a.at, kTimes, "how many steps of the plan have passed")->required();
+  add_integer(*app, "--at", a.at, kPlanSteps, "how many steps of the plan have passed")->required();
   add_several(*app, "--late", a.change.late, "ROBOT=STEPS",
               "a robot that is where the plan had it so many steps ago");
   add_several(*app, "--new-task", a.change.new_tasks, "FILE.json", "tasks that have come");
   add_several(*app, "--drop-task", a.change.dropped, "ID", "a task that nobody has to visit now");
   add_several(*app, "--blocked", a.change.blocked, "X,Y",
               "a cell that is closed; on a roadmap a vertex, or A,B: a road");
-  add_integer(*app, "--commit", a.commit, kTimes, "so many steps of the old plan that all keep to");
+  add_integer(*app, "--commit", a.commit, kPlanSteps, "so many steps of the old plan that all keep to");
   app->add_option("--output-instance", a.output_instance,
                   "the instance then; by default it is called like the plan file, with .cts.json")
       ->type_name("FILE");

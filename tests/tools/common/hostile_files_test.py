@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Instances of strangers: what messages tell of files that they name, what --confine refuses, and how much memory small
+"""Untrusted instances: what messages tell of files that they name, what --confine refuses, and how much memory small
 files may take.
 
     hostile_files_test.py GROVE [GROVE_VERIFY]
