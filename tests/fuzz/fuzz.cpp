@@ -30,9 +30,8 @@ FuzzCase read_case(const std::string& path) {
 }
 
 // Grove, with an eye on whether it ever loses the optimum.
-Solution solve_watched(const Instance& instance, const SolveOptions& options,
-                       const Limits& limits) {
-  const oracle::Answer truth = oracle::solve_jointly(instance);
+Solution solve_watched(const Instance& instance, const SolveOptions& options, const Limits& limits,
+                       const oracle::Answer& truth) {
   if (!truth.plan) return solve(instance, options, limits);
   PlantedOptimum planted(instance, *truth.plan);
   Solution solution = solve(instance, options, limits, &planted);

@@ -9,11 +9,13 @@
 
 #include "grove/detail/engine/solve.h"
 #include "tests/fuzz/fuzz_case.h"
+#include "tests/oracle/joint_oracle.h"
 
 namespace grove::detail::fuzz {
 
-// Any engine, or a liar.
-using Solver = std::function<Solution(const Instance&, const SolveOptions&, const Limits&)>;
+// Any engine, or a liar. It is given the oracle's answer, so that it need not spend its time on it.
+using Solver = std::function<Solution(const Instance&, const SolveOptions&, const Limits&,
+                                      const oracle::Answer& truth)>;
 
 struct CaseResult {
   bool too_large = false;               // for the oracle: the solver was not asked

@@ -15,7 +15,9 @@
 #include "grove/detail/planning/goal_sequence.h"
 #include "grove/detail/planning/low_level_search.h"
 #include "grove/detail/planning/optimal_paths.h"
+#include "grove/detail/sequencing/completions.h"
 #include "grove/detail/sequencing/cost_matrix.h"
+#include "grove/detail/sequencing/direct_legs.h"
 #include "src/planning/visit_check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/planning/worlds/world_reference.h"
@@ -89,13 +91,30 @@ class Fuzzer {
     return work;
   }
 
+  // As the search has them, as a graph, or as a graph by direct legs.
+  Completions completions_of(const AgentStops& stops, const SequenceClass& work) {
+    const Completions& given = stops.completions();
+    switch (below(3)) {
+      case 0:
+        return given;
+      case 1:
+        return Completions::as_graph(given.matrix());
+      default:
+        break;
+    }
+    const CostMatrix matrix = given.matrix();
+    const Completions graph = Completions::as_graph(
+        matrix, [this, agent = stops.agent(), matrix] { return direct_legs(instance_, agent, matrix); });
+    return graph.of_class(work).value_or(graph);
+  }
+
   void run_agent(AgentIndex agent) {
     AgentStops stops(instance_, distances_, agent);
     const SequenceClass work = sequence_class(stops.count());
     agent_ = agent;
     work_ = work;
-    Completions graph = Completions::as_graph(stops.completions().matrix());
-    FreeGoals goals(stops, work, below(2) == 0 ? graph : stops.completions());
+    Completions completions = completions_of(stops, work);
+    FreeGoals goals(stops, work, completions);
     constraints_.clear();
     Path path;
     for (int n = below(14); n >= 0; --n) {
