@@ -184,4 +184,6 @@ def run(instance, proof):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit("usage: proof_checker.py INSTANCE CERTIFICATE")
     run(*sys.argv[1:])

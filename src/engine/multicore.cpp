@@ -122,17 +122,24 @@ std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers)
       goes_on[w] = turn && turn->job == Worker::Turn::Job::kExpand;
       if (turn) units.push_back({workers[w].get(), std::move(*turn)});
     }
-  // They take longest. Who performs them is one and the same for all that matters.
+  // They take longest.
   std::stable_partition(units.begin(), units.end(), [](const Unit& u) { return u.is_primal(); });
   return units;
 }
 
-// Calls `what` with each unit and the thread that does it, and waits for all.
+// Calls `what` with each unit, and waits for all. A worker's units are done in order, by one thread:
+// what its expander has cached, and so the number of labels that it expands, must not depend on the
+// threads.
 template <class What>
 void for_each_unit(std::vector<Unit>& units, ThreadTeam& team, const What& what) {
+  std::vector<Worker*> workers;
+  for (const Unit& unit : units)
+    if (std::ranges::find(workers, unit.worker) == workers.end()) workers.push_back(unit.worker);
   std::atomic<std::size_t> next{0};
-  team.run([&](int thread) {
-    for (std::size_t u = next++; u < units.size(); u = next++) what(units[u], thread);
+  team.run([&](int) {
+    for (std::size_t w = next++; w < workers.size(); w = next++)
+      for (Unit& unit : units)
+        if (unit.worker == workers[w]) what(unit);
   });
 }
 
@@ -157,11 +164,10 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
 void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                      int threads, const BetweenTurns& between_turns) {
   ThreadTeam team(std::min(threads, static_cast<int>(workers.size())));
-  // More expanders than threads would compete for the cache.
-  const auto perform = [&](Unit& unit, int thread) {
-    unit.worker->perform(unit.turn, workers[static_cast<std::size_t>(thread)]->expander());
+  const auto perform = [](Unit& unit) {
+    unit.worker->perform(unit.turn, unit.worker->expander());
   };
-  const auto publish = [](Unit& unit, int) { Worker::publish(unit.turn); };
+  const auto publish = [](Unit& unit) { Worker::publish(unit.turn); };
   while (!shared.over()) {
     std::vector<Unit> units = choose_round(workers);
     for_each_unit(units, team, perform);

@@ -48,14 +48,18 @@ class WholePlans : public ForwardingObserver {
         lower_bound_(lower_bound) {}
 
   Solution whole(Solution solution) const {
-    if (ends_are_free())
+    const bool is_stuck = solution.status == Status::kInfeasible;
+    if (ends_are_free() && !is_stuck)
       solution.stats.counts["lower_bound_committed"] = cost_before() + solution.lower_bound;
     solution.lower_bound = lower_bound_;
     if (solution.plan) {
       solution.plan = whole(*solution.plan);
       solution.status = status_of(solution.plan->cost, lower_bound_, solution.omega);
-    } else if (solution.status == Status::kInfeasible) {  // it is for those that begin like this
+    } else if (is_stuck) {  // other plans may begin otherwise
       solution.status = Status::kUnknown;
+      solution.stats.texts["reason"] =
+          "the committed steps leave no plan where agents without a destination end as in the old "
+          "plan; fewer committed steps may";
     }
     return solution;
   }

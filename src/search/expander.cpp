@@ -65,6 +65,7 @@ void Expander::enter(const NodePtr& node) {
 Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limits, Haste haste) {
   const Leaving at_last{*this};
   Expansion expansion;
+  expansion.cutoff = cutoff;
   const auto stopped = [] {
     Expansion nothing;
     nothing.stopped = true;

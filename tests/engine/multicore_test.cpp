@@ -73,6 +73,7 @@ TEST(Multicore, ADeterministicRunIsTheSameForAnyNumberOfThreads) {
   for (const Instance& instance : instances()) {
     std::vector<Recorder::Row> rows;
     std::vector<Path> paths;
+    std::int64_t labels = 0;
     for (const int threads : {1, 2, 4, 7}) {
       SolveOptions options = plain(threads);
       options.deterministic = true;
@@ -84,9 +85,11 @@ TEST(Multicore, ADeterministicRunIsTheSameForAnyNumberOfThreads) {
       if (threads == 1) {
         rows = recorder.rows;
         paths = found;
+        labels = solution.stats.counts.at("low_level_expanded");
       }
       ASSERT_EQ(recorder.rows, rows) << threads << " threads";
       EXPECT_EQ(found, paths);
+      EXPECT_EQ(solution.stats.counts.at("low_level_expanded"), labels) << threads << " threads";
     }
     longest = std::max(longest, rows.size());
   }

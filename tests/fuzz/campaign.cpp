@@ -103,7 +103,7 @@ std::string Failure::report() const {
       fmt::join(result.complaints, "\n  "), shrunk.to_text(), original.to_text());
 }
 
-Failure explain(const FuzzCase& fuzz_case, const Solver& solver,
+Failure explain(const FuzzCase& fuzz_case, CaseResult first, const Solver& solver,
                 std::chrono::milliseconds patience) {
   Limits limits;
   limits.set_deadline(Limits::Clock::now() + kShrinkingTime);
@@ -112,6 +112,10 @@ Failure explain(const FuzzCase& fuzz_case, const Solver& solver,
   };
   Failure failure{fuzz_case, shrink(fuzz_case, fails, limits), {}};
   failure.result = run_case(failure.shrunk, solver, patience);
+  if (failure.result.complaints.empty()) {  // with threads a run may go another way
+    failure.result = std::move(first);
+    failure.result.complaints.push_back("(at first; not when the case was run again)");
+  }
   return failure;
 }
 
@@ -123,7 +127,7 @@ std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solv
     if (!campaign.trace.empty()) std::ofstream(campaign.trace) << fuzz_case.to_text();
     const CaseResult result = run_case(fuzz_case, solver, campaign.patience);
     tally.add(fuzz_case, result);
-    if (!result.complaints.empty()) return explain(fuzz_case, solver, campaign.patience);
+    if (!result.complaints.empty()) return explain(fuzz_case, result, solver, campaign.patience);
   }
   return std::nullopt;
 }

@@ -55,7 +55,7 @@ struct Campaign {
 std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solver, Tally& tally);
 
 // Shrinks a failing case.
-Failure explain(const FuzzCase& fuzz_case, const Solver& solver,
+Failure explain(const FuzzCase& fuzz_case, CaseResult first, const Solver& solver,
                 std::chrono::milliseconds patience = kPatience);
 
 }  // namespace grove::detail::fuzz

@@ -47,7 +47,7 @@ std::optional<Failure> run_files(const std::vector<std::string>& paths,
     tally.add(fuzz_case, result);
     if (result.complaints.empty()) continue;
     fmt::print("{}\n", path);
-    return explain(fuzz_case, solve_watched, patience);
+    return explain(fuzz_case, result, solve_watched, patience);
   }
   return std::nullopt;
 }

@@ -112,7 +112,9 @@ void PlantedOptimum::on_root(const NodePtr& root) {
 
 void PlantedOptimum::on_expanded(const NodePtr& node, const Expansion& expansion, int) {
   if (holding_.erase(node.get()) == 0) return;
-  bool kept = expansion.plan && expansion.plan->cost <= optimum_.cost;
+  // A worker may know of an incumbent as good before it is announced.
+  bool kept = expansion.cutoff <= optimum_.cost ||
+              (expansion.plan && expansion.plan->cost <= optimum_.cost);
   for (const NodePtr& child : expansion.children) {
     if (!held_by(*child)) continue;
     kept = true;

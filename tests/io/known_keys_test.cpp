@@ -124,6 +124,9 @@ TEST_F(KnownKeys, ACloseKeyIsHinted) {
               "f: /edges/0: " + hint(found, "'one_way' (true: only from 'from' to 'to')"));
   EXPECT_EQ(refused("roadmap", R"({"vertices": [{"id": "A", "position": [0, 0]}], "edges": []})"),
             "f: /vertices/0: " + hint("position", "'at'"));
+  // A key of another object, but nearly one of this.
+  EXPECT_EQ(refused("instance", R"({"map": "m.map", "agents": [], "task": []})"),
+            "f: /: " + hint("task", "'tasks'"));
   // The key itself is there: another one was meant.
   EXPECT_EQ(
       refused_member(kInstance, 1, R"("gaol": [1, 1])"),

@@ -233,26 +233,15 @@ void add_bench_command(CLI::App& root) {
                   "a list of instances, a folder of them, or one; or scenarios")
       ->required()
       ->type_name("");
-  app->add_option("--run", a->runs,
-                  "a method: its name and its options of grove solve; once for each")
-      ->type_name("'NAME: OPTIONS'")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option(
-         "--solver", a->solvers,
-         "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
-         "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
-         "{agents}, {instance}, {time_limit}, {seed}, {output}")
-      ->type_name("'NAME=COMMAND'")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option(
-         "--claimed-cost", a->claims,
-         "of a solver that shows no plan: group 1 of the last line that it prints in which "
-         "this is found is the cost that it claims")
-      ->type_name("'NAME=REGEX'")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeated(*app, "--run", a->runs, "'NAME: OPTIONS'",
+               "a method: its name and its options of grove solve; once for each");
+  add_repeated(*app, "--solver", a->solvers, "'NAME=COMMAND'",
+               "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
+               "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
+               "{agents}, {instance}, {time_limit}, {seed}, {output}");
+  add_repeated(*app, "--claimed-cost", a->claims, "'NAME=REGEX'",
+               "of a solver that shows no plan: group 1 of the last line that it prints in which "
+               "this is found is the cost that it claims");
   add_confine_option(*app, a->confined);
   add_counts(*app, "--agents", a->agents,
              "of scenarios: the first so many rows, 10:100:10 being 10, 20, ..., 100");

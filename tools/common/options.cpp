@@ -120,6 +120,14 @@ CLI::Option* add_counts(CLI::App& app, const std::string& name, std::vector<std:
   return app.add_option(name, read, description)->type_name("A:B:STEP,...");
 }
 
+CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<std::string>& values,
+                          const std::string& type, const std::string& description) {
+  return app.add_option(name, values, description)
+      ->type_name(type)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+}
+
 std::string ranges_text(const std::vector<std::int64_t>& values) {
   std::string text;
   for (std::size_t first = 0, end = 0; first < values.size(); first = end) {

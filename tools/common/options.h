@@ -35,6 +35,10 @@ CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std:
 // steps of 10.
 CLI::Option* add_counts(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
                         const std::string& description);
+// An option that may be given several times, with one value each: what follows the value is no
+// value of it.
+CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<std::string>& values,
+                          const std::string& type, const std::string& description);
 // The shortest text that add_ranges() reads as `values`: "1-15,20".
 std::string ranges_text(const std::vector<std::int64_t>& values);
 // A decimal number from `least` to `most`.

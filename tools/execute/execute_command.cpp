@@ -253,18 +253,11 @@ void add_execute_command(CLI::App& app) {
   TroubleArguments& t = arguments->troubles;
   add_number(*command, "--delays", t.delayed, 0, 1, "share of actions that take longer");
   add_integer(*command, "--delay-steps", t.delay_steps, kDelaySteps, "by 1 to so many steps");
-  command->add_option("--slow", t.slow, "a robot that takes FACTOR times as long")
-      ->type_name("ROBOT=FACTOR")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--stop", t.stop, "a robot that stands still for so many steps from then on")
-      ->type_name("ROBOT@TIME=STEPS")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--dies", t.dies, "a robot that does not move any more from then on")
-      ->type_name("ROBOT@TIME")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeated(*command, "--slow", t.slow, "ROBOT=FACTOR", "a robot that takes FACTOR times as long");
+  add_repeated(*command, "--stop", t.stop, "ROBOT@TIME=STEPS",
+               "a robot that stands still for so many steps from then on");
+  add_repeated(*command, "--dies", t.dies, "ROBOT@TIME",
+               "a robot that does not move any more from then on");
   command->add_flag("--switch", arguments->switches,
                     "let robots go first that wait for a late one, where that saves time");
   add_integer(*command, "--runs", arguments->runs, kRuns, "so many drives, each with other delays");

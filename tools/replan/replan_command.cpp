@@ -263,14 +263,6 @@ class Replanning {
   std::vector<OutputLock> locks_;
 };
 
-void add_several(CLI::App& app, const std::string& name, std::vector<std::string>& values,
-                 const std::string& type, const std::string& description) {
-  app.add_option(name, values, description)
-      ->type_name(type)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
 }  // namespace
 
 void add_replan_command(CLI::App& root) {
@@ -285,11 +277,11 @@ void add_replan_command(CLI::App& root) {
       ->required()
       ->type_name("");
   add_integer(*app, "--at", a.at, kPlanSteps, "how many steps of the plan have passed")->required();
-  add_several(*app, "--late", a.change.late, "ROBOT=STEPS",
+  add_repeated(*app, "--late", a.change.late, "ROBOT=STEPS",
               "a robot that is where the plan had it so many steps ago");
-  add_several(*app, "--new-task", a.change.new_tasks, "FILE.json", "tasks that have come");
-  add_several(*app, "--drop-task", a.change.dropped, "ID", "a task that nobody has to visit now");
-  add_several(*app, "--blocked", a.change.blocked, "X,Y",
+  add_repeated(*app, "--new-task", a.change.new_tasks, "FILE.json", "tasks that have come");
+  add_repeated(*app, "--drop-task", a.change.dropped, "ID", "a task that nobody has to visit now");
+  add_repeated(*app, "--blocked", a.change.blocked, "X,Y",
               "a cell that is closed; on a roadmap a vertex, or A,B: a road");
   add_integer(*app, "--commit", a.commit, kPlanSteps, "so many steps of the old plan that all keep to");
   app->add_option("--output-instance", a.output_instance,

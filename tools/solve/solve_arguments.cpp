@@ -163,16 +163,19 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
                      names_of(Techniques::usual()))
       ->type_name("TECHNIQUE")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(technique_of(Techniques::usual()));
   app.add_option(
          "--with", a.with,
          "use a technique that is not used by default, in the same way: " + names_of(unusual))
       ->type_name("TECHNIQUE")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(technique_of(unusual));
   app.add_option("--tune", a.tune)  // not in the help
       ->type_name("NAME=VALUE")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::Validator(check_tuning, ""));
 }
 
@@ -248,10 +251,11 @@ std::string options_text(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || option->get_positional()) continue;
+    const std::string name = option->get_name();
     const bool is_flag = option->get_expected_max() == 0;
-    text +=
-        fmt::format("{}{}{}{}", text.empty() ? "" : " ", option->get_name(), is_flag ? "" : " ",
-                    is_flag ? "" : fmt::format("{}", fmt::join(option->reduced_results(), ",")));
+    const std::string between = option->get_delimiter() == ',' ? "," : fmt::format(" {} ", name);
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : " ", name, is_flag ? "" : " ",
+                        is_flag ? "" : fmt::format("{}", fmt::join(option->reduced_results(), between)));
   }
   return text;
 }

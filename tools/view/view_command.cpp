@@ -287,6 +287,7 @@ void add_view_command(CLI::App& app, const PictureMaker& maker) {
   command
       ->add_option("--at", arguments->pictures.moments, "moments of --svg and --png, in steps; by default 0")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::Range(0.0, 1e9).description(""))
       ->type_name("T,T,...");
   add_integer(*command, "--width", arguments->pictures.width, kWidths, "pixels of a moment");

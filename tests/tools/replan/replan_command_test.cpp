@@ -56,6 +56,10 @@ class ReplanCommand : public ::testing::Test {
     std::ofstream(directory_ / name) << text;
     return directory_ / name;
   }
+  std::string first_task() const {
+    std::ifstream file(instance_);
+    return json::parse(file)["tasks"][0]["id"];
+  }
   json read(const std::string& name) const {
     std::ifstream file(directory_ / name);
     return json::parse(file);
@@ -82,6 +86,23 @@ TEST_F(ReplanCommand, WhoIsLateIsWhereItWas) {
   const json agents = read("then.cts.json")["agents"];
   EXPECT_EQ(agents[3]["start"], before[3]["path"][15]);
   EXPECT_EQ(agents[1]["start"], before[1]["path"][18]);
+}
+
+TEST_F(ReplanCommand, OptionsMayComeBeforeTheFiles) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--at", "20", "--late", "a3=5", "--late", "a1=2"},
+        {"--at", "0", "--drop-task", first_task()}}) {
+    std::vector<std::string> words{"replan"};
+    words.insert(words.end(), options.begin(), options.end());
+    words.insert(words.end(), {instance_, plan_, "--quiet", "--output", directory_ / "then.plan.json"});
+    const ProcessResult done = run_grove(words);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+  }
+  const std::string told = read("then.plan.json")["stats"]["options"];
+  EXPECT_THAT(told, testing::HasSubstr("--drop-task " + first_task()));
+  expect_valid({"--at", "20", "--late", "a3=5", "--late", "a1=2"});
+  EXPECT_THAT(std::string(read("then.plan.json")["stats"]["options"]),
+              testing::HasSubstr("--late a3=5 --late a1=2"));
 }
 
 TEST_F(ReplanCommand, WhatIsCommittedIsKept) {

@@ -27,6 +27,7 @@ namespace grove::detail {
 struct Expansion {
   bool stopped = false;
   bool unfinished = false;
+  Cost cutoff = kInfiniteCost;    // of the expansion: the cost of the incumbent then
   std::optional<Plan> plan;       // the node's paths, or others as cheap, are conflict-free
   std::vector<NodePtr> children;  // at most two; a child without a path is none. One: perhaps the
                                   // same node with a higher bound
