@@ -204,9 +204,10 @@ class Session::Impl {
 
   void advance(Time steps, std::span<const Late> late) {
     GROVE_ASSERT(plan_, "time goes on by a plan");
+    const bool is_anyone_late = std::ranges::any_of(late, [](const Late& l) { return l.steps != 0; });
     const Plan driven =
-        late.empty() ? *plan_
-                     : late_plan(instance_, *plan_, PassingOrder(instance_, *plan_), steps, late);
+        is_anyone_late ? late_plan(instance_, *plan_, PassingOrder(instance_, *plan_), steps, late)
+                       : *plan_;
     Remainder rest =
         grove::detail::advance(instance_, driven, steps, Rests::kAnywhere, ends_with_plan_);
     require_valid_plan_of(rest.instance, rest.plan);

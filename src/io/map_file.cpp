@@ -81,7 +81,9 @@ class MapReader {
   // A file that does not begin as a map is perhaps no map, and what it holds is not for the screen.
   void expect_map() const {
     if (constexpr std::string_view kFirst = "type octile"; header_line(0, kFirst) != kFirst)
-      fail(0, 0, fmt::format("does not begin as a map does; expected '{}'", kFirst));
+      fail(0, 0, fmt::format("does not begin as a map does; expected '{}' ('grove convert' makes a map of "
+                             "a drawing)",
+                             kFirst));
   }
 
   Size read_header() const {

@@ -75,6 +75,20 @@ TEST(Session, WhoIsLateIsWhereItWas) {
   EXPECT_EQ(wrong_with(session.instance(), *session.plan()), "");
 }
 
+TEST(Session, NoStepsLateIsOnTime) {
+  const Instance instance = instance_of(
+      {"...", "#.#"}, {AgentSpec{{0, 0}, Position{2, 0}, {}}, AgentSpec{{1, 1}, Position{1, 1}, {}}});
+  Plan waits = *session_of(instance).plan();
+  AgentPlan& first = waits.agents[0];
+  first.path.insert(first.path.begin(), first.path.front());
+  ++first.cost;
+  ++waits.cost;
+  Session session(instance, waits);
+  const Late late{0, 0};
+  session.advance(0, {&late, 1});
+  EXPECT_EQ(session.plan()->agents[0].path, first.path);
+}
+
 TEST(Session, LatenessThatCannotBeIsRefused) {
   Session session = session_of(instance_of(
       {"......"}, {AgentSpec{{0, 0}, Position{4, 0}, {}}, AgentSpec{{1, 0}, Position{5, 0}, {}}}));

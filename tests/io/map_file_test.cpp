@@ -80,7 +80,8 @@ TEST_F(MapFile, CountsRows) {
 TEST_F(MapFile, ReadsHeadersStrictly) {
   EXPECT_EQ(refused(""), "m.map: line 1, column 1: the file ends here; expected 'type octile'");
   EXPECT_EQ(refused("type tile\n"),
-            "m.map: line 1, column 1: does not begin as a map does; expected 'type octile'");
+            "m.map: line 1, column 1: does not begin as a map does; expected 'type octile' ('grove "
+            "convert' makes a map of a drawing)");
   EXPECT_EQ(refused("type octile\n"),
             "m.map: line 2, column 1: the file ends here; expected 'height' or 'width'");
   const std::string both = "expected 'height' and 'width', one per line, each with a number";

@@ -20,9 +20,9 @@ Examples:
   grove generate scenario --map my.map --rows 200 --seed 1 -o my.scen
   grove generate instance --map my.map --scen my.scen --agents 10 --tasks 30 -o my.cts.json
   grove generate instance --map my.map --agents 5 --tasks 10 --mg -o my_mg.cts.json
-  grove generate roadmap --kind warehouse -o hall.roadmap.json
-  grove generate instance --roadmap hall.roadmap.json --tasks-on a --agents 100 --tasks 300 \
-        -o hall.cts.json
+  grove generate roadmap --kind warehouse -o depot.roadmap.json
+  grove generate instance --roadmap depot.roadmap.json --tasks-on a --agents 100 --tasks 300 \
+        -o depot.cts.json
   grove generate dataset --map my.map --scen my.scen --agents 5,10,20 --tasks 10,30,50 \
         --output-dir my_set
   grove generate paper --scenarios 1-5 --output-dir paper)";

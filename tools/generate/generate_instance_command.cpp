@@ -49,8 +49,8 @@ Examples:
   grove generate instance --map my.map --agents 10 --tasks 30 --seed 1 -o my.cts.json
   grove generate instance --map my.map --agents 10 --tasks 30 --turning --durations 0-10 \
         -o my_turning.cts.json
-  grove generate instance --roadmap hall.roadmap.json --tasks-on a --agents 100 --tasks 300 \
-        -o hall.cts.json)";
+  grove generate instance --roadmap depot.roadmap.json --tasks-on a --agents 100 --tasks 300 \
+        -o depot.cts.json)";
 
 struct NewInstanceArguments {
   std::string map;

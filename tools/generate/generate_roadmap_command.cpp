@@ -30,9 +30,9 @@ aisle is two lanes, one for each direction; they meet the aisles at c0e0, ... (e
 
 Examples:
   grove generate roadmap --kind planar --vertices 200 --one-way 30 --seed 1 -o town.roadmap.json
-  grove generate roadmap --kind warehouse --aisles 30 --slots 40 -o hall.roadmap.json
-  grove generate instance --roadmap hall.roadmap.json --tasks-on a --agents 100 --tasks 300 \
-        -o hall.cts.json)";
+  grove generate roadmap --kind warehouse --aisles 30 --slots 40 -o depot.roadmap.json
+  grove generate instance --roadmap depot.roadmap.json --tasks-on a --agents 100 --tasks 300 \
+        -o depot.cts.json)";
 
 struct RoadmapArguments {
   std::string kind;

@@ -184,7 +184,8 @@ TEST_F(ReplanCommand, APlanWithFollowingIsRefusedWithNoFollowing) {
   ASSERT_EQ(run_grove({"solve", row, "--quiet", "--omega", "0", "--output", plan}).exit_code, 0);
   const ProcessResult done = run_grove({"replan", row, plan, "--at", "1", "--no-following"});
   EXPECT_EQ(done.exit_code, 2);
-  EXPECT_THAT(done.err, HasSubstr("row.plan.json: /agents/0/path/1: is not valid"));
+  EXPECT_THAT(done.err, HasSubstr("row.plan.json: /agents/0/path/1: is not valid with --no-following, and was made "
+                                  "without it, so it cannot be driven: "));
 }
 
 TEST_F(ReplanCommand, TheInstanceIsCalledLikeThePlan) {
