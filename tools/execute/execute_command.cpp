@@ -255,7 +255,7 @@ void add_execute_command(CLI::App& app) {
   add_integer(*command, "--delay-steps", t.delay_steps, kDelaySteps, "by 1 to so many steps");
   add_repeated(*command, "--slow", t.slow, "ROBOT=FACTOR", "a robot that takes FACTOR times as long");
   add_repeated(*command, "--stop", t.stop, "ROBOT@TIME=STEPS",
-               "a robot that stands still for so many steps from then on");
+               "a robot that stops for so many steps from then on");
   add_repeated(*command, "--dies", t.dies, "ROBOT@TIME",
                "a robot that does not move any more from then on");
   command->add_flag("--switch", arguments->switches,

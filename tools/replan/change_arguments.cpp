@@ -14,7 +14,6 @@
 namespace grove::detail {
 namespace {
 
-
 // "new_tasks/3/agents/0" as its parts "new_tasks", 3 and "/agents/0".
 struct Field {
   explicit Field(const std::string& text) {

@@ -278,12 +278,12 @@ void add_replan_command(CLI::App& root) {
       ->type_name("");
   add_integer(*app, "--at", a.at, kPlanSteps, "how many steps of the plan have passed")->required();
   add_repeated(*app, "--late", a.change.late, "ROBOT=STEPS",
-              "a robot that is where the plan had it so many steps ago");
+               "a robot that is where the plan had it so many steps ago");
   add_repeated(*app, "--new-task", a.change.new_tasks, "FILE.json", "tasks that have come");
-  add_repeated(*app, "--drop-task", a.change.dropped, "ID", "a task that nobody has to visit now");
+  add_repeated(*app, "--drop-task", a.change.dropped, "ID", "a task that is not to be visited any more");
   add_repeated(*app, "--blocked", a.change.blocked, "X,Y",
-              "a cell that is closed; on a roadmap a vertex, or A,B: a road");
-  add_integer(*app, "--commit", a.commit, kPlanSteps, "so many steps of the old plan that all keep to");
+               "a cell that is closed; on a roadmap a vertex, or A,B: a road");
+  add_integer(*app, "--commit", a.commit, kPlanSteps, "so many steps of the old plan that all robots keep to");
   app->add_option("--output-instance", a.output_instance,
                   "the instance then; by default it is called like the plan file, with .cts.json")
       ->type_name("FILE");

@@ -47,8 +47,7 @@ std::string ending_text(const Solution& solution) {
     text += fmt::format(", stopped by: {}", stopped->second);
   if (solution.status != Status::kInfeasible)
     text += fmt::format(", lower bound {}", solution.lower_bound);
-  if (const auto reason = solution.stats.texts.find("reason");
-           reason != solution.stats.texts.end())
+  if (const auto reason = solution.stats.texts.find("reason"); reason != solution.stats.texts.end())
     text += ": " + reason->second;
   return text;
 }
