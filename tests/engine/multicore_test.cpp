@@ -13,6 +13,7 @@
 #include "grove/detail/engine/run_observer.h"
 #include "grove/detail/engine/solve.h"
 #include "grove/detail/model/check.h"
+#include "tests/fuzz/tiny_instance.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/clocks.h"
 
@@ -21,6 +22,7 @@ namespace multicore_test {
 
 using testing::Crowd;
 using testing::LimitOfHangs;
+using testing::LimitOfLooks;
 using testing::random_crowd;
 
 // Too hard for the root, easy enough for a test: some hundred nodes for plain CBS.
@@ -94,6 +96,31 @@ TEST(Multicore, ADeterministicRunIsTheSameForAnyNumberOfThreads) {
     longest = std::max(longest, rows.size());
   }
   EXPECT_GT(longest, 10) << "too easy to be a test";
+}
+
+// An expander caches what it has searched. In this instance a round has several units of a worker,
+// and the count shows whose expander did which.
+TEST(Multicore, ADeterministicRunExpandsTheSameLabelsForAnyNumberOfThreads) {
+  fuzz::TinyInstance tiny;
+  tiny.rows = {"....", "..@.", "@@.."};
+  tiny.agents = {{.start = {2, 2}, .goal = Position{0, 0}},
+                 {.start = {3, 1}, .goal = {}},
+                 {.start = {1, 0}, .goal = {}, .work = 1}};
+  tiny.tasks = {{.cell = {3, 1}, .agents = {2}},
+                {.cell = {1, 0}, .agents = {2}, .duration = 1},
+                {.cell = {3, 0}, .agents = {2}}};
+  const Instance instance = tiny.build();
+  SolveOptions options;
+  options.omega = Omega();
+  options.deterministic = true;
+  options.techniques = options.techniques.without(
+      Techniques{Technique::kJointSearch, Technique::kJointGroups, Technique::kLagrangian});
+  const auto labels = [&](int threads) {
+    options.threads = threads;
+    return solve(instance, options, LimitOfHangs()).stats.counts.at("low_level_expanded");
+  };
+  const std::int64_t alone = labels(1);
+  for (const int threads : {2, 3, 4}) EXPECT_EQ(labels(threads), alone) << threads << " threads";
 }
 
 // Prices come to the search for plans while it runs.
