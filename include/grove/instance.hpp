@@ -71,7 +71,7 @@ class GROVE_API Instance {
   std::shared_ptr<const Data> data_;
 };
 
-/// What the files of strangers may do; see read_instance().
+/// What an untrusted file may name, and how much memory it may take; see read_instance().
 struct Trust {
   /// Refuses a file that names a map or roadmap outside of its own folder: by an absolute name, by
   /// `..` or by a symbolic link.
@@ -85,13 +85,13 @@ struct Trust {
 /// `warnings`, if there is one. Throws InputError.
 GROVE_API Instance read_instance(const std::filesystem::path& path,
                                  std::vector<std::string>* warnings = nullptr);
-/// The same within bounds, for files that strangers wrote.
+/// The same within bounds, for untrusted files.
 GROVE_API Instance read_instance(const std::filesystem::path& path, const Trust& trust,
                                  std::vector<std::string>* warnings = nullptr);
 /// The same of the text of such a file; the map is relative to `folder`.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder = ".",
                                   std::vector<std::string>* warnings = nullptr);
-/// The same within bounds, for texts that strangers wrote.
+/// The same within bounds, for untrusted texts.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
                                   const Trust& trust, std::vector<std::string>* warnings = nullptr);
 /// What such a file says of agents and tasks, `{"agents": [...], "tasks": [...]}`, in this world.

@@ -77,7 +77,7 @@ void add_instance(py::module_& module) {
       py::arg("path"), py::kw_only(), py::arg("confine") = false,
       py::arg("memory_limit") = py::none(),
       "Reads a *.cts.json file and the map or roadmap that it names.\n\n"
-      "For files of strangers: `confine` refuses one that names a map outside of its own folder, "
+      "For untrusted files: `confine` refuses one that names a map outside of its own folder, "
       "and `memory_limit` one whose map and robots' states would take more bytes.");
   module.def("read_scenario", &read_scenario, py::arg("scenario"), py::arg("map"),
              py::arg("agents"),

@@ -74,6 +74,13 @@ std::size_t begin_of_token(std::string_view text, std::size_t offset) {
   return offset;
 }
 
+// "[1, 2, ]": is this the bracket?
+bool is_behind_last_comma(std::string_view text, std::size_t offset) {
+  if (offset >= text.size() || (text[offset] != '}' && text[offset] != ']')) return false;
+  const std::size_t before = text.substr(0, offset).find_last_not_of(" \t\r\n");
+  return before != std::string_view::npos && text[before] == ',';
+}
+
 // Builds the document from the parser's events.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
  public:
@@ -110,6 +117,9 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
       if (const auto mistake = common_mistake(text_.substr(begin)); !mistake.empty())
         throw InputError(file_, line_and_column_at(text_, begin),
                          fmt::format("malformed JSON: {}", mistake));
+    if (is_behind_last_comma(text_, offset))
+      throw InputError(file_, line_and_column_at(text_, offset),
+                       "malformed JSON: a comma behind the last value; expected none there");
     throw InputError(file_, line_and_column_at(text_, offset), "malformed JSON: " + tidy(error));
   }
 

@@ -107,6 +107,10 @@ TEST_F(InstanceFile, NamesWhatPeopleWriteIntoJson) {
   EXPECT_EQ(
       refused("{\"map\": True}"),
       "i.json: line 1, column 9: malformed JSON: found True; expected true, in small letters");
+  for (const char* text : {"{\"map\": 1,}", "{\"map\": 1, }", "{\"map\": [1,\n]}"})
+    EXPECT_TRUE(refused(text).ends_with(
+        "malformed JSON: a comma behind the last value; expected none there"))
+        << refused(text);
 }
 
 TEST_F(InstanceFile, PlacesAreCellsAndNotMetres) {

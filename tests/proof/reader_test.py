@@ -309,6 +309,19 @@ class Reader(unittest.TestCase):
                 path.write_text(text.replace("{", '{"_": ' + number + ", ", 1))
                 self.ends(GOOD, (0,), "^verified: ", path)
 
+    def test_a_byte_order_mark_changes_nothing(self):
+        with tempfile.TemporaryDirectory() as name:
+            path = CROSS.write(Path(name))
+            for file in Path(name).iterdir():
+                file.write_bytes(b"\xef\xbb\xbf" + file.read_bytes())
+            self.ends(GOOD, (0,), "^verified: ", path)
+
+    def test_a_key_that_is_there_twice_is_named(self):
+        with tempfile.TemporaryDirectory() as name:
+            path = CROSS.write(Path(name))
+            path.write_text(path.read_text().replace("{", '{"map": "x", ', 1))
+            self.ends(GOOD, (2,), "line 1: key 'map' is there twice", path)
+
     def test_maps_that_are_none(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)

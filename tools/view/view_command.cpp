@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // grove view INSTANCE [PLAN...]
+#include "tools/view/view_command.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,8 +12,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "tools/view/view_command.h"
 
 #include "grove/detail/execution/passing_order.h"
 #include "grove/detail/io/atomic_file.h"
@@ -260,6 +260,10 @@ void require_fit(const CLI::App& command) {
   for (const char* page : {"--run", "--drive", "--proof"})
     for (const char* other : {"--svg", "--png", "--gif", "--at", "--width", "--speed"})
       if (given(page) && given(other)) throw CLI::ExcludesError(page, other);
+  for (const char* picture : {"--at", "--width"})
+    if (given(picture) && !given("--svg") && !given("--png") && !given("--gif"))
+      throw CLI::RequiresError(picture, "--svg, --png or --gif");
+  if (given("--speed") && !given("--gif")) throw CLI::RequiresError("--speed", "--gif");
   if (given("--proof") && command.get_option("PLAN")->count() > 1)
     throw CLI::ValidationError("--proof", "expected one PLAN at most with it");
   if (given("--drive") && command.get_option("PLAN")->count() != 1)
@@ -281,11 +285,14 @@ void add_view_command(CLI::App& app, const PictureMaker& maker) {
           "page to write, whole or not at all; by default named after plan, log or certificate")
       ->type_name("FILE.html");
   command->add_flag("--open", arguments->open, "show the page in the browser");
-  command->add_option("--svg", arguments->pictures.svg, "vector picture to write")->type_name("FILE.svg");
+  command->add_option("--svg", arguments->pictures.svg, "vector picture to write")
+      ->type_name("FILE.svg");
   command->add_option("--png", arguments->pictures.png, "picture to write")->type_name("FILE.png");
-  command->add_option("--gif", arguments->pictures.gif, "animation to write")->type_name("FILE.gif");
+  command->add_option("--gif", arguments->pictures.gif, "animation to write")
+      ->type_name("FILE.gif");
   command
-      ->add_option("--at", arguments->pictures.moments, "moments of --svg and --png, in steps; by default 0")
+      ->add_option("--at", arguments->pictures.moments,
+                   "moments of --svg and --png, in steps; by default 0")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0.0, 1e9).description(""))

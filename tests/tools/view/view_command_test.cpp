@@ -214,6 +214,8 @@ TEST_F(ViewCommand, RefusesWhatIsNoLog) {
                                                 {"view", "--follow"},
                                                 {"view", "x.json", "--run", "y"},
                                                 {"view", "--run", "y", "--svg", "z"},
+                                                {"view", "x.json", "--at", "3"},
+                                                {"view", "x.json", "--svg", "z", "--speed", "2"},
                                                 {"view", "--run", "y", "--port", "1"},
                                                 {"view", "--run", directory_ / "none.jsonl"}})
     EXPECT_EQ(run_grove(words).exit_code, 2) << words.back();

@@ -272,7 +272,10 @@ fn confined(path: &Path, name: &str) -> Result<PathBuf, String> {
 impl Instance {
     /// Of a file; a scenario's first rows are so many agents, on this map or that which they name.
     pub fn read(path: &Path, agents: Option<u32>, map: Option<&Path>, confine: bool) -> Result<Instance, String> {
-        let read = |path: &Path| std::fs::read(path).map_err(|error| format!("{}: {}", path.display(), error));
+        let read = |path: &Path| {
+            let bytes = std::fs::read(path).map_err(|error| format!("{}: {}", path.display(), error))?;
+            Ok::<_, String>(bytes.strip_prefix(b"\xef\xbb\xbf").map(<[u8]>::to_vec).unwrap_or(bytes)) // a byte order mark
+        };
         let within = |path: &Path, error: String| format!("{}: {}", path.display(), error);
         let text = read(path)?;
         let json = match agents {

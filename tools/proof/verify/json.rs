@@ -16,10 +16,13 @@ const DEPTH: usize = 32;
 
 impl Json {
     pub fn parse(bytes: &[u8]) -> Result<Json, String> {
-        let mut parser = Parser { bytes, at: 0 };
+        let mut parser = Parser { bytes, at: 0, twice: None };
         let value = parser.value(0).filter(|_| { parser.blanks(); parser.at == bytes.len() });
         let line = 1 + bytes.iter().take(parser.at).filter(|&&byte| byte == b'\n').count();
-        value.ok_or_else(|| format!("line {}: this is not JSON, or a key is there twice", line))
+        value.ok_or_else(|| match parser.twice {
+            Some(key) => format!("line {}: key '{}' is there twice", line, key),
+            None => format!("line {}: this is not JSON", line),
+        })
     }
 
     pub fn get(&self, key: &str) -> Option<&Json> {
@@ -42,6 +45,8 @@ impl Json {
 struct Parser<'a> {
     bytes: &'a [u8],
     at: usize,
+    /// A key that an object has twice.
+    twice: Option<String>,
 }
 
 impl Parser<'_> {
@@ -66,8 +71,12 @@ impl Parser<'_> {
                 self.items("}", |parser| {
                     parser.blanks();
                     let name = parser.string()?;
-                    let good = parser.take(":") && members.iter().all(|(other, _)| *other != name);
-                    members.push((name, parser.value(depth + 1).filter(|_| good)?));
+                    if members.iter().any(|(other, _)| *other == name) {
+                        parser.twice = Some(name);
+                        return None;
+                    }
+                    let value = Some(()).filter(|_| parser.take(":")).and_then(|_| parser.value(depth + 1))?;
+                    members.push((name, value));
                     Some(())
                 })?;
                 Some(Json::Object(members))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the files of strangers may name, and how much memory what they describe may take.
+// What untrusted files may name, and how much memory what they describe may take.
 #pragma once
 
 #include <cstddef>
