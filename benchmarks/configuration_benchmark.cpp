@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/scenario_file.h"
-#include "src/primal/configuration_search.h"
-#include "src/primal/visit_orders.h"
+#include "io/map_file.h"
+#include "io/scenario_file.h"
+#include "primal/configuration_search.h"
+#include "primal/visit_orders.h"
 #include "tools/generate/instance_generator.h"
 
 namespace grove::detail {

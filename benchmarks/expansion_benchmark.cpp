@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <string>
 
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/scenario_file.h"
-#include "grove/detail/search/expander.h"
-#include "grove/detail/search/frontier.h"
-#include "grove/detail/search/sequence_forest.h"
+#include "io/map_file.h"
+#include "io/scenario_file.h"
+#include "search/expander.h"
+#include "search/frontier.h"
+#include "search/sequence_forest.h"
 #include "tools/generate/instance_generator.h"
 
 namespace grove::detail {

@@ -5,9 +5,9 @@
 
 #include <filesystem>
 
-#include "grove/detail/engine/method.h"
-#include "grove/detail/io/instance_file.h"
+#include "engine/method.h"
 #include "grove/grove.hpp"
+#include "io/instance_file.h"
 
 namespace {
 

@@ -18,9 +18,9 @@
 #include <random>
 #include <string>
 
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/planning/free_low_level_search.h"
-#include "grove/detail/planning/low_level_search.h"
+#include "io/map_file.h"
+#include "planning/free_low_level_search.h"
+#include "planning/low_level_search.h"
 
 namespace grove::detail {
 namespace {

@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/scenario_file.h"
-#include "grove/detail/planning/free_low_level_search.h"
-#include "grove/detail/planning/optimal_paths.h"
-#include "grove/detail/planning/pair_dependency.h"
+#include "io/map_file.h"
+#include "io/scenario_file.h"
+#include "planning/free_low_level_search.h"
+#include "planning/optimal_paths.h"
+#include "planning/pair_dependency.h"
 #include "tools/generate/instance_generator.h"
 
 namespace grove::detail {

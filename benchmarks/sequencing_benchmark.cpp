@@ -8,11 +8,11 @@
 #include <random>
 #include <string>
 
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/k_best_joint_sequences.h"
-#include "grove/detail/sequencing/k_best_sequences.h"
-#include "grove/detail/sequencing/sequence_dag.h"
-#include "src/sequencing/path_relaxation.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/k_best_joint_sequences.h"
+#include "sequencing/k_best_sequences.h"
+#include "sequencing/path_relaxation.h"
+#include "sequencing/sequence_dag.h"
 
 namespace grove::detail {
 namespace {

@@ -15,7 +15,7 @@ install(TARGETS grove_static EXPORT groveTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/grove/ ${PROJECT_BINARY_DIR}/include/grove/
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/grove COMPONENT development
-  FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE ${grove_no_mpi})
+  FILES_MATCHING PATTERN "*.hpp" ${grove_no_mpi})
 
 # How other projects find them: find_package(grove), or pkg-config.
 set(grove_package ${CMAKE_INSTALL_LIBDIR}/cmake/grove)

@@ -54,16 +54,21 @@ function(grove_compile target)
 endfunction()
 
 # grove_layer(<name> [HOT | UNHURRIED] [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])
-# One layer of the design as the static library grove_<name>, alias grove::<name>. Its interface is
-# include/grove/detail/<name>/, its text src/<name>/. `cmake --build --preset release --target grove_<name>`
-# builds it alone.
+# One layer of the design as the static library grove_<name>, alias grove::<name>: headers and sources in
+# src/<name>/. `cmake --build --preset release --target grove_<name>` builds it alone.
 function(grove_layer name)
   cmake_parse_arguments(LAYER "" "" "DEPENDS;LINK_PUBLIC;LINK_PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   add_library(grove_${name} STATIC ${sources})
   add_library(grove::${name} ALIAS grove_${name})
-  target_include_directories(grove_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include)
+  target_include_directories(grove_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
   list(TRANSFORM LAYER_DEPENDS PREPEND grove::)
   target_link_libraries(grove_${name} PUBLIC ${LAYER_DEPENDS} ${LAYER_LINK_PUBLIC} PRIVATE ${LAYER_LINK_PRIVATE})
   grove_compile(grove_${name} ${LAYER_UNPARSED_ARGUMENTS})
+endfunction()
+
+# grove_private_headers(<name> <header> ...)
+# Headers of grove_<name> that no other layer includes; tests/structure holds them against the sources.
+function(grove_private_headers name)
+  target_sources(grove_${name} PRIVATE ${ARGN})
 endfunction()

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "grove/detail/model/tuning.h"
+#include "model/tuning.h"
 #include "mpi/messages.h"
 
 namespace grove::detail {

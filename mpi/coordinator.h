@@ -6,15 +6,15 @@
 #include <map>
 #include <optional>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/run_state.h"
-#include "grove/detail/search/node_pool.h"
+#include "engine/run_observer.h"
+#include "engine/run_state.h"
 #include "mpi/broker.h"
 #include "mpi/children.h"
 #include "mpi/gathering.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"
 #include "mpi/transport.h"
+#include "search/node_pool.h"
 
 namespace grove::detail {
 

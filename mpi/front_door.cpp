@@ -5,15 +5,15 @@
 #include <exception>
 #include <string>
 
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/model/fingerprint.h"
+#include "api/access.h"
+#include "api/run.h"
+#include "engine/solve.h"
 #include "grove/mpi.hpp"
+#include "model/fingerprint.h"
 #include "mpi/mpi_shared_memory.h"
 #include "mpi/mpi_transport.h"
 #include "mpi/shared_problem.h"
 #include "mpi/solve_distributed.h"
-#include "src/api/access.h"
-#include "src/api/run.h"
 
 namespace grove::mpi {
 namespace {

@@ -18,7 +18,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/engine/checkpoint.h"
-#include "grove/detail/engine/run_state.h"
+#include "engine/checkpoint.h"
+#include "engine/run_state.h"
 #include "mpi/children.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"

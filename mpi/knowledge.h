@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/search/facts.h"
 #include "mpi/messages.h"
+#include "search/facts.h"
 
 namespace grove::detail {
 

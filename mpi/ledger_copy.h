@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "grove/detail/engine/ledger.h"
-#include "grove/detail/model/limits.h"
-#include "grove/detail/search/frontier.h"
+#include "engine/ledger.h"
+#include "model/limits.h"
+#include "search/frontier.h"
 
 namespace grove::detail {
 

@@ -5,7 +5,7 @@
 #include <deque>
 #include <memory>
 
-#include "grove/detail/engine/run_observer.h"
+#include "engine/run_observer.h"
 #include "mpi/coordinator.h"
 #include "mpi/rank.h"
 #include "mpi/sub_coordinator.h"

@@ -12,16 +12,16 @@
 #include <variant>
 #include <vector>
 
-#include "grove/detail/engine/proven_by.h"
-#include "grove/detail/engine/serialise.h"
-#include "grove/detail/engine/survey.h"
-#include "grove/detail/lagrangian/price_share.h"
-#include "grove/detail/model/limits.h"
-#include "grove/detail/primal/plan_source.h"
-#include "grove/detail/search/facts.h"
-#include "grove/detail/search/findings.h"
-#include "grove/detail/search/node_record.h"
-#include "grove/detail/search/tree_record.h"
+#include "engine/proven_by.h"
+#include "engine/serialise.h"
+#include "engine/survey.h"
+#include "lagrangian/price_share.h"
+#include "model/limits.h"
+#include "primal/plan_source.h"
+#include "search/facts.h"
+#include "search/findings.h"
+#include "search/node_record.h"
+#include "search/tree_record.h"
 
 namespace grove::detail::message {
 

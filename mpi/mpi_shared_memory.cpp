@@ -12,7 +12,7 @@
 #include <exception>
 #include <memory>
 
-#include "grove/detail/model/shared_arrays.h"
+#include "model/shared_arrays.h"
 
 namespace grove::detail {
 namespace {

@@ -10,18 +10,18 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/engine/local_nodes.h"
-#include "grove/detail/engine/shared_search.h"
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/planning/agent_stops_store.h"
-#include "grove/detail/search/problem.h"
-#include "grove/detail/search/tree_record.h"
+#include "engine/local_nodes.h"
+#include "engine/shared_search.h"
+#include "engine/solve.h"
 #include "mpi/hierarchy.h"
 #include "mpi/knowledge.h"
 #include "mpi/ledger_copy.h"
 #include "mpi/messages.h"
 #include "mpi/superior.h"
 #include "mpi/transport.h"
+#include "planning/agent_stops_store.h"
+#include "search/problem.h"
+#include "search/tree_record.h"
 
 namespace grove::detail {
 

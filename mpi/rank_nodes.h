@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "grove/detail/engine/live_nodes.h"
+#include "engine/live_nodes.h"
 #include "mpi/children.h"
 #include "mpi/messages.h"
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "grove/detail/model/shared_arrays.h"
-#include "grove/detail/search/problem.h"
+#include "model/shared_arrays.h"
 #include "mpi/shared_memory.h"
+#include "search/problem.h"
 
 namespace grove::detail {
 

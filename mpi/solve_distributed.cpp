@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/engine/multicore.h"
-#include "grove/detail/engine/worker.h"
-#include "grove/detail/search/proof_log.h"
+#include "engine/multicore.h"
+#include "engine/worker.h"
 #include "mpi/looks.h"
 #include "mpi/member.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 namespace {

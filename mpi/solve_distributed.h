@@ -7,10 +7,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/search/problem.h"
+#include "engine/run_observer.h"
+#include "engine/solve.h"
 #include "mpi/transport.h"
+#include "search/problem.h"
 
 namespace grove::detail {
 

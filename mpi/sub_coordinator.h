@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/detail/engine/solve.h"
+#include "engine/solve.h"
 #include "mpi/broker.h"
 #include "mpi/children.h"
 #include "mpi/messages.h"

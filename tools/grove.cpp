@@ -38,7 +38,8 @@ int main(int argc, char** argv) {
   add_execute_command(app);
   add_replan_command(app);
   const std::vector<std::string> words(argv + 1, argv + argc);
-  add_view_command(app, {.hand_over = [&] { become("grove-picture", words, "grove-pictures"); }, .draw = {}});
+  add_view_command(
+      app, {.hand_over = [&] { become("grove-picture", words, "grove-pictures"); }, .draw = {}});
   add_proof_command(app);
   add_generate_command(app);
   add_convert_command(app);

@@ -54,8 +54,7 @@ int run(MpiSession& session, bool speaks, int argc, char** argv) {
   add_mpi_solve_command(app, session, lines);
   add_mpi_batch_command(app, session, lines);
   try {
-    return run_program(app, argc, argv, speaks,
-                       [&](const std::string& why) { lines.refuse(why); });
+    return run_program(app, argc, argv, speaks, [&](const std::string& why) { lines.refuse(why); });
   } catch (const std::exception& error) {
     complain(app, fmt::format("internal failure of rank {}: {}", session.rank(), error.what()));
     session.abort(kExitInternalFailure);

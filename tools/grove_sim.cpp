@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/primal/primal_search.h"
+#include "engine/run_observer.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
 #include "mpi/simulator/scaling_table.h"
 #include "mpi/simulator/simulation.h"
+#include "primal/primal_search.h"
 #include "tools/common/commands.h"
 #include "tools/common/options.h"
 #include "tools/common/program.h"

@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "grove/detail/batch/progress.h"
-#include "grove/detail/batch/row.h"
+#include "batch/progress.h"
+#include "batch/row.h"
 
 namespace grove::detail::batch {
 

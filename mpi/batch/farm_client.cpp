@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail::batch {
 namespace {

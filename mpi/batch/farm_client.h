@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "grove/detail/batch/batch_clock.h"
-#include "grove/detail/batch/entry.h"
+#include "batch/batch_clock.h"
+#include "batch/entry.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/batch/farm_messages.h"
 #include "mpi/transport.h"

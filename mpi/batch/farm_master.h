@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/batch/batch_clock.h"
-#include "grove/detail/batch/entry.h"
-#include "grove/detail/batch/result_table.h"
+#include "batch/batch_clock.h"
+#include "batch/entry.h"
+#include "batch/result_table.h"
 #include "mpi/batch/batch_progress.h"
 #include "mpi/batch/farm_messages.h"
 #include "mpi/batch/grouping.h"

@@ -3,7 +3,7 @@
 
 #include <cereal/types/variant.hpp>
 
-#include "grove/detail/engine/serialise.h"
+#include "engine/serialise.h"
 
 namespace grove::detail::batch {
 

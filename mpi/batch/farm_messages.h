@@ -17,8 +17,8 @@
 #include <string_view>
 #include <variant>
 
-#include "grove/detail/batch/entry.h"
-#include "grove/detail/batch/row.h"
+#include "batch/entry.h"
+#include "batch/row.h"
 
 namespace grove::detail::batch {
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "grove/detail/engine/serialise.h"
+#include "engine/serialise.h"
 
 namespace grove::detail::batch {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <unordered_map>
 
-#include "grove/detail/search/path_sets.h"
+#include "search/path_sets.h"
 
 namespace grove::detail {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "grove/detail/engine/worker.h"
+#include "engine/worker.h"
 #include "mpi/simulator/equal_sets.h"
 #include "mpi/simulator/machine.h"
 

@@ -21,7 +21,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/engine/techniques_of.h"
+#include "engine/techniques_of.h"
 #include "mpi/looks.h"
 #include "mpi/member.h"
 #include "mpi/simulated_network.h"

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/search/problem.h"
+#include "engine/solve.h"
 #include "mpi/simulator/machine.h"
 #include "mpi/simulator/simulated_worker.h"
+#include "search/problem.h"
 
 namespace grove::detail {
 

@@ -18,8 +18,7 @@ Instance warned(Read&& read) {
 
 // Of what a file would say, as Python has it; numbers and arrays of numpy are lists.
 Instance of_dict(const World& world, const py::dict& all, bool following) {
-  const py::object plain =
-      py::module_::import("grove").attr("_plain");  // what json does not know
+  const py::object plain = py::module_::import("grove").attr("_plain");  // what json does not know
   const auto text = py::module_::import("json")
                         .attr("dumps")(all, py::arg("default") = plain)
                         .cast<std::string>();
@@ -56,15 +55,19 @@ void add_instance(py::module_& module) {
       .def(py::init(&made), py::arg("world"), py::arg("agents"), py::arg("tasks") = py::list(),
            py::kw_only(), py::arg("following") = true)
       .def_property_readonly("world", &Instance::world, "What they move on.")
-      .def_property_readonly("agents", [](const Instance& i) { return told(i, "agents"); },
-                             "Dicts as in *.cts.json files.")
-      .def_property_readonly("tasks", [](const Instance& i) { return told(i, "tasks"); },
-                             "Dicts as in *.cts.json files.")
-      .def_property_readonly("following", [](const Instance& i) { return i.rules().following; },
-                             "May a robot enter a place in the step in which another leaves it?")
-      .def("write", [](const Instance& i, const std::filesystem::path& path) {
-             write_instance(path, i);
-           }, py::arg("path"), "Writes *.cts.json and its map or roadmap beside it.")
+      .def_property_readonly(
+          "agents", [](const Instance& i) { return told(i, "agents"); },
+          "Dicts as in *.cts.json files.")
+      .def_property_readonly(
+          "tasks", [](const Instance& i) { return told(i, "tasks"); },
+          "Dicts as in *.cts.json files.")
+      .def_property_readonly(
+          "following", [](const Instance& i) { return i.rules().following; },
+          "May a robot enter a place in the step in which another leaves it?")
+      .def(
+          "write",
+          [](const Instance& i, const std::filesystem::path& path) { write_instance(path, i); },
+          py::arg("path"), "Writes *.cts.json and its map or roadmap beside it.")
       .def("__repr__", &instance_summary);
   module.def("_instance_of_dict", &of_dict);
   module.def(
@@ -80,8 +83,7 @@ void add_instance(py::module_& module) {
       "For untrusted files: `confine` refuses one that names a map outside of its own folder, "
       "and `memory_limit` one whose map and robots' states would take more bytes.");
   module.def("read_scenario", &read_scenario, py::arg("scenario"), py::arg("map"),
-             py::arg("agents"),
-             "Classical MAPF: the first `agents` rows of a Moving AI scenario.");
+             py::arg("agents"), "Classical MAPF: the first `agents` rows of a Moving AI scenario.");
 }
 
 }  // namespace grove::python

@@ -40,9 +40,8 @@ void add_errors(py::module_& module) {
   errors->base = error_class(
       module, "Error", py::make_tuple(exception),
       "What Grove raises: one of those below; by itself: a part of the search is broken.");
-  errors->input =
-      error_class(module, "InputError", py::make_tuple(errors->base, value_error),
-                  "A file or text that cannot be used: where, and what was expected.");
+  errors->input = error_class(module, "InputError", py::make_tuple(errors->base, value_error),
+                              "A file or text that cannot be used: where, and what was expected.");
   errors->argument = error_class(
       module, "InvalidArgument", py::make_tuple(errors->base, value_error),
       "A world, instance, plan or option that is against a rule; field says which: '/omega'.");

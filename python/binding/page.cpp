@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Pages and pictures, as `grove view` makes them.
+#include "tools/view/page.h"
+
 #include <vector>
 
-#include "src/api/access.h"
-#include "grove/detail/io/atomic_file.h"
+#include "api/access.h"
+#include "io/atomic_file.h"
 #include "python/binding/values.h"
-#include "tools/view/page.h"
 #include "tools/view/page_data.h"
 #include "tools/view/picture/picture.h"
 

@@ -123,7 +123,8 @@ struct type_caster<grove::Place> {
       return pybind11::make_tuple(cell->x, cell->y).release();
     if (const auto* vertex = std::get_if<grove::Vertex>(&place)) return str(vertex->id).release();
     const auto& road = std::get<grove::OnRoad>(place);
-    if (road.edge) return pybind11::make_tuple(road.from, road.to, road.steps, *road.edge).release();
+    if (road.edge)
+      return pybind11::make_tuple(road.from, road.to, road.steps, *road.edge).release();
     return pybind11::make_tuple(road.from, road.to, road.steps).release();
   }
 

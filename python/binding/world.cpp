@@ -18,8 +18,7 @@ World from_rows(const py::object& rows) {
         rows, "/rows", "a text, or a list of texts, one for each row; World.grid() takes arrays"));
   const py::object lines = rows.attr("strip")("\n").attr("splitlines")();
   std::vector<std::string> stripped;
-  for (const py::handle& line : lines)
-    stripped.push_back(line.attr("strip")().cast<std::string>());
+  for (const py::handle& line : lines) stripped.push_back(line.attr("strip")().cast<std::string>());
   return World::from_rows(stripped);
 }
 
@@ -92,16 +91,17 @@ std::string world_summary(const World& world) {
   std::size_t passable = 0;
   for (int y = 0; y < world.height(); ++y)
     for (int x = 0; x < world.width(); ++x) passable += world.passable({x, y});
-  return "<grove.World: " + std::to_string(world.width()) + " x " +
-         std::to_string(world.height()) + " cells, " + count(passable) + " passable>";
+  return "<grove.World: " + std::to_string(world.width()) + " x " + std::to_string(world.height()) +
+         " cells, " + count(passable) + " passable>";
 }
 
 }  // namespace
 
 void add_world(py::module_& module) {
-  py::class_<World>(module, "World",
-                    "What robots move on: cells of a grid, or vertices and roads. Never changes.\n\n"
-                    "World(rows): of '.' (passable) and '@' or '#' (blocked), one text or a list.")
+  py::class_<World>(
+      module, "World",
+      "What robots move on: cells of a grid, or vertices and roads. Never changes.\n\n"
+      "World(rows): of '.' (passable) and '@' or '#' (blocked), one text or a list.")
       .def(py::init(&from_rows), py::arg("rows"))
       .def_static("grid", &grid, py::arg("passable"),
                   "From an array of two dimensions, rows and columns: true where one can go.")
@@ -113,7 +113,8 @@ void add_world(py::module_& module) {
       .def_property_readonly("is_grid", &World::is_grid, "Else it is a roadmap.")
       .def_property_readonly("width", &World::width, "In cells; 0 of a roadmap.")
       .def_property_readonly("height", &World::height, "In cells; 0 of a roadmap.")
-      .def_property_readonly("passable", &passable, "An array of rows and columns, true where one can go.")
+      .def_property_readonly("passable", &passable,
+                             "An array of rows and columns, true where one can go.")
       .def_property_readonly("vertices", &vertices, "{'A': (x, y), ...}, in metres.")
       .def_property_readonly("roads", &roads, "[(from, to, steps, one_way), ...].")
       .def("__repr__", &world_summary);

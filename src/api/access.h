@@ -9,12 +9,12 @@
 #include <string>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/plan.h"
 #include "grove/error.hpp"
 #include "grove/instance.hpp"
 #include "grove/plan.hpp"
+#include "io/input_error.h"
+#include "model/instance.h"
+#include "model/plan.h"
 
 namespace grove {
 

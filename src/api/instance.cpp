@@ -5,10 +5,10 @@
 
 #include <utility>
 
-#include "access.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/roadmap_file.h"
+#include "api/access.h"
+#include "io/instance_file.h"
+#include "io/map_file.h"
+#include "io/roadmap_file.h"
 
 namespace grove {
 namespace {

@@ -8,10 +8,10 @@
 #include <unordered_map>
 #include <utility>
 
-#include "access.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/io/plan_import.h"
-#include "grove/detail/model/check.h"
+#include "api/access.h"
+#include "io/plan_file.h"
+#include "io/plan_import.h"
+#include "model/check.h"
 
 namespace grove {
 namespace {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <stop_token>
 
-#include "grove/detail/engine/method.h"
-#include "grove/detail/engine/run_observer.h"
+#include "engine/method.h"
+#include "engine/run_observer.h"
 #include "grove/solve.hpp"
 
 namespace grove {

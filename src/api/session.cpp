@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "access.h"
-#include "grove/detail/engine/session.h"
-#include "run.h"
+#include "api/access.h"
+#include "api/run.h"
+#include "engine/session.h"
 
 namespace grove {
 namespace {

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "access.h"
-#include "grove/detail/model/resources.h"
-#include "run.h"
+#include "api/access.h"
+#include "api/run.h"
+#include "model/resources.h"
 
 namespace grove {
 namespace {

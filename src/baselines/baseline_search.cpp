@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "baseline_search.h"
+#include "baselines/baseline_search.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -2,7 +2,7 @@
 // What the low levels of published methods have in common: what they cannot do.
 #pragma once
 
-#include "grove/detail/planning/agent_planner.h"
+#include "planning/agent_planner.h"
 
 namespace grove::detail {
 

@@ -7,11 +7,11 @@
 #include <limits>
 #include <span>
 
-#include "grove/detail/model/limits.h"
-#include "grove/detail/model/plan.h"
-#include "grove/detail/planning/constraint.h"
-#include "grove/detail/planning/free_goals.h"
-#include "grove/detail/planning/safe_intervals.h"
+#include "model/limits.h"
+#include "model/plan.h"
+#include "planning/constraint.h"
+#include "planning/free_goals.h"
+#include "planning/safe_intervals.h"
 
 namespace grove::detail {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/baselines/low_level.h"
+#include "baselines/low_level.h"
 
 #include <stdexcept>
 
-#include "grove/detail/planning/free_low_level_search.h"
-#include "space_time_legs.h"
-#include "time_interval_forest.h"
-#include "visited_set_search.h"
-#include "visiting_order_search.h"
+#include "baselines/space_time_legs.h"
+#include "baselines/time_interval_forest.h"
+#include "baselines/visited_set_search.h"
+#include "baselines/visiting_order_search.h"
+#include "planning/free_low_level_search.h"
 
 namespace grove::detail {
 

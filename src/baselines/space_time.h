@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "grove/detail/planning/constraint.h"
-#include "grove/detail/planning/safe_intervals.h"
+#include "planning/constraint.h"
+#include "planning/safe_intervals.h"
 
 namespace grove::detail {
 

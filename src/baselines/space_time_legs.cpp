@@ -2,13 +2,13 @@
 // A* over (cell, time). From the time on at which nothing changes any more, all times are one, of
 // which the earliest is kept: so the space is finite, and a leg that does not exist is found not
 // to. f = max(time + distance, begin of the target): consistent.
-#include "space_time_legs.h"
+#include "baselines/space_time_legs.h"
 
 #include <algorithm>
 #include <new>
 #include <stdexcept>
 
-#include "space_time.h"
+#include "baselines/space_time.h"
 
 namespace grove::detail {
 namespace {

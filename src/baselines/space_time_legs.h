@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/detail/planning/bucket_queue.h"
-#include "legs.h"
+#include "baselines/legs.h"
+#include "planning/bucket_queue.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "spanning_tree_bound.h"
+#include "baselines/spanning_tree_bound.h"
 
 #include <algorithm>
 #include <bit>

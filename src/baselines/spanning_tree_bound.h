@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "grove/detail/planning/free_goals.h"
-#include "grove/detail/sequencing/sequence_dag.h"
+#include "planning/free_goals.h"
+#include "sequencing/sequence_dag.h"
 
 namespace grove::detail {
 

@@ -10,7 +10,7 @@
 //
 // Waiting for an interval that begins late makes a piece for every time step before, as in the
 // published code: on each cell one for each step up to that begin.
-#include "time_interval_forest.h"
+#include "baselines/time_interval_forest.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "legs.h"
+#include "baselines/legs.h"
 
 namespace grove::detail {
 

@@ -13,11 +13,11 @@
 //   later.
 // - *Finitely many states.* From the time on at which no constraint changes any more, all times are
 //   one, of which the earliest is kept. So an agent without a path is found to have none.
-#include "visited_set_search.h"
+#include "baselines/visited_set_search.h"
 
 #include <algorithm>
 
-#include "space_time.h"
+#include "baselines/space_time.h"
 
 namespace grove::detail {
 namespace {

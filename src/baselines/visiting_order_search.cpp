@@ -20,7 +20,7 @@
 // The end. With a destination, the leg to it comes when no stop is left. Without, the agent rests
 // on a stop of its own; let it be counted last. So the last goal must be reached in an interval in
 // which it may stay for ever, and all that matters of others is that they are reached.
-#include "visiting_order_search.h"
+#include "baselines/visiting_order_search.h"
 
 #include <algorithm>
 #include <bit>

@@ -5,12 +5,12 @@
 #include <memory>
 #include <vector>
 
-#include "baseline_search.h"
-#include "grove/detail/planning/bucket_queue.h"
-#include "grove/detail/planning/safe_intervals.h"
-#include "grove/detail/sequencing/sequence_dag.h"
-#include "legs.h"
-#include "spanning_tree_bound.h"
+#include "baselines/baseline_search.h"
+#include "baselines/legs.h"
+#include "baselines/spanning_tree_bound.h"
+#include "planning/bucket_queue.h"
+#include "planning/safe_intervals.h"
+#include "sequencing/sequence_dag.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/batch_clock.h"
+#include "batch/batch_clock.h"
 
 #include <fmt/chrono.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/entry.h"
+#include "batch/entry.h"
 
 namespace grove::detail::batch {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "entry_collector.h"
+#include "batch/entry_collector.h"
 
 #include <fmt/format.h>
 
 #include <system_error>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
-#include "instance_digest.h"
+#include "batch/instance_digest.h"
+#include "io/input_error.h"
 
 namespace grove::detail::batch {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/batch/entry.h"
+#include "batch/entry.h"
 
 namespace grove::detail::batch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/false_claims.h"
+#include "batch/false_claims.h"
 
 #include <fmt/format.h>
 

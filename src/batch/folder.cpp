@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/folder.h"
+#include "batch/folder.h"
 
 #include <fcntl.h>
 
 #include <system_error>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail::batch {
 

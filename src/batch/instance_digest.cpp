@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "instance_digest.h"
+#include "batch/instance_digest.h"
 
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <string_view>
 
-#include "grove/detail/model/fingerprint.h"
+#include "model/fingerprint.h"
 
 namespace grove::detail::batch {
 namespace {

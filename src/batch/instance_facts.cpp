@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/instance_facts.h"
+#include "batch/instance_facts.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
 
-#include "grove/detail/model/parse_number.h"
+#include "model/parse_number.h"
 
 namespace grove::detail::batch {
 namespace {

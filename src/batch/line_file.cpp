@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/line_file.h"
+#include "batch/line_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
 
 namespace grove::detail::batch {
 

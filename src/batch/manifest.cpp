@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/manifest.h"
+#include "batch/manifest.h"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <string_view>
 #include <system_error>
 
-#include "entry_collector.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/parse_number.h"
+#include "batch/entry_collector.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
+#include "model/parse_number.h"
 
 namespace grove::detail::batch {
 namespace {

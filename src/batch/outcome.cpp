@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/outcome.h"
+#include "batch/outcome.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/check.h"
-#include "grove/detail/model/parse_number.h"
+#include "io/input_error.h"
+#include "model/check.h"
+#include "model/parse_number.h"
 
 namespace grove::detail::batch {
 namespace {

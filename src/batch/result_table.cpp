@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/result_table.h"
+#include "batch/result_table.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
 
 namespace grove::detail::batch {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/row.h"
+#include "batch/row.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/io/csv.h"
+#include "io/csv.h"
 
 namespace grove::detail::batch {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/scenario_sweep.h"
+#include "batch/scenario_sweep.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "entry_collector.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/scenario_file.h"
+#include "batch/entry_collector.h"
+#include "io/input_error.h"
+#include "io/scenario_file.h"
 
 namespace grove::detail::batch {
 namespace {

@@ -2,11 +2,11 @@
 // Two arrays hold who is where now and one step ago, as a list per place, and a third one who has
 // come to rest there and need not be looked at again; entries carry a stamp that grows for ever, so
 // nothing is ever cleared.
-#include "grove/detail/conflicts/conflict.h"
+#include "conflicts/conflict.h"
 
 #include <algorithm>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 

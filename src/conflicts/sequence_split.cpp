@@ -10,11 +10,11 @@
 //
 // The path at hand obeys the first side, so no split on sequences raises the cost of both sides.
 // What it does is to take away ties: with the order settled, the conflicts left are dearer.
-#include "grove/detail/conflicts/sequence_split.h"
+#include "conflicts/sequence_split.h"
 
 #include <bit>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 

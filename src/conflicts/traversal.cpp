@@ -27,7 +27,7 @@
 #include <algorithm>
 #include <array>
 
-#include "grove/detail/conflicts/reasoning.h"
+#include "conflicts/reasoning.h"
 
 namespace grove::detail {
 namespace {

@@ -7,7 +7,7 @@
 // the status compares with the bound that is proven, and may well be `feasible`.
 //
 // C is two searches of one instance: the better plan and the greater bound stand.
-#include "adaptations.h"
+#include "engine/adaptations.h"
 
 #include <fmt/format.h>
 
@@ -21,8 +21,8 @@
 #include <string_view>
 #include <utility>
 
-#include "destinations.h"
-#include "stop_text.h"
+#include "engine/destinations.h"
+#include "engine/stop_text.h"
 
 namespace grove::detail {
 namespace {

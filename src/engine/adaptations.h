@@ -3,8 +3,8 @@
 // must have an agent without a destination.
 #pragma once
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/solve.h"
+#include "engine/run_observer.h"
+#include "engine/solve.h"
 
 namespace grove::detail {
 

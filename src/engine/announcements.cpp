@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/announcements.h"
+#include "engine/announcements.h"
 
 namespace grove::detail {
 

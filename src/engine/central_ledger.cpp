@@ -13,7 +13,7 @@
 // instantiate one: nodes come from live nodes and from new trees alone (central_trees.cpp).
 //
 // *Pruning.* An incumbent is in the gate, checked, before anybody prunes by it.
-#include "grove/detail/engine/central_ledger.h"
+#include "engine/central_ledger.h"
 
 #include <fmt/format.h>
 

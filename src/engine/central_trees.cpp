@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What the bound asks of the order in which things are done here is at the head of
 // central_ledger.cpp.
-#include "grove/detail/engine/central_trees.h"
+#include "engine/central_trees.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "grove/detail/search/proof_log.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 namespace {

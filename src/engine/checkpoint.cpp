@@ -5,7 +5,7 @@
 // nor lost, doubled or reordered; but for the checksums before it, since what is followed by its
 // own CRC has the same one, whatever it was. One head, then blocks of trees, then blocks of nodes,
 // then the end with their number, and nothing behind it: a file cut short anywhere has no end.
-#include "grove/detail/engine/checkpoint.h"
+#include "engine/checkpoint.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -18,8 +18,8 @@
 #include <system_error>
 #include <utility>
 
-#include "grove/detail/engine/serialise.h"
-#include "grove/detail/io/input_error.h"
+#include "engine/serialise.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/checkpoints.h"
+#include "engine/checkpoints.h"
 
 #include <chrono>
 

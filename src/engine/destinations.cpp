@@ -17,15 +17,15 @@
 // the ends that are within reach of the best one, which are widened until no other end can matter:
 // an end outside costs beyond() or more, and an assignment that uses it that and the best of all
 // others.
-#include "destinations.h"
+#include "engine/destinations.h"
 
 #include <algorithm>
 
-#include "grove/detail/sequencing/assignment.h"
-#include "grove/detail/sequencing/completions.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/rtsp.h"
-#include "grove/detail/sequencing/sum_of_best_sequences.h"
+#include "sequencing/assignment.h"
+#include "sequencing/completions.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/rtsp.h"
+#include "sequencing/sum_of_best_sequences.h"
 
 namespace grove::detail {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "grove/detail/model/limits.h"
-#include "grove/detail/model/plan.h"
-#include "grove/detail/search/problem.h"
+#include "model/limits.h"
+#include "model/plan.h"
+#include "search/problem.h"
 
 namespace grove::detail {
 

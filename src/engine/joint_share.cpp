@@ -4,7 +4,7 @@
 // search over joint states ends soon, and the tree perhaps never. Which of the two nobody knows, so
 // they share the work, of which joint search has the most; when one of them holds more memory than
 // it may, or has ended, the other has it all.
-#include "joint_share.h"
+#include "engine/joint_share.h"
 
 #include <algorithm>
 #include <cstddef>

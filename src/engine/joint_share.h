@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
-#include "grove/detail/joint/joint_search.h"
-#include "grove/detail/model/tuning.h"
+#include "joint/joint_search.h"
+#include "model/tuning.h"
 
 namespace grove::detail {
 

@@ -8,7 +8,7 @@
 // Where ranks share the search, it is rank 0's, and others find prices for it: at once, for it
 // cannot go on without. All ranks have about as much other work, so its part is that of all of
 // them; but rank 0 keeps some of its time for its nodes, for the bound waits for them too.
-#include "grove/detail/engine/lagrangian_share.h"
+#include "engine/lagrangian_share.h"
 
 #include <new>
 #include <stdexcept>

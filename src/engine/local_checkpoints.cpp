@@ -4,12 +4,12 @@
 // bound of what was given up, or is in a tree not counted, or costs at least what the incumbent
 // does, for that was posted before the node that led to it, or was pruned by it, was gone. Nodes of
 // trees that came in between are left out: these trees will come again.
-#include "local_checkpoints.h"
+#include "engine/local_checkpoints.h"
 
 #include <chrono>
 #include <new>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 

@@ -4,10 +4,10 @@
 
 #include <mutex>
 
-#include "grove/detail/engine/checkpoint.h"
-#include "grove/detail/engine/checkpoints.h"
-#include "grove/detail/engine/local_nodes.h"
-#include "grove/detail/engine/run_state.h"
+#include "engine/checkpoint.h"
+#include "engine/checkpoints.h"
+#include "engine/local_nodes.h"
+#include "engine/run_state.h"
 
 namespace grove::detail {
 

@@ -9,7 +9,7 @@
 // the next alarm is half way to the limit, and the budgets are cut again. Each cut takes an eighth
 // and halves the room, so there are few; a run that cannot be helped this way is stopped by the
 // limit.
-#include "memory_shares.h"
+#include "engine/memory_shares.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "grove/detail/model/limits.h"
+#include "model/limits.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/method.h"
+#include "engine/method.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "adaptations.h"
+#include "engine/adaptations.h"
 
 namespace grove::detail {
 namespace {

@@ -8,7 +8,7 @@
 // then the next tree is due, or the run is over, and a worker must find out. Nor does the last one
 // that is awake: where ranks share a search, nodes come from elsewhere, and no thread that pushes
 // them wakes a worker; and a live node may be in no worker's hands here, because it is in custody.
-#include "grove/detail/engine/multicore.h"
+#include "engine/multicore.h"
 
 #include <algorithm>
 #include <atomic>
@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "grove/detail/model/thread_team.h"
+#include "model/thread_team.h"
 
 namespace grove::detail {
 namespace {
@@ -127,9 +127,9 @@ std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers)
   return units;
 }
 
-// Calls `what` with each unit, and waits for all. A worker's units are done in order, by one thread:
-// what its expander has cached, and so the number of labels that it expands, must not depend on the
-// threads.
+// Calls `what` with each unit, and waits for all. A worker's units are done in order, by one
+// thread: what its expander has cached, and so the number of labels that it expands, must not
+// depend on the threads.
 template <class What>
 void for_each_unit(std::vector<Unit>& units, ThreadTeam& team, const What& what) {
   std::vector<Worker*> workers;
@@ -164,9 +164,7 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
 void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                      int threads, const BetweenTurns& between_turns) {
   ThreadTeam team(std::min(threads, static_cast<int>(workers.size())));
-  const auto perform = [](Unit& unit) {
-    unit.worker->perform(unit.turn, unit.worker->expander());
-  };
+  const auto perform = [](Unit& unit) { unit.worker->perform(unit.turn, unit.worker->expander()); };
   const auto publish = [](Unit& unit) { Worker::publish(unit.turn); };
   while (!shared.over()) {
     std::vector<Unit> units = choose_round(workers);

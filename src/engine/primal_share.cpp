@@ -15,7 +15,7 @@
 // as much as it at least, for neighbourhoods may be in vain a hundred times before the first of
 // many gains; and while the plan is that far, 8 at most from the beginning. None of this knows how
 // large the instance is or how fast the machine.
-#include "primal_share.h"
+#include "engine/primal_share.h"
 
 #include <algorithm>
 

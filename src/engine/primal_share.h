@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "grove/detail/primal/primal_search.h"
+#include "primal/primal_search.h"
 
 namespace grove::detail {
 

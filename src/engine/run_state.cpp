@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/run_state.h"
+#include "engine/run_state.h"
 
 #include <algorithm>
 #include <string>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/fingerprint.h"
-#include "grove/detail/search/sequence_forest.h"
-#include "grove/detail/search/single_tree.h"
-#include "stop_text.h"
+#include "engine/stop_text.h"
+#include "io/input_error.h"
+#include "model/fingerprint.h"
+#include "search/sequence_forest.h"
+#include "search/single_tree.h"
 
 namespace grove::detail {
 namespace {

@@ -5,7 +5,7 @@
 // same steps; so on these actions its passing order is the same. Robots that carry out some of them
 // while the new plan is being found, in whatever order of time the old one allows, have done what
 // the new one allows, too.
-#include "grove/detail/engine/session.h"
+#include "engine/session.h"
 
 #include <fmt/format.h>
 
@@ -16,13 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/execution/advance.h"
-#include "grove/detail/model/assert.h"
-#include "grove/detail/model/check.h"
-#include "grove/detail/primal/repair.h"
-#include "grove/detail/search/feasibility.h"
-#include "grove/detail/search/problem.h"
+#include "engine/run_observer.h"
+#include "execution/advance.h"
+#include "model/assert.h"
+#include "model/check.h"
+#include "primal/repair.h"
+#include "search/feasibility.h"
+#include "search/problem.h"
 
 namespace grove::detail {
 namespace {
@@ -204,7 +204,8 @@ class Session::Impl {
 
   void advance(Time steps, std::span<const Late> late) {
     GROVE_ASSERT(plan_, "time goes on by a plan");
-    const bool is_anyone_late = std::ranges::any_of(late, [](const Late& l) { return l.steps != 0; });
+    const bool is_anyone_late =
+        std::ranges::any_of(late, [](const Late& l) { return l.steps != 0; });
     const Plan driven =
         is_anyone_late ? late_plan(instance_, *plan_, PassingOrder(instance_, *plan_), steps, late)
                        : *plan_;
@@ -319,10 +320,10 @@ class Session::Impl {
   }
 
   Instance instance_;
-  std::optional<Plan> plan_;          // valid
-  std::optional<Plan> old_;           // valid but for who is affected
-  std::vector<bool> affected_;        // by agent
-  std::vector<bool> cut_;             // by agent: its path comes to what is closed; empty: no agent's
+  std::optional<Plan> plan_;    // valid
+  std::optional<Plan> old_;     // valid but for who is affected
+  std::vector<bool> affected_;  // by agent
+  std::vector<bool> cut_;       // by agent: its path comes to what is closed; empty: no agent's
   std::vector<bool> ends_with_plan_;  // by agent (execution/advance.h)
   std::unique_ptr<Kept> kept_;
 };

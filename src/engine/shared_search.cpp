@@ -9,15 +9,15 @@
 // not worth a node above. Then it is best first as with w = 0.
 //
 // A node is live, and counts in the ledger, until all that it led to has been pushed.
-#include "grove/detail/engine/shared_search.h"
+#include "engine/shared_search.h"
 
 #include <malloc.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/detail/engine/techniques_of.h"
-#include "memory_shares.h"
+#include "engine/memory_shares.h"
+#include "engine/techniques_of.h"
 
 namespace grove::detail {
 namespace {

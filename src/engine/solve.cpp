@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 // From an instance to an answer: what is evident is said without a search; else workers share one.
-#include "grove/detail/engine/solve.h"
+#include "engine/solve.h"
 
 #include <new>
 #include <string>
 
-#include "grove/detail/engine/checkpoint.h"
-#include "grove/detail/engine/local_nodes.h"
-#include "grove/detail/engine/multicore.h"
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/run_state.h"
-#include "grove/detail/engine/shared_search.h"
-#include "grove/detail/engine/worker.h"
-#include "grove/detail/search/feasibility.h"
-#include "grove/detail/search/gate.h"
-#include "grove/detail/search/proof_log.h"
-#include "local_checkpoints.h"
-#include "stop_text.h"
+#include "engine/checkpoint.h"
+#include "engine/local_checkpoints.h"
+#include "engine/local_nodes.h"
+#include "engine/multicore.h"
+#include "engine/run_observer.h"
+#include "engine/run_state.h"
+#include "engine/shared_search.h"
+#include "engine/stop_text.h"
+#include "engine/worker.h"
+#include "search/feasibility.h"
+#include "search/gate.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/survey.h"
+#include "engine/survey.h"
 
 namespace grove::detail {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/worker.h"
+#include "engine/worker.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "grove/detail/engine/techniques_of.h"
-#include "grove/detail/search/proof_log.h"
-#include "joint_share.h"
-#include "primal_share.h"
+#include "engine/joint_share.h"
+#include "engine/primal_share.h"
+#include "engine/techniques_of.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 namespace {

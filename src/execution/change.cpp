@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/execution/change.h"
+#include "execution/change.h"
 
 #include <fmt/format.h>
 

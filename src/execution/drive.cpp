@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/execution/drive.h"
+#include "execution/drive.h"
 
 #include <algorithm>
 #include <stdexcept>

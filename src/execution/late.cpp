@@ -9,7 +9,7 @@
 // when they drive (drive.h): it enters a place one step after the other has left it, or later. Such
 // a plan has no rings, so these waits do not go in circles either (passing_order.cpp); and with
 // no robot late it stays as it is, for its own actions wait as long.
-#include "grove/detail/execution/late.h"
+#include "execution/late.h"
 
 #include <fmt/format.h>
 

@@ -25,7 +25,7 @@
 // completed with it, then a is completed when x may begin: the wait says nothing more. For 16
 // robots at a time one pass over all steps, in order, finds the last action of each that must be
 // completed before each action can be.
-#include "grove/detail/execution/passing_order.h"
+#include "execution/passing_order.h"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 // whatever waits for it stays behind it. The joint step of a ring counts as one action: what it
 // waits for inside is not looked at, and if somebody comes between two robots of a ring it waits
 // for itself, which is no order.
-#include "grove/detail/execution/switching.h"
+#include "execution/switching.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/execution/visits.h"
+#include "execution/visits.h"
 
 #include <map>
 

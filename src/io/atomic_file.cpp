@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/atomic_file.h"
+#include "io/atomic_file.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -15,9 +15,9 @@
 #include <system_error>
 #include <utility>
 
-#include "grove/detail/io/descriptor.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/special_file.h"
+#include "io/descriptor.h"
+#include "io/input_error.h"
+#include "io/special_file.h"
 
 namespace grove::detail {
 namespace {

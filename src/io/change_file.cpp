@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/change_file.h"
+#include "io/change_file.h"
 
-#include "json_value.h"
-#include "known_keys.h"
-#include "path_entry.h"
+#include "io/json_value.h"
+#include "io/known_keys.h"
+#include "io/path_entry.h"
 
 namespace grove::detail {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/csv.h"
+#include "io/csv.h"
 
 #include <algorithm>
 #include <string_view>
 
-#include "grove/detail/model/parse_number.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

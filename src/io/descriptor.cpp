@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/descriptor.h"
+#include "io/descriptor.h"
 
 #include <cerrno>
 

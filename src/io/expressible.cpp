@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/expressible.h"
+#include "io/expressible.h"
 
 #include <fmt/format.h>
 

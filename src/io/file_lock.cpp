@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/file_lock.h"
+#include "io/file_lock.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -13,8 +13,8 @@
 #include <system_error>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/special_file.h"
+#include "io/input_error.h"
+#include "io/special_file.h"
 
 namespace grove::detail {
 namespace {

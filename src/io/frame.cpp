@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/frame.h"
+#include "io/frame.h"
 
 namespace grove::detail {
 

@@ -2,7 +2,7 @@
 // pugixml parses, without recursion, and knows only the five entities of XML itself: others stay as
 // they are written. It does not check what it has no use for, so what would be misread is refused
 // here.
-#include "grove/detail/io/graphml_file.h"
+#include "io/graphml_file.h"
 
 #include <fmt/format.h>
 
@@ -16,11 +16,11 @@
 #include <span>
 #include <unordered_map>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/parse_number.h"
-#include "line_starts.h"
-#include "utf8.h"
+#include "io/input_error.h"
+#include "io/line_starts.h"
+#include "io/text_file.h"
+#include "io/utf8.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

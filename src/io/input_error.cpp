@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 #include <fmt/format.h>
 

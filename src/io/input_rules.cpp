@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/input_rules.h"
+#include "io/input_rules.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 namespace {

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/instance_file.h"
+#include "io/instance_file.h"
 
 #include <fmt/format.h>
 
 #include <fstream>
 #include <stdexcept>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/roadmap_file.h"
-#include "grove/detail/io/scenario_file.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/distance_field.h"
-#include "json_value.h"
-#include "json_writer.h"
-#include "known_keys.h"
-#include "path_entry.h"
-#include "state_memory.h"
+#include "io/atomic_file.h"
+#include "io/expressible.h"
+#include "io/input_error.h"
+#include "io/json_value.h"
+#include "io/json_writer.h"
+#include "io/known_keys.h"
+#include "io/map_file.h"
+#include "io/path_entry.h"
+#include "io/roadmap_file.h"
+#include "io/scenario_file.h"
+#include "io/state_memory.h"
+#include "io/text_file.h"
+#include "model/distance_field.h"
 
 namespace grove::detail {
 namespace {
@@ -272,8 +272,8 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
                                        ? file_named_by(*roadmap, folder, "a roadmap", rules)
                                        : file_named_by(root.member("map"), folder, "a map", rules);
   require_map_not_roadmap(roadmap ? *roadmap : root.member("map"), map_path, roadmap.has_value());
-  Map map = roadmap ? Map(read_roadmap(map_path, rules))
-                    : Map(read_map(map_path, &warnings, rules));
+  Map map =
+      roadmap ? Map(read_roadmap(map_path, rules)) : Map(read_map(map_path, &warnings, rules));
   Instance instance = read_robots(InstanceBuilder(std::move(map)), root, name, rules);
   return {std::move(instance), std::move(map_path), std::move(warnings)};
 }

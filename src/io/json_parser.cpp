@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The parser is nlohmann's; what it hands over is put together here, because its own document
 // builder accepts any depth and lets a repeated key silently win over the first.
-#include "json_parser.h"
+#include "io/json_parser.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
 
 namespace grove::detail {
 namespace {

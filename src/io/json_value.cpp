@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "json_value.h"
+#include "io/json_value.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
-#include "json_parser.h"
+#include "io/input_error.h"
+#include "io/json_parser.h"
+#include "io/text_file.h"
 
 namespace grove::detail {
 namespace {

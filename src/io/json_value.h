@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/model/grid.h"
+#include "model/grid.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "json_writer.h"
+#include "io/json_writer.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "known_keys.h"
+#include "io/known_keys.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <initializer_list>
 #include <string>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/spelling.h"
+#include "io/input_error.h"
+#include "io/spelling.h"
 
 namespace grove::detail {
 namespace {

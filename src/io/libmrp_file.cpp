@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/libmrp_file.h"
+#include "io/libmrp_file.h"
 
 #include <fmt/format.h>
 
 #include <iterator>
 #include <optional>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/input_error.h"
-#include "waypoints.h"
-#include "yaml_text.h"
-#include "yaml_value.h"
+#include "io/atomic_file.h"
+#include "io/expressible.h"
+#include "io/input_error.h"
+#include "io/waypoints.h"
+#include "io/yaml_text.h"
+#include "io/yaml_value.h"
 
 namespace grove::detail {
 namespace {

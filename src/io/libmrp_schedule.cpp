@@ -3,11 +3,11 @@
 
 #include <iterator>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/plan_export.h"
-#include "plan_steps.h"
-#include "yaml_text.h"
+#include "io/atomic_file.h"
+#include "io/expressible.h"
+#include "io/plan_export.h"
+#include "io/plan_steps.h"
+#include "io/yaml_text.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/lif_file.h"
+#include "io/lif_file.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
-#include "json_value.h"
-#include "nurbs.h"
+#include "io/input_error.h"
+#include "io/json_value.h"
+#include "io/nurbs.h"
+#include "io/text_file.h"
 
 namespace grove::detail {
 namespace {

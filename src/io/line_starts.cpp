@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "line_starts.h"
+#include "io/line_starts.h"
 
 #include <algorithm>
 
-#include "grove/detail/io/text_file.h"
+#include "io/text_file.h"
 
 namespace grove::detail {
 

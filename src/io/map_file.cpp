@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/map_file.h"
+#include "io/map_file.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <optional>
 #include <string_view>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/parse_number.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {
@@ -81,9 +81,11 @@ class MapReader {
   // A file that does not begin as a map is perhaps no map, and what it holds is not for the screen.
   void expect_map() const {
     if (constexpr std::string_view kFirst = "type octile"; header_line(0, kFirst) != kFirst)
-      fail(0, 0, fmt::format("does not begin as a map does; expected '{}' ('grove convert' makes a map of "
-                             "a drawing)",
-                             kFirst));
+      fail(
+          0, 0,
+          fmt::format("does not begin as a map does; expected '{}' ('grove convert' makes a map of "
+                      "a drawing)",
+                      kFirst));
   }
 
   Size read_header() const {

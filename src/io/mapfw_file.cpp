@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/mapfw_file.h"
+#include "io/mapfw_file.h"
 
 #include <fmt/format.h>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/map_file.h"
-#include "json_value.h"
-#include "json_writer.h"
-#include "waypoints.h"
+#include "io/atomic_file.h"
+#include "io/expressible.h"
+#include "io/input_error.h"
+#include "io/json_value.h"
+#include "io/json_writer.h"
+#include "io/map_file.h"
+#include "io/waypoints.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "nurbs.h"
+#include "io/nurbs.h"
 
 #include <array>
 #include <cmath>

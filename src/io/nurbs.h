@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "grove/detail/model/roadmap.h"
+#include "model/roadmap.h"
 
 namespace grove::detail {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/order_file.h"
+#include "io/order_file.h"
 
 #include <nlohmann/json.hpp>
 
-#include "grove/detail/execution/visits.h"
-#include "json_writer.h"
-#include "path_entry.h"
+#include "execution/visits.h"
+#include "io/json_writer.h"
+#include "io/path_entry.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_entry.h"
+#include "io/path_entry.h"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "grove/detail/model/instance.h"
-#include "json_value.h"
+#include "io/json_value.h"
+#include "model/instance.h"
 
 namespace grove::detail {
 

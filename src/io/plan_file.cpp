@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/plan_file.h"
+#include "io/plan_file.h"
 
 #include <fmt/format.h>
 
@@ -7,14 +7,14 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/check.h"
-#include "json_value.h"
-#include "json_writer.h"
-#include "known_keys.h"
-#include "path_entry.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/json_value.h"
+#include "io/json_writer.h"
+#include "io/known_keys.h"
+#include "io/path_entry.h"
+#include "io/text_file.h"
+#include "model/check.h"
 
 namespace grove::detail {
 namespace {

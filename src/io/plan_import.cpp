@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/plan_import.h"
+#include "io/plan_import.h"
 
 #include <fmt/format.h>
 
@@ -11,12 +11,12 @@
 #include <system_error>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/parse_number.h"
-#include "plan_steps.h"
-#include "yaml_value.h"
+#include "io/input_error.h"
+#include "io/plan_file.h"
+#include "io/plan_steps.h"
+#include "io/text_file.h"
+#include "io/yaml_value.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "grove/detail/model/plan.h"
+#include "model/plan.h"
 
 namespace grove::detail {
 

@@ -3,12 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/plan_export.h"
-#include "json_writer.h"
-#include "plan_steps.h"
-#include "visits.h"
+#include "io/atomic_file.h"
+#include "io/expressible.h"
+#include "io/json_writer.h"
+#include "io/plan_export.h"
+#include "io/plan_steps.h"
+#include "io/visits.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/roadmap_file.h"
+#include "io/roadmap_file.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <unordered_map>
 #include <utility>
 
-#include "grove/detail/io/text_file.h"
-#include "json_value.h"
-#include "json_writer.h"
-#include "known_keys.h"
+#include "io/json_value.h"
+#include "io/json_writer.h"
+#include "io/known_keys.h"
+#include "io/text_file.h"
 
 namespace grove::detail {
 namespace {

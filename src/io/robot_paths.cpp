@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/csv.h"
-#include "grove/detail/io/plan_export.h"
-#include "visits.h"
-#include "yaml_text.h"
+#include "io/atomic_file.h"
+#include "io/csv.h"
+#include "io/plan_export.h"
+#include "io/visits.h"
+#include "io/yaml_text.h"
 
 namespace grove::detail {
 namespace {

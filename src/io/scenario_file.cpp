@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/scenario_file.h"
+#include "io/scenario_file.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/parse_number.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

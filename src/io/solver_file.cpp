@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/solver_file.h"
+#include "io/solver_file.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <array>
 #include <regex>
 
-#include "grove/detail/io/input_error.h"
-#include "json_value.h"
-#include "known_keys.h"
+#include "io/input_error.h"
+#include "io/json_value.h"
+#include "io/known_keys.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/special_file.h"
+#include "io/special_file.h"
 
 #include <string>
 #include <system_error>

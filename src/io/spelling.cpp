@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/spelling.h"
+#include "io/spelling.h"
 
 #include <algorithm>
 #include <numeric>

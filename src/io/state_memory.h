@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <set>
 
-#include "grove/detail/io/input_rules.h"
-#include "grove/detail/model/instance.h"
-#include "json_value.h"
+#include "io/input_rules.h"
+#include "io/json_value.h"
+#include "model/instance.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/tracker_file.h"
+#include "io/tracker_file.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/model/parse_number.h"
-#include "plan_steps.h"
+#include "io/atomic_file.h"
+#include "io/expressible.h"
+#include "io/plan_steps.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "utf8.h"
+#include "io/utf8.h"
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "grove/detail/model/plan.h"
+#include "model/plan.h"
 
 namespace grove::detail {
 

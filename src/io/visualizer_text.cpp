@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <iterator>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/plan_export.h"
-#include "grove/detail/model/distance_field.h"
-#include "plan_steps.h"
+#include "io/atomic_file.h"
+#include "io/expressible.h"
+#include "io/plan_export.h"
+#include "io/plan_steps.h"
+#include "model/distance_field.h"
 
 namespace grove::detail {
 namespace {

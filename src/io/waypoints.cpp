@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "waypoints.h"
+#include "io/waypoints.h"
 
 #include <fmt/format.h>
 
 #include <cstdlib>
 
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/input_error.h"
+#include "io/expressible.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "yaml_text.h"
+#include "io/yaml_text.h"
 
 #include <yaml-cpp/emitter.h>
 #include <yaml-cpp/emittermanip.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "yaml_value.h"
+#include "io/yaml_value.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -8,10 +8,10 @@
 #include <limits>
 #include <sstream>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/parse_number.h"
-#include "utf8.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
+#include "io/utf8.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/io/input_rules.h"
-#include "grove/detail/model/grid.h"
+#include "io/input_rules.h"
+#include "model/grid.h"
 
 namespace grove::detail {
 

@@ -4,7 +4,7 @@
 // destination rests on one of its own places with nothing left, whatever it visited last: moved to
 // the end of the order, that place is visited once more. Begun work that serves none of the stops
 // left is a wait, and that there is already.
-#include "grove/detail/joint/agent_graph.h"
+#include "joint/agent_graph.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 // Backwards from all states in which everybody is at rest or may be, by Dijkstra's algorithm: a
 // step costs as many as are not at rest. What these agents cost at least is what any plan of more
 // agents pays for them.
-#include "grove/detail/joint/group_table.h"
+#include "joint/group_table.h"
 
 #include <algorithm>
 #include <utility>

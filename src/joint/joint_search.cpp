@@ -22,7 +22,7 @@
 // Choosing moves agent by agent, the next budget is the least sum above the budget of a beginning
 // without collisions: each can be gone on with without a detour, or else collides and comes again,
 // for nothing, with a greater one.
-#include "grove/detail/joint/joint_search.h"
+#include "joint/joint_search.h"
 
 #include <algorithm>
 #include <array>
@@ -32,8 +32,8 @@
 #include <new>
 #include <utility>
 
-#include "grove/detail/joint/group_table.h"
-#include "grove/detail/model/plan_of_path.h"
+#include "joint/group_table.h"
+#include "model/plan_of_path.h"
 
 namespace grove::detail {
 namespace {

@@ -12,7 +12,7 @@
 //
 // Backward: the earliest finish from each node, in the order of falling times, since no move leads
 // into its own layer. So what an agent costs alone from a node is exact under its demands.
-#include "grove/detail/joint/timed_graphs.h"
+#include "joint/timed_graphs.h"
 
 #include <algorithm>
 #include <limits>

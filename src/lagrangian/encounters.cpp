@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/lagrangian/encounters.h"
+#include "lagrangian/encounters.h"
 
 #include <algorithm>
 #include <unordered_map>

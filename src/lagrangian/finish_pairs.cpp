@@ -4,9 +4,9 @@
 // a' <= a and b' <= b, then no two paths of these agents that finish by a and by b go together -
 // and so in no plan at all, whatever the others do. A set that was not made, since it is too large
 // or time ran out, proves nothing.
-#include "grove/detail/lagrangian/finish_pairs.h"
+#include "lagrangian/finish_pairs.h"
 
-#include "grove/detail/lagrangian/least_cost.h"
+#include "lagrangian/least_cost.h"
 
 namespace grove::detail {
 namespace {

@@ -20,7 +20,7 @@
 //
 // For how far to go see level_ascent.h; the direction is what the cheapest paths use of each row
 // beyond once - a subgradient - smoothed, for one step alone is blind for what the last one did.
-#include "grove/detail/lagrangian/lagrangian_bound.h"
+#include "lagrangian/lagrangian_bound.h"
 
 #include <algorithm>
 #include <new>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/lagrangian/least_cost.h"
+#include "lagrangian/least_cost.h"
 
 namespace grove::detail {
 

@@ -2,7 +2,7 @@
 // Far above what can be reached a level makes steps so long that values fall far below the best;
 // each such value counts for several rounds of waiting. (warehouse-10-20-10-2-1, 300 agents, 12 s,
 // in the median of what was tried: 24,172 instead of 23,971, where all agents alone pay that.)
-#include "grove/detail/lagrangian/level_ascent.h"
+#include "lagrangian/level_ascent.h"
 
 #include <algorithm>
 

@@ -9,7 +9,7 @@
 // A path that leaves what the completions know costs beyond() steps or more; the price is never
 // said to be more than that. Nor, when labels or time run out, more than the least that a label of
 // the last whole layer pays at least: every path not yet seen passes that layer.
-#include "grove/detail/lagrangian/penalized_search.h"
+#include "lagrangian/penalized_search.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/lagrangian/penalties.h"
+#include "lagrangian/penalties.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/lagrangian/pricer.h"
+#include "lagrangian/pricer.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/detail/lagrangian/least_cost.h"
+#include "lagrangian/least_cost.h"
 
 namespace grove::detail {
 namespace {

@@ -2,7 +2,7 @@
 // There is no second share before the first is answered, and it is answered when the last of its
 // jobs has come back: so no job ever sees two tariffs, and the digest, taken when the share came,
 // is that of all its prices.
-#include "grove/detail/lagrangian/pricing_help.h"
+#include "lagrangian/pricing_help.h"
 
 #include <algorithm>
 #include <stdexcept>

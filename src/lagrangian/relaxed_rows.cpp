@@ -14,7 +14,7 @@
 // Multipliers are never negative, and what is charged to an agent is the sum of those of the rows
 // that its path uses; being integers there, they are what is proven with, whatever the arithmetic
 // that chose them.
-#include "grove/detail/lagrangian/relaxed_rows.h"
+#include "lagrangian/relaxed_rows.h"
 
 #include <algorithm>
 #include <cmath>

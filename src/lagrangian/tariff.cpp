@@ -2,7 +2,7 @@
 // The digest is the sum, modulo 2^64, of each charge times a number drawn from what its row is. So
 // it follows every change of a charge, in whatever order changes come, and does not ask how rows
 // are numbered.
-#include "grove/detail/lagrangian/tariff.h"
+#include "lagrangian/tariff.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -5,7 +5,7 @@
 // agents are moved through time together on one map of who is where, so that the work grows with
 // agents * time and not with agents^2. Last, the claims: a plan's cost is what its paths add up to,
 // and its status is what cost, bound and omega deserve.
-#include "grove/detail/model/check.h"
+#include "model/check.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/distance_field.h"
+#include "model/distance_field.h"
 
 #include <algorithm>
 #include <atomic>
 #include <optional>
 
-#include "grove/detail/model/thread_team.h"
+#include "model/thread_team.h"
 
 namespace grove::detail {
 namespace {

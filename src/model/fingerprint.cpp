@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fowler-Noll-Vo, variant 1a, over numbers of 8 bytes, low bytes first.
-#include "grove/detail/model/fingerprint.h"
+#include "model/fingerprint.h"
 
 namespace grove::detail {
 namespace {

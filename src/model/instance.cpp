@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/instance.h"
+#include "model/instance.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/limits.h"
+#include "model/limits.h"
 
 #include <unistd.h>
 

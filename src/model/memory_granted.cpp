@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/memory_granted.h"
+#include "model/memory_granted.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "grove/detail/model/parse_number.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

@@ -2,7 +2,7 @@
 // Base states of a kind with turns on one place, in this order: the four headings; then for each
 // heading the states within its turn to the right, and for each heading those within its turn to
 // the left.
-#include "grove/detail/model/motion_world.h"
+#include "model/motion_world.h"
 
 #include <fmt/format.h>
 

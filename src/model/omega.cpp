@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/omega.h"
+#include "model/omega.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "grove/detail/model/parse_number.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

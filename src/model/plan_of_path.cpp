@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/plan_of_path.h"
+#include "model/plan_of_path.h"
 
 #include <algorithm>
 #include <cstdint>

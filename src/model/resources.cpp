@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/resources.h"
+#include "model/resources.h"
 
 #include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 
-#include "grove/detail/model/memory_granted.h"
+#include "model/memory_granted.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/roadmap.h"
+#include "model/roadmap.h"
 
 #include <fmt/format.h>
 

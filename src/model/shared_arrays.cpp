@@ -7,14 +7,14 @@
 //
 // What is read is what one would have computed: members have the same program and the same instance
 // (who makes them members makes sure of that), and what fills an array depends on these alone.
-#include "grove/detail/model/shared_arrays.h"
+#include "model/shared_arrays.h"
 
 #include <chrono>
 #include <cstdint>
 #include <stdexcept>
 #include <thread>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {

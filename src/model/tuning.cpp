@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/tuning.h"
+#include "model/tuning.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "grove/detail/model/parse_number.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr Tunable kTunables[] = {
 #define GROVE_TUNABLE(type, name, value, least, most, what, measured) \
   {#name, &Tuning::name, least, most, what, measured},
-#include "grove/detail/model/tunables.def"
+#include "model/tunables.def"
 #undef GROVE_TUNABLE
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/world.h"
+#include "model/world.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/chains.h"
+#include "planning/chains.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/conflict_avoidance_table.h"
+#include "planning/conflict_avoidance_table.h"
 
 #include <algorithm>
 #include <bit>
 #include <iterator>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/constraint.h"
+#include "planning/constraint.h"
 
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 
-#include "grove/detail/model/assert.h"
-#include "grove/detail/planning/chains.h"
+#include "model/assert.h"
+#include "planning/chains.h"
 
 namespace grove::detail {
 namespace {

@@ -5,11 +5,11 @@
 // alone: so the fewest from each node to the end come from the layer after it, last layer first.
 // What is asked of the table once for a node - who else is there, who comes there next - serves all
 // its steps.
-#include "grove/detail/planning/fewest_conflicts.h"
+#include "planning/fewest_conflicts.h"
 
 #include <limits>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 

@@ -43,15 +43,15 @@
 // within a turn; they have no ports): so a path that counts u pays at least dist(state, port) +
 // onward(port) for the port that it is in then. A port does not rule out another of a stop that
 // takes time: who is at work there in one heading would have to begin anew in the other.
-#include "grove/detail/planning/free_goals.h"
+#include "planning/free_goals.h"
 
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/direct_legs.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/direct_legs.h"
 
 namespace grove::detail {
 namespace {
@@ -86,12 +86,11 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
       start_(instance.agent(agent).start),
       start_place_(instance.world().place(start_)),
       destination_(instance.agent(agent).goal),
-      completions_(
-          port_matrix(instance, agent, distances),
-          distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent)),
-          [&instance, &distances, agent] {
-            return direct_legs(instance, agent, port_matrix(instance, agent, distances));
-          }) {
+      completions_(port_matrix(instance, agent, distances),
+                   distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent)),
+                   [&instance, &distances, agent] {
+                     return direct_legs(instance, agent, port_matrix(instance, agent, distances));
+                   }) {
   ports_ = completions_.matrix().ports;
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);

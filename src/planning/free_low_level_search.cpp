@@ -49,15 +49,15 @@
 // Measured on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
 // call in microseconds; n = 5, 10, 20): 6, 14, 24 without constraints; 17, 35, 57 with 20 of them
 // on the paths found; 34, 64, 138 with 60. A fixed sequence takes 5, 8, 15; 12, 14, 22; 21, 24, 31.
-#include "grove/detail/planning/free_low_level_search.h"
+#include "planning/free_low_level_search.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "goals_in_class.h"
-#include "late_goals.h"
-#include "safe_interval_search.h"
-#include "visit_check.h"
+#include "planning/goals_in_class.h"
+#include "planning/late_goals.h"
+#include "planning/safe_interval_search.h"
+#include "planning/visit_check.h"
 
 namespace grove::detail {
 namespace {

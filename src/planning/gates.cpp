@@ -21,7 +21,7 @@
 // P comes by t, and then it leaves u again, as G can, or it comes at n = t + 1 or later. And "stand
 // there as well" must leave open what P does next: if u has copies, a G in one that is barred from
 // leaving the chain makes no gate. One in the free copy does: it can do what the others can.
-#include "gates.h"
+#include "planning/gates.h"
 
 #include <algorithm>
 #include <cstddef>

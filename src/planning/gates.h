@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/detail/model/plan.h"
-#include "grove/detail/planning/free_goals.h"
+#include "model/plan.h"
+#include "planning/free_goals.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "goals_in_class.h"
+#include "planning/goals_in_class.h"
 
 namespace grove::detail {
 

@@ -33,9 +33,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "gates.h"
-#include "grove/detail/planning/free_goals.h"
-#include "safe_interval_search.h"
+#include "planning/free_goals.h"
+#include "planning/gates.h"
+#include "planning/safe_interval_search.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "goals_in_turn.h"
+#include "planning/goals_in_turn.h"
 
 #include <algorithm>
 #include <limits>

@@ -36,8 +36,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/detail/planning/goal_sequence.h"
-#include "safe_interval_search.h"
+#include "planning/goal_sequence.h"
+#include "planning/safe_interval_search.h"
 
 namespace grove::detail {
 

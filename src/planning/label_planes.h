@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "grove/detail/model/assert.h"
-#include "grove/detail/model/limits.h"
+#include "model/assert.h"
+#include "model/limits.h"
 
 namespace grove::detail {
 

@@ -18,7 +18,7 @@
 // Since each leg of a path costs at least its entry, whatever comes before and after, the matrix
 // serves as the plain one does: it bounds the whole sequence, and what is left of it from any
 // state.
-#include "late_costs.h"
+#include "planning/late_costs.h"
 
 #include <algorithm>
 #include <vector>

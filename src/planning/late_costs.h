@@ -4,9 +4,9 @@
 
 #include <optional>
 
-#include "grove/detail/planning/free_goals.h"
-#include "grove/detail/planning/safe_intervals.h"
-#include "grove/detail/sequencing/cost_matrix.h"
+#include "planning/free_goals.h"
+#include "planning/safe_intervals.h"
+#include "sequencing/cost_matrix.h"
 
 namespace grove::detail {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "late_goals.h"
+#include "planning/late_goals.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/direct_legs.h"
-#include "late_costs.h"
+#include "planning/late_costs.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/direct_legs.h"
 
 namespace grove::detail {
 namespace {
@@ -39,7 +39,8 @@ FreeGoals* LateGoals::over(FreeGoals& plain, const Limits& limits) {
   if (!matrix) return nullptr;
   goals_.reset();
   const bool known = completions_ && agent_ == plain.stops().agent() &&
-                     class_ == plain.sequence_class() && completions_->matrix().cost == matrix->cost;
+                     class_ == plain.sequence_class() &&
+                     completions_->matrix().cost == matrix->cost;
   if (!known) {  // else those of a call before serve on
     agent_ = plain.stops().agent();
     class_ = plain.sequence_class();

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "grove/detail/planning/free_goals.h"
-#include "grove/detail/planning/safe_intervals.h"
+#include "planning/free_goals.h"
+#include "planning/safe_intervals.h"
 
 namespace grove::detail {
 
@@ -22,8 +22,8 @@ class LateGoals {
   const World& world_;
   SafeIntervals& intervals_;
   std::optional<Completions> completions_;
-  AgentIndex agent_ = 0;  // whose they are,
-  SequenceClass class_;   // and of which class
+  AgentIndex agent_ = 0;            // whose they are,
+  SequenceClass class_;             // and of which class
   std::optional<FreeGoals> goals_;  // over these
 };
 

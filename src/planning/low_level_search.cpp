@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/low_level_search.h"
+#include "planning/low_level_search.h"
 
 #include <stdexcept>
 
-#include "goals_in_turn.h"
-#include "safe_interval_search.h"
+#include "planning/goals_in_turn.h"
+#include "planning/safe_interval_search.h"
 
 namespace grove::detail {
 

@@ -25,14 +25,14 @@
 // Measured against layers made forward, time by time, and cleared of dead ends afterwards: those
 // met four nodes for each that they kept, and an instance of the paper's data set that takes Grove
 // seconds took half as long again.
-#include "grove/detail/planning/optimal_paths.h"
+#include "planning/optimal_paths.h"
 
 #include <algorithm>
 
-#include "grove/detail/model/hash.h"
-#include "grove/detail/planning/bucket_queue.h"
-#include "grove/detail/planning/safe_intervals.h"
-#include "label_planes.h"
+#include "model/hash.h"
+#include "planning/bucket_queue.h"
+#include "planning/label_planes.h"
+#include "planning/safe_intervals.h"
 
 namespace grove::detail {
 namespace {

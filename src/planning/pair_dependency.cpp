@@ -10,7 +10,7 @@
 // begins. From the last contact on nothing can collide any more: a pair that has come that far
 // proves that the agents are compatible, since every node leads to the end. And without such a pair
 // all are dead: dependent.
-#include "grove/detail/planning/pair_dependency.h"
+#include "planning/pair_dependency.h"
 
 #include <algorithm>
 #include <array>

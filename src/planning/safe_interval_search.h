@@ -40,11 +40,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "grove/detail/model/limits.h"
-#include "grove/detail/planning/bucket_queue.h"
-#include "grove/detail/planning/path_query.h"
-#include "grove/detail/planning/safe_intervals.h"
-#include "label_planes.h"
+#include "model/limits.h"
+#include "planning/bucket_queue.h"
+#include "planning/label_planes.h"
+#include "planning/path_query.h"
+#include "planning/safe_intervals.h"
 
 namespace grove::detail {
 
@@ -87,8 +87,8 @@ class SafeIntervalSearch {
   // search.
   void begin(State start, Progress progress, Time first_layer, const ConflictAvoidanceTable* others,
              const Limits& limits);
-  // Continues until exactly so many labels are expanded in all: what is done by then must not depend
-  // on the searches before.
+  // Continues until exactly so many labels are expanded in all: what is done by then must not
+  // depend on the searches before.
   End run(std::int64_t pause_at);
   // Of what was found.
   Time cost() const { return finish_.time; }

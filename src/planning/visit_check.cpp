@@ -3,11 +3,11 @@
 // can do all that a later one can, after waiting; so what is not reached is not reachable, and what
 // is reached is not reachable earlier. In order of the time plus what is still to go at least (A*):
 // distances without intervals, which are consistent.
-#include "visit_check.h"
+#include "planning/visit_check.h"
 
 #include <algorithm>
 
-#include "grove/detail/sequencing/cost_matrix.h"
+#include "sequencing/cost_matrix.h"
 
 namespace grove::detail {
 

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "grove/detail/model/limits.h"
-#include "grove/detail/planning/bucket_queue.h"
-#include "grove/detail/planning/free_goals.h"
-#include "grove/detail/planning/safe_intervals.h"
+#include "model/limits.h"
+#include "planning/bucket_queue.h"
+#include "planning/free_goals.h"
+#include "planning/safe_intervals.h"
 
 namespace grove::detail {
 

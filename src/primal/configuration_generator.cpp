@@ -11,7 +11,7 @@
 // chooses takes its candidates in reverse, away from the other, and pulls it along.
 //
 // Orders (LaCAM's constraints) are reservations made before anybody chooses.
-#include "configuration_generator.h"
+#include "primal/configuration_generator.h"
 
 #include <algorithm>
 

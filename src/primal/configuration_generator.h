@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "configurations.h"
-#include "dice.h"
-#include "swaps.h"
+#include "primal/configurations.h"
+#include "primal/dice.h"
+#include "primal/swaps.h"
 
 namespace grove::detail {
 

@@ -4,12 +4,12 @@
 // agents on some 120 cells with dead ends 291 were solved with the first seed within 20,000 steps,
 // and 7 of the other 9 with one of two more. As the steps double, a finite space is still
 // exhausted.
-#include "configuration_search.h"
+#include "primal/configuration_search.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "lacam.h"
+#include "primal/lacam.h"
 
 namespace grove::detail {
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <span>
 
-#include "grove/detail/model/limits.h"
-#include "grove/detail/model/plan.h"
-#include "grove/detail/model/tuning.h"
-#include "grove/detail/search/problem.h"
-#include "grove/detail/sequencing/sequence.h"
+#include "model/limits.h"
+#include "model/plan.h"
+#include "model/tuning.h"
+#include "search/problem.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

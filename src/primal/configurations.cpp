@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "configurations.h"
+#include "primal/configurations.h"
 
 #include <algorithm>
 
-#include "dice.h"
+#include "primal/dice.h"
 
 namespace grove::detail {
 namespace {

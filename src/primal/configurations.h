@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "visit_stages.h"
+#include "primal/visit_stages.h"
 
 namespace grove::detail {
 

@@ -15,12 +15,12 @@
 //
 // No better: traffic of ways planned beforehand, and ten candidates for each joint step of which
 // the best is taken (as in lacam3).
-#include "guided_search.h"
+#include "primal/guided_search.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/detail/search/work.h"
+#include "search/work.h"
 
 namespace grove::detail {
 

@@ -8,13 +8,13 @@
 #include <optional>
 #include <vector>
 
-#include "grove/detail/model/limits.h"
-#include "grove/detail/model/plan.h"
-#include "grove/detail/model/tuning.h"
-#include "grove/detail/search/problem.h"
-#include "grove/detail/sequencing/sequence.h"
-#include "lacam.h"
-#include "traffic.h"
+#include "model/limits.h"
+#include "model/plan.h"
+#include "model/tuning.h"
+#include "primal/lacam.h"
+#include "primal/traffic.h"
+#include "search/problem.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

@@ -2,7 +2,7 @@
 // Who of those planned would be run into.
 #pragma once
 
-#include "grove/detail/planning/reservations.h"
+#include "planning/reservations.h"
 
 namespace grove::detail {
 

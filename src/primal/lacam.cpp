@@ -42,7 +42,7 @@
 //   den312d 200/600             14     23              1.31
 //
 // Without swaps.cpp 7 of 10 runs on 250/250 ended within 0.5 s.
-#include "lacam.h"
+#include "primal/lacam.h"
 
 #include <algorithm>
 #include <functional>
@@ -51,7 +51,7 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/model/plan_of_path.h"
+#include "model/plan_of_path.h"
 
 namespace grove::detail {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "configuration_generator.h"
-#include "configuration_search.h"
-#include "configurations.h"
+#include "primal/configuration_generator.h"
+#include "primal/configuration_search.h"
+#include "primal/configurations.h"
 
 namespace grove::detail {
 

@@ -27,7 +27,7 @@
 // 3,921, 100 agents 2,361 and 2,364; room-32-32-4, 60 agents 1,756 and 1,764, 80 agents 2,415 and
 // 2,432; empty-32-32, 200 agents 4,358 and 4,360. Only where all have been in vain for long, 8 s:
 // room, 60 agents, 1,756 and 1,759, 1,646 and 1,646.
-#include "neighborhood_search.h"
+#include "primal/neighborhood_search.h"
 
 #include <algorithm>
 #include <span>

@@ -7,12 +7,12 @@
 // - overpaying: where prices are known, an agent that pays more than its price, penalties included,
 //   and those that stand in the way of the path of that price. Who is delayed because all others
 //   would be if it were not does not overpay.
-#include "neighborhoods.h"
+#include "primal/neighborhoods.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "in_the_way.h"
+#include "primal/in_the_way.h"
 
 namespace grove::detail {
 namespace {

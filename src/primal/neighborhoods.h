@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/detail/model/random.h"
-#include "grove/detail/model/tuning.h"
-#include "grove/detail/search/problem.h"
-#include "path_set.h"
-#include "router.h"
+#include "model/random.h"
+#include "model/tuning.h"
+#include "primal/path_set.h"
+#include "primal/router.h"
+#include "search/problem.h"
 
 namespace grove::detail {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/model/assert.h"
-#include "grove/detail/planning/reservations.h"
+#include "model/assert.h"
+#include "planning/reservations.h"
 
 namespace grove::detail {
 

@@ -42,23 +42,23 @@
 // dearest first 12-18 %. (Those who must visit another's destination before it: 0.5 instead of
 // 0.2 % with 500 agents and 3,000 tasks in a warehouse.) Later rounds sort by costs with some
 // noise.
-#include "grove/detail/primal/primal_search.h"
+#include "primal/primal_search.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "configuration_search.h"
-#include "grove/detail/model/assert.h"
-#include "grove/detail/model/random.h"
-#include "grove/detail/search/work.h"
-#include "guided_search.h"
-#include "neighborhood_search.h"
-#include "path_set.h"
-#include "prioritized_planning.h"
-#include "router.h"
-#include "visit_orders.h"
+#include "model/assert.h"
+#include "model/random.h"
+#include "primal/configuration_search.h"
+#include "primal/guided_search.h"
+#include "primal/neighborhood_search.h"
+#include "primal/path_set.h"
+#include "primal/prioritized_planning.h"
+#include "primal/router.h"
+#include "primal/visit_orders.h"
+#include "search/work.h"
 
 namespace grove::detail {
 namespace {

@@ -21,12 +21,12 @@
 // of 256x256 cells took a million each, all before them a thousand or two. So the best path is
 // looked for with some patience only, then any, greedily. Mostly it is an agent whose destination
 // others pass long after its own cost.
-#include "prioritized_planning.h"
+#include "primal/prioritized_planning.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "in_the_way.h"
+#include "primal/in_the_way.h"
 
 namespace grove::detail {
 namespace {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "grove/detail/model/random.h"
-#include "grove/detail/model/tuning.h"
-#include "path_set.h"
-#include "router.h"
+#include "model/random.h"
+#include "model/tuning.h"
+#include "primal/path_set.h"
+#include "primal/router.h"
 
 namespace grove::detail {
 

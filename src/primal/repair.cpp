@@ -4,15 +4,15 @@
 // of its own best path lose theirs and join the queue at its end. Two that shut out each other
 // would take turns for ever: so after many failures an agent also pushes away those that it would
 // run into if it were late, and the number of failures is limited.
-#include "grove/detail/primal/repair.h"
+#include "primal/repair.h"
 
 #include <algorithm>
 #include <deque>
 
-#include "grove/detail/model/random.h"
-#include "in_the_way.h"
-#include "path_set.h"
-#include "router.h"
+#include "model/random.h"
+#include "primal/in_the_way.h"
+#include "primal/path_set.h"
+#include "primal/router.h"
 
 namespace grove::detail {
 namespace {

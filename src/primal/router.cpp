@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "router.h"
+#include "primal/router.h"
 
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/search/node.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/good_sequence.h"
+#include "search/node.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/good_sequence.h"
 
 namespace grove::detail {
 namespace {

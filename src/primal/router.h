@@ -7,12 +7,12 @@
 #include <optional>
 #include <vector>
 
-#include "grove/detail/lagrangian/price_list.h"
-#include "grove/detail/lagrangian/pricer.h"
-#include "grove/detail/planning/agent_stops_store.h"
-#include "grove/detail/planning/free_low_level_search.h"
-#include "grove/detail/search/problem.h"
-#include "grove/detail/search/work.h"
+#include "lagrangian/price_list.h"
+#include "lagrangian/pricer.h"
+#include "planning/agent_stops_store.h"
+#include "planning/free_low_level_search.h"
+#include "search/problem.h"
+#include "search/work.h"
 
 namespace grove::detail {
 
@@ -71,7 +71,7 @@ class Router {
   // By AgentIndex. Of an agent that follows a good sequence: its completions.
   std::vector<std::unique_ptr<Completions>> in_order_;
   std::vector<std::unique_ptr<FreeGoals>> goals_;
-  std::vector<Path> own_paths_;                    // by AgentIndex
+  std::vector<Path> own_paths_;  // by AgentIndex
   std::int64_t calls_ = 0;
   std::shared_ptr<const PriceList> prices_;
   int price_changes_ = 0;

@@ -20,7 +20,7 @@
 //
 // All of this takes it that every step can be undone and that a state is its place: only in plain
 // worlds.
-#include "swaps.h"
+#include "primal/swaps.h"
 
 namespace grove::detail {
 

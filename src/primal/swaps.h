@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "configurations.h"
+#include "primal/configurations.h"
 
 namespace grove::detail {
 

@@ -5,7 +5,7 @@
 // AAAI 2024, who count ways that are planned beforehand; a plan's own traffic does as well,
 // measured, and knows of waits.) Moves against a stream are dearer than those along it, so streams
 // part.
-#include "traffic.h"
+#include "primal/traffic.h"
 
 #include <algorithm>
 

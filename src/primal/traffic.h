@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "grove/detail/model/distance_field.h"
-#include "grove/detail/model/plan.h"
-#include "grove/detail/model/tuning.h"
-#include "grove/detail/model/world.h"
+#include "model/distance_field.h"
+#include "model/plan.h"
+#include "model/tuning.h"
+#include "model/world.h"
 
 namespace grove::detail {
 

@@ -2,15 +2,15 @@
 // Agents without a destination must not all head for the same stop, nor for another's destination.
 // Which of them ends where is a matching of agents with cells, found by augmenting paths (Kuhn's
 // algorithm) that ask for the end of the cheapest sequence first.
-#include "visit_orders.h"
+#include "primal/visit_orders.h"
 
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/rtsp.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/rtsp.h"
 
 namespace grove::detail {
 namespace {

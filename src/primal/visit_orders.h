@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "grove/detail/search/problem.h"
-#include "grove/detail/sequencing/sequence.h"
+#include "search/problem.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

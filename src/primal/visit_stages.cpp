@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "visit_stages.h"
+#include "primal/visit_stages.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "grove/detail/search/problem.h"
-#include "grove/detail/sequencing/sequence.h"
-#include "grove/detail/sequencing/sequence_dag.h"
+#include "search/problem.h"
+#include "sequencing/sequence.h"
+#include "sequencing/sequence_dag.h"
 
 namespace grove::detail {
 

@@ -7,7 +7,7 @@
 // has needed yet first. The third writes.
 //
 // Nothing here has to be right for what is proven: a checker sees to that.
-#include "grove/detail/proof/certificate.h"
+#include "proof/certificate.h"
 
 #include <fmt/format.h>
 
@@ -15,13 +15,13 @@
 #include <unordered_set>
 #include <vector>
 
-#include "certificate_output.h"
-#include "grove/detail/proof/proof_parts.h"
-#include "lemma_choice.h"
-#include "lemma_writer.h"
-#include "proof_forest.h"
-#include "proof_text.h"
-#include "written_down.h"
+#include "proof/certificate_output.h"
+#include "proof/lemma_choice.h"
+#include "proof/lemma_writer.h"
+#include "proof/proof_forest.h"
+#include "proof/proof_parts.h"
+#include "proof/proof_text.h"
+#include "proof/written_down.h"
 
 namespace grove::detail {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "certificate_bytes.h"
+#include "proof/certificate_bytes.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "grove/detail/io/descriptor.h"
-#include "zstd_stream.h"
+#include "io/descriptor.h"
+#include "proof/zstd_stream.h"
 
 namespace grove::detail {
 

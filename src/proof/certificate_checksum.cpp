@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string>
 
-#include "grove/detail/proof/certificate.h"
+#include "proof/certificate.h"
 
 namespace grove::detail {
 namespace {

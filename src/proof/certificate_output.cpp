@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "certificate_output.h"
+#include "proof/certificate_output.h"
 
 namespace grove::detail {
 namespace {

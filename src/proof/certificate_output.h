@@ -7,8 +7,8 @@
 #include <optional>
 #include <string_view>
 
-#include "grove/detail/io/atomic_file.h"
-#include "zstd_stream.h"
+#include "io/atomic_file.h"
+#include "proof/zstd_stream.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "certificate_reader.h"
+#include "proof/certificate_reader.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/parse_number.h"
-#include "grove/detail/proof/certificate.h"
-#include "line_stream.h"
+#include "io/input_error.h"
+#include "model/parse_number.h"
+#include "proof/certificate.h"
+#include "proof/line_stream.h"
 
 namespace grove::detail {
 namespace {

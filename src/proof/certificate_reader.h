@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/omega.h"
-#include "line_stream.h"
+#include "model/instance.h"
+#include "model/omega.h"
+#include "proof/line_stream.h"
 
 namespace grove::detail {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/proof/certificate_text.h"
+#include "proof/certificate_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
 
-#include "certificate_bytes.h"
-#include "certificate_reader.h"
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
+#include "proof/certificate_bytes.h"
+#include "proof/certificate_reader.h"
 
 namespace grove::detail {
 namespace {

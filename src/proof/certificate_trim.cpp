@@ -22,7 +22,7 @@
 //
 // Three walks: the first decides what of each split stays, the second notes which lemmas are named
 // by what stays, the third writes.
-#include "grove/detail/proof/certificate_trim.h"
+#include "proof/certificate_trim.h"
 
 #include <fmt/format.h>
 
@@ -35,14 +35,14 @@
 #include <utility>
 #include <vector>
 
-#include "certificate_bytes.h"
-#include "certificate_output.h"
-#include "certificate_reader.h"
-#include "demands_in_force.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/limits.h"
-#include "kept_parts.h"
-#include "lemma_table.h"
+#include "io/input_error.h"
+#include "model/limits.h"
+#include "proof/certificate_bytes.h"
+#include "proof/certificate_output.h"
+#include "proof/certificate_reader.h"
+#include "proof/demands_in_force.h"
+#include "proof/kept_parts.h"
+#include "proof/lemma_table.h"
 
 namespace grove::detail {
 namespace {

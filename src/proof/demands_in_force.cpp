@@ -2,9 +2,9 @@
 // "A rest P T" brings "B bar P T inf" for each other agent. They are not counted one by one: by
 // `others`, how often anybody rests so, and `own`, how often the agent itself does. (For agents of
 // whom the proof is not, too: of those no lemma that it may name demands anything.)
-#include "demands_in_force.h"
+#include "proof/demands_in_force.h"
 
-#include "grove/detail/model/hash.h"
+#include "model/hash.h"
 
 namespace grove::detail {
 namespace {

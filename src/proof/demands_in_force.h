@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "certificate_reader.h"
+#include "proof/certificate_reader.h"
 
 namespace grove::detail {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "kept_parts.h"
+#include "proof/kept_parts.h"
 
-#include "demands_in_force.h"
+#include "proof/demands_in_force.h"
 
 namespace grove::detail {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "certificate_reader.h"
+#include "proof/certificate_reader.h"
 
 namespace grove::detail {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lemma_choice.h"
+#include "proof/lemma_choice.h"
 
-#include "grove/detail/search/covering.h"
+#include "search/covering.h"
 
 namespace grove::detail {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "grove/detail/search/proof_log.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 

@@ -7,13 +7,13 @@
 // Where what agents cost is needed too, a leaf can do without a lemma that another one implies: one
 // of some of its agents with a bound that is no less. For what the others cost is not less than 0;
 // and c + x of the smaller group being enough, that of the larger one is.
-#include "lemma_table.h"
+#include "proof/lemma_table.h"
 
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
-#include "lemma_choice.h"
+#include "proof/lemma_choice.h"
 
 namespace grove::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "certificate_reader.h"
+#include "proof/certificate_reader.h"
 
 namespace grove::detail {
 

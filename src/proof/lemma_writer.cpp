@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lemma_writer.h"
+#include "proof/lemma_writer.h"
 
 #include <fmt/format.h>
 
-#include "proof_text.h"
-#include "split_tree.h"
+#include "proof/proof_text.h"
+#include "proof/split_tree.h"
 
 namespace grove::detail {
 

@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "certificate_output.h"
-#include "grove/detail/model/instance.h"
-#include "grove/detail/search/proof_log.h"
+#include "model/instance.h"
+#include "proof/certificate_output.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "line_stream.h"
+#include "proof/line_stream.h"
 
 #include <cstring>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "proof_forest.h"
+#include "proof/proof_forest.h"
 
 #include <algorithm>
 

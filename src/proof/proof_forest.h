@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "grove/detail/conflicts/conflict.h"
-#include "split_tree.h"
-#include "written_down.h"
+#include "conflicts/conflict.h"
+#include "proof/split_tree.h"
+#include "proof/written_down.h"
 
 namespace grove::detail {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The file is a row of numbers of 8 bytes, compressed; each entry is its kind, how many numbers
 // follow, and these. Most bytes are zero, and cost next to nothing.
-#include "grove/detail/proof/proof_parts.h"
+#include "proof/proof_parts.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "grove/detail/io/descriptor.h"
-#include "grove/detail/io/input_error.h"
-#include "zstd_stream.h"
+#include "io/descriptor.h"
+#include "io/input_error.h"
+#include "proof/zstd_stream.h"
 
 namespace grove::detail {
 namespace {
@@ -163,7 +163,8 @@ class ProofRecorder::Stream {
     const std::int64_t head[] = {kind, std::ssize(numbers)};
     unless_failed([&] {
       compressor_.add({reinterpret_cast<const char*>(head), sizeof head});
-      compressor_.add({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Cost)});
+      compressor_.add(
+          {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Cost)});
     });
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "proof_text.h"
+#include "proof/proof_text.h"
 
 #include <fmt/format.h>
 

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "grove/detail/conflicts/conflict.h"
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/omega.h"
-#include "grove/detail/planning/constraint.h"
-#include "grove/detail/search/proof_log.h"
+#include "conflicts/conflict.h"
+#include "model/instance.h"
+#include "model/omega.h"
+#include "planning/constraint.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "split_tree.h"
+#include "proof/split_tree.h"
 
 #include <algorithm>
 

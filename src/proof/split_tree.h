@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "written_down.h"
+#include "proof/written_down.h"
 
 namespace grove::detail {
 

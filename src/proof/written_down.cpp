@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "written_down.h"
+#include "proof/written_down.h"
 
 #include <algorithm>
 
-#include "lemma_choice.h"
+#include "proof/lemma_choice.h"
 
 namespace grove::detail {
 

@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "grove/detail/search/proof_log.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 

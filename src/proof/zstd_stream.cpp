@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "zstd_stream.h"
+#include "proof/zstd_stream.h"
 
 #include <new>
 #include <stdexcept>

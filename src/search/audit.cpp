@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "audit.h"
+#include "search/audit.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {

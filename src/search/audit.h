@@ -5,8 +5,8 @@
 
 #include <span>
 
-#include "grove/detail/planning/conflict_avoidance_table.h"
-#include "grove/detail/search/node.h"
+#include "planning/conflict_avoidance_table.h"
+#include "search/node.h"
 
 namespace grove::detail {
 

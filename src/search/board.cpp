@@ -4,7 +4,7 @@
 // as does the edge to its parent. So does every edge: each counts for the block of its lower end.
 // The tree's edges of a block join all of it, so it is bipartite if its other edges join nodes of
 // even and odd depth.
-#include "board.h"
+#include "search/board.h"
 
 #include <algorithm>
 #include <utility>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "grove/detail/model/world.h"
+#include "model/world.h"
 
 namespace grove::detail {
 

@@ -22,14 +22,14 @@
 // conflict.cpp, target.cpp, traversal.cpp), whichever of them is chosen and whatever the paths. A
 // side is closed only if its demand, with the node's, makes single agents so dear that the sum -
 // each other agent costing at least what it costs at the node - reaches the cutoff.
-#include "grove/detail/search/brancher.h"
+#include "search/brancher.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "audit.h"
-#include "splits.h"
+#include "search/audit.h"
+#include "search/splits.h"
 
 namespace grove::detail {
 namespace {

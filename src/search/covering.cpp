@@ -9,13 +9,13 @@
 // The greedy bound takes statements in turn that share no agent with those taken: their sum is due,
 // whatever the solution. Where it is large - a statement may say "infinitely much" - it is near
 // enough: the search is as deep as B is large.
-#include "grove/detail/search/covering.h"
+#include "search/covering.h"
 
 #include <algorithm>
 #include <functional>
 #include <numeric>
 
-#include "grove/detail/model/omega.h"
+#include "model/omega.h"
 
 namespace grove::detail {
 namespace {

@@ -33,7 +33,7 @@
 #include <optional>
 #include <utility>
 
-#include "reach.h"
+#include "search/reach.h"
 
 namespace grove::detail {
 namespace {

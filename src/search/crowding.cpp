@@ -14,7 +14,7 @@
 // m free places there are k + m; ways between crossings on which somebody may be stuck, or that may
 // part crowds (crowd_reach.cpp), have m - 2 places or more with two neighbours, which leaves k + 2
 // others.
-#include "grove/detail/search/crowding.h"
+#include "search/crowding.h"
 
 #include <fmt/format.h>
 
@@ -24,8 +24,8 @@
 #include <utility>
 #include <vector>
 
-#include "board.h"
-#include "reach.h"
+#include "search/board.h"
+#include "search/reach.h"
 
 namespace grove::detail {
 namespace {

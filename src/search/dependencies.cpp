@@ -45,7 +45,7 @@
 //
 // *Haste.* Fewer statements make a lower bound, and as true a one. Where others wait for nodes,
 // only those count that are known.
-#include "grove/detail/search/dependencies.h"
+#include "search/dependencies.h"
 
 #include <algorithm>
 #include <array>

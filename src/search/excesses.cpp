@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/excesses.h"
+#include "search/excesses.h"
 
 #include <algorithm>
 #include <functional>
 #include <tuple>
 #include <utility>
 
-#include "grove/detail/model/assert.h"
-#include "grove/detail/model/hash.h"
+#include "model/assert.h"
+#include "model/hash.h"
 
 namespace grove::detail {
 namespace {

@@ -2,7 +2,7 @@
 // Algorithm 1 of the paper, lines 9-22: validate the node's paths; if they conflict, first see what
 // more can be said about the node's bound - a node whose bound rises goes back to the frontier,
 // where others may now be better - then branch.
-#include "grove/detail/search/expander.h"
+#include "search/expander.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <functional>
 #include <numeric>
 
-#include "grove/detail/search/work.h"
+#include "search/work.h"
 
 namespace grove::detail {
 namespace {

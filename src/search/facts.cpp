@@ -7,7 +7,7 @@
 // process to process, and is not told.
 //
 // So facts may come late, twice, in any order or never: nothing but time depends on it.
-#include "grove/detail/search/facts.h"
+#include "search/facts.h"
 
 #include <algorithm>
 #include <array>

@@ -19,7 +19,7 @@
 // order of the starts.
 //
 // Crowding. See crowding.cpp.
-#include "grove/detail/search/feasibility.h"
+#include "search/feasibility.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@
 #include <map>
 #include <vector>
 
-#include "grove/detail/search/crowding.h"
+#include "search/crowding.h"
 
 namespace grove::detail {
 namespace {

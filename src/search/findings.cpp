@@ -7,7 +7,7 @@
 // *Claim: a finding is as true there as here.* It speaks of agents under sets of constraints, of
 // which both sides have the same text, and of nothing else; see dependencies.cpp. Its numbers of
 // situations differ, so agents and a node stand for them.
-#include "grove/detail/search/findings.h"
+#include "search/findings.h"
 
 #include <algorithm>
 #include <functional>

@@ -13,13 +13,13 @@
 // the nodes of one bound alone are too many for the memory, each run raises the bound by one:
 // iterative deepening (Korf 1985), whose last run costs more than all before together where each
 // bound has twice as many nodes as the one before.
-#include "grove/detail/search/frontier.h"
+#include "search/frontier.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 

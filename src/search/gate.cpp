@@ -23,7 +23,7 @@
 // The paper's "OPEN is empty" must mean that no live node exists at all, the popped one included,
 // or every instance would get a needless second root. With w = inf only the first tree is ever
 // built (S-CBS).
-#include "grove/detail/search/gate.h"
+#include "search/gate.h"
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/model/check.h"
+#include "model/check.h"
 
 namespace grove::detail {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/hash_index.h"
+#include "search/hash_index.h"
 
 #include <algorithm>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {

@@ -16,14 +16,14 @@
 // room-32-32-4 with 40 agents 6 % fewer nodes, in 1.6 times the time (1 % of nodes and 1.1 times
 // for groups of four at most). Joint search in place of splits: 5 % more nodes in 1.7 times the
 // time.
-#include "grove/detail/search/joint_groups.h"
+#include "search/joint_groups.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "grove/detail/joint/joint_search.h"
-#include "grove/detail/model/omega.h"
+#include "joint/joint_search.h"
+#include "model/omega.h"
 
 namespace grove::detail {
 namespace {

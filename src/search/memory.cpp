@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/memory.h"
+#include "search/memory.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/node.h"
+#include "search/node.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/node_pool.h"
+#include "search/node_pool.h"
 
 namespace grove::detail {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/node_record.h"
+#include "search/node_record.h"
 
 #include <algorithm>
 
-#include "require.h"
+#include "search/require.h"
 
 namespace grove::detail {
 void check(const NodeRecord& record, const Node& root, const Instance& instance) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/node_view.h"
+#include "search/node_view.h"
 
 #include <algorithm>
 
-#include "audit.h"
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
+#include "search/audit.h"
 
 namespace grove::detail {
 

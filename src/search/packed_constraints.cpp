@@ -4,7 +4,7 @@
 //
 // *Claim: different lists have different bytes.* Each number says where it ends, and with those
 // before it which value it stands for; so the list can be told from its bytes, which the test does.
-#include "grove/detail/search/packed_constraints.h"
+#include "search/packed_constraints.h"
 
 #include <array>
 #include <cstddef>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Code 0 is a wait. On a plain grid the others say by how much the cell's number changes, which
 // costs no look at the map; elsewhere code k + 1 is move k of the state.
-#include "grove/detail/search/packed_path.h"
+#include "search/packed_path.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {

@@ -22,7 +22,7 @@
 #include <set>
 #include <utility>
 
-#include "reach.h"
+#include "search/reach.h"
 
 namespace grove::detail {
 namespace {

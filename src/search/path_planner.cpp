@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/path_planner.h"
+#include "search/path_planner.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "grove/detail/conflicts/sequence_split.h"
-#include "grove/detail/planning/free_low_level_search.h"
-#include "grove/detail/planning/sequence_constraints.h"
+#include "conflicts/sequence_split.h"
+#include "planning/free_low_level_search.h"
+#include "planning/sequence_constraints.h"
 
 namespace grove::detail {
 namespace {

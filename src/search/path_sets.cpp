@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/path_sets.h"
+#include "search/path_sets.h"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/prices.h"
+#include "search/prices.h"
 
 namespace grove::detail {
 // With time windows, which is what cells barred for ever make, the low level is NP-hard, and one

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/problem.h"
+#include "search/problem.h"
 
-#include "grove/detail/sequencing/completions.h"
+#include "sequencing/completions.h"
 
 namespace grove::detail {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/proof_log.h"
+#include "search/proof_log.h"
 
 #include <ranges>
 
-#include "grove/detail/model/hash.h"
+#include "model/hash.h"
 
 namespace grove::detail {
 namespace {

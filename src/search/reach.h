@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "board.h"
-#include "grove/detail/model/instance.h"
+#include "model/instance.h"
+#include "search/board.h"
 
 namespace grove::detail {
 

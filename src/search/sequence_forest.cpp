@@ -2,13 +2,13 @@
 // A root's paths are shortest for its sequences and independent of the constraints, so they are
 // planned once per (agent, rank) and shared by all trees that use them; the first to use one plans
 // it around the other agents' paths known then, which spares the tree conflicts that are mere ties.
-#include "grove/detail/search/sequence_forest.h"
+#include "search/sequence_forest.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/sequencing/cost_matrix.h"
+#include "sequencing/cost_matrix.h"
 
 namespace grove::detail {
 namespace {

@@ -3,12 +3,12 @@
 // orders of its stops under its constraints; splitting a conflict loses no plan whatever the
 // orders. So the tree of the empty-prefixed classes is plain CBS whose low level solves a larger
 // problem, and it holds every plan there is.
-#include "grove/detail/search/single_tree.h"
+#include "search/single_tree.h"
 
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/planning/free_low_level_search.h"
+#include "planning/free_low_level_search.h"
 
 namespace grove::detail {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/situations.h"
+#include "search/situations.h"
 
 #include <algorithm>
 #include <cstring>
 #include <tuple>
 
-#include "grove/detail/model/assert.h"
-#include "grove/detail/model/hash.h"
+#include "model/assert.h"
+#include "model/hash.h"
 
 namespace grove::detail {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "splits.h"
+#include "search/splits.h"
 
 #include <array>
 #include <optional>
 
-#include "grove/detail/conflicts/reasoning.h"
+#include "conflicts/reasoning.h"
 
 namespace grove::detail {
 namespace {

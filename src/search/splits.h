@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "grove/detail/conflicts/conflict.h"
-#include "grove/detail/search/problem.h"
-#include "grove/detail/search/techniques.h"
+#include "conflicts/conflict.h"
+#include "search/problem.h"
+#include "search/techniques.h"
 
 namespace grove::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/techniques.h"
+#include "search/techniques.h"
 
 #include <algorithm>
 

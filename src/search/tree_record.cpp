@@ -3,13 +3,13 @@
 // that takes the least time for the order in which it visits its stops. For a fixed order that
 // proves the bound again. Mostly the distances settle it at once; where agents turn, they may be
 // too small.
-#include "grove/detail/search/tree_record.h"
+#include "search/tree_record.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/detail/planning/low_level_search.h"
-#include "require.h"
+#include "planning/low_level_search.h"
+#include "search/require.h"
 
 namespace grove::detail {
 namespace {

@@ -2,11 +2,11 @@
 // The Hungarian method in the form of shortest augmenting paths (Kuhn 1955; Jonker and Volgenant
 // 1987): rows enter one by one, each by a shortest path in reduced costs, which prices of rows and
 // columns keep from being negative.
-#include "grove/detail/sequencing/assignment.h"
+#include "sequencing/assignment.h"
 
 #include <algorithm>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {

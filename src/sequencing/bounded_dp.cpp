@@ -24,11 +24,11 @@
 // from graphs of at most 2,800 states.
 #include <optional>
 
-#include "grove/detail/sequencing/sequence_dag.h"
-#include "passed_stops.h"
-#include "path_relaxation.h"
-#include "rtsp_backends.h"
-#include "sequence_class.h"
+#include "sequencing/passed_stops.h"
+#include "sequencing/path_relaxation.h"
+#include "sequencing/rtsp_backends.h"
+#include "sequencing/sequence_class.h"
+#include "sequencing/sequence_dag.h"
 
 namespace grove::detail {
 namespace {

@@ -37,8 +37,8 @@
 #include <thread>
 #include <utility>
 
-#include "rtsp_backends.h"
-#include "sequence_class.h"
+#include "sequencing/rtsp_backends.h"
+#include "sequencing/sequence_class.h"
 
 namespace grove::detail {
 namespace {

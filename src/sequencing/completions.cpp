@@ -4,27 +4,27 @@
 // together cost little more than the last. Each build holds every sequence up to its reach, so a
 // greater reach never has a smaller beyond().
 //
-// Where the graph of all sequences becomes too large, one by direct legs takes its place, which holds
-// all that a path of the class can come to within the reach. So its beyond() bounds paths instead of
-// sequences, and what it says of a state is a bound on the paths that go on from there. If that
-// becomes too large as well, nothing more is known: widen() fails, now and whenever as much is
-// asked again, so that no time and no memory is taken in vain.
-#include "grove/detail/sequencing/completions.h"
+// Where the graph of all sequences becomes too large, one by direct legs takes its place, which
+// holds all that a path of the class can come to within the reach. So its beyond() bounds paths
+// instead of sequences, and what it says of a state is a bound on the paths that go on from there.
+// If that becomes too large as well, nothing more is known: widen() fails, now and whenever as much
+// is asked again, so that no time and no memory is taken in vain.
+#include "sequencing/completions.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
-#include "grove/detail/model/assert.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/direct_legs.h"
-#include "grove/detail/sequencing/rtsp.h"
-#include "grove/detail/sequencing/sequence_dag.h"
-#include "held_karp_table.h"
-#include "path_relaxation.h"
-#include "rtsp_backends.h"
-#include "stop_set.h"
+#include "model/assert.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/direct_legs.h"
+#include "sequencing/held_karp_table.h"
+#include "sequencing/path_relaxation.h"
+#include "sequencing/rtsp.h"
+#include "sequencing/rtsp_backends.h"
+#include "sequencing/sequence_dag.h"
+#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 
@@ -191,9 +191,9 @@ class Completions::Ordered : public Store {
     costs.fill(kNever);
     for (int from = 0; from < ports; ++from)
       for (int to = 0; to < ports; ++to)
-        costs[from] = std::min(costs[from],
-                               add_costs(matrix().between(stop * ports + from, next * ports + to),
-                                         onward[to]));
+        costs[from] = std::min(
+            costs[from],
+            add_costs(matrix().between(stop * ports + from, next * ports + to), onward[to]));
     return costs;
   }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/sequencing/cost_matrix.h"
+#include "sequencing/cost_matrix.h"
 
 #include <algorithm>
 
-#include "stop_set.h"
+#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 namespace {

@@ -7,11 +7,11 @@
 // through: that only makes depths smaller.)
 //
 // A start on a plain stop visits this stop at time 0, so all its legs but this one are kNever.
-#include "grove/detail/sequencing/direct_legs.h"
+#include "sequencing/direct_legs.h"
 
 #include <algorithm>
 
-#include "stop_set.h"
+#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 namespace {

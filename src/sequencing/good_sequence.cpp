@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/sequencing/good_sequence.h"
+#include "sequencing/good_sequence.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 
-#include "grove/detail/sequencing/cost_matrix.h"
+#include "sequencing/cost_matrix.h"
 
 namespace grove::detail {
 namespace {

@@ -16,9 +16,9 @@
 // every cost of a sequence fits, make that eight stops per SSE2 instruction and halve the memory.
 // Rows lie one behind the other without padding: a row is stored at full vector width, and what
 // spills over is overwritten by the next row, since S ascends.
-#include "held_karp_table.h"
-#include "rtsp_backends.h"
-#include "sequence_class.h"
+#include "sequencing/held_karp_table.h"
+#include "sequencing/rtsp_backends.h"
+#include "sequencing/sequence_class.h"
 
 namespace grove::detail {
 namespace {

@@ -10,10 +10,10 @@
 #include <new>
 #include <vector>
 
-#include "grove/detail/model/limits.h"
-#include "grove/detail/model/shared_arrays.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "stop_set.h"
+#include "model/limits.h"
+#include "model/shared_arrays.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 

@@ -14,13 +14,13 @@
 // entry is brought up to date, resolved as far as its key, and returned only if its cost is known
 // and is the key. So the order is right, and the top's key is a proven lower bound on the next
 // cost.
-#include "grove/detail/sequencing/k_best_joint_sequences.h"
+#include "sequencing/k_best_joint_sequences.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "keyed_stacks.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/keyed_stacks.h"
 
 namespace grove::detail {
 

@@ -17,16 +17,16 @@
 // true optimum of their class, and only an exact one is returned, when no key is smaller: so the
 // order is right, the top's key bounds whatever comes next, and the back ends never prove more than
 // the order requires. At equal keys exact classes go first: they need no more work.
-#include "grove/detail/sequencing/k_best_sequences.h"
+#include "sequencing/k_best_sequences.h"
 
 #include <algorithm>
 #include <deque>
 #include <utility>
 
-#include "grove/detail/model/assert.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "keyed_stacks.h"
-#include "stop_set.h"
+#include "model/assert.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/keyed_stacks.h"
+#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 

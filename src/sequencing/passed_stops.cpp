@@ -8,22 +8,22 @@
 // lexicographic order. A sequence of a class is *canonical* if none of its legs after the first
 // free stop passes a stop that comes later.
 // *Claim: of each class with a sequence of finite cost a cheapest member is canonical.* Take a
-// cheapest member, and the first leg (v, w) that passes a later stop u. Move u between v and w: that
-// takes a detour away that is least(u) or more, and adds one of least(u), so the sequence costs no
-// more; the prefix and the first free stop stay, so it is of the class. What comes next after v has
-// become smaller in the order above, and legs before have not changed. That order is finite, so
-// after some moves the leg from v passes nothing that comes later, and no move after that changes
-// it; then the same holds for the next leg, and so on.
-// (If a leg from x to y does not exist, and one from x over u to y does, the detour is far below
-// zero; then so is least(u), which no leg of a sequence of finite cost has.)
-#include "passed_stops.h"
+// cheapest member, and the first leg (v, w) that passes a later stop u. Move u between v and w:
+// that takes a detour away that is least(u) or more, and adds one of least(u), so the sequence
+// costs no more; the prefix and the first free stop stay, so it is of the class. What comes next
+// after v has become smaller in the order above, and legs before have not changed. That order is
+// finite, so after some moves the leg from v passes nothing that comes later, and no move after
+// that changes it; then the same holds for the next leg, and so on. (If a leg from x to y does not
+// exist, and one from x over u to y does, the detour is far below zero; then so is least(u), which
+// no leg of a sequence of finite cost has.)
+#include "sequencing/passed_stops.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
-#include "stop_set.h"
+#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/sequence.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

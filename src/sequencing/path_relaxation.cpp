@@ -36,14 +36,14 @@
 // lost. But s may differ from port to port: what a way adds at the port where it leaves a stop it
 // takes off where it came, and that is the same port. Where the relaxed way leaves a port more
 // often than it comes there, a greater s makes it dearer: the ascent moves s along with p.
-#include "path_relaxation.h"
+#include "sequencing/path_relaxation.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/rtsp.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/rtsp.h"
 
 namespace grove::detail {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/detail/model/grid.h"
-#include "stop_set.h"
+#include "model/grid.h"
+#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/sequencing/rtsp.h"
+#include "sequencing/rtsp.h"
 
 #include <stdexcept>
 
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "rtsp_backends.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/rtsp_backends.h"
 
 namespace grove::detail {
 std::vector<RtspBackend> rtsp_backends() {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "grove/detail/sequencing/rtsp.h"
+#include "sequencing/rtsp.h"
 
 namespace grove::detail {
 

@@ -3,10 +3,10 @@
 // from the exact costs of completing (the "completion" of a stop, given what is left after it).
 #pragma once
 
-#include "grove/detail/model/assert.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/rtsp.h"
-#include "stop_set.h"
+#include "model/assert.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/rtsp.h"
+#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 

@@ -37,8 +37,8 @@
 // stop; each costs at least its direct leg.
 // So with c(S, v, w) for the cost of going on to w, g of a state is at most what a path pays that
 // comes there, and the invariant holds for paths: every state of a path that costs <= reach is
-// kept, and beyond() bounds all paths with a state outside. b stays a bound, for no direct leg costs
-// less than the matrix has. Legs of the prefix, and the one to the first free stop, may pass
+// kept, and beyond() bounds all paths with a state outside. b stays a bound, for no direct leg
+// costs less than the matrix has. Legs of the prefix, and the one to the first free stop, may pass
 // anything: they cost what the matrix has. The graph is then of this class alone: another prefix
 // reaches states that no path of this class can.
 //
@@ -54,17 +54,17 @@
 //
 // A hop from v over a stop u is useless if every stop is as near directly as by u
 // (DirectLegs::hops): the direct leg that replaces it passes no stop at all.
-#include "grove/detail/sequencing/sequence_dag.h"
+#include "sequencing/sequence_dag.h"
 
 #include <array>
 #include <bit>
 
-#include "grove/detail/model/assert.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/direct_legs.h"
-#include "passed_stops.h"
-#include "path_relaxation.h"
-#include "stop_set.h"
+#include "model/assert.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/direct_legs.h"
+#include "sequencing/passed_stops.h"
+#include "sequencing/path_relaxation.h"
+#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 namespace {
@@ -183,10 +183,10 @@ class SequenceDagBuilder {
       for (int to = 0; to < kPorts; ++to)
         for (int from = 0; from < kPorts; ++from)
           costs[to] = std::min(
-              costs[to], add_costs(at_last[from],
-                                   last == kStart
-                                       ? matrix_.from_start(stop * kPorts + to)
-                                       : matrix_.between(last * kPorts + from, stop * kPorts + to)));
+              costs[to],
+              add_costs(at_last[from], last == kStart ? matrix_.from_start(stop * kPorts + to)
+                                                      : matrix_.between(last * kPorts + from,
+                                                                        stop * kPorts + to)));
       return costs;
     };
     StopSet left = matrix_.all();
@@ -249,8 +249,8 @@ class SequenceDagBuilder {
       const Time from_one = ways_.cost(one, matrix_.stops());
       bound = std::max(bound, add_costs(to_one, from_one));
       for_each_stop(left & ~(bit(one) | (bit(one) - 1)), [&](int two) {
-        const Time one_first = add_costs(add_costs(to_one, ways_.cost(one, two)),
-                                         ways_.cost(two, matrix_.stops()));
+        const Time one_first =
+            add_costs(add_costs(to_one, ways_.cost(one, two)), ways_.cost(two, matrix_.stops()));
         const Time two_first =
             add_costs(add_costs(ways_.cost(from, two), ways_.cost(two, one)), from_one);
         bound = std::max(bound, std::min(one_first, two_first));

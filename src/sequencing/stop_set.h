@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "grove/detail/model/grid.h"
-#include "grove/detail/sequencing/sequence.h"
+#include "model/grid.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

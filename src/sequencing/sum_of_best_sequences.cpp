@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/sequencing/sum_of_best_sequences.h"
+#include "sequencing/sum_of_best_sequences.h"
 
-#include "grove/detail/sequencing/cost_matrix.h"
+#include "sequencing/cost_matrix.h"
 
 namespace grove::detail {
 

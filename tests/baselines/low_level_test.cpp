@@ -2,7 +2,7 @@
 // The low levels of published methods: where they are easily wrong; against the definition, on tiny
 // problems (GROVE_FUZZ_FACTOR multiplies their number); and on problems too large for that, where
 // they must agree with Grove's own.
-#include "grove/detail/baselines/low_level.h"
+#include "baselines/low_level.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "grove/detail/planning/free_low_level_search.h"
+#include "planning/free_low_level_search.h"
 #include "tests/planning/free_problems.h"
 #include "tests/planning/free_reference.h"
 #include "tests/support/clocks.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/folder.h"
+#include "batch/folder.h"
 
 #include <gtest/gtest.h>
 

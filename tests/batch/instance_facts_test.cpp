@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/instance_facts.h"
+#include "batch/instance_facts.h"
 
 #include <gtest/gtest.h>
 

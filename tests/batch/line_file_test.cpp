@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/line_file.h"
+#include "batch/line_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/manifest.h"
+#include "batch/manifest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/outcome.h"
+#include "batch/outcome.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/progress.h"
+#include "batch/progress.h"
 
 #include <gtest/gtest.h>
 

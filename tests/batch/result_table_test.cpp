@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/result_table.h"
+#include "batch/result_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/row.h"
+#include "batch/row.h"
 
 #include <gtest/gtest.h>
 

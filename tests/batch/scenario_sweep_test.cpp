@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/batch/scenario_sweep.h"
+#include "batch/scenario_sweep.h"
 
 #include <gtest/gtest.h>
 

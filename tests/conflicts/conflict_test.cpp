@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/conflicts/conflict.h"
+#include "conflicts/conflict.h"
 
 #include <gtest/gtest.h>
 

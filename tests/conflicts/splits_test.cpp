@@ -6,7 +6,7 @@
 #include <array>
 #include <random>
 
-#include "grove/detail/conflicts/reasoning.h"
+#include "conflicts/reasoning.h"
 #include "tests/support/instances.h"
 #include "tests/support/obeys.h"
 

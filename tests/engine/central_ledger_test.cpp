@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is proven and found, whoever is at work at the moment it is asked.
-#include "grove/detail/engine/central_ledger.h"
+#include "engine/central_ledger.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // When trees are instantiated, and in which order the ledger hears of it.
-#include "grove/detail/engine/central_trees.h"
+#include "engine/central_trees.h"
 
 #include <gtest/gtest.h>
 

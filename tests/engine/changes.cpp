@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/session.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/model/check.h"
+#include "engine/run_observer.h"
+#include "engine/session.h"
+#include "io/instance_file.h"
+#include "io/plan_file.h"
+#include "model/check.h"
 #include "tests/engine/random_change.h"
 
 namespace grove::detail {

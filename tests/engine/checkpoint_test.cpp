@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/checkpoint.h"
+#include "engine/checkpoint.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/detail/engine/serialise.h"
-#include "grove/detail/model/fingerprint.h"
-#include "grove/detail/search/expander.h"
-#include "grove/detail/search/sequence_forest.h"
+#include "engine/serialise.h"
+#include "model/fingerprint.h"
+#include "search/expander.h"
+#include "search/sequence_forest.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/refusal.h"

@@ -2,16 +2,16 @@
 // Destinations for agents with more tasks than a table of completions holds, so that the costs of
 // their ends are learnt bit by bit: against Held-Karp and every choice. (Fewer tasks:
 // tests/fuzz/methods_test.cpp.)
-#include "src/engine/destinations.h"
+#include "engine/destinations.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "grove/detail/model/distance_field.h"
-#include "grove/detail/model/tuning.h"
-#include "src/sequencing/rtsp_backends.h"
+#include "model/distance_field.h"
+#include "model/tuning.h"
+#include "sequencing/rtsp_backends.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/model/check.h"
+#include "engine/run_observer.h"
+#include "engine/solve.h"
+#include "model/check.h"
 #include "tests/fuzz/tiny_instance.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/clocks.h"

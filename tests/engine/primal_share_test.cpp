@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How work is divided between the tree and the primal search, in figures. The rule is at the head
 // of primal_share.cpp.
-#include "src/engine/primal_share.h"
+#include "engine/primal_share.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "grove/detail/execution/change.h"
-#include "grove/detail/execution/late.h"
-#include "grove/detail/model/random.h"
+#include "execution/change.h"
+#include "execution/late.h"
+#include "model/random.h"
 
 namespace grove::detail::testing {
 

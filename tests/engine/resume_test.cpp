@@ -6,11 +6,11 @@
 #include <chrono>
 #include <memory>
 
-#include "grove/detail/engine/checkpoint.h"
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/model/check.h"
-#include "grove/detail/model/fingerprint.h"
+#include "engine/checkpoint.h"
+#include "engine/run_observer.h"
+#include "engine/solve.h"
+#include "model/check.h"
+#include "model/fingerprint.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/clocks.h"
 #include "tests/support/temporary_directory.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/serialise.h"
+#include "engine/serialise.h"
 
 #include <gtest/gtest.h>
 

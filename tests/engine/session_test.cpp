@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/session.h"
+#include "engine/session.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <chrono>
 #include <string>
 
-#include "grove/detail/execution/advance.h"
-#include "grove/detail/model/check.h"
+#include "execution/advance.h"
+#include "model/check.h"
 #include "tests/engine/random_change.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
@@ -76,8 +76,8 @@ TEST(Session, WhoIsLateIsWhereItWas) {
 }
 
 TEST(Session, NoStepsLateIsOnTime) {
-  const Instance instance = instance_of(
-      {"...", "#.#"}, {AgentSpec{{0, 0}, Position{2, 0}, {}}, AgentSpec{{1, 1}, Position{1, 1}, {}}});
+  const Instance instance = instance_of({"...", "#.#"}, {AgentSpec{{0, 0}, Position{2, 0}, {}},
+                                                         AgentSpec{{1, 1}, Position{1, 1}, {}}});
   Plan waits = *session_of(instance).plan();
   AgentPlan& first = waits.agents[0];
   first.path.insert(first.path.begin(), first.path.front());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which node a worker is given, and what becomes of it.
-#include "grove/detail/engine/shared_search.h"
+#include "engine/shared_search.h"
 
 #include <gtest/gtest.h>
 

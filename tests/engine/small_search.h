@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/engine/ledger.h"
-#include "grove/detail/engine/local_nodes.h"
-#include "grove/detail/engine/tree_source.h"
-#include "grove/detail/engine/turn_observer.h"
-#include "grove/detail/search/single_tree.h"
+#include "engine/ledger.h"
+#include "engine/local_nodes.h"
+#include "engine/tree_source.h"
+#include "engine/turn_observer.h"
+#include "search/single_tree.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail::testing {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/engine/solve.h"
+#include "engine/solve.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/model/check.h"
+#include "engine/run_observer.h"
+#include "model/check.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/clocks.h"
 #include "tests/support/instances.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a worker finds to do, and what others see of it.
-#include "grove/detail/engine/worker.h"
+#include "engine/worker.h"
 
 #include <gtest/gtest.h>
 

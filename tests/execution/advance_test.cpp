@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/execution/advance.h"
+#include "execution/advance.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
 
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/model/check.h"
+#include "engine/solve.h"
+#include "model/check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"
 #include "tests/support/instances.h"

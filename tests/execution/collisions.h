@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/execution/drive.h"
+#include "execution/drive.h"
 
 namespace grove::detail::testing {
 

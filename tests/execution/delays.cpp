@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "grove/detail/model/random.h"
+#include "model/random.h"
 
 namespace grove::detail::testing {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "grove/detail/execution/drive.h"
+#include "execution/drive.h"
 
 namespace grove::detail::testing {
 

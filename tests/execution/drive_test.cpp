@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/execution/drive.h"
+#include "execution/drive.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/model/check.h"
+#include "engine/solve.h"
+#include "model/check.h"
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"

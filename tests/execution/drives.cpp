@@ -8,12 +8,12 @@
 #include <chrono>
 #include <cstdint>
 
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/execution/drive.h"
-#include "grove/detail/execution/switching.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/model/random.h"
+#include "engine/solve.h"
+#include "execution/drive.h"
+#include "execution/switching.h"
+#include "io/instance_file.h"
+#include "io/plan_file.h"
+#include "model/random.h"
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"

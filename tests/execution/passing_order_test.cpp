@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/execution/passing_order.h"
+#include "execution/passing_order.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "grove/detail/engine/solve.h"
+#include "engine/solve.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"
 #include "tests/support/instances.h"

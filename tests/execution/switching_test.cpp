@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/execution/switching.h"
+#include "execution/switching.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/model/check.h"
-#include "grove/detail/model/random.h"
+#include "engine/solve.h"
+#include "model/check.h"
+#include "model/random.h"
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"

@@ -16,11 +16,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/model/check.h"
-#include "grove/detail/search/expander.h"
-#include "grove/detail/search/feasibility.h"
-#include "grove/detail/search/single_tree.h"
+#include "engine/solve.h"
+#include "model/check.h"
+#include "search/expander.h"
+#include "search/feasibility.h"
+#include "search/single_tree.h"
 #include "tests/fuzz/planted_optimum.h"
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_instance.h"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "grove/detail/model/limits.h"
+#include "model/limits.h"
 #include "tests/fuzz/run_case.h"
 
 namespace grove::detail::fuzz {

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "grove/detail/model/check.h"
+#include "model/check.h"
 
 namespace grove::detail::fuzz {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/plan.h"
+#include "model/plan.h"
 #include "tests/oracle/joint_oracle.h"
 
 namespace grove::detail::fuzz {

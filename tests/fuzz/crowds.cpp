@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/search/crowding.h"
+#include "search/crowding.h"
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_crowd.h"
 #include "tests/oracle/arrangements.h"

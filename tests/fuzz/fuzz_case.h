@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "grove/detail/engine/solve.h"
+#include "engine/solve.h"
 #include "tests/fuzz/tiny_instance.h"
 
 namespace grove::detail::fuzz {

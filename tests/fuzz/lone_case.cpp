@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "grove/detail/model/check.h"
+#include "model/check.h"
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_instance.h"
 

@@ -7,9 +7,9 @@
 #include <chrono>
 #include <random>
 
-#include "grove/detail/engine/method.h"
-#include "grove/detail/engine/run_observer.h"
-#include "src/engine/destinations.h"
+#include "engine/destinations.h"
+#include "engine/method.h"
+#include "engine/run_observer.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"

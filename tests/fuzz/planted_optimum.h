@@ -7,8 +7,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/model/plan.h"
+#include "engine/run_observer.h"
+#include "model/plan.h"
 
 namespace grove::detail::fuzz {
 

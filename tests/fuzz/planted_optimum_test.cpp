@@ -7,8 +7,8 @@
 
 #include <atomic>
 
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/search/sequence_forest.h"
+#include "engine/solve.h"
+#include "search/sequence_forest.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/oracle/joint_oracle.h"

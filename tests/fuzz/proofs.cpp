@@ -16,12 +16,12 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/roadmap_file.h"
-#include "grove/detail/proof/certificate.h"
-#include "grove/detail/proof/proof_parts.h"
+#include "engine/run_observer.h"
+#include "io/instance_file.h"
+#include "io/map_file.h"
+#include "io/roadmap_file.h"
+#include "proof/certificate.h"
+#include "proof/proof_parts.h"
 #include "tests/fuzz/certificate_lines.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/fuzz/lone_case.h"

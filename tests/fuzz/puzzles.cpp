@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/model/check.h"
+#include "engine/solve.h"
+#include "io/instance_file.h"
+#include "io/map_file.h"
+#include "model/check.h"
 #include "tests/fuzz/random_puzzle.h"
 #include "tests/oracle/joint_oracle.h"
 

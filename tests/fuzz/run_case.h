@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/engine/solve.h"
+#include "engine/solve.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/oracle/joint_oracle.h"
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "grove/detail/model/limits.h"
+#include "model/limits.h"
 #include "tests/fuzz/fuzz_case.h"
 
 namespace grove::detail::fuzz {

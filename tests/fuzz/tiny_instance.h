@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/model/instance.h"
+#include "model/instance.h"
 
 namespace grove::detail::fuzz {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/csv.h"
+#include "io/csv.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/drive_file.h"
+#include "io/drive_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/file_lock.h"
+#include "io/file_lock.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "grove/detail/io/text_file.h"
+#include "io/text_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/graphml_file.h"
+#include "io/graphml_file.h"
 
 #include <gtest/gtest.h>
 

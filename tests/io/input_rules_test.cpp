@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Names that lead out of a folder, and small files that ask for gigabytes.
 // tests/tools/common/hostile_files_test.py tries the same by the programs.
-#include "grove/detail/io/input_rules.h"
+#include "io/input_rules.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/libmrp_file.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/road_network.h"
-#include "grove/detail/io/roadmap_file.h"
+#include "io/instance_file.h"
+#include "io/libmrp_file.h"
+#include "io/map_file.h"
+#include "io/road_network.h"
+#include "io/roadmap_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/instance_file.h"
+#include "io/instance_file.h"
 
 #include <gtest/gtest.h>
 

@@ -8,11 +8,11 @@
 #include <array>
 #include <random>
 
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/libmrp_file.h"
-#include "grove/detail/io/mapfw_file.h"
-#include "grove/detail/model/fingerprint.h"
+#include "io/expressible.h"
+#include "io/input_error.h"
+#include "io/libmrp_file.h"
+#include "io/mapfw_file.h"
+#include "model/fingerprint.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/temporary_directory.h"
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/change_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/io/roadmap_file.h"
-#include "grove/detail/io/solver_file.h"
+#include "io/change_file.h"
+#include "io/input_error.h"
+#include "io/instance_file.h"
+#include "io/plan_file.h"
+#include "io/roadmap_file.h"
+#include "io/solver_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 

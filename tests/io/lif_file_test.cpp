@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/lif_file.h"
+#include "io/lif_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/map_file.h"
+#include "io/map_file.h"
 
 #include <gtest/gtest.h>
 

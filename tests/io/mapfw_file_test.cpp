@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/mapfw_file.h"
+#include "io/mapfw_file.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/detail/io/expressible.h"
+#include "io/expressible.h"
 #include "tests/support/instances.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"

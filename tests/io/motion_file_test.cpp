@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/model/check.h"
+#include "io/instance_file.h"
+#include "io/plan_file.h"
+#include "model/check.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/scenario_file.h"
+#include "io/instance_file.h"
+#include "io/scenario_file.h"
 
 namespace grove::detail {
 namespace movingai_test {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Plans in the formats of other tools, byte by byte.
-#include "grove/detail/io/plan_export.h"
+#include "io/plan_export.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/tracker_file.h"
-#include "grove/detail/model/check.h"
+#include "io/expressible.h"
+#include "io/tracker_file.h"
+#include "model/check.h"
 #include "tests/support/instances.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"

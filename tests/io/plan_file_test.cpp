@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/plan_file.h"
+#include "io/plan_file.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <limits>
 
-#include "grove/detail/model/check.h"
+#include "model/check.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 

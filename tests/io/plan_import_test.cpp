@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/plan_import.h"
+#include "io/plan_import.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <random>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/plan_export.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/model/check.h"
+#include "io/input_error.h"
+#include "io/plan_export.h"
+#include "io/plan_file.h"
+#include "model/check.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 #include "tests/support/refusal.h"

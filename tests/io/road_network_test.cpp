@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/road_network.h"
+#include "io/road_network.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Roadmaps, instances on them, and their plans, as files.
-#include "grove/detail/io/roadmap_file.h"
+#include "io/roadmap_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/model/check.h"
+#include "io/instance_file.h"
+#include "io/plan_file.h"
+#include "model/check.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/scenario_file.h"
+#include "io/scenario_file.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/detail/io/instance_file.h"
+#include "io/instance_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/io/solver_file.h"
+#include "io/solver_file.h"
 
 #include <gtest/gtest.h>
 

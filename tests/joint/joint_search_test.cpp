@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/joint/joint_search.h"
+#include "joint/joint_search.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "grove/detail/model/check.h"
-#include "grove/detail/model/omega.h"
+#include "model/check.h"
+#include "model/omega.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/fuzz/random_puzzle.h"
 #include "tests/oracle/joint_oracle.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/joint/timed_graphs.h"
+#include "joint/timed_graphs.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "grove/detail/joint/joint_search.h"
-#include "grove/detail/model/omega.h"
-#include "grove/detail/planning/chains.h"
+#include "joint/joint_search.h"
+#include "model/omega.h"
+#include "planning/chains.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/group_oracle.h"
 #include "tests/support/fuzz_factor.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/lagrangian/finish_pairs.h"
+#include "lagrangian/finish_pairs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/lagrangian/lagrangian_bound.h"
+#include "lagrangian/lagrangian_bound.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/lagrangian/penalized_search.h"
+#include "lagrangian/penalized_search.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "grove/detail/lagrangian/least_cost.h"
-#include "grove/detail/lagrangian/relaxed_rows.h"
+#include "lagrangian/least_cost.h"
+#include "lagrangian/relaxed_rows.h"
 #include "tests/fuzz/random.h"
 #include "tests/lagrangian/tiny_agents.h"
 

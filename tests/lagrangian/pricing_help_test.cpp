@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A Lagrangian bound and those who find prices for it, with all that can happen to what they say.
-#include "grove/detail/lagrangian/pricing_help.h"
+#include "lagrangian/pricing_help.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/lagrangian/lagrangian_bound.h"
+#include "lagrangian/lagrangian_bound.h"
 #include "tests/fuzz/random.h"
 #include "tests/lagrangian/tiny_agents.h"
 #include "tests/oracle/joint_oracle.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/lagrangian/tariff.h"
+#include "lagrangian/tariff.h"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/joint/agent_graph.h"
-#include "grove/detail/model/distance_field.h"
-#include "grove/detail/planning/agent_stops_store.h"
+#include "joint/agent_graph.h"
+#include "model/distance_field.h"
+#include "planning/agent_stops_store.h"
 #include "tests/fuzz/random_instance.h"
 
 namespace grove::detail::lagrangian_test {

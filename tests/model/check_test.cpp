@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every test takes a valid plan and breaks it in one way.
-#include "grove/detail/model/check.h"
+#include "model/check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/distance_field.h"
+#include "model/distance_field.h"
 
 #include <gtest/gtest.h>
 

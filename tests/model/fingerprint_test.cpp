@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/fingerprint.h"
+#include "model/fingerprint.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/grid.h"
+#include "model/grid.h"
 
 #include <gtest/gtest.h>
 

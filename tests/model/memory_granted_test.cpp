@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/memory_granted.h"
+#include "model/memory_granted.h"
 
 #include <gtest/gtest.h>
 

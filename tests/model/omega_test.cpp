@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/omega.h"
+#include "model/omega.h"
 
 #include <gtest/gtest.h>
 

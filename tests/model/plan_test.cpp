@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/plan.h"
+#include "model/plan.h"
 
 #include <gtest/gtest.h>
 

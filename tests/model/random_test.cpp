@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/random.h"
+#include "model/random.h"
 
 #include <gtest/gtest.h>
 

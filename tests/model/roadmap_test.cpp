@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/roadmap.h"
+#include "model/roadmap.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "grove/detail/model/distance_field.h"
+#include "model/distance_field.h"
 
 namespace grove::detail {
 namespace roadmap_test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Members are threads here, each with SharedArrays of its own over one memory.
-#include "grove/detail/model/shared_arrays.h"
+#include "model/shared_arrays.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "grove/detail/model/distance_field.h"
+#include "model/distance_field.h"
 #include "tests/support/clocks.h"
 
 namespace grove::detail {

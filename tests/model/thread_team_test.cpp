@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/model/thread_team.h"
+#include "model/thread_team.h"
 
 #include <gtest/gtest.h>
 

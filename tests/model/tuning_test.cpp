@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // That each number is used somewhere: tests/structure. That none makes a wrong answer: tests/fuzz.
-#include "grove/detail/model/tuning.h"
+#include "model/tuning.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/search/single_tree.h"
+#include "engine/run_observer.h"
 #include "mpi/coordinator.h"
 #include "mpi/rank.h"
 #include "mpi/rank_nodes.h"
 #include "mpi/sub_coordinator.h"
+#include "search/single_tree.h"
 #include "tests/mpi/outbox.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/clocks.h"

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "grove/detail/engine/worker.h"
+#include "engine/worker.h"
 #include "mpi/member.h"
 #include "mpi/simulated_network.h"
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <functional>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/model/instance.h"
+#include "engine/run_observer.h"
+#include "engine/solve.h"
+#include "model/instance.h"
 
 namespace grove::detail::testing {
 

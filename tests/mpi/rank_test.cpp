@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/techniques_of.h"
-#include "grove/detail/search/expander.h"
+#include "engine/run_observer.h"
+#include "engine/techniques_of.h"
 #include "mpi/coordinator.h"
+#include "search/expander.h"
 #include "tests/mpi/outbox.h"
 #include "tests/primal/crowd.h"
 

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "grove/detail/planning/agent_stops_store.h"
+#include "planning/agent_stops_store.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/fuzz_factor.h"

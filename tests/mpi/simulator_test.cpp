@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "grove/detail/model/check.h"
+#include "model/check.h"
 #include "mpi/simulator/busy_profile.h"
 #include "mpi/simulator/equal_sets.h"
 #include "mpi/simulator/scaling_table.h"

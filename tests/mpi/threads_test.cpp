@@ -15,12 +15,12 @@
 #include <variant>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/model/check.h"
-#include "grove/detail/search/problem.h"
+#include "engine/run_observer.h"
+#include "engine/solve.h"
+#include "model/check.h"
 #include "mpi/messages.h"
 #include "mpi/solve_distributed.h"
+#include "search/problem.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/clocks.h"
 

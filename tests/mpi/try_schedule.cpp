@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/engine/checkpoint.h"
-#include "grove/detail/model/fingerprint.h"
+#include "engine/checkpoint.h"
+#include "model/fingerprint.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/fuzz/random.h"

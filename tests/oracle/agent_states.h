@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "grove/detail/model/instance.h"
+#include "model/instance.h"
 
 namespace grove::detail::oracle {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "grove/detail/model/omega.h"
+#include "model/omega.h"
 #include "tests/oracle/agent_states.h"
 #include "tests/support/obeys.h"
 

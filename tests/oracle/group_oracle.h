@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "grove/detail/model/instance.h"
-#include "grove/detail/planning/constraint.h"
+#include "model/instance.h"
+#include "planning/constraint.h"
 
 namespace grove::detail::oracle {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "grove/detail/model/plan.h"
+#include "model/plan.h"
 
 namespace grove::detail::oracle {
 

@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "grove/detail/model/check.h"
+#include "model/check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/layered_search.h"
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "grove/detail/model/plan.h"
+#include "model/plan.h"
 
 namespace grove::detail::oracle {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "grove/detail/model/instance.h"
+#include "model/instance.h"
 
 namespace grove::detail::oracle {
 

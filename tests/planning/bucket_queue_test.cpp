@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/bucket_queue.h"
+#include "planning/bucket_queue.h"
 
 #include <gtest/gtest.h>
 

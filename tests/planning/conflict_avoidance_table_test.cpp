@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/conflict_avoidance_table.h"
+#include "planning/conflict_avoidance_table.h"
 
 #include <gtest/gtest.h>
 

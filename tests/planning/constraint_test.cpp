@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a constraint asks of a path is written twice, in the library and in tests/support/obeys: the
 // two must agree.
-#include "grove/detail/planning/constraint.h"
+#include "planning/constraint.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "grove/detail/planning/chains.h"
+#include "planning/chains.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/obeys.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/fewest_conflicts.h"
+#include "planning/fewest_conflicts.h"
 
 #include <gtest/gtest.h>
 

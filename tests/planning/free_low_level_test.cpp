@@ -9,11 +9,11 @@
 #include <random>
 #include <stdexcept>
 
-#include "grove/detail/planning/free_low_level_search.h"
-#include "grove/detail/planning/low_level_search.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/direct_legs.h"
-#include "grove/detail/sequencing/k_best_sequences.h"
+#include "planning/free_low_level_search.h"
+#include "planning/low_level_search.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/direct_legs.h"
+#include "sequencing/k_best_sequences.h"
 #include "tests/planning/free_problems.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/reference_search.h"

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "grove/detail/model/plan.h"
+#include "model/plan.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/random_matter.h"
 

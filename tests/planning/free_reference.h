@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/distance_field.h"
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/plan.h"
-#include "grove/detail/planning/constraint.h"
-#include "grove/detail/planning/free_goals.h"
-#include "grove/detail/sequencing/rtsp.h"
+#include "model/distance_field.h"
+#include "model/instance.h"
+#include "model/plan.h"
+#include "planning/constraint.h"
+#include "planning/free_goals.h"
+#include "sequencing/rtsp.h"
 
 namespace grove::detail::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/goal_sequence.h"
+#include "planning/goal_sequence.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "src/planning/label_planes.h"
+#include "planning/label_planes.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

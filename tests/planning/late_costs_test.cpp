@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Legs priced under cells that are barred for ever: against what paths cost, order by order.
-#include "src/planning/late_costs.h"
+#include "planning/late_costs.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "grove/detail/planning/low_level_search.h"
+#include "planning/low_level_search.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/fuzz_factor.h"

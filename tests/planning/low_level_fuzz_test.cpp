@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "grove/detail/planning/low_level_search.h"
+#include "planning/low_level_search.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"

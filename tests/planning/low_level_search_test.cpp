@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Each case is a trap in which some low level has been caught.
-#include "grove/detail/planning/low_level_search.h"
+#include "planning/low_level_search.h"
 
 #include <gtest/gtest.h>
 

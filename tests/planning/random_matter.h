@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "grove/detail/model/plan.h"
-#include "grove/detail/planning/constraint.h"
+#include "model/plan.h"
+#include "planning/constraint.h"
 
 namespace grove::detail::testing {
 

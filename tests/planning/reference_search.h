@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/plan.h"
-#include "grove/detail/planning/constraint.h"
+#include "model/plan.h"
+#include "planning/constraint.h"
 
 namespace grove::detail::testing {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reservations, and the free low level around them against the same search under the constraints
 // that say the same. GROVE_FUZZ_FACTOR multiplies the number of cases.
-#include "grove/detail/planning/reservations.h"
+#include "planning/reservations.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/planning/free_low_level_search.h"
+#include "planning/free_low_level_search.h"
 #include "tests/planning/random_matter.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/safe_intervals.h"
+#include "planning/safe_intervals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/planning/sequence_constraints.h"
+#include "planning/sequence_constraints.h"
 
 #include <gtest/gtest.h>
 

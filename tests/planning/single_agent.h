@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "grove/detail/planning/goal_sequence.h"
+#include "planning/goal_sequence.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail::testing {

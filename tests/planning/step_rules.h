@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "grove/detail/planning/constraint.h"
+#include "planning/constraint.h"
 #include "tests/support/obeys.h"
 
 namespace grove::detail::testing {

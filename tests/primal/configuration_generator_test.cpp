@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "src/primal/configuration_generator.h"
+#include "primal/configuration_generator.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "crowd.h"
-#include "src/primal/visit_orders.h"
+#include "primal/visit_orders.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // GROVE_FUZZ_FACTOR multiplies the number of random instances.
-#include "src/primal/configuration_search.h"
+#include "primal/configuration_search.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "crowd.h"
-#include "grove/detail/model/check.h"
-#include "src/primal/visit_orders.h"
+#include "model/check.h"
+#include "primal/visit_orders.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/support/clocks.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/distance_field.h"
-#include "grove/detail/model/instance.h"
+#include "model/distance_field.h"
+#include "model/instance.h"
 #include "tests/fuzz/random.h"
 
 namespace grove::detail::testing {
@@ -26,7 +26,8 @@ struct Crowd {
   // In the names of tests.
   friend void PrintTo(const Crowd& crowd, std::ostream* out) {
     *out << fmt::format("{} agents, {} tasks, size {}, {} % obstacles, {} % without destination",
-                        crowd.agents, crowd.tasks, crowd.size, crowd.obstacles, crowd.no_destination);
+                        crowd.agents, crowd.tasks, crowd.size, crowd.obstacles,
+                        crowd.no_destination);
   }
 };
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "grove/detail/model/check.h"
+#include "model/check.h"
 
 namespace grove::detail::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "src/primal/guided_search.h"
+#include "primal/guided_search.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 
 #include "crowd.h"
 #include "first_violation.h"
-#include "src/primal/configuration_search.h"
-#include "src/primal/visit_orders.h"
+#include "primal/configuration_search.h"
+#include "primal/visit_orders.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"
 #include "tests/support/instances.h"

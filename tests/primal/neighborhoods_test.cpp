@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "src/primal/neighborhoods.h"
+#include "primal/neighborhoods.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "src/primal/prioritized_planning.h"
+#include "primal/prioritized_planning.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {

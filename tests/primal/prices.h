@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "grove/detail/lagrangian/lagrangian_bound.h"
+#include "lagrangian/lagrangian_bound.h"
 
 namespace grove::detail::testing {
 

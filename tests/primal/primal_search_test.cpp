@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/primal/primal_search.h"
+#include "primal/primal_search.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 
 #include "crowd.h"
 #include "first_violation.h"
-#include "grove/detail/search/feasibility.h"
 #include "prices.h"
+#include "search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"
 #include "tests/support/instances.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "src/primal/traffic.h"
+#include "primal/traffic.h"
 
 #include <gtest/gtest.h>
 

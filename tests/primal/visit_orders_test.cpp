@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "src/primal/visit_orders.h"
+#include "primal/visit_orders.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "crowd.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/k_best_sequences.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/k_best_sequences.h"
 #include "tests/support/clocks.h"
 #include "tests/support/instances.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "src/primal/visit_stages.h"
+#include "primal/visit_stages.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "src/primal/configurations.h"
+#include "primal/configurations.h"
 #include "tests/fuzz/random.h"
 #include "tests/support/instances.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/proof/certificate.h"
+#include "proof/certificate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/proof/proof_parts.h"
+#include "io/input_error.h"
+#include "proof/proof_parts.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove::detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/proof/certificate_text.h"
+#include "proof/certificate_text.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/proof/certificate.h"
+#include "io/input_error.h"
+#include "proof/certificate.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove::detail {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Each audit sees the defect that it is there for.
-#include "src/search/audit.h"
+#include "search/audit.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/detail/model/assert.h"
+#include "model/assert.h"
 #include "tests/search/node_at_hand.h"
 
 namespace grove::detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/brancher.h"
+#include "search/brancher.h"
 
 #include <gtest/gtest.h>
 

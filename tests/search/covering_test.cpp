@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/covering.h"
+#include "search/covering.h"
 
 #include <gtest/gtest.h>
 

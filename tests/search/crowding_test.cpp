@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Examples; tests/fuzz/crowds.cpp holds it against everything that tiny crowds can come to.
-#include "grove/detail/search/crowding.h"
+#include "search/crowding.h"
 
 #include <gtest/gtest.h>
 

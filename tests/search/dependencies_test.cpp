@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/dependencies.h"
+#include "search/dependencies.h"
 
 #include <gtest/gtest.h>
 

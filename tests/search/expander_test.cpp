@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/expander.h"
+#include "search/expander.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <deque>
 
-#include "grove/detail/search/sequence_forest.h"
-#include "grove/detail/search/single_tree.h"
+#include "search/sequence_forest.h"
+#include "search/single_tree.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/clocks.h"
 #include "tests/support/instances.h"

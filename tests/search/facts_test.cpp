@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What one process found out is told as values, and another knows as much as if it had found it.
-#include "grove/detail/search/facts.h"
+#include "search/facts.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "grove/detail/search/expander.h"
-#include "grove/detail/search/single_tree.h"
+#include "search/expander.h"
+#include "search/single_tree.h"
 #include "tests/primal/crowd.h"
 
 namespace grove::detail {

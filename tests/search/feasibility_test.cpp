@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/feasibility.h"
+#include "search/feasibility.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // What is told about nodes is what was found out, and whoever is told expands them alike with less
 // work.
-#include "grove/detail/search/findings.h"
+#include "search/findings.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "grove/detail/search/expander.h"
-#include "grove/detail/search/single_tree.h"
+#include "search/expander.h"
+#include "search/single_tree.h"
 #include "tests/primal/crowd.h"
 
 namespace grove::detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/frontier.h"
+#include "search/frontier.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/gate.h"
+#include "search/gate.h"
 
 #include <gtest/gtest.h>
 

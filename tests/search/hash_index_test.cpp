@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/hash_index.h"
+#include "search/hash_index.h"
 
 #include <gtest/gtest.h>
 

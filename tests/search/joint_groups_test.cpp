@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/joint_groups.h"
+#include "search/joint_groups.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "grove/detail/search/brancher.h"
-#include "grove/detail/search/feasibility.h"
+#include "search/brancher.h"
+#include "search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/group_oracle.h"
 #include "tests/search/node_at_hand.h"

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/search/memory.h"
-#include "grove/detail/search/node_view.h"
-#include "grove/detail/search/single_tree.h"
+#include "search/memory.h"
+#include "search/node_view.h"
+#include "search/single_tree.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail::testing {

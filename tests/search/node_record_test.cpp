@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/node_record.h"
+#include "search/node_record.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "grove/detail/search/expander.h"
-#include "grove/detail/search/single_tree.h"
+#include "search/expander.h"
+#include "search/single_tree.h"
 #include "tests/primal/crowd.h"
 
 namespace grove::detail {

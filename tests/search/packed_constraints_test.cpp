@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/packed_constraints.h"
+#include "search/packed_constraints.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <string_view>
 
-#include "grove/detail/search/situations.h"
+#include "search/situations.h"
 
 namespace grove::detail {
 namespace packed_constraints_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/path_planner.h"
+#include "search/path_planner.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "grove/detail/search/problem.h"
+#include "search/problem.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/prices.h"
+#include "search/prices.h"
 
 #include <gtest/gtest.h>
 

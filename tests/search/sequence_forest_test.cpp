@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/sequence_forest.h"
+#include "search/sequence_forest.h"
 
 #include <gtest/gtest.h>
 

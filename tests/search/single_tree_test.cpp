@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/single_tree.h"
+#include "search/single_tree.h"
 
 #include <gtest/gtest.h>
 
-#include "grove/detail/search/expander.h"
-#include "grove/detail/search/sequence_forest.h"
+#include "search/expander.h"
+#include "search/sequence_forest.h"
 #include "tests/support/clocks.h"
 #include "tests/support/instances.h"
 

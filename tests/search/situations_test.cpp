@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/situations.h"
+#include "search/situations.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/search/tree_record.h"
+#include "search/tree_record.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/detail/search/expander.h"
-#include "grove/detail/search/node_record.h"
-#include "grove/detail/search/sequence_forest.h"
-#include "grove/detail/search/single_tree.h"
+#include "search/expander.h"
+#include "search/node_record.h"
+#include "search/sequence_forest.h"
+#include "search/single_tree.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/instances.h"
 

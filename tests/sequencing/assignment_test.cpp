@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/sequencing/assignment.h"
+#include "sequencing/assignment.h"
 
 #include <gtest/gtest.h>
 

@@ -9,11 +9,11 @@
 #include <numeric>
 
 #include "brute_force.h"
-#include "grove/detail/sequencing/completions.h"
-#include "grove/detail/sequencing/k_best_sequences.h"
-#include "grove/detail/sequencing/sequence_dag.h"
 #include "matrices.h"
-#include "src/sequencing/path_relaxation.h"
+#include "sequencing/completions.h"
+#include "sequencing/k_best_sequences.h"
+#include "sequencing/path_relaxation.h"
+#include "sequencing/sequence_dag.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail::testing {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "grove/detail/sequencing/cost_matrix.h"
+#include "sequencing/cost_matrix.h"
 
 namespace grove::detail::testing {
 namespace {

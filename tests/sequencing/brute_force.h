@@ -2,7 +2,7 @@
 // Every sequence, one by one: what the back ends are measured against.
 #pragma once
 
-#include "grove/detail/sequencing/rtsp.h"
+#include "sequencing/rtsp.h"
 
 namespace grove::detail::testing {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Costs to go against every order, and, where there are too many, against the Held-Karp table.
-#include "grove/detail/sequencing/completions.h"
+#include "sequencing/completions.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <chrono>
 #include <numeric>
 
-#include "grove/detail/sequencing/rtsp.h"
+#include "sequencing/rtsp.h"
 #include "tests/sequencing/matrices.h"
 #include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/sequencing/cost_matrix.h"
+#include "sequencing/cost_matrix.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/sequencing/k_best_joint_sequences.h"
+#include "sequencing/k_best_joint_sequences.h"
 
 #include <gtest/gtest.h>
 

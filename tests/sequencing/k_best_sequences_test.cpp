@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/sequencing/k_best_sequences.h"
+#include "sequencing/k_best_sequences.h"
 
 #include <gtest/gtest.h>
 
@@ -110,8 +110,7 @@ TEST_P(KBestTest, KnowsThatAnUnreachableStopLeavesNoSequence) {
   EXPECT_FALSE(list.known(0));
 }
 
-INSTANTIATE_TEST_SUITE_P(, KBestTest,
-                         ::testing::ValuesIn(rtsp_backends()), name_of);
+INSTANTIATE_TEST_SUITE_P(, KBestTest, ::testing::ValuesIn(rtsp_backends()), name_of);
 
 class BackendsAgree : public ::testing::Test {
  protected:

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "brute_force.h"
-#include "grove/detail/sequencing/k_best_joint_sequences.h"
 #include "matrices.h"
+#include "sequencing/k_best_joint_sequences.h"
 #include "tests/support/clocks.h"
 
 namespace grove::detail::testing {

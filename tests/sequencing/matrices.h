@@ -6,9 +6,9 @@
 #include <random>
 #include <string>
 
-#include "grove/detail/model/instance.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/rtsp.h"
+#include "model/instance.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/rtsp.h"
 
 namespace grove::detail::testing {
 

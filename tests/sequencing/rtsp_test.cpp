@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The three back ends against all permutations, on random classes with random cutoffs.
-#include "grove/detail/sequencing/rtsp.h"
+#include "sequencing/rtsp.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cstdlib>
 
 #include "brute_force.h"
-#include "grove/detail/sequencing/good_sequence.h"
 #include "matrices.h"
-#include "src/sequencing/rtsp_backends.h"
+#include "sequencing/good_sequence.h"
+#include "sequencing/rtsp_backends.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail::testing {
@@ -123,7 +123,8 @@ TEST_P(RtspBackendTest, AgreesWithAllPermutationsOfEightStops) {
   }
 }
 
-// On a line nearly all orders have the same cost as others. Some stops share a place, some take time.
+// On a line nearly all orders have the same cost as others. Some stops share a place, some take
+// time.
 CostMatrix line_matrix(int n, Variant variant, Random& random) {
   std::vector<int> places;
   std::vector<Time> durations(static_cast<std::size_t>(n) + 1, 0);
@@ -165,7 +166,8 @@ TEST_P(RtspBackendTest, TellsASequenceOfAnEarlierQuestion) {
   }
 }
 
-// Rows of stops have 2^n cheapest sequences. These took seconds with 24 stops, and with 30 gigabytes.
+// Rows of stops have 2^n cheapest sequences. These took seconds with 24 stops, and with 30
+// gigabytes.
 TEST(RowsOfStops, AreSequencedInOrder) {
   const Limits limits;
   for (const int n : {24, 40, 64})
@@ -214,8 +216,7 @@ TEST_P(RtspBackendTest, AnswersWithoutStops) {
   EXPECT_EQ(answer.cost, 7);
   EXPECT_EQ(solver->best_sequence({}), Sequence{});
   matrix.cost(0, 0) = kNever;
-  EXPECT_EQ(make(matrix)->best({}, kNever).kind,
-            RtspAnswer::Kind::kInfeasible);
+  EXPECT_EQ(make(matrix)->best({}, kNever).kind, RtspAnswer::Kind::kInfeasible);
 }
 
 TEST_P(RtspBackendTest, CallsAnUnreachableStopInfeasible) {
@@ -240,8 +241,7 @@ TEST_P(RtspBackendTest, TakesLongWays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, RtspBackendTest,
-                         ::testing::ValuesIn(solvers()), name_of);
+INSTANTIATE_TEST_SUITE_P(, RtspBackendTest, ::testing::ValuesIn(solvers()), name_of);
 
 // Bounds from relaxation alone, where the optimum is known.
 TEST(RelaxationBound, IsNeverAboveTheOptimum) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "grove/detail/sequencing/sum_of_best_sequences.h"
+#include "sequencing/sum_of_best_sequences.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "grove/detail/model/distance_field.h"
+#include "model/distance_field.h"
 #include "tests/support/clocks.h"
 #include "tests/support/instances.h"
 

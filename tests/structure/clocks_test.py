@@ -38,7 +38,7 @@ TESTS = {
 }
 # Layers take the time from Limits::now(), which a test can set.
 LAYERS = {
-    "include/grove/detail/model/limits.h": "the clock",
+    "src/model/limits.h": "the clock",
     "src/api/run.h": "the front door: its users' seconds",
     "src/api/solve.cpp": "the front door: its users' seconds",
     "src/batch/batch_clock.cpp": "the clock that batches are given",

@@ -36,8 +36,13 @@ def without_comments_and_strings(text):
 
 
 def includes(text):
-    """The layers whose headers `text` includes."""
-    return set(re.findall(r'^\s*#\s*include\s*[<"]grove/(?:detail/)?(\w+)/', text, re.M))
+    """The headers of layers that `text` includes: "search/gate.h"."""
+    named = re.findall(r'^\s*#\s*include\s*"([\w./]+)"', text, re.M)
+    return {name for name in named if name.split("/")[0] in LAYERS}
+
+
+def layers_of(headers):
+    return {header.split("/")[0] for header in headers}
 
 
 def points_back(layer, included):
@@ -103,6 +108,12 @@ def declared_depends(cmake):
     return result
 
 
+def private_headers(cmake):
+    """The headers of all grove_private_headers() calls in a CMakeLists.txt."""
+    calls = re.findall(r"grove_private_headers\(([^)]*)\)", re.sub(r"#[^\n]*", "", cmake))
+    return [header for call in calls for header in call.split()[1:]]
+
+
 def closure(layer, declared):
     reached = {layer}
     for other in declared.get(layer, []):
@@ -118,7 +129,7 @@ class TheTree(unittest.TestCase):
                     yield path, path.read_text(encoding="utf-8")
 
     def layer_sources(self, layer):
-        return self.sources(f"include/grove/detail/{layer}", f"src/{layer}")
+        return self.sources(layer if layer in ("mpi", "tools") else f"src/{layer}")
 
     def declared(self):
         result = {}
@@ -133,26 +144,56 @@ class TheTree(unittest.TestCase):
 
     def test_every_tunable_is_used(self):
         names = re.findall(r"^GROVE_TUNABLE\(\w+, (\w+),",
-                           (ROOT / "include/grove/detail/model/tunables.def").read_text(), re.M)
+                           (ROOT / "src/model/tunables.def").read_text(), re.M)
         code = "".join(text for _, text in self.sources("src", "mpi"))
         self.assertTrue(names)
         self.assertEqual([n for n in names if not re.search(rf"\btuning_?\.{n}\b", code)], [])
 
     def test_every_folder_is_a_known_layer(self):
-        for folder in [*(ROOT / "include/grove/detail").iterdir(), *(ROOT / "src").iterdir()]:
+        for folder in (ROOT / "src").iterdir():
             if folder.is_dir():
                 self.assertIn(folder.name, LAYERS, folder)
+
+    def test_only_the_public_interface_is_in_include(self):
+        for path in (ROOT / "include").rglob("*"):
+            if path.is_file() and path.name != "README.md":
+                self.assertEqual(path.parent, ROOT / "include/grove", path)
+                self.assertTrue(path.name.endswith((".hpp", ".hpp.in")), path)
+
+    def test_the_public_interface_includes_nothing_else(self):
+        for path, text in self.sources("include"):
+            self.assertEqual(includes(text), set(), path)
+
+    def test_headers_are_included_by_the_folder_of_their_layer(self):
+        for path, text in self.sources("src", "mpi"):
+            self.assertEqual(re.findall(r'#\s*include\s*"(?:src/\S+|\w+\.h)"', text), [], path)
+
+    def test_private_headers_are_those_that_only_their_layer_includes(self):
+        used_by = {}
+        for path, text in self.sources("src", "mpi", "tools", "tests", "benchmarks", "python"):
+            first, second = (*path.relative_to(ROOT).parts, "")[:2]
+            layer = second if first in ("src", "tests") else first
+            for header in includes(text):
+                used_by.setdefault(header, set()).add(layer)
+        marked = []
+        for path in [*(ROOT / "src").rglob("CMakeLists.txt"), *(ROOT / "mpi").rglob("CMakeLists.txt")]:
+            folder = path.parent.relative_to(ROOT / "src" if (ROOT / "src") in path.parents else ROOT)
+            marked += [str(folder / header) for header in private_headers(path.read_text())]
+        headers = [path.relative_to(ROOT / "src" if (ROOT / "src") in path.parents else ROOT).as_posix()
+                   for path, _ in self.sources("src", "mpi", suffixes={".h"})]
+        private = [header for header in headers if used_by.get(header, set()) <= {header.split("/")[0]}]
+        self.assertEqual(sorted(marked), sorted(private))
 
     def test_includes_never_point_back(self):
         for layer in LAYERS:
             for path, text in self.layer_sources(layer):
-                self.assertFalse(points_back(layer, includes(text)), path)
+                self.assertFalse(points_back(layer, layers_of(includes(text))), path)
 
     def test_a_layer_includes_only_what_it_declares(self):
         declared = self.declared()
         for layer in declared:
             for path, text in self.layer_sources(layer):
-                self.assertLessEqual(includes(text), closure(layer, declared), path)
+                self.assertLessEqual(layers_of(includes(text)), closure(layer, declared), path)
 
     def test_declared_dependencies_never_point_back(self):
         for layer, depends in self.declared().items():
@@ -197,7 +238,8 @@ class TheChecks(unittest.TestCase):
     """They find what they are there to find."""
 
     def test_includes(self):
-        self.assertEqual(includes('#include "grove/io/x.h"\n#include <vector>\n'), {"io"})
+        self.assertEqual(includes('#include "io/x.h"\n#include <vector>\n#include "tests/y.h"\n'), {"io/x.h"})
+        self.assertEqual(layers_of({"io/x.h", "mpi/batch/y.h"}), {"io", "mpi"})
         self.assertEqual(points_back("io", {"model", "io", "search"}), {"search"})
 
     def test_forbidden(self):
@@ -233,6 +275,10 @@ class TheChecks(unittest.TestCase):
         self.assertEqual(declared_depends(cmake), {"b": ["a", "model"]})
         self.assertEqual(declared_depends("grove_layer(a SOURCES x)"), {"a": []})
         self.assertEqual(closure("c", {"c": ["b"], "b": ["a"]}), {"a", "b", "c"})
+
+    def test_private_headers(self):
+        cmake = "grove_private_headers(io\n  a.h b.h)  # c.h\ngrove_layer(io)\ngrove_private_headers(x s/d.h)"
+        self.assertEqual(private_headers(cmake), ["a.h", "b.h", "s/d.h"])
 
     def test_named_files(self):
         text = "`search/gate.cpp`, `./a.py`; `conflicts/mine.cpp`, `x_test.cpp`, `FILE.map`, a.cpp"

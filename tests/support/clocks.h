@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "grove/detail/model/limits.h"
+#include "model/limits.h"
 
 namespace grove::detail::testing {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/instance.h"
+#include "model/instance.h"
 
 namespace grove::detail::testing {
 

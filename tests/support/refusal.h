@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "grove/detail/batch/row.h"
+#include "batch/row.h"
 
 namespace grove::detail::testing {
 

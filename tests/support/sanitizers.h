@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a sanitizer is on whose own memory fills the limit of a test: that of addresses or threads.
+// Whether a sanitizer is on whose own memory fills the limit of a test: that of addresses or
+// threads.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

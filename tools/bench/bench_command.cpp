@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/batch/manifest.h"
-#include "grove/detail/batch/result_table.h"
-#include "grove/detail/batch/scenario_sweep.h"
-#include "grove/detail/io/input_error.h"
+#include "batch/manifest.h"
+#include "batch/result_table.h"
+#include "batch/scenario_sweep.h"
+#include "io/input_error.h"
 #include "tools/bench/bench_methods.h"
 #include "tools/bench/bench_run.h"
 #include "tools/bench/rehearsal.h"
@@ -182,7 +182,8 @@ std::vector<batch::Entry> entries_of(const BenchArguments& a) {
 void warn_of_unreadable(const std::vector<bench::BenchInstance>& instances) {
   for (const bench::BenchInstance& instance : instances)
     if (!instance.error.empty())
-      say_on_stderr(fmt::format("grove: warning: {}; its rows are errors", one_line(instance.error)));
+      say_on_stderr(
+          fmt::format("grove: warning: {}; its rows are errors", one_line(instance.error)));
 }
 
 void run(const CLI::App& app, BenchArguments& a) {
@@ -235,10 +236,11 @@ void add_bench_command(CLI::App& root) {
       ->type_name("");
   add_repeated(*app, "--run", a->runs, "'NAME: OPTIONS'",
                "a method: its name and its options of grove solve; once for each");
-  add_repeated(*app, "--solver", a->solvers, "'NAME=COMMAND'",
-               "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
-               "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
-               "{agents}, {instance}, {time_limit}, {seed}, {output}");
+  add_repeated(
+      *app, "--solver", a->solvers, "'NAME=COMMAND'",
+      "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
+      "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
+      "{agents}, {instance}, {time_limit}, {seed}, {output}");
   add_repeated(*app, "--claimed-cost", a->claims, "'NAME=REGEX'",
                "of a solver that shows no plan: group 1 of the last line that it prints in which "
                "this is found is the cost that it claims");

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail::bench {
 namespace {
@@ -13,8 +13,9 @@ namespace {
 // What decides whether a method takes an instance (require_fit() of engine/method.h).
 std::string kind_of(const batch::InstanceFacts& facts, const Instance& instance) {
   const bool idles = std::ranges::any_of(instance.agents(), &Agent::is_idle);
-  const bool shares_cells = std::ranges::any_of(
-      instance.agents(), [](const Agent& agent) { return agent.stops.size() < agent.tasks.size(); });
+  const bool shares_cells = std::ranges::any_of(instance.agents(), [](const Agent& agent) {
+    return agent.stops.size() < agent.tasks.size();
+  });
   return fmt::format("{}{}{}{}{}", facts.problem, instance.motion_world() ? " motion" : "",
                      instance.world().is_plain() ? "" : " one-way", idles ? " idle" : "",
                      shares_cells ? " shared-cells" : "");

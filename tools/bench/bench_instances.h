@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/batch/instance_facts.h"
+#include "batch/instance_facts.h"
 
 namespace grove::detail::bench {
 

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/common/parse_error.h"
 #include "tools/common/program.h"
 #include "tools/solve/solve_arguments.h"
@@ -47,9 +47,10 @@ NameAndOptions split(const std::string& text) {
   };
   if (name.size() != 1 || !std::ranges::all_of(name[0], is_plain) ||
       std::isalnum(static_cast<unsigned char>(name[0][0])) == 0)
-    refuse_method(text,
-           "expected 'NAME: OPTIONS OF grove solve', the name of letters, digits and -_.+= without "
-           "blanks");
+    refuse_method(
+        text,
+        "expected 'NAME: OPTIONS OF grove solve', the name of letters, digits and -_.+= without "
+        "blanks");
   if (colon == std::string::npos) return {name[0], {"--method", name[0]}};
   return {name[0], words_of(text.substr(colon + 1))};
 }

@@ -17,12 +17,12 @@
 #include <mutex>
 #include <thread>
 
-#include "grove/detail/batch/batch_clock.h"
-#include "grove/detail/batch/result_table.h"
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/plan_file.h"
+#include "batch/batch_clock.h"
+#include "batch/result_table.h"
+#include "io/expressible.h"
+#include "io/input_error.h"
+#include "io/instance_file.h"
+#include "io/plan_file.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/judge.h"
 #include "tools/bench/root_costs.h"

@@ -15,7 +15,7 @@
 #include <csignal>
 #include <system_error>
 
-#include "grove/detail/io/descriptor.h"
+#include "io/descriptor.h"
 
 namespace grove::detail::bench {
 namespace {

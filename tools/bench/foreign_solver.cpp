@@ -12,15 +12,15 @@
 #include <string_view>
 #include <utility>
 
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/libmrp_file.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/plan_import.h"
-#include "grove/detail/io/roadmap_file.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/check.h"
-#include "grove/detail/model/parse_number.h"
+#include "io/expressible.h"
+#include "io/input_error.h"
+#include "io/libmrp_file.h"
+#include "io/map_file.h"
+#include "io/plan_import.h"
+#include "io/roadmap_file.h"
+#include "io/text_file.h"
+#include "model/check.h"
+#include "model/parse_number.h"
 #include "tools/bench/judge.h"
 
 namespace grove::detail::bench {

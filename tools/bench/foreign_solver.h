@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/batch/entry.h"
-#include "grove/detail/batch/row.h"
-#include "grove/detail/io/solver_file.h"
+#include "batch/entry.h"
+#include "batch/row.h"
+#include "io/solver_file.h"
 #include "tools/bench/child_process.h"
 
 namespace grove::detail::bench {

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/io/text_file.h"
+#include "io/input_error.h"
+#include "io/plan_file.h"
+#include "io/text_file.h"
 #include "tools/common/commands.h"
 
 namespace grove::detail::bench {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/batch/outcome.h"
-#include "grove/detail/model/instance.h"
+#include "batch/outcome.h"
+#include "model/instance.h"
 #include "tools/bench/child_process.h"
 
 namespace grove::detail::bench {

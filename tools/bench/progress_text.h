@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/batch/false_claims.h"
-#include "grove/detail/batch/progress.h"
-#include "grove/detail/batch/row.h"
+#include "batch/false_claims.h"
+#include "batch/progress.h"
+#include "batch/row.h"
 
 namespace grove::detail::bench {
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <system_error>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/judge.h"
 

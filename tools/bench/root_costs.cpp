@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "grove/detail/sequencing/sum_of_best_sequences.h"
+#include "sequencing/sum_of_best_sequences.h"
 
 namespace grove::detail::bench {
 

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <optional>
 
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/omega.h"
+#include "model/instance.h"
+#include "model/omega.h"
 
 namespace grove::detail::bench {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/bench/foreign_solver.h"
 
 namespace grove::detail::bench {

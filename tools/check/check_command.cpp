@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/plan_import.h"
-#include "grove/detail/model/check.h"
+#include "io/input_error.h"
+#include "io/plan_import.h"
+#include "model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/gap_text.h"
 #include "tools/common/instance_arguments.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a program says of its commands and options, as data: help, manual pages and the completions of
-// shells are made of the one table that the command line is parsed by.
+// What a program says of its commands and options, as data: help, manual pages and the completions
+// of shells are made of the one table that the command line is parsed by.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 namespace {
@@ -60,11 +60,12 @@ void become(const std::string& companion, const std::vector<std::string>& argume
             const std::string& package) {
   const std::string program = place_of(companion).string();
   if (!fs::exists(program))
-    throw InputError(program, "",
-                     fmt::format("there is no such file; expected it beside grove (build the target "
-                                 "grove), or in ../libexec/grove where the Debian package {} is "
-                                 "installed",
-                                 package));
+    throw InputError(
+        program, "",
+        fmt::format("there is no such file; expected it beside grove (build the target "
+                    "grove), or in ../libexec/grove where the Debian package {} is "
+                    "installed",
+                    package));
   replace_process(program, arguments);
   const int error = errno;
   // It is there, so what is not is its interpreter.

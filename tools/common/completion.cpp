@@ -26,8 +26,7 @@ std::string function_name(const CommandText& program) {
 Words option_names(const CommandText& command) {
   Words names;
   for (const OptionText& option : command.options)
-    if (!option.is_positional)
-      names.insert(names.end(), option.names.begin(), option.names.end());
+    if (!option.is_positional) names.insert(names.end(), option.names.begin(), option.names.end());
   return names;
 }
 
@@ -41,8 +40,7 @@ Words command_words(const CommandText& command) {
 
 std::string bash_words(const CommandText& command) {
   return fmt::format("    \"{}\") words=\"{}\"; options=\"{}\" ;;\n", command.name,
-                     fmt::join(command_words(command), " "),
-                     fmt::join(option_names(command), " "));
+                     fmt::join(command_words(command), " "), fmt::join(option_names(command), " "));
 }
 
 // What may follow an option.
@@ -62,17 +60,18 @@ std::string bash_values(const CommandText& command) {
 std::string bash_script(const CommandText& program) {
   std::string paths, words, values;
   for_each_command(program, [&](const CommandText& command) {
-    if (&command != &program) paths += fmt::format("{}\"{}\"", paths.empty() ? "" : "|", command.name);
+    if (&command != &program)
+      paths += fmt::format("{}\"{}\"", paths.empty() ? "" : "|", command.name);
     words += bash_words(command);
     values += bash_values(command);
   });
-  const std::string walk =
-      paths.empty() ? "" : fmt::format(R"(  local i
+  const std::string walk = paths.empty() ? ""
+                                         : fmt::format(R"(  local i
   for ((i = 1; i < COMP_CWORD; i++)); do
     case "$path ${{COMP_WORDS[i]}}" in {}) path+=" ${{COMP_WORDS[i]}}" ;; esac
   done
 )",
-                                       paths);
+                                                       paths);
   return fmt::format(R"(# bash completion of {0}
 {1}() {{
   local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD-1]}} path={0}
@@ -118,9 +117,9 @@ std::string zsh_options(const CommandText& command) {
     if (option.is_positional) continue;
     std::string value;
     if (!option.value.empty())
-      value = option.choices.empty()
-                  ? fmt::format(":{}:_files", zsh_quoted(option.value))
-                  : fmt::format(":{}:({})", zsh_quoted(option.value), fmt::join(option.choices, " "));
+      value = option.choices.empty() ? fmt::format(":{}:_files", zsh_quoted(option.value))
+                                     : fmt::format(":{}:({})", zsh_quoted(option.value),
+                                                   fmt::join(option.choices, " "));
     for (const std::string& name : option.names)
       text += fmt::format(" \\\n        '*{}[{}]{}'", name, zsh_quoted(option.description), value);
   }
@@ -143,11 +142,12 @@ std::string zsh_case(const CommandText& command) {
 std::string zsh_script(const CommandText& program) {
   std::string paths, cases;
   for_each_command(program, [&](const CommandText& command) {
-    if (&command != &program) paths += fmt::format("{}\"{}\"", paths.empty() ? "" : "|", command.name);
+    if (&command != &program)
+      paths += fmt::format("{}\"{}\"", paths.empty() ? "" : "|", command.name);
     cases += zsh_case(command);
   });
-  const std::string walk =
-      paths.empty() ? "" : fmt::format(R"(  local -i i
+  const std::string walk = paths.empty() ? ""
+                                         : fmt::format(R"(  local -i i
   for ((i = 2; i < CURRENT; i++)); do
     case "$path_words $words[i]" in
       ({}) path_words+=" $words[i]"; shift_by=$((i - 1)) ;;
@@ -156,7 +156,7 @@ std::string zsh_script(const CommandText& program) {
   words=("${{(@)words[$((shift_by + 1)),-1]}}")
   (( CURRENT -= shift_by ))
 )",
-                                       paths);
+                                                       paths);
   return fmt::format(R"(#compdef {0}
 {1}() {{
   local path_words={0}
@@ -184,10 +184,11 @@ std::string fish_quoted(const std::string& text) {
 std::string fish_condition(const CommandText& program, const CommandText& command) {
   std::string condition;
   for (const std::string& word : CLI::detail::split(command.name, ' '))
-    if (word != program.word) condition += fmt::format("__fish_seen_subcommand_from {}; and ", word);
+    if (word != program.word)
+      condition += fmt::format("__fish_seen_subcommand_from {}; and ", word);
   if (!command.commands.empty())
-    condition += fmt::format("not __fish_seen_subcommand_from {}",
-                             fmt::join(command_words(command), " "));
+    condition +=
+        fmt::format("not __fish_seen_subcommand_from {}", fmt::join(command_words(command), " "));
   else if (condition.size() > 6)
     condition.resize(condition.size() - 6);
   return condition.empty() ? "" : " -n " + fish_quoted(condition);

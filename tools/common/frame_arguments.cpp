@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <string_view>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/parse_number.h"
+#include "io/input_error.h"
+#include "model/parse_number.h"
 #include "tools/common/options.h"
 
 namespace grove::detail {

@@ -5,8 +5,8 @@
 #include <CLI/App.hpp>
 #include <string>
 
-#include "grove/detail/io/frame.h"
-#include "grove/detail/model/instance.h"
+#include "io/frame.h"
+#include "model/instance.h"
 
 namespace grove::detail {
 

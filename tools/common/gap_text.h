@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "grove/detail/model/omega.h"
+#include "model/omega.h"
 
 namespace grove::detail {
 

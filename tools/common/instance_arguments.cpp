@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <string_view>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/scenario_file.h"
-#include "grove/detail/io/text_file.h"
+#include "io/input_error.h"
+#include "io/scenario_file.h"
+#include "io/text_file.h"
 #include "tools/common/file_formats.h"
 #include "tools/common/machine.h"
 #include "tools/common/options.h"

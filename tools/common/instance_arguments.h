@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "grove/detail/io/instance_file.h"
+#include "io/instance_file.h"
 
 namespace grove::detail {
 

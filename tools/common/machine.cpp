@@ -8,8 +8,8 @@
 #include <fstream>
 #include <thread>
 
-#include "grove/detail/model/resources.h"
 #include "grove/solve.hpp"
+#include "model/resources.h"
 
 namespace grove::detail {
 

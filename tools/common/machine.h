@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "grove/detail/model/resources.h"
+#include "model/resources.h"
 
 namespace grove::detail {
 

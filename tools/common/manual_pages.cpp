@@ -67,9 +67,9 @@ std::string footer_text(const std::string& footer) {
 }
 
 std::string command_section(const CommandText& command) {
-  std::string text = fmt::format(".SH {}\n{}\n.PP\n{} {}\n", plain(command.name),
-                                 plain(command.description), bold(command.name),
-                                 plain(command.usage()));
+  std::string text =
+      fmt::format(".SH {}\n{}\n.PP\n{} {}\n", plain(command.name), plain(command.description),
+                  bold(command.name), plain(command.usage()));
   text += option_section(command);
   if (!command.footer.empty()) text += ".PP\n" + footer_text(command.footer);
   for (const CommandText& below : command.commands) text += command_section(below);

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "grove/detail/model/parse_number.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <CLI/Error.hpp>
 
-#include "grove/detail/io/atomic_file.h"
+#include "io/atomic_file.h"
 
 namespace grove::detail {
 

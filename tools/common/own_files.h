@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/instance_file.h"
+#include "io/instance_file.h"
 #include "tools/common/instance_arguments.h"
 
 namespace grove::detail {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/io/spelling.h"
+#include "io/spelling.h"
 
 namespace grove::detail {
 namespace {

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
 #include "tools/common/commands.h"
 #include "tools/common/help_formatter.h"
 #include "tools/common/manual.h"
@@ -61,8 +61,8 @@ Words words_of(const CLI::App& app, int argc, char** argv) {
   return words;
 }
 
-// "grove help --completion bash", "grove help --manual FOLDER": of the whole program. Whether that is
-// what is asked for.
+// "grove help --completion bash", "grove help --manual FOLDER": of the whole program. Whether that
+// is what is asked for.
 bool tell_of_program(const CLI::App& app, const Words& words, bool speaks) {
   if (words.size() < 2 || words[0] != "help" || !words[1].starts_with("--")) return false;
   const std::string value = words.size() == 3 ? words[2] : "";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "grove/detail/batch/progress.h"
+#include "batch/progress.h"
 
 namespace grove::detail {
 

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/common/commands.h"
 #include "tools/common/options.h"
 #include "tools/convert/convert_parts.h"

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <system_error>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/libmrp_file.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/mapfw_file.h"
-#include "grove/detail/io/scenario_file.h"
+#include "io/atomic_file.h"
+#include "io/expressible.h"
+#include "io/input_error.h"
+#include "io/libmrp_file.h"
+#include "io/map_file.h"
+#include "io/mapfw_file.h"
+#include "io/scenario_file.h"
 #include "tools/common/commands.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/convert/convert_parts.h"

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/text_file.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/map_file.h"
+#include "io/text_file.h"
 #include "tools/convert/convert_parts.h"
 #include "tools/convert/occupancy_map.h"
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "grove/detail/io/instance_file.h"
+#include "io/instance_file.h"
 #include "tools/common/file_formats.h"
 #include "tools/common/frame_arguments.h"
 #include "tools/common/instance_arguments.h"

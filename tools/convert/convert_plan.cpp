@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/plan_export.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/io/tracker_file.h"
-#include "grove/detail/model/check.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/plan_export.h"
+#include "io/plan_file.h"
+#include "io/tracker_file.h"
+#include "model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/convert/convert_parts.h"

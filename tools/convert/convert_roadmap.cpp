@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/graphml_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/lif_file.h"
-#include "grove/detail/io/roadmap_file.h"
+#include "io/graphml_file.h"
+#include "io/input_error.h"
+#include "io/lif_file.h"
+#include "io/roadmap_file.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/convert/convert_parts.h"
 

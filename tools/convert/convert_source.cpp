@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/expressible.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/libmrp_file.h"
-#include "grove/detail/io/mapfw_file.h"
-#include "grove/detail/io/scenario_file.h"
+#include "io/expressible.h"
+#include "io/input_error.h"
+#include "io/libmrp_file.h"
+#include "io/mapfw_file.h"
+#include "io/scenario_file.h"
 #include "tools/convert/convert_parts.h"
 
 namespace grove::detail {

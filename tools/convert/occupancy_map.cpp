@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/parse_number.h"
+#include "io/input_error.h"
+#include "io/map_file.h"
+#include "io/text_file.h"
+#include "model/parse_number.h"
 
 namespace grove::detail {
 namespace {

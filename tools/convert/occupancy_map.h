@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/frame.h"
-#include "grove/detail/io/input_rules.h"
-#include "grove/detail/model/grid.h"
+#include "io/frame.h"
+#include "io/input_rules.h"
+#include "model/grid.h"
 
 namespace grove::detail {
 

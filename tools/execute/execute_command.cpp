@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/execution/switching.h"
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/order_file.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/io/plan_import.h"
-#include "grove/detail/model/check.h"
+#include "execution/switching.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/order_file.h"
+#include "io/plan_file.h"
+#include "io/plan_import.h"
+#include "model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/frame_arguments.h"
 #include "tools/common/instance_arguments.h"
@@ -253,7 +253,8 @@ void add_execute_command(CLI::App& app) {
   TroubleArguments& t = arguments->troubles;
   add_number(*command, "--delays", t.delayed, 0, 1, "share of actions that take longer");
   add_integer(*command, "--delay-steps", t.delay_steps, kDelaySteps, "by 1 to so many steps");
-  add_repeated(*command, "--slow", t.slow, "ROBOT=FACTOR", "a robot that takes FACTOR times as long");
+  add_repeated(*command, "--slow", t.slow, "ROBOT=FACTOR",
+               "a robot that takes FACTOR times as long");
   add_repeated(*command, "--stop", t.stop, "ROBOT@TIME=STEPS",
                "a robot that stops for so many steps from then on");
   add_repeated(*command, "--dies", t.dies, "ROBOT@TIME",

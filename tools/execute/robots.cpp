@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/check.h"
+#include "io/input_error.h"
+#include "model/check.h"
 
 namespace grove::detail {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <memory>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/parse_number.h"
-#include "grove/detail/model/random.h"
+#include "io/input_error.h"
+#include "model/parse_number.h"
+#include "model/random.h"
 #include "tools/common/options.h"
 #include "tools/execute/robots.h"
 
@@ -54,7 +54,8 @@ void Troubles::read_stops(const TroubleArguments& arguments, const Instance& ins
       refuse("--stop", text, "ROBOT@TIME=STEPS");
     stops_.push_back(
         {robot_of("--stop", text, text.substr(0, at), instance),
-         static_cast<Time>(parse_integer("--stop", text.substr(at + 1, split - at - 1), kPlanSteps)),
+         static_cast<Time>(
+             parse_integer("--stop", text.substr(at + 1, split - at - 1), kPlanSteps)),
          static_cast<Time>(parse_integer("--stop", text.substr(split + 1), kPlanSteps))});
   }
   for (const std::string& text : arguments.dies) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/execution/drive.h"
-#include "grove/detail/model/instance.h"
+#include "execution/drive.h"
+#include "model/instance.h"
 
 namespace grove::detail {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "grove/detail/model/grid.h"
-#include "grove/detail/model/roadmap.h"
+#include "model/grid.h"
+#include "model/roadmap.h"
 
 namespace grove::detail {
 

@@ -2,7 +2,7 @@
 // grove generate: the command itself, and what its parts share.
 #include <fmt/format.h>
 
-#include "grove/detail/io/map_file.h"
+#include "io/map_file.h"
 #include "tools/common/commands.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/generate/generate_commands.h"

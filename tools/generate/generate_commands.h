@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "grove/detail/model/grid.h"
+#include "model/grid.h"
 #include "tools/common/options.h"
 #include "tools/generate/instance_generator.h"
 

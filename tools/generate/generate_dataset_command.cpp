@@ -7,7 +7,7 @@
 #include <memory>
 #include <set>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/generate_set.h"

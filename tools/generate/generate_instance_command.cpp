@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/roadmap_file.h"
+#include "io/atomic_file.h"
+#include "io/instance_file.h"
+#include "io/roadmap_file.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/roadmap_instance.h"

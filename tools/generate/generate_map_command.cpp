@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "grove/detail/io/map_file.h"
+#include "io/map_file.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/map_generator.h"
 

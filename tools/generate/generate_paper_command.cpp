@@ -7,9 +7,9 @@
 #include <memory>
 #include <numeric>
 
-#include "grove/detail/batch/folder.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/map_file.h"
+#include "batch/folder.h"
+#include "io/input_error.h"
+#include "io/map_file.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/generate_set.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "grove/detail/io/roadmap_file.h"
+#include "io/roadmap_file.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/roadmap_generator.h"
 

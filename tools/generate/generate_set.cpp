@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "grove/detail/batch/folder.h"
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/instance_file.h"
+#include "batch/folder.h"
+#include "io/atomic_file.h"
+#include "io/instance_file.h"
 #include "tools/generate/generate_commands.h"
 
 namespace grove::detail {

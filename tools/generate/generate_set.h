@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/grid.h"
+#include "model/grid.h"
 #include "tools/generate/instance_generator.h"
 
 namespace grove::detail {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 namespace {

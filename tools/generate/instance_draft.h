@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/instance.h"
+#include "model/instance.h"
 #include "tools/generate/instance_generator.h"
 #include "tools/generate/random.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/generate/components.h"
 #include "tools/generate/instance_draft.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/scenario_file.h"
-#include "grove/detail/model/instance.h"
+#include "io/scenario_file.h"
+#include "model/instance.h"
 
 namespace grove::detail {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "grove/detail/model/grid.h"
+#include "model/grid.h"
 
 namespace grove::detail {
 

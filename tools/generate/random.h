@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "grove/detail/model/random.h"
+#include "model/random.h"
 
 namespace grove::detail {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "grove/detail/model/roadmap.h"
+#include "model/roadmap.h"
 
 namespace grove::detail {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/generate/components.h"
 #include "tools/generate/instance_draft.h"
 #include "tools/generate/random.h"

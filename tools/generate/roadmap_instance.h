@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "grove/detail/model/roadmap.h"
+#include "model/roadmap.h"
 #include "tools/generate/instance_generator.h"
 
 namespace grove::detail {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/distance_field.h"
+#include "io/input_error.h"
+#include "model/distance_field.h"
 #include "tools/generate/components.h"
 #include "tools/generate/random.h"
 

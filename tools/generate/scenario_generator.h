@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/scenario_file.h"
+#include "io/scenario_file.h"
 
 namespace grove::detail {
 

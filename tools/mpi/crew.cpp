@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "grove/detail/io/descriptor.h"
+#include "io/descriptor.h"
 #include "tools/common/machine.h"
 
 namespace grove::detail {

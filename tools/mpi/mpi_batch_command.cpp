@@ -14,13 +14,13 @@
 #include <thread>
 #include <utility>
 
-#include "grove/detail/batch/folder.h"
-#include "grove/detail/batch/manifest.h"
-#include "grove/detail/engine/method.h"
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/model/fingerprint.h"
+#include "batch/folder.h"
+#include "batch/manifest.h"
+#include "engine/method.h"
+#include "engine/run_observer.h"
+#include "engine/solve.h"
+#include "io/plan_file.h"
+#include "model/fingerprint.h"
 #include "mpi/batch/farm_client.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/batch/gather.h"

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/fingerprint.h"
+#include "engine/run_observer.h"
+#include "io/input_error.h"
+#include "model/fingerprint.h"
 #include "mpi/shared_problem.h"
 #include "mpi/solve_distributed.h"
 #include "tools/common/commands.h"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "mpi/mpi_session.h"
 #include "tools/common/commands.h"
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/proof/certificate_trim.h"
+#include "io/input_error.h"
+#include "proof/certificate_trim.h"
 #include "tools/common/commands.h"
 #include "tools/common/options.h"
 

@@ -6,8 +6,8 @@
 #include <CLI/Error.hpp>
 #include <algorithm>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/parse_number.h"
+#include "io/input_error.h"
+#include "model/parse_number.h"
 #include "tools/common/options.h"
 #include "tools/execute/robots.h"
 
@@ -71,8 +71,8 @@ void AskedChange::block(const std::string& text, const Instance& instance) {
                      : parse_number<int>(text.substr(comma + 1), 0, grid.height() - 1);
   if (!x || !y)
     grove::detail::refuse("--blocked", text,
-                  fmt::format("X,Y, a cell with x in 0..{} and y in 0..{}", grid.width() - 1,
-                              grid.height() - 1));
+                          fmt::format("X,Y, a cell with x in 0..{} and y in 0..{}",
+                                      grid.width() - 1, grid.height() - 1));
   change_.blocked.push_back(grid.cell({*x, *y}));
   blocked_.push_back({"--blocked", text});
 }
@@ -95,7 +95,8 @@ void AskedChange::block_on_roadmap(const std::string& text, const Roadmap& roadm
     }
     return;
   }
-  grove::detail::refuse("--blocked", text, "a vertex of the roadmap, or A,B: two that a road joins");
+  grove::detail::refuse("--blocked", text,
+                        "a vertex of the roadmap, or A,B: two that a road joins");
 }
 
 void AskedChange::refuse(const InstanceError& error) const {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/execution/change.h"
-#include "grove/detail/execution/late.h"
-#include "grove/detail/io/change_file.h"
+#include "execution/change.h"
+#include "execution/late.h"
+#include "io/change_file.h"
 
 namespace grove::detail {
 

@@ -11,14 +11,14 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/engine/session.h"
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/io/map_file.h"
-#include "grove/detail/io/roadmap_file.h"
-#include "grove/detail/io/text_file.h"
+#include "engine/session.h"
 #include "grove/session.hpp"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/instance_file.h"
+#include "io/map_file.h"
+#include "io/roadmap_file.h"
+#include "io/text_file.h"
 #include "tools/common/commands.h"
 #include "tools/common/options.h"
 #include "tools/common/signals.h"
@@ -280,10 +280,12 @@ void add_replan_command(CLI::App& root) {
   add_repeated(*app, "--late", a.change.late, "ROBOT=STEPS",
                "a robot that is where the plan had it so many steps ago");
   add_repeated(*app, "--new-task", a.change.new_tasks, "FILE.json", "tasks that have come");
-  add_repeated(*app, "--drop-task", a.change.dropped, "ID", "a task that is not to be visited any more");
+  add_repeated(*app, "--drop-task", a.change.dropped, "ID",
+               "a task that is not to be visited any more");
   add_repeated(*app, "--blocked", a.change.blocked, "X,Y",
                "a cell that is closed; on a roadmap a vertex, or A,B: a road");
-  add_integer(*app, "--commit", a.commit, kPlanSteps, "so many steps of the old plan that all robots keep to");
+  add_integer(*app, "--commit", a.commit, kPlanSteps,
+              "so many steps of the old plan that all robots keep to");
   app->add_option("--output-instance", a.output_instance,
                   "the instance then; by default it is called like the plan file, with .cts.json")
       ->type_name("FILE");

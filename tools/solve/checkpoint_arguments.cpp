@@ -6,10 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <system_error>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
-#include "grove/detail/model/fingerprint.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
+#include "model/fingerprint.h"
 #include "tools/common/options.h"
 #include "tools/common/signals.h"
 #include "tools/common/standard_error.h"

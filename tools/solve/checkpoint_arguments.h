@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "grove/detail/engine/checkpoint.h"
-#include "grove/detail/engine/solve.h"
-#include "grove/detail/io/file_lock.h"
+#include "engine/checkpoint.h"
+#include "engine/solve.h"
+#include "io/file_lock.h"
 
 namespace grove::detail {
 

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "grove/detail/conflicts/conflict.h"
-#include "grove/detail/model/instance.h"
-#include "grove/detail/planning/constraint.h"
+#include "conflicts/conflict.h"
+#include "model/instance.h"
+#include "planning/constraint.h"
 
 namespace grove::detail {
 

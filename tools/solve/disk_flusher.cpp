@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
 #include "tools/common/standard_error.h"
 
 namespace grove::detail {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/plan_file.h"
+#include "io/input_error.h"
+#include "io/plan_file.h"
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"
 

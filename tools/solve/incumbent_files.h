@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/omega.h"
+#include "engine/run_observer.h"
+#include "model/instance.h"
+#include "model/omega.h"
 #include "tools/solve/disk_flusher.h"
 
 namespace grove::detail {

@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "grove/detail/engine/checkpoint.h"
-#include "grove/detail/engine/run_observer.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/model/plan.h"
+#include "engine/checkpoint.h"
+#include "engine/run_observer.h"
+#include "io/instance_file.h"
+#include "model/plan.h"
 #include "tools/solve/tree_log.h"
 
 namespace grove::detail {

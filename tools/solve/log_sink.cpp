@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/common/standard_error.h"
 
 namespace grove::detail {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/plan_file.h"
+#include "io/input_error.h"
+#include "io/plan_file.h"
 #include "tools/common/standard_error.h"
 #include "tools/solve/start_plan.h"
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/plan.h"
+#include "model/instance.h"
+#include "model/plan.h"
 
 namespace grove::detail {
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/engine/method.h"
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/proof/certificate.h"
+#include "engine/method.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "proof/certificate.h"
 #include "tools/common/standard_error.h"
 
 namespace grove::detail {
@@ -67,7 +67,8 @@ void warn_of_joint_search(const fs::path& file, const Instance& instance, const 
   if (searched != stats.counts.end()) {
     if (searched->second > kFewJointStates)
       say_on_stderr(fmt::format(
-          "grove: warning: {}: the proof is a joint search of all agents, and a checker has to repeat "
+          "grove: warning: {}: the proof is a joint search of all agents, and a checker has to "
+          "repeat "
           "it; that took {} joint states here, and may take grove-verify 10 times as long",
           file.string(), searched->second));
   } else if (!has_few_joint_states(instance)) {

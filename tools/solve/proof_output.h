@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/plan.h"
-#include "grove/detail/proof/proof_parts.h"
+#include "model/instance.h"
+#include "model/plan.h"
+#include "proof/proof_parts.h"
 #include "tools/solve/solve_arguments.h"
 
 namespace grove::detail {

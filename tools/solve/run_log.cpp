@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "grove/detail/model/limits.h"
+#include "model/limits.h"
 
 namespace grove::detail {
 namespace {

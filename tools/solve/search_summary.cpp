@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "grove/detail/primal/plan_source.h"
+#include "primal/plan_source.h"
 
 namespace grove::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/plan.h"
+#include "model/plan.h"
 
 namespace grove::detail {
 

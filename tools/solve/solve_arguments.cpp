@@ -8,7 +8,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/common/options.h"
 #include "tools/common/parse_error.h"
 #include "tools/common/signals.h"
@@ -254,8 +254,9 @@ std::string options_text(const CLI::App& app) {
     const std::string name = option->get_name();
     const bool is_flag = option->get_expected_max() == 0;
     const std::string between = option->get_delimiter() == ',' ? "," : fmt::format(" {} ", name);
-    text += fmt::format("{}{}{}{}", text.empty() ? "" : " ", name, is_flag ? "" : " ",
-                        is_flag ? "" : fmt::format("{}", fmt::join(option->reduced_results(), between)));
+    text += fmt::format(
+        "{}{}{}{}", text.empty() ? "" : " ", name, is_flag ? "" : " ",
+        is_flag ? "" : fmt::format("{}", fmt::join(option->reduced_results(), between)));
   }
   return text;
 }

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/engine/method.h"
-#include "grove/detail/model/limits.h"
+#include "engine/method.h"
 #include "grove/solve.hpp"
+#include "model/limits.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/solve/checkpoint_arguments.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/engine/method.h"
+#include "engine/method.h"
 #include "tools/common/commands.h"
 #include "tools/common/signals.h"
 #include "tools/solve/incumbent_files.h"

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
 #include "tools/common/commands.h"
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"

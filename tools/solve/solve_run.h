@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/file_lock.h"
-#include "grove/detail/io/instance_file.h"
-#include "grove/detail/model/plan.h"
+#include "io/file_lock.h"
+#include "io/instance_file.h"
+#include "model/plan.h"
 #include "tools/solve/log_format.h"
 #include "tools/solve/run_log.h"
 #include "tools/solve/solve_arguments.h"

@@ -5,9 +5,9 @@
 
 #include <utility>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/plan_file.h"
-#include "grove/detail/model/check.h"
+#include "io/input_error.h"
+#include "io/plan_file.h"
+#include "model/check.h"
 
 namespace grove::detail {
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "grove/detail/model/plan.h"
+#include "model/plan.h"
 
 namespace grove::detail {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <unordered_map>
 
-#include "grove/detail/search/expander.h"
-#include "grove/detail/search/node.h"
+#include "search/expander.h"
+#include "search/node.h"
 
 namespace grove::detail {
 

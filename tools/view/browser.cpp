@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "grove/detail/execution/visits.h"
+#include "execution/visits.h"
 
 namespace grove::detail {
 namespace {

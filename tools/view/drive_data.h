@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "grove/detail/execution/passing_order.h"
-#include "grove/detail/io/drive_file.h"
-#include "grove/detail/model/instance.h"
+#include "execution/passing_order.h"
+#include "io/drive_file.h"
+#include "model/instance.h"
 
 namespace grove::detail {
 

@@ -16,7 +16,7 @@
 #include <random>
 #include <thread>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 namespace {

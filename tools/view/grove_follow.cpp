@@ -49,7 +49,8 @@ int main(int argc, char** argv) {
   grove::detail::prepare_program(app);
   app.require_subcommand(0);
   app.add_option("LOG", arguments.log, "need not exist yet")->required()->type_name("");
-  grove::detail::add_integer(app, "--port", arguments.port, grove::detail::kPorts, "0: one that is free");
+  grove::detail::add_integer(app, "--port", arguments.port, grove::detail::kPorts,
+                             "0: one that is free");
   app.add_flag("--open", arguments.open, "show the page in the browser");
   app.callback([&] { grove::detail::follow(arguments); });
   return grove::detail::run_only_process(app, argc, argv);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/plan_import.h"
-#include "grove/detail/model/instance.h"
+#include "io/plan_import.h"
+#include "model/instance.h"
 
 namespace grove::detail {
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
 
 namespace grove::detail {
 namespace {

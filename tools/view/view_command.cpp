@@ -13,12 +13,12 @@
 #include <string_view>
 #include <vector>
 
-#include "grove/detail/execution/passing_order.h"
-#include "grove/detail/io/atomic_file.h"
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/plan_import.h"
-#include "grove/detail/model/check.h"
-#include "grove/detail/proof/certificate_text.h"
+#include "execution/passing_order.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/plan_import.h"
+#include "model/check.h"
+#include "proof/certificate_text.h"
 #include "tools/common/commands.h"
 #include "tools/common/companion.h"
 #include "tools/common/instance_arguments.h"

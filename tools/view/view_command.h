@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/plan.h"
+#include "model/instance.h"
+#include "model/plan.h"
 
 namespace grove::detail {
 
@@ -30,8 +30,9 @@ struct PictureMaker {
   // Replaces this process before it has read or written any file; does not return.
   std::function<void()> hand_over;
   // Draws the plan; nullptr: the instance. Calls `write` with each file and its content.
-  std::function<void(const PictureOrder& order, const Instance& instance, const Plan* plan,
-                     const std::function<void(const std::string& file, const std::string& bytes)>& write)>
+  std::function<void(
+      const PictureOrder& order, const Instance& instance, const Plan* plan,
+      const std::function<void(const std::string& file, const std::string& bytes)>& write)>
       draw;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Joint search when memory runs out anywhere: it gives up, and its bound holds.
-#include "grove/detail/joint/joint_search.h"
+#include "joint/joint_search.h"
 
 #include <gtest/gtest.h>
 

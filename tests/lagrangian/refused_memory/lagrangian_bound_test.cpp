@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The Lagrangian bound when memory runs out anywhere in a round: it ends, and what it has holds.
-#include "grove/detail/lagrangian/lagrangian_bound.h"
+#include "lagrangian/lagrangian_bound.h"
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grove/detail/batch/result_table.h"
-#include "grove/detail/io/input_error.h"
+#include "batch/result_table.h"
+#include "io/input_error.h"
 #include "mpi/batch/farm_client.h"
 #include "mpi/batch/farm_master.h"
 #include "mpi/simulated_network.h"

@@ -14,10 +14,10 @@
 #include <set>
 #include <tuple>
 
-#include "grove/detail/planning/chains.h"
-#include "grove/detail/planning/free_low_level_search.h"
-#include "grove/detail/planning/optimal_paths.h"
-#include "grove/detail/sequencing/cost_matrix.h"
+#include "planning/chains.h"
+#include "planning/free_low_level_search.h"
+#include "planning/optimal_paths.h"
+#include "sequencing/cost_matrix.h"
 #include "tests/planning/free_reference.h"
 #include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All paths of one cost, and whether two agents get along on theirs, against trying all.
 // GROVE_FUZZ_ FACTOR multiplies the number of cases.
-#include "grove/detail/planning/optimal_paths.h"
+#include "planning/optimal_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "grove/detail/planning/pair_dependency.h"
+#include "planning/pair_dependency.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"

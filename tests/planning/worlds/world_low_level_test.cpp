@@ -10,15 +10,15 @@
 #include <numeric>
 #include <random>
 
-#include "grove/detail/planning/chains.h"
-#include "grove/detail/planning/free_low_level_search.h"
-#include "grove/detail/planning/goal_sequence.h"
-#include "grove/detail/planning/low_level_search.h"
-#include "grove/detail/planning/optimal_paths.h"
-#include "grove/detail/sequencing/completions.h"
-#include "grove/detail/sequencing/cost_matrix.h"
-#include "grove/detail/sequencing/direct_legs.h"
-#include "src/planning/visit_check.h"
+#include "planning/chains.h"
+#include "planning/free_low_level_search.h"
+#include "planning/goal_sequence.h"
+#include "planning/low_level_search.h"
+#include "planning/optimal_paths.h"
+#include "planning/visit_check.h"
+#include "sequencing/completions.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/direct_legs.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/planning/worlds/world_reference.h"
 #include "tests/support/fuzz_factor.h"
@@ -103,8 +103,9 @@ class Fuzzer {
         break;
     }
     const CostMatrix matrix = given.matrix();
-    const Completions graph = Completions::as_graph(
-        matrix, [this, agent = stops.agent(), matrix] { return direct_legs(instance_, agent, matrix); });
+    const Completions graph = Completions::as_graph(matrix, [this, agent = stops.agent(), matrix] {
+      return direct_legs(instance_, agent, matrix);
+    });
     return graph.of_class(work).value_or(graph);
   }
 

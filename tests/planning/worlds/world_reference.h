@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "grove/detail/model/instance.h"
-#include "grove/detail/planning/constraint.h"
-#include "grove/detail/sequencing/rtsp.h"
+#include "model/instance.h"
+#include "planning/constraint.h"
+#include "sequencing/rtsp.h"
 
 namespace grove::detail::testing {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The frontier when memory runs out in the middle of a change: no node is lost, and the bound
 // holds.
-#include "grove/detail/search/frontier.h"
+#include "search/frontier.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <set>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/io/text_file.h"
+#include "io/input_error.h"
+#include "io/text_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 #include "tools/bench/rehearsal.h"

@@ -5,7 +5,7 @@
 
 #include <csignal>
 
-#include "grove/detail/io/plan_file.h"
+#include "io/plan_file.h"
 #include "tests/support/instances.h"
 #include "tests/support/temporary_directory.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "grove/detail/io/instance_file.h"
+#include "io/instance_file.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 

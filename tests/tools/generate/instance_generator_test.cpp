@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 #include "tools/generate/map_generator.h"
 #include "tools/generate/scenario_generator.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "grove/detail/model/world.h"
+#include "model/world.h"
 
 namespace grove::detail {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/io/input_error.h"
-#include "grove/detail/model/random.h"
+#include "io/input_error.h"
+#include "model/random.h"
 #include "tests/tools/generate/reach.h"
 #include "tools/generate/components.h"
 #include "tools/generate/roadmap_generator.h"

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "grove/detail/io/input_error.h"
+#include "io/input_error.h"
 
 namespace grove::detail {
 namespace scenario_generator_test {

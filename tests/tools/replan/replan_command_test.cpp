@@ -94,7 +94,8 @@ TEST_F(ReplanCommand, OptionsMayComeBeforeTheFiles) {
         {"--at", "0", "--drop-task", first_task()}}) {
     std::vector<std::string> words{"replan"};
     words.insert(words.end(), options.begin(), options.end());
-    words.insert(words.end(), {instance_, plan_, "--quiet", "--output", directory_ / "then.plan.json"});
+    words.insert(words.end(),
+                 {instance_, plan_, "--quiet", "--output", directory_ / "then.plan.json"});
     const ProcessResult done = run_grove(words);
     EXPECT_EQ(done.exit_code, 0) << done.err;
   }
@@ -184,8 +185,10 @@ TEST_F(ReplanCommand, APlanWithFollowingIsRefusedWithNoFollowing) {
   ASSERT_EQ(run_grove({"solve", row, "--quiet", "--omega", "0", "--output", plan}).exit_code, 0);
   const ProcessResult done = run_grove({"replan", row, plan, "--at", "1", "--no-following"});
   EXPECT_EQ(done.exit_code, 2);
-  EXPECT_THAT(done.err, HasSubstr("row.plan.json: /agents/0/path/1: is not valid with --no-following, and was made "
-                                  "without it, so it cannot be driven: "));
+  EXPECT_THAT(
+      done.err,
+      HasSubstr("row.plan.json: /agents/0/path/1: is not valid with --no-following, and was made "
+                "without it, so it cannot be driven: "));
 }
 
 TEST_F(ReplanCommand, TheInstanceIsCalledLikeThePlan) {

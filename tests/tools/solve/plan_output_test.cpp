@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "grove/detail/io/plan_file.h"
+#include "io/plan_file.h"
 #include "tests/support/instances.h"
 #include "tests/support/temporary_directory.h"
 

@@ -11,9 +11,9 @@
 #include <regex>
 #include <sstream>
 
-#include "grove/detail/io/file_lock.h"
-#include "grove/detail/model/omega.h"
-#include "grove/detail/sequencing/rtsp.h"
+#include "io/file_lock.h"
+#include "model/omega.h"
+#include "sequencing/rtsp.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/tools/program.h"
 

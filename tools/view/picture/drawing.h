@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "grove/detail/model/instance.h"
-#include "grove/detail/model/plan.h"
+#include "model/instance.h"
+#include "model/plan.h"
 
 namespace grove::detail {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <string>
 
-#include "grove/detail/model/roadmap.h"
+#include "model/roadmap.h"
 
 namespace grove::detail {
 

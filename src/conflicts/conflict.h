@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Where two plans collide (docs/design.md, section 1; vertex and edge conflicts of CBS, Sharon et
+// al. 2015).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/plan.h"
+#include "planning/constraint.h"
+
+namespace grove::detail {
+
+// Two agents that are on one place at one time, or that swap places in one step; or, where that is
+// forbidden (Instance::may_follow), one that enters a place in the step in which the other leaves
+// it.
+struct Conflict {
+  AgentIndex first = -1;
+  AgentIndex second = -1;
+  Place cell = kNoPlace;  // the shared place; for a swap, the place that `first` arrives on
+  Place from = kNoPlace;  // kNoPlace: vertex conflict; else the place that `first` leaves and
+                          // `second` arrives on
+  Time time = 0;          // for a swap, the time of arrival
+  AgentIndex follower =
+      -1;  // of the two, the one that enters `cell` at `time`, following the other
+
+  bool is_swap() const { return from != kNoPlace; }
+  bool is_following() const { return follower >= 0; }
+};
+
+// Two demands of which every conflict-free plan meets at least one.
+using Split = std::array<AgentConstraint, 2>;
+
+// Standard CBS splitting: every pair of paths without this conflict obeys at least one of the two.
+Split split(const Conflict& conflict);
+
+// Finds conflicts among paths. Workspace of one thread: reuse it, do not share it.
+class ConflictFinder {
+ public:
+  // `world` must outlive this. `may_follow`: see Instance.
+  explicit ConflictFinder(const World& world, bool may_follow = true);
+
+  // Every conflict among the paths of `agents` (`paths` is by AgentIndex), in order of time;
+  // `first` < `second` in each. Of two agents that stand on one place together only the first time.
+  // Replaces `conflicts`. O(agents * time + conflicts).
+  void all(std::span<const Path> paths, std::span<const AgentIndex> agents,
+           std::vector<Conflict>& conflicts);
+
+ private:
+  struct Visit {
+    std::int64_t stamp = -1;  // base_ + time of the last visit; older stamps are of earlier calls
+    AgentIndex agent = -1;
+  };
+
+  void begin(std::span<const Path> paths, std::span<const AgentIndex> agents);
+  void step(std::span<const Path> paths, Time time);
+  void meet_all(Time time, std::vector<Conflict>& conflicts);
+  void meet(AgentIndex agent, Time time, std::vector<Conflict>& conflicts);
+  void swap_all(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const;
+  void follow_all(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const;
+
+  const World& world_;
+  const bool may_follow_;
+  std::int64_t base_ = 0;
+  std::vector<AgentIndex> moving_;            // whose paths have not ended, in ascending order
+  std::vector<Place> now_, before_;           // where they are, by agent
+  std::array<std::vector<Visit>, 2> visits_;  // of these: by parity of the time, then by place
+  // Who else is there: by parity of the time, then by agent; -1 ends the list.
+  std::array<std::vector<AgentIndex>, 2> also_there_;
+  std::vector<Visit> rests_;            // of the others, by place; the stamp is base_
+  std::vector<AgentIndex> also_rests_;  // as also_there_
+};
+
+}  // namespace grove::detail

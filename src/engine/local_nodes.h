@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The nodes that a process holds.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "engine/live_nodes.h"
+#include "search/frontier.h"
+#include "search/node_pool.h"
+
+namespace grove::detail {
+
+// The live nodes of one frontier, where they are made, and how many have been expanded. The methods
+// and all members may be used from any thread.
+struct LocalNodes : LiveNodes {
+  LocalNodes() = default;
+  ~LocalNodes() override { frontier.abandon(); }
+
+  Cost bound() const override { return frontier.bound(); }
+  Cost evicted_bound() const override { return frontier.evicted_bound(); }
+  bool any() const override { return frontier.live() > 0; }
+  Counts counts() const override { return {expanded, static_cast<std::int64_t>(frontier.open())}; }
+  void push(const NodePtr& root) override { frontier.push(root); }
+  void prune(Cost cost) override { frontier.prune(cost); }
+  void restart(std::span<const NodePtr> roots, Cost proven) override {
+    frontier.restart(roots, proven);
+  }
+
+  NodePool pool;
+  Frontier frontier;
+  std::atomic<std::int64_t> expanded{0};
+};
+
+}  // namespace grove::detail

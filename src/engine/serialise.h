@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// Values as bytes, for files and for other processes: cereal walks the values, the archives here
+// write and read them, the same on every machine. Whole numbers take a byte for seven of their bits
+// (LEB128), low ones first, those with a sign folded over zero: the constraints of a node, small
+// numbers nearly all, take a third of what they would by their width, and a checkpoint of
+// millions of nodes is written in half the time. Fractions, and arrays of numbers, which packed
+// paths are, have their width, low bytes first.
+//
+// A type takes part by a function serialize(Archive&, T&) in its namespace, like those below, made
+// of numbers, strings, vectors, maps and optionals. What bytes may hold beyond its shape - cells on
+// the world, paths that are walks - is for the receiver to check.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cereal/cereal.hpp>
+#include <cereal/types/map.hpp>
+#include <cereal/types/optional.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/vector.hpp>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "model/plan.h"
+#include "search/node_record.h"
+#include "search/tree_record.h"
+
+namespace grove::detail {
+
+// Appends to a string.
+class BytesOutput : public cereal::OutputArchive<BytesOutput, cereal::AllowEmptyClassElision> {
+ public:
+  // `bytes` must outlive this.
+  explicit BytesOutput(std::string& bytes) : OutputArchive(this), bytes_(bytes) {}
+
+  void put(std::uint8_t byte) { bytes_ += static_cast<char>(byte); }
+  void put_number(std::uint64_t number) {
+    for (; number >= 0x80; number >>= 7) put(static_cast<std::uint8_t>(number | 0x80));
+    put(static_cast<std::uint8_t>(number));
+  }
+  // `count` items of the width of T.
+  template <class T>
+  void put_array(const T* items, std::size_t count) {
+    const std::size_t begin = bytes_.size();
+    bytes_.append(reinterpret_cast<const char*>(items), count * sizeof(T));
+    low_bytes_first<T>(bytes_.data() + begin, count);
+  }
+
+  // To and from the order of this machine.
+  template <class T>
+  static void low_bytes_first(char* bytes, std::size_t count) {
+    if constexpr (std::endian::native != std::endian::little && sizeof(T) > 1)
+      for (std::size_t i = 0; i < count; ++i)
+        std::reverse(bytes + i * sizeof(T), bytes + (i + 1) * sizeof(T));
+  }
+
+ private:
+  std::string& bytes_;
+};
+
+// For bytes that nobody vouches for. An element of a container takes at least a byte, so a count
+// beyond the bytes left is refused before memory is asked for: what is read takes at most some 40
+// times the memory of its bytes. A number that is written longer than need be is refused, so that
+// only one row of bytes stands for a value. Throws cereal::Exception.
+class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmptyClassElision> {
+ public:
+  // A view of `bytes`.
+  explicit GuardedInput(std::string_view bytes) : InputArchive(this), rest_(bytes) {}
+
+  std::size_t left() const { return rest_.size(); }
+  std::uint8_t get() {
+    require(!rest_.empty(), "ends too early");
+    const auto byte = static_cast<std::uint8_t>(rest_.front());
+    rest_.remove_prefix(1);
+    return byte;
+  }
+  std::uint64_t get_number() {
+    constexpr int kLastShift = 63;  // where only one more bit has room
+    std::uint64_t number = 0;
+    for (int shift = 0;; shift += 7) {
+      const std::uint8_t byte = get();
+      require(shift < kLastShift || byte <= 1, "a number of too many bits");
+      number |= std::uint64_t{byte & 0x7Fu} << shift;
+      if (byte >= 0x80) continue;
+      require(byte > 0 || shift == 0, "a number longer than need be");
+      return number;
+    }
+  }
+  template <class T>
+  void get_array(T* items, std::size_t count) {
+    require(count <= left() / sizeof(T), "ends too early");
+    if (count == 0) return;
+    std::memcpy(items, rest_.data(), count * sizeof(T));
+    BytesOutput::low_bytes_first<T>(reinterpret_cast<char*>(items), count);
+    rest_.remove_prefix(count * sizeof(T));
+  }
+  void require(bool holds, const char* what) const {
+    if (!holds) throw cereal::Exception(what);
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+// A number of one byte, or a fraction, stands as it is.
+template <class T>
+inline constexpr bool kAsItIs = std::is_floating_point_v<T> || sizeof(T) == 1;
+
+template <class T>
+requires std::is_arithmetic_v<T>
+void CEREAL_SAVE_FUNCTION_NAME(BytesOutput& out, const T& value) {
+  if constexpr (kAsItIs<T>) {
+    out.put_array(&value, 1);
+  } else if constexpr (std::is_signed_v<T>) {
+    const auto wide = static_cast<std::int64_t>(value);
+    out.put_number(static_cast<std::uint64_t>(wide) << 1 ^ static_cast<std::uint64_t>(wide >> 63));
+  } else {
+    out.put_number(value);
+  }
+}
+
+template <class T>
+requires std::is_arithmetic_v<T>
+void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, T& value) {
+  if constexpr (kAsItIs<T>) {
+    in.get_array(&value, 1);
+  } else {
+    const std::uint64_t number = in.get_number();
+    const std::uint64_t unfolded =
+        std::is_signed_v<T> ? number >> 1 ^ (std::uint64_t{0} - (number & 1)) : number;
+    value = static_cast<T>(unfolded);
+    in.require(static_cast<std::uint64_t>(value) == unfolded, "a number of too many bits");
+  }
+}
+
+inline void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, bool& value) {
+  const std::uint8_t byte = in.get();
+  in.require(byte <= 1, "expected 0 or 1 for no or yes");
+  value = byte != 0;
+}
+
+template <class T>
+void CEREAL_SAVE_FUNCTION_NAME(BytesOutput& out, const cereal::NameValuePair<T>& pair) {
+  out(pair.value);
+}
+
+template <class T>
+void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, cereal::NameValuePair<T>& pair) {
+  in(pair.value);
+}
+
+template <class T>
+void CEREAL_SAVE_FUNCTION_NAME(BytesOutput& out, const cereal::SizeTag<T>& tag) {
+  out.put_number(tag.size);
+}
+
+template <class T>
+void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, cereal::SizeTag<T>& tag) {
+  tag.size = in.get_number();
+  in.require(tag.size <= in.left(), "more items are announced than there are bytes left");
+}
+
+// cereal's `size` is that of all items in bytes.
+template <class T>
+void CEREAL_SAVE_FUNCTION_NAME(BytesOutput& out, const cereal::BinaryData<T>& data) {
+  using Item = std::remove_pointer_t<T>;
+  out.put_array(static_cast<const Item*>(data.data), data.size / sizeof(Item));
+}
+
+template <class T>
+void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, cereal::BinaryData<T>& data) {
+  using Item = std::remove_pointer_t<T>;
+  in.get_array(static_cast<Item*>(data.data), data.size / sizeof(Item));
+}
+
+template <class Archive>
+void serialize(Archive& archive, Constraint& c) {
+  auto kind = static_cast<std::uint8_t>(c.kind);
+  archive(c.cell, c.from, c.begin, c.end, kind);
+  const auto known = constraint_kind(kind);
+  if (!known) throw cereal::Exception("a constraint of no known kind");
+  c.kind = *known;
+}
+
+template <class Archive>
+void serialize(Archive& archive, AgentConstraint& c) {
+  archive(c.agent, c.constraint);
+}
+
+template <class Archive>
+void serialize(Archive& archive, SequenceClass& c) {
+  archive(c.prefix, c.forbidden_next);
+}
+
+template <class Archive>
+void serialize(Archive& archive, NodeRecord::Walk& walk) {
+  archive(walk.agent, walk.steps, walk.words);
+}
+
+template <class Archive>
+void serialize(Archive& archive, NodeRecord& record) {
+  archive(record.tree, record.constraints, record.paths, record.cost, record.bound,
+          record.conflicts, record.bounded);
+}
+
+template <class Archive>
+void serialize(Archive& archive, TreeRecord::Order& order) {
+  archive(order.sequences, order.fixed, order.steps, order.words);
+}
+
+template <class Archive>
+void serialize(Archive& archive, TreeRecord& record) {
+  archive(record.orders);
+}
+
+template <class Archive>
+void serialize(Archive& archive, WorkTime& work) {
+  archive(work.task, work.begin, work.end);
+}
+
+template <class Archive>
+void serialize(Archive& archive, AgentPlan& plan) {
+  archive(plan.cost, plan.sequence, plan.path, plan.work);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Plan& plan) {
+  archive(plan.cost, plan.agents);
+}
+
+// The bytes of `value`.
+template <class T>
+std::string to_bytes(const T& value) {
+  std::string bytes;
+  BytesOutput archive(bytes);
+  archive(value);
+  return bytes;
+}
+
+// The value whose bytes these are, all of them. Throws std::invalid_argument for bytes that are no
+// T's: cut short, too long, or otherwise damaged in a way that shows.
+template <std::default_initializable T>
+T from_bytes(std::string_view bytes) try {
+  GuardedInput in(bytes);
+  T value;
+  in(value);
+  in.require(in.left() == 0, "more bytes than belong to it");
+  return value;
+} catch (const cereal::Exception& error) {
+  throw std::invalid_argument(error.what());
+}
+
+}  // namespace grove::detail
+
+CEREAL_REGISTER_ARCHIVE(grove::detail::BytesOutput)
+CEREAL_REGISTER_ARCHIVE(grove::detail::GuardedInput)
+CEREAL_SETUP_ARCHIVE_TRAITS(grove::detail::GuardedInput, grove::detail::BytesOutput)

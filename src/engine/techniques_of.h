@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// How a run searches its constraint trees.
+#pragma once
+
+#include "engine/solve.h"
+
+namespace grove::detail {
+
+// The paper's policy is the cross-check, and what others published is for comparison: plain CBS.
+inline Techniques techniques_of(const SolveOptions& options) {
+  const bool plain = options.policy == Policy::kFixed || options.low_level != LowLevel::kOwn;
+  return plain ? Techniques() : options.techniques;
+}
+
+inline SearchOptions search_options_of(const SolveOptions& options) {
+  return {techniques_of(options), options.seed,  options.audit,
+          options.tuning,         options.proof, options.deterministic};
+}
+
+}  // namespace grove::detail

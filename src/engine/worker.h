@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// One worker of a run.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "engine/shared_search.h"
+#include "engine/solve.h"
+#include "primal/primal_search.h"
+#include "search/expander.h"
+
+namespace grove::detail {
+
+class JointShare;
+class PrimalShare;
+
+// An expander and a primal search, which take turns; and on the first worker of a run a search over
+// joint states, where there are few. For one thread at a time, but for what says
+// otherwise.
+class Worker {
+ public:
+  // All must outlive this, but for `stops`, of which it makes a copy. `number` from 0; each number
+  // looks for plans from another seed.
+  Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
+         SharedSearch& shared, const AgentStopsStore& stops, int number);
+  ~Worker();
+
+  // What is done at one go, and what became of it.
+  struct Turn {
+    enum class Job : std::uint8_t { kExpand, kHelp, kPrimal, kPrepare, kJoint, kLagrangian };
+    explicit Turn(Job the_job, NodePtr the_node = nullptr)
+        : job(the_job), node(std::move(the_node)) {}
+
+    Job job;
+    NodePtr node;                          // to expand or to help with
+    Haste haste = Haste::kNone;            // with which to expand it
+    std::shared_ptr<CommonMemory> memory;  // to do so with
+    FoundOut found;
+    Expansion expansion;
+    std::optional<Plan> plan;
+    Cost proven = 0;  // by the search over joint states; see Ledger::prove
+    LagrangianBound::Job lagrangian;
+    std::int64_t work = 0;   // see search/work.h
+    ExpansionCounts counts;  // what this turn added
+  };
+
+  // Does the best there is to do: expands a node, helps another worker with one, goes on with the
+  // primal search or that over joint states for about a millisecond, finds some prices for the
+  // Lagrangian bound, or prepares the next tree.
+  // False: nothing can be done just now.
+  bool turn() {
+    std::optional<Turn> turn = choose();
+    if (!turn) return false;
+    perform(*turn, expander());
+    publish(*turn);
+    commit(*turn);
+    return true;
+  }
+
+  // A turn in four parts: settles what to do (none: there is nothing), does it, makes common what
+  // was found out, and tells. perform() only reads what is shared; several turns that expand nodes
+  // may be performed at the same time, each by another expander. Turns may be published at the
+  // same time.
+  std::optional<Turn> choose();
+  void perform(Turn& turn, Expander& by);
+  static void publish(Turn& turn);
+  void commit(Turn& turn);
+  // Its own expander, made when first asked for. Of one thread; not necessarily the worker's.
+  Expander& expander();
+
+  // Adds what the turns of this worker that were committed have counted. From any thread.
+  void add_counts(Stats& stats) const;
+
+ private:
+  PrimalSearch& primal();
+  void count(const Turn& turn);
+  void expand(Turn& turn, Expander& by) const;
+  void help(Turn& turn, Expander& by);
+  void step_primal(Turn& turn);
+  void step_joint(Turn& turn);
+  void step_lagrangian(Turn& turn);
+  void others_worked(std::int64_t work);
+
+  const Problem& problem_;
+  const SolveOptions& options_;
+  const Limits& limits_;
+  SharedSearch& shared_;
+  const int number_;
+  // Each with what it knows of the agents, for they may be in the hands of different threads. Made
+  // when they are first due.
+  AgentStopsStore expander_stops_;
+  std::unique_ptr<Expander> expander_;
+  AgentStopsStore primal_stops_;
+  std::unique_ptr<PrimalSearch> primal_;
+  const std::unique_ptr<PrimalShare> share_;
+  const std::unique_ptr<JointShare> joint_;
+  std::optional<Pricer> pricer_;  // made when it is first due
+  NodePtr helped_;                // the last node that there was nothing left to help with
+
+  mutable std::mutex counting_;  // guards what was counted:
+  ExpansionCounts of_tree_;
+  PrimalSearch::Counts of_primal_;
+  std::int64_t helps_ = 0;
+  std::int64_t joint_states_ = 0;
+};
+
+}  // namespace grove::detail

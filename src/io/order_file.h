@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Passing orders as files (docs/passing-order.md).
+#pragma once
+
+#include <string>
+
+#include "execution/passing_order.h"
+#include "io/frame.h"
+#include "model/instance.h"
+
+namespace grove::detail {
+
+// One JSON object: what each robot does, where in the world, and what each action waits for.
+std::string order_text(const Instance& instance, const PassingOrder& order, const Frame& frame);
+
+}  // namespace grove::detail

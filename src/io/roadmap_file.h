@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Roadmaps as files (docs/design.md, section 5).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "io/atomic_file.h"
+#include "io/input_rules.h"
+#include "model/roadmap.h"
+
+namespace grove::detail {
+
+// Reads a *.roadmap.json file. Throws InputError on anything malformed, and on unknown keys.
+Roadmap read_roadmap(const std::filesystem::path& path, const InputRules& rules = {});
+// The same of the text of such a file: `name` stands for it in messages.
+Roadmap parse_roadmap(std::string_view text, const std::string& name, const InputRules& rules = {});
+
+// Writes it whole or not at all. Throws InputError when the file cannot be written.
+void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap,
+                   Outlives outlives = Outlives::kMachine);
+
+}  // namespace grove::detail

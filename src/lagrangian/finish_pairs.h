@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// By when two agents cannot both have finished.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "model/limits.h"
+#include "planning/agent_stops_store.h"
+#include "planning/optimal_paths.h"
+#include "planning/pair_dependency.h"
+
+namespace grove::detail {
+
+// Which agent by when, and which other.
+struct FinishPair {
+  AgentIndex a = -1;
+  AgentIndex b = -1;
+  Time finish_a = 0;
+  Time finish_b = 0;
+};
+
+// Compares the sets of all paths of two agents that cost so much. Remembers what it found. For one
+// thread at a time.
+class FinishPairs {
+ public:
+  // Effort on one set and on one comparison; and what all sets may hold.
+  struct Most {
+    std::size_t set_nodes;
+    std::size_t compared_pairs;
+    std::size_t bytes;
+  };
+
+  // All must outlive this.
+  FinishPairs(const World& world, AgentStopsStore& stops, Most most);
+  ~FinishPairs();
+
+  // Proven: no two paths without a collision finish by these times. Not found out: false.
+  bool exclude_each_other(const FinishPair& pair, const Limits& limits);
+  // Later times of which that is so, too: none of the two can be a step later.
+  FinishPair extended(FinishPair pair, const Limits& limits);
+
+  // Nodes of sets and pairs of them looked at so far.
+  std::int64_t work() const { return builder_.nodes() + dependency_.pairs(); }
+
+ private:
+  enum class Known : std::uint8_t { kNot, kExcluded, kNotExcluded };  // 0 first: see Grid
+  struct OfAgent {
+    std::unique_ptr<FreeGoals> goals;
+    Time least = 0;  // it cannot finish before
+    // By how much later; null: too large. Empty: none finishes exactly then.
+    std::vector<std::unique_ptr<OptimalPaths>> sets;
+  };
+
+  static constexpr Time kGrid = 16;  // steps later than the least that are looked at
+  using Grid = std::array<Known, kGrid * kGrid>;
+
+  Known compared(const FinishPair& pair, Time later_a, Time later_b, const Limits& limits);
+  const OptimalPaths* set(AgentIndex agent, Time later, const Limits& limits);
+  OfAgent& of(AgentIndex agent, const Limits& limits);
+
+  const World& world_;
+  AgentStopsStore& stops_;
+  const Most most_;
+  OptimalPathsBuilder builder_;
+  PairDependency dependency_;
+  std::vector<OfAgent> agents_;
+  std::unordered_map<std::uint64_t, Grid> known_;  // by pair
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace grove::detail

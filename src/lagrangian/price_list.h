@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What a round of the Lagrangian bound has found, for those who look for plans.
+#pragma once
+
+#include <numeric>
+#include <vector>
+
+#include "lagrangian/penalized_search.h"
+#include "lagrangian/tariff.h"
+
+namespace grove::detail {
+
+// A tariff, and what each agent pays under it at least. What a plan pays above that, and what it
+// leaves unused of the tariff, make together what it costs above the bound. A value.
+struct PriceList {
+  // Proven: no plan costs less.
+  Price bound() const {
+    return std::accumulate(prices.begin(), prices.end(), -tariff.sum_of_charges());
+  }
+
+  Tariff tariff;
+  std::vector<Price> prices;  // by agent
+  std::vector<Path> paths;    // of those prices; empty where none is known
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// What one process asks another for: the prices of some agents. Values.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lagrangian/tariff.h"
+
+namespace grove::detail {
+
+struct PriceShare {
+  std::int64_t round = 0;
+  std::int32_t first = 0;    // agent
+  std::vector<Price> known;  // as in PriceJob, by agent from the first one on
+  TariffNews news;           // of the round's tariff, since this one was asked last
+};
+
+struct PriceAnswer {
+  std::int64_t round = 0;    // that was asked for
+  std::uint64_t digest = 0;  // of the tariff under which all were found
+  std::int32_t first = 0;
+  std::vector<Price> prices;
+  std::vector<Path> paths;  // empty: there is none cheaper than that which is known
+  std::int64_t work = 0;
+};
+
+}  // namespace grove::detail

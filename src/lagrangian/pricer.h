@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The prices of agents under a tariff, some at one go.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "lagrangian/penalized_search.h"
+#include "lagrangian/tariff.h"
+#include "model/limits.h"
+#include "planning/agent_stops_store.h"
+#include "planning/free_goals.h"
+
+namespace grove::detail {
+
+constexpr std::int64_t kLabelsPerWork = 2;  // see search/work.h
+
+// Agents in a row, and what became of them.
+struct PriceJob {
+  AgentIndex first = 0;
+  AgentIndex end = 0;
+  std::vector<Price> known;  // of a path each has, at least its price; kNoPrice: it has none
+  std::vector<Price> prices;
+  std::vector<Path> paths;  // empty: there is none cheaper
+  std::int64_t work = 0;    // in the unit of search/work.h
+  bool failed = false;      // memory was refused: nothing of it counts
+};
+
+// What one thread prices agents with. Not of those that others have.
+class Pricer {
+ public:
+  // `tariff` must outlive this, and may change between jobs.
+  Pricer(const Tariff& tariff, const AgentStopsStore& stops)
+      : tariff_(tariff), stops_(stops), search_(tariff.penalties()) {}
+
+  // Proven: under the tariff no path of an agent costs less than its price.
+  void perform(PriceJob& job, const Limits& limits);
+
+ private:
+  FreeGoals& goals(AgentIndex agent);
+  Price first_price(AgentIndex agent, const Limits& limits, Path& path);
+  Price price_below(Price below, AgentIndex agent, const Limits& limits, Path& path);
+
+  const Tariff& tariff_;
+  AgentStopsStore stops_;
+  PenalizedSearch search_;
+  std::vector<std::unique_ptr<FreeGoals>> goals_;  // by agent
+};
+
+}  // namespace grove::detail

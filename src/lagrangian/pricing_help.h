@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Prices for a Lagrangian bound that is in another process.
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+#include <optional>
+
+#include "lagrangian/price_share.h"
+#include "lagrangian/pricer.h"
+#include "model/instance.h"
+
+namespace grove::detail {
+
+// A copy of the tariff there, and a share of the agents: one after the other, each a job for any
+// thread. Methods may be called from any thread.
+class PricingHelp {
+ public:
+  // `instance` must outlive this.
+  explicit PricingHelp(const Instance& instance);
+
+  // The next share, when the last one was answered. Throws std::invalid_argument for what cannot be
+  // asked for.
+  void accept(PriceShare share);
+  // The next job; none: all are in hand. Whoever takes one performs and commits it.
+  std::optional<PriceJob> next();
+  bool has_jobs() const;
+  void commit(PriceJob job);
+  // All that was asked for, once, when it is done.
+  std::optional<PriceAnswer> take_answer();
+
+  const Tariff& tariff() const { return tariff_; }
+
+ private:
+  const Instance& instance_;
+  Tariff tariff_;  // changes only when no job is in hand
+  mutable std::mutex mutex_;
+  std::optional<PriceShare> share_;  // not answered yet; under mutex_, as is the rest
+  PriceAnswer answer_;
+  std::size_t next_ = 0;  // of the share
+  std::size_t done_ = 0;
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The grid that agents move on.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/assert.h"
+#include "model/world.h"
+
+namespace grove::detail {
+
+// A cell of a grid as one number: y * width + x. The grid's place, and the state of agents that
+// turn freely.
+using Cell = Place;
+inline constexpr Cell kNoCell = kNoPlace;
+
+// Column x and row y; (0, 0) is the top left cell, y grows downwards.
+struct Position {
+  int x = 0;
+  int y = 0;
+  friend bool operator==(const Position&, const Position&) = default;
+};
+
+// A rectangular 4-connected grid of passable and blocked cells (docs/design.md, section 1).
+// Immutable after construction, so any number of threads may read one.
+class Grid : public World {
+ public:
+  // `passable` holds width * height entries, row by row from the top.
+  // Throws std::invalid_argument when a size is not positive or does not fit.
+  Grid(int width, int height, const std::vector<bool>& passable);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  // All cells, passable or not: cells are numbered 0 .. cell_count() - 1.
+  Cell cell_count() const { return place_count(); }
+  int passable_count() const { return passable_count_; }
+
+  bool contains(Position p) const { return p.x >= 0 && p.x < width_ && p.y >= 0 && p.y < height_; }
+  bool passable(Cell cell) const { return passable_[cell] != 0; }
+  Cell cell(Position p) const {
+    GROVE_ASSERT(contains(p), "a position is on the grid");
+    return p.y * width_ + p.x;
+  }
+  Position position(Cell cell) const { return {cell % width_, cell / width_}; }
+  std::string name(State state) const override;
+
+ private:
+  int width_;
+  int height_;
+  int passable_count_ = 0;
+  std::vector<std::uint8_t> passable_;
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What plans one agent at a time and chooses the order of its tasks: the low level of CBS.
+#pragma once
+
+#include <cstdint>
+
+#include "model/limits.h"
+#include "model/plan.h"
+#include "planning/free_goals.h"
+#include "planning/path_query.h"
+
+namespace grove::detail {
+
+// Grove's own is FreeLowLevelSearch; those of other methods are in the layer `baselines`. Exact,
+// whichever it is. Workspace of one thread: reuse it, do not share it.
+class AgentPlanner {
+ public:
+  AgentPlanner() = default;
+  AgentPlanner(const AgentPlanner&) = delete;
+  AgentPlanner& operator=(const AgentPlanner&) = delete;
+  virtual ~AgentPlanner() = default;
+
+  // Finds a path of least cost from the start at time 0 that realizes some sequence of the class
+  // and obeys the constraints of `query`, if that cost is at most the cutoff. The path ends when
+  // the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. May widen
+  // the completions of `goals`. Throws std::invalid_argument for a query that is none, or not one
+  // for this planner.
+  virtual PathOutcome find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
+                           Path& path) = 0;
+
+  // Labels expanded by all calls so far.
+  virtual std::int64_t expanded() const = 0;
+};
+
+}  // namespace grove::detail

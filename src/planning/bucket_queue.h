@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// The open list of the low level.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "model/assert.h"
+#include "model/grid.h"
+
+namespace grove::detail {
+
+// A priority queue for small integers that never grow smaller: entries come out by *layer* (an f
+// value), then by conflicts, then last in, first out, which dives along a path and so prefers the
+// larger time. All operations are O(1) but for skipping empty layers.
+//
+// Entries live in one pool and are chained into lists: one per conflict count for the layer being
+// emptied, one per layer for the next kWindow layers, one for all layers beyond. Nothing is
+// allocated once the pool has grown to the size of the largest search so far.
+//
+// `Progress` numbers what has been visited: a byte where goals come in a fixed order.
+template <class Progress>
+class BasicBucketQueue {
+ public:
+  struct Entry {
+    std::int32_t slot = 0;
+    Time time = 0;
+    std::uint16_t conflicts = 0;  // at most kMostConflicts
+    Progress progress = 0;
+  };
+  static constexpr std::uint16_t kMostConflicts = 1023;
+
+  BasicBucketQueue() {
+    current_.fill(kNone);
+    window_.fill(kNone);
+  }
+
+  // Empties the queue. Layers before `first` will not be used.
+  void reset(Time first);
+  // `layer` must not be before layer().
+  void push(Time layer, const Entry& entry);
+  // Takes out the next entry; false when there is none.
+  bool pop(Entry& entry);
+  // The layer of the entry that came out last.
+  Time layer() const { return layer_; }
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  static constexpr Time kWindow = 1024;
+
+  struct Node {
+    Entry entry;
+    Time layer;
+    std::int32_t next;
+  };
+
+  void chain(std::int32_t& head, std::int32_t node) {
+    pool_[node].next = head;
+    head = node;
+  }
+  void place(std::int32_t node);
+  void place_all(std::int32_t& head);
+  bool next_layer();
+  bool move_window();
+
+  Time layer_ = 0;
+  Time window_begin_ = 0;
+  Time window_used_ = 0;  // lists of window_ from here on are empty
+  int level_ = 0;         // lists of current_ before this one are empty
+  int levels_used_ = 0;   // and those from here on
+  std::array<std::int32_t, kMostConflicts + 1> current_;  // heads by conflicts
+  std::array<std::int32_t, kWindow> window_;              // heads by layer - window_begin_
+  std::int32_t beyond_ = kNone;
+  std::vector<Node> pool_;
+};
+
+using BucketQueue = BasicBucketQueue<std::uint8_t>;
+
+template <class Progress>
+inline void BasicBucketQueue<Progress>::reset(Time first) {
+  std::fill_n(current_.begin(), levels_used_, kNone);
+  std::fill_n(window_.begin(), window_used_, kNone);
+  beyond_ = kNone;
+  pool_.clear();
+  layer_ = window_begin_ = first;
+  window_used_ = 0;
+  level_ = levels_used_ = 0;
+}
+
+template <class Progress>
+inline void BasicBucketQueue<Progress>::push(Time layer, const Entry& entry) {
+  GROVE_ASSERT(layer >= layer_, "layers never grow smaller");
+  GROVE_ASSERT(entry.conflicts <= kMostConflicts, "conflicts are counted up to a limit");
+  pool_.push_back({entry, layer, kNone});
+  place(static_cast<std::int32_t>(pool_.size() - 1));
+}
+
+template <class Progress>
+inline void BasicBucketQueue<Progress>::place(std::int32_t node) {
+  const Node& n = pool_[node];
+  if (n.layer == layer_) {
+    chain(current_[n.entry.conflicts], node);
+    level_ = std::min<int>(level_, n.entry.conflicts);
+    levels_used_ = std::max(levels_used_, n.entry.conflicts + 1);
+  } else if (n.layer - window_begin_ < kWindow) {
+    chain(window_[n.layer - window_begin_], node);
+    window_used_ = std::max(window_used_, n.layer - window_begin_ + 1);
+  } else {
+    chain(beyond_, node);
+  }
+}
+
+template <class Progress>
+inline bool BasicBucketQueue<Progress>::pop(Entry& entry) {
+  for (;;) {
+    for (; level_ < levels_used_; ++level_) {
+      const std::int32_t node = current_[level_];
+      if (node == kNone) continue;
+      current_[level_] = pool_[node].next;
+      entry = pool_[node].entry;
+      return true;
+    }
+    if (!next_layer()) return false;
+  }
+}
+
+template <class Progress>
+inline void BasicBucketQueue<Progress>::place_all(std::int32_t& head) {
+  std::int32_t node = head;
+  head = kNone;
+  while (node != kNone) {
+    const std::int32_t next = pool_[node].next;
+    place(node);
+    node = next;
+  }
+}
+
+template <class Progress>
+inline bool BasicBucketQueue<Progress>::next_layer() {
+  level_ = levels_used_ = 0;
+  for (Time offset = layer_ - window_begin_; offset < window_used_; ++offset) {
+    if (window_[offset] == kNone) continue;
+    layer_ = window_begin_ + offset;
+    place_all(window_[offset]);
+    return true;
+  }
+  return move_window();
+}
+
+// The window is empty: let it begin at the first layer beyond it.
+template <class Progress>
+inline bool BasicBucketQueue<Progress>::move_window() {
+  if (beyond_ == kNone) return false;
+  Time first = kNever;
+  for (std::int32_t node = beyond_; node != kNone; node = pool_[node].next)
+    first = std::min(first, pool_[node].layer);
+  layer_ = window_begin_ = first;
+  window_used_ = 0;
+  place_all(beyond_);
+  return true;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Of all paths of one cost, one that is least in the others' way.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/plan.h"
+#include "planning/conflict_avoidance_table.h"
+#include "planning/optimal_paths.h"
+
+namespace grove::detail {
+
+// Breaks ties among equally cheap paths. Holds the workspace of one thread.
+class FewestConflicts {
+ public:
+  // Writes the path of `paths` (not empty) that has the fewest conflicts with `others`, as
+  // ConflictAvoidanceTable::conflicts_of counts them. O(edges of `paths`).
+  void find(const OptimalPaths& paths, const ConflictAvoidanceTable& others, Path& path);
+
+  // Nodes of the paths looked at so far.
+  std::int64_t nodes() const { return nodes_; }
+
+ private:
+  using NodeId = OptimalPaths::NodeId;
+  static constexpr NodeId kNoNode = -1;
+  struct Best {
+    std::int32_t conflicts;
+    NodeId next;
+  };
+
+  Best best_step(const OptimalPaths& paths, NodeId node,
+                 ConflictAvoidanceTable::Comers comers) const;
+
+  std::vector<Best> best_;  // from each node to the end
+  std::int64_t nodes_ = 0;
+};
+
+}  // namespace grove::detail

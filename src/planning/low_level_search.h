@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The low level of CBS with goals in a fixed order: a shortest path of one agent through them under
+// constraints.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "model/limits.h"
+#include "model/plan.h"
+#include "planning/goal_sequence.h"
+#include "planning/path_query.h"
+
+namespace grove::detail {
+
+// Safe-interval path planning (Phillips and Likhachev 2011) with one label per (cell, safe
+// interval, progress). The proofs are at the heads of safe_interval_search.h and goals_in_turn.h.
+// Holds the workspace of one thread: reuse it, do not share it.
+class LowLevelSearch {
+ public:
+  // `world` must outlive this.
+  explicit LowLevelSearch(const World& world);
+  ~LowLevelSearch();
+
+  // Finds a path of least cost from goals.start() at time 0 that visits the goals in order and
+  // obeys the constraints of `query`, if that cost is at most the cutoff. The path ends when the
+  // agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. Throws
+  // std::invalid_argument for more than 255 goals, constraints that are none on a path of this
+  // world, and reservations.
+  PathOutcome find(const GoalSequence& goals, const PathQuery& query, const Limits& limits,
+                   Path& path);
+
+  // Labels expanded by all calls so far.
+  std::int64_t expanded() const;
+
+ private:
+  class Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What was found out about agents, as values that mean the same in every process of a run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "search/excesses.h"
+#include "search/memory.h"
+#include "search/node.h"
+#include "search/packed_constraints.h"
+#include "search/situations.h"
+
+namespace grove::detail {
+
+// An agent with the order of visits that it has in a tree, under constraints.
+struct AgentSituation {
+  std::uint32_t tree = 0;
+  AgentIndex agent = -1;
+  PackedConstraints constraints;  // in canonical order
+
+  friend bool operator==(const AgentSituation&, const AgentSituation&) = default;
+};
+
+// What one agent costs, or by how much several cost more together than each alone.
+struct Fact {
+  std::vector<AgentSituation> agents;  // one or more, in ascending order of agents
+  Situations::Known cost;              // of one agent,
+  Excesses::Known excess;              // of several
+
+  // How much there is to gain by telling it: what took long to find out, raises a bound, and comes
+  // up again, as few constraints do more often than many.
+  double worth() const;
+};
+
+// The trees that facts are about. Of one thread.
+class TreesOfFacts {
+ public:
+  // `tree` must outlive this.
+  void add(const Tree& tree);
+  // Null: none here.
+  const Tree* of(const AgentOrder& order) const;
+  const Tree* numbered(std::uint32_t number) const;
+
+ private:
+  std::map<const AgentOrder*, const Tree*> by_order_;
+  std::map<std::uint32_t, const Tree*> by_number_;
+};
+
+// News of `memory`, as facts; but for what is of no tree in `trees`.
+std::vector<Fact> facts_of(const News& news, const CommonMemory& memory, const TreesOfFacts& trees);
+
+// Adds a fact to what `memory` knows, unless it is of a tree that is not known here. Throws
+// std::invalid_argument, and learns nothing, for what cannot be: no agent, one that is not there,
+// or agents in another order.
+void learn(Fact fact, const TreesOfFacts& trees, CommonMemory& memory);
+
+}  // namespace grove::detail

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// What was found out about agents, pairs and groups in the course of a search.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "search/excesses.h"
+#include "search/path_planner.h"
+#include "search/path_sets.h"
+#include "search/situations.h"
+
+namespace grove::detail {
+
+// What one worker found out, until it is common. Values; the numbers are those of one common
+// memory.
+struct FoundOut {
+  using Id = Situations::Id;
+  struct Pair {
+    Id first;
+    Id second;
+    AgentIndex agent;
+    Excesses::Known known;
+  };
+  std::unordered_map<Id, Situations::Known> costs;
+  std::unordered_map<Id, PathSets::Set> sets;  // all that were asked for
+  // Few at a time.
+  std::vector<Pair> pairs;
+  std::vector<Excesses::Group> groups;
+};
+
+// What workers found out lately that nobody here knew before; see FoundOut. Values.
+struct News {
+  std::vector<std::pair<Situations::Id, Situations::Known>> costs;
+  std::vector<FoundOut::Pair> pairs;
+  std::vector<Excesses::Group> groups;
+};
+
+// What all workers know. Thread-safe; nothing is ever taken back, so whoever wants it forgotten
+// starts another one.
+struct CommonMemory {
+  CommonMemory() = default;
+  // Takes the place of one that was full.
+  struct Successor {};
+  explicit CommonMemory(Successor /*successor*/) : follows_another(true) {}
+
+  Situations situations;
+  PathSets path_sets;
+  Excesses excesses{situations};
+  // What is found out may have to be forgotten again before it is of use.
+  const bool follows_another = false;
+  // Of this one alone among all that there were in this process.
+  const std::int64_t number = next_number();
+
+  // Adds this. Workers may do so at the same time: it does not matter who is first.
+  void learn(const FoundOut& found);
+  // What was news of that, from the first call on, since the last call.
+  News take_news();
+
+  // Forgets what there is too much of, and can be found again.
+  void trim() { path_sets.trim(); }
+  std::size_t bytes() const { return situations.bytes() + path_sets.bytes() + excesses.bytes(); }
+
+ private:
+  static std::int64_t next_number();
+
+  std::atomic<bool> keeps_news_{false};
+  std::mutex news_mutex_;
+  News news_;
+};
+
+// What one worker knows: the common memory, and what it has found out that is not common yet. So
+// what others find out at the same time does not reach it before it asks, and a worker that is
+// given the same common memory does the same again, whatever the others do meanwhile. Of one
+// thread.
+class Memory {
+ public:
+  using Id = Situations::Id;
+
+  // `planner` must outlive this. Sets of optimal paths have `most_set_nodes` or are not made.
+  Memory(PathPlanner& planner, std::shared_ptr<CommonMemory> common, std::int64_t most_set_nodes)
+      : planner_(planner), common_(std::move(common)), most_set_nodes_(most_set_nodes) {}
+
+  // Hands over what was found out since the last time; it is not known here any more until it is
+  // common.
+  FoundOut take_found() { return std::exchange(found_, {}); }
+  // Turns to this common memory. If it is another one, what was not handed over is forgotten, and
+  // so are all numbers.
+  void turn_to(std::shared_ptr<CommonMemory> common);
+  const std::shared_ptr<CommonMemory>& common() const { return common_; }
+  // Changes with the common memory: numbers of situations are good as long as this is the same.
+  std::int64_t numbering() const { return common_->number; }
+
+  // As those of Situations.
+  Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints) {
+    ++asked_;
+    return common_->situations.id(agent, order, constraints);
+  }
+  // Situations that were asked about so far, and groups that were looked at for an answer.
+  std::int64_t asked() const { return asked_; }
+  std::int64_t groups_asked() const { return groups_asked_; }
+  // Sets of optimal paths that were asked for so far, and those of them that had been made.
+  std::int64_t sets_asked() const { return sets_asked_; }
+  std::int64_t sets_known() const { return sets_known_; }
+  Situations::Known known(Id id) const;
+  void learn(Id id, Situations::Known known) { found_.costs[id] = known; }
+
+  // As PathSets::find; valid until take_found().
+  const OptimalPaths* paths(Id id, AgentIndex agent, const AgentOrder& order,
+                            std::span<const Constraint> constraints, Time cost,
+                            const Limits& limits);
+
+  // As those of Excesses. Partners and groups come in any order, perhaps more than once.
+  Excesses::Known of_pair(Id first, Id second) const;
+  void learn_pair(Id first, Id second, AgentIndex agent, Excesses::Known known);
+  void partners(Id first, std::vector<Excesses::Partner>& partners) const;
+  Excesses::Known of_group(const std::vector<Id>& situations) const;
+  void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
+                   Excesses::Known known);
+  template <class Use>
+  void groups_at(const std::vector<Id>& now, Use use) const {
+    groups_asked_ += common_->excesses.groups_at(now, use);
+    for (const Excesses::Group& group : found_.groups)
+      if (group.is_at(now)) use(group);
+  }
+
+ private:
+  PathPlanner& planner_;
+  std::shared_ptr<CommonMemory> common_;
+  const std::int64_t most_set_nodes_;
+  std::int64_t asked_ = 0;
+  mutable std::int64_t groups_asked_ = 0;
+  std::int64_t sets_asked_ = 0;
+  std::int64_t sets_known_ = 0;
+  FoundOut found_;
+};
+
+}  // namespace grove::detail

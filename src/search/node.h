@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// Constraint-tree nodes and the trees they belong to.
+#pragma once
+
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "conflicts/conflict.h"
+#include "model/assert.h"
+#include "model/omega.h"
+#include "planning/goal_sequence.h"
+#include "search/node_pool.h"
+#include "search/packed_path.h"
+#include "search/problem.h"
+#include "sequencing/rtsp.h"
+
+namespace grove::detail {
+
+// What a tree fixes about one agent's order of visits, and the agent's best path when nobody else
+// is there. Immutable; shared by all trees that fix the same.
+struct AgentOrder {
+  SequenceClass sequences;            // the paper's forest: a complete prefix
+  std::optional<GoalSequence> goals;  // of a complete prefix; else the low level chooses the order
+  PackedPath path;                    // shortest for `sequences`, no constraints
+};
+
+// One tree of the forest: a class of joint task sequences. Immutable; outlives its nodes.
+struct Tree {
+  const World* world = nullptr;                           // in which its agents move
+  NodePool* pool = nullptr;                               // where its nodes live
+  std::uint32_t number = 0;                               // from 0, in the order of instantiation
+  std::vector<std::shared_ptr<const AgentOrder>> orders;  // by AgentIndex
+};
+
+class Node;
+
+// Shared ownership of a node. Copies may be made and dropped by different threads.
+class NodePtr {
+ public:
+  NodePtr() = default;
+  NodePtr(std::nullptr_t) {}
+  explicit NodePtr(const Node* node);  // shares
+  NodePtr(const NodePtr& other) : NodePtr(other.node_) {}
+  NodePtr(NodePtr&& other) noexcept : node_(std::exchange(other.node_, nullptr)) {}
+  NodePtr& operator=(NodePtr other) noexcept {
+    std::swap(node_, other.node_);
+    return *this;
+  }
+  ~NodePtr();
+
+  const Node& operator*() const { return *operator->(); }
+  const Node* operator->() const {
+    GROVE_ASSERT(node_, "there is a node");
+    return node_;
+  }
+  const Node* get() const { return node_; }
+  explicit operator bool() const { return node_ != nullptr; }
+  friend bool operator==(const NodePtr& a, const NodePtr& b) { return a.node_ == b.node_; }
+
+  // Forgets the node without giving it up: its memory is freed with its pool.
+  void abandon() { node_ = nullptr; }
+
+ private:
+  const Node* node_ = nullptr;
+};
+
+// An agent and the path it takes.
+struct NewPath {
+  AgentIndex agent = -1;
+  const Path* path = nullptr;
+};
+
+// What a child adds to its parent.
+struct Change {
+  AgentConstraint added;           // agent -1: no constraint
+  std::span<const NewPath> paths;  // of the agents that do not go on as they did
+  Cost cost = 0;                   // the sum of all agents' costs then
+  Cost bound = 0;                  // proven for all plans that obey the child's constraints
+  std::uint32_t conflicts = 0;     // among its paths: a measure of how far from a plan it is
+  bool bounded = false;            // the bound has been raised as far as its kind of node is worth
+};
+
+// A node of a constraint tree (CBS; Sharon et al. 2015): its parent's constraints and at most one
+// more, and the paths that changed, packed behind the object. A constraint kRestBy of one agent
+// bars all others from the cell from its `end` on. Immutable once made, so threads may share it.
+// Lives in its tree's pool, about 150 bytes at 150 steps a path.
+class Node {
+ public:
+  // The root of `tree`, no constraints.
+  static NodePtr root(const Tree& tree);
+  // Its bound is the greatest of its parent's, its cost and the one given.
+  static NodePtr child(const NodePtr& parent, const Change& change);
+
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  // Proven: every plan of the tree that obeys this node's constraints costs at least this.
+  Cost bound() const { return bound_; }
+  // Sum of the costs of the paths at this node.
+  Cost cost() const { return cost_; }
+  // See Change.
+  std::uint32_t conflicts() const { return conflicts_; }
+  bool is_bounded() const { return bounded_; }
+  const Tree& tree() const { return *tree_; }
+  bool is_root() const { return !parent_; }
+  // Null at a root.
+  const Node* parent() const { return parent_.get(); }
+  // What it demands beyond its parent; agent -1: nothing.
+  const AgentConstraint& added() const { return added_; }
+  // Calls visit(agent, packed steps) for each path that is not its parent's. The steps are valid as
+  // long as the node is.
+  template <class Visit>
+  void for_each_path(Visit visit) const {
+    const auto* word = reinterpret_cast<const std::uint64_t*>(this + 1);
+    for (std::uint32_t i = 0; i < path_count_; ++i) {
+      const auto head = std::bit_cast<PathHead>(*word++);
+      visit(head.agent, PackedSteps{head.steps, word});
+      word += packed_words(*tree_->world, head.steps);
+    }
+  }
+
+  // The paths at this node of all agents, or of some (the others' are left empty); `paths` is
+  // resized to the number of agents. O(depth + total length).
+  void paths(const Problem& problem, std::vector<Path>& paths) const;
+  void paths(const Problem& problem, std::span<const AgentIndex> agents,
+             std::vector<Path>& paths) const;
+  // The constraints on `agent` at this node, appended. O(depth).
+  void constraints(AgentIndex agent, std::vector<Constraint>& constraints) const;
+  // The same for all agents at once: `constraints` is resized to their number.
+  void constraints(std::vector<std::vector<Constraint>>& constraints) const;
+
+ private:
+  friend class NodePtr;
+  // Before each packed path.
+  struct PathHead {
+    AgentIndex agent;
+    std::uint32_t steps;
+  };
+  static_assert(sizeof(PathHead) == sizeof(std::uint64_t));
+
+  Node(NodePtr parent, const Tree& tree, const Change& change)
+      : path_count_(static_cast<std::uint32_t>(change.paths.size())),
+        parent_(std::move(parent)),
+        tree_(&tree),
+        bound_(change.bound),
+        cost_(change.cost),
+        added_(change.added),
+        conflicts_(change.conflicts),
+        bounded_(change.bounded) {}
+
+  static std::size_t bytes(const World& world, std::span<const NewPath> paths);
+  std::size_t bytes() const;
+  static void release(const Node* node);
+
+  mutable std::atomic<std::uint32_t> references_{0};
+  std::uint32_t path_count_;
+  mutable NodePtr parent_;  // null at a root
+  const Tree* tree_;
+  Cost bound_;
+  Cost cost_;
+  AgentConstraint added_;  // agent -1: none
+  std::uint32_t conflicts_;
+  bool bounded_;
+};
+
+inline NodePtr::NodePtr(const Node* node) : node_(node) {
+  if (node_) node_->references_.fetch_add(1, std::memory_order_relaxed);
+}
+
+inline NodePtr::~NodePtr() {
+  if (node_) Node::release(node_);
+}
+
+// The goals of an agent that visits all its stops in this order; see GoalSequence.
+GoalSequence goals_in_order(const Problem& problem, AgentIndex agent, const Sequence& sequence);
+
+}  // namespace grove::detail

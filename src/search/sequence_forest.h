@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The trees of the forest, in the order of their joint sequences' costs (paper, Algorithms 1 and
+// 4).
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "model/limits.h"
+#include "planning/conflict_avoidance_table.h"
+#include "planning/low_level_search.h"
+#include "search/forest.h"
+#include "sequencing/cost_matrix.h"
+#include "sequencing/k_best_joint_sequences.h"
+
+namespace grove::detail {
+
+// The fixed policy: instantiates one tree per joint task sequence, best first.
+class SequenceForest : public Forest {
+ public:
+  // `problem`, `pool` - where the nodes of its trees will live - and `limits` must outlive the
+  // forest. Builds the cost matrices; tables and sequences come with the first questions.
+  SequenceForest(const Problem& problem, NodePool& pool, RtspBackend backend, const Limits& limits);
+
+  Cost next_bound() const override;
+  NodePtr next_root() override;
+  std::int64_t rtsp_calls() const override { return sequences_.rtsp_calls(); }
+
+ private:
+  std::shared_ptr<const AgentOrder>& slot(AgentIndex agent, std::uint32_t rank);
+  bool plan_missing_orders(const JointSequence& joint);
+  bool plan_order(AgentIndex agent, std::uint32_t rank);
+  void avoid(AgentIndex agent, const PackedSteps& path);
+
+  const Problem& problem_;
+  NodePool& pool_;
+  const Limits& limits_;
+  std::vector<CostMatrix> matrices_;
+  KBestJointSequences sequences_;
+  std::optional<JointSequence> pending_;  // taken from sequences_, not yet a tree
+  std::vector<std::vector<std::shared_ptr<const AgentOrder>>> orders_;  // by agent, then rank
+  LowLevelSearch low_level_;
+  ConflictAvoidanceTable others_;
+  Path path_;
+  std::deque<Tree> trees_;
+  std::uint32_t count_ = 0;  // of those instantiated
+};
+
+}  // namespace grove::detail

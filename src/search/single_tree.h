@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The free policy: one tree for all sequences.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "model/limits.h"
+#include "planning/agent_planner.h"
+#include "planning/agent_stops_store.h"
+#include "search/forest.h"
+
+namespace grove::detail {
+
+// A forest of one tree that fixes nothing: each agent's class is empty-prefixed, so it holds every
+// sequence, and the low level chooses the order. No plan lies outside it.
+class SingleTree : public Forest {
+ public:
+  // All must outlive this; `stops` may be shared with others of the same thread. `planner` plans
+  // the root's paths; null: Grove's own low level.
+  SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool, const Limits& limits,
+             std::unique_ptr<AgentPlanner> planner = nullptr);
+
+  Cost next_bound() const override { return tree_.empty() ? relaxed_bound_ : kInfiniteCost; }
+  NodePtr next_root() override;
+  std::int64_t rtsp_calls() const override { return 0; }
+
+ private:
+  const Problem& problem_;
+  AgentStopsStore& stops_;
+  NodePool& pool_;
+  const Limits& limits_;
+  std::unique_ptr<AgentPlanner> planner_;  // until there is a root
+  Cost relaxed_bound_ = 0;                 // the agents' relaxation bounds, summed up
+  std::deque<Tree> tree_;                  // none or one
+};
+
+}  // namespace grove::detail
