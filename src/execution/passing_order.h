@@ -70,7 +70,7 @@ class PassingOrder {
   std::vector<Action> actions_;
   std::vector<ActionIndex> first_{0};  // by agent; one more at the end
   std::vector<ActionIndex> after_;
-  Rows steps_;
+  CsrArray steps_;
   std::int64_t waits_ = 0;
   std::int64_t transitive_waits_ = 0;
   std::int64_t rings_ = 0;

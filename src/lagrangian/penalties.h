@@ -71,7 +71,7 @@ class Penalties {
   const State* first_move_;  // of all states
   std::vector<Arc> first_arc_;
   std::vector<Arc> arc_of_move_;
-  Rows arcs_to_;
+  CsrArray arcs_to_;
   std::size_t arcs_ = 0;
   std::vector<std::vector<std::uint32_t>> pages_of_time_;  // 0: nothing is penalised there
   std::vector<Amount> pages_;

@@ -18,9 +18,9 @@ void require_valid_size(int width, int height, std::size_t cells) {
 }
 
 // The passable cells one move away from each.
-Rows moves_on(int width, int height, const std::vector<bool>& passable) {
+CsrArray moves_on(int width, int height, const std::vector<bool>& passable) {
   require_valid_size(width, height, passable.size());
-  Rows moves;
+  CsrArray moves;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Cell here = y * width + x;

@@ -126,7 +126,7 @@ Heading left_of(Heading heading) {
 struct MotionWorld::Parts {
   std::vector<Kind> kinds;
   std::vector<Work> work;
-  Rows moves;
+  CsrArray moves;
 };
 
 MotionWorld::Parts MotionWorld::parts(const Map& map, std::span<const Motion> motions,

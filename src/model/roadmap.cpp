@@ -37,7 +37,7 @@ Place on_road(const Road& road, Place first_inner, Time steps) {
   return steps == road.steps ? road.to : first_inner + steps - 1;
 }
 
-Rows moves_on(const std::vector<Road>& roads, std::size_t vertices) {
+CsrArray moves_on(const std::vector<Road>& roads, std::size_t vertices) {
   const std::vector<Place> first_inner = inner_places(roads, vertices);
   std::vector<std::vector<Place>> moves(static_cast<std::size_t>(first_inner.back()));
   const auto add = [&](Place from, Place to) {
@@ -50,7 +50,7 @@ Rows moves_on(const std::vector<Road>& roads, std::size_t vertices) {
       add(here, next);
       if (!roads[r].one_way) add(next, here);
     }
-  Rows rows;
+  CsrArray rows;
   for (const auto& row : moves) {
     for (const Place to : row) rows.add(to);
     rows.end_row();

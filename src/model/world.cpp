@@ -8,7 +8,7 @@ namespace grove::detail {
 namespace {
 
 // Who leads to whom, the other way round; lists in ascending order.
-Rows reversed(const Rows& rows) {
+CsrArray reversed(const CsrArray& rows) {
   std::vector<std::int32_t> first(static_cast<std::size_t>(rows.count()) + 1);
   for (const std::int32_t to : rows.items()) ++first[static_cast<std::size_t>(to) + 1];
   for (std::size_t row = 1; row < first.size(); ++row) first[row] += first[row - 1];
@@ -16,7 +16,7 @@ Rows reversed(const Rows& rows) {
   std::vector<std::int32_t> next(first.begin(), first.end() - 1);
   for (std::int32_t from = 0; from < rows.count(); ++from)
     for (const std::int32_t to : rows[from]) back[next[to]++] = from;
-  Rows result;
+  CsrArray result;
   for (std::size_t row = 0; row + 1 < first.size(); ++row) {
     for (std::int32_t i = first[row]; i < first[row + 1]; ++i) result.add(back[i]);
     result.end_row();
@@ -24,15 +24,15 @@ Rows reversed(const Rows& rows) {
   return result;
 }
 
-bool same_sets(const Rows& a, const Rows& b) {
+bool same_sets(const CsrArray& a, const CsrArray& b) {
   for (std::int32_t row = 0; row < a.count(); ++row)
     if (!std::ranges::is_permutation(a[row], b[row])) return false;
   return true;
 }
 
 // The lists of both, each entry once.
-Rows joined(const Rows& a, const Rows& b) {
-  Rows both;
+CsrArray joined(const CsrArray& a, const CsrArray& b) {
+  CsrArray both;
   for (std::int32_t row = 0; row < a.count(); ++row) {
     for (const std::int32_t item : a[row]) both.add(item);
     for (const std::int32_t item : b[row])
@@ -42,7 +42,7 @@ Rows joined(const Rows& a, const Rows& b) {
   return both;
 }
 
-int longest_row(const Rows& rows) {
+int longest_row(const CsrArray& rows) {
   std::size_t longest = 0;
   for (std::int32_t row = 0; row < rows.count(); ++row)
     longest = std::max(longest, rows[row].size());
@@ -51,12 +51,12 @@ int longest_row(const Rows& rows) {
 
 }  // namespace
 
-World::World(Rows moves)
+World::World(CsrArray moves)
     : places_(moves.count()),
       most_moves_(longest_row(moves)),
       first_working_(moves.count()),
       moves_(std::move(moves)) {
-  Rows back = reversed(moves_);
+  CsrArray back = reversed(moves_);
   is_symmetric_ = same_sets(moves_, back);
   if (is_symmetric_) return;
   neighbors_ = joined(moves_, back);
@@ -64,14 +64,14 @@ World::World(Rows moves)
   moves_back_ = std::move(back);
 }
 
-World::World(Rows moves, Place row_width)
+World::World(CsrArray moves, Place row_width)
     : places_(moves.count()),
       row_width_(row_width),
       most_moves_(longest_row(moves)),
       first_working_(moves.count()),
       moves_(std::move(moves)) {}
 
-World::World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, Rows moves)
+World::World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, CsrArray moves)
     : places_(ground.place_count()),
       row_width_(ground.row_width()),
       most_moves_(longest_row(moves)),

@@ -28,7 +28,7 @@ inline constexpr Time kNever = 1 << 30;
 using TaskIndex = std::int32_t;  // position in Instance::tasks()
 
 // Lists of numbers, one after the other in one array.
-class Rows {
+class CsrArray {
  public:
   // Appends to the row under way, and ends it.
   void add(std::int32_t item) { items_.push_back(item); }
@@ -149,12 +149,12 @@ class World {
   };
 
   // One state for each place; moves by place.
-  explicit World(Rows moves);
+  explicit World(CsrArray moves);
   // The same for the cells of a grid, so many in a row, with moves that can all be undone.
-  World(Rows moves, Place row_width);
+  World(CsrArray moves, Place row_width);
   // The places of another world, with further kinds of states, and states at work. Moves by state;
   // `work` is of the states behind those of all kinds.
-  World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, Rows moves);
+  World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, CsrArray moves);
 
  private:
   int rank_of(State state) const;
@@ -168,10 +168,10 @@ class World {
   bool is_symmetric_ = true;
   bool has_other_neighbors_ = false;
   State first_working_;
-  Rows moves_;       // by state
-  Rows moves_back_;  // by state, unless they are the same
-  Rows neighbors_;   // by place, unless they are the moves of the states
-  Rows working_;     // by place: the states at work there, if any state is not its place
+  CsrArray moves_;       // by state
+  CsrArray moves_back_;  // by state, unless they are the same
+  CsrArray neighbors_;   // by place, unless they are the moves of the states
+  CsrArray working_;     // by place: the states at work there, if any state is not its place
   std::vector<Place> place_of_;  // of the states that are not their place
   std::vector<Kind> kinds_{Kind{}};
   std::vector<Work> work_;               // of the states from first_working_ on
