@@ -107,12 +107,12 @@ class Walker {
   }
 
   // None: there is no memory left for what is too far for 16 bits.
-  std::optional<KeptField> field(std::span<const State> targets, const Limits& limits) {
+  std::optional<CompactDistanceField> field(std::span<const State> targets, const Limits& limits) {
     std::vector<std::uint16_t> distances(queue_.size(), Distances::kShortNever);
     if (walk(targets, Distances::kShortNever, distances.data()))
-      return KeptField(std::move(distances));
+      return CompactDistanceField(std::move(distances));
     if (!limits.memory_allows(queue_.size() * sizeof(Time))) return std::nullopt;
-    return KeptField(walk(targets));
+    return CompactDistanceField(walk(targets));
   }
 
   // Into memory that is there already. False: 16 bits are not enough.
@@ -193,13 +193,13 @@ DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, i
       if (fields_[set]) continue;
       if (limits.stop_requested()) return;
       if (const std::byte* made = array(ArrayKind::kDistances, set).await(limits)) {
-        fields_[set] =
-            std::make_shared<const KeptField>(reinterpret_cast<const std::uint16_t*>(made));
+        fields_[set] = std::make_shared<const CompactDistanceField>(
+            reinterpret_cast<const std::uint16_t*>(made));
         continue;
       }
       auto field = walker.field(targets.sets[set], limits);
       if (!field) return limits.memory_exhausted();
-      fields_[set] = std::make_shared<const KeptField>(std::move(*field));
+      fields_[set] = std::make_shared<const CompactDistanceField>(std::move(*field));
     }
   });
   if (std::ranges::count(fields_, nullptr) > 0) return;

@@ -27,7 +27,7 @@ DistanceField distance_field(const World& world, std::span<const State> targets)
 DistanceField distance_field(const World& world, Place target);
 
 // A distance field as it is kept, in half the memory where nothing is further than 65,534 steps. A
-// view of what a KeptField holds.
+// view of what a CompactDistanceField holds.
 class Distances {
  public:
   Distances() = default;  // none
@@ -46,7 +46,7 @@ class Distances {
   static constexpr std::uint16_t kShortNever = 0xFFFF;
 
  private:
-  friend class KeptField;
+  friend class CompactDistanceField;
   Distances(const std::uint16_t* in_short, const Time* in_long)
       : short_(in_short), long_(in_long) {}
 
@@ -54,14 +54,15 @@ class Distances {
   const Time* long_ = nullptr;
 };
 
-class KeptField {
+class CompactDistanceField {
  public:
-  KeptField() = default;
+  CompactDistanceField() = default;
   // kShortNever stands for kNever.
-  explicit KeptField(std::vector<std::uint16_t> distances) : short_(std::move(distances)) {}
-  explicit KeptField(DistanceField distances) : long_(std::move(distances)) {}
+  explicit CompactDistanceField(std::vector<std::uint16_t> distances)
+      : short_(std::move(distances)) {}
+  explicit CompactDistanceField(DistanceField distances) : long_(std::move(distances)) {}
   // In memory that somebody else owns, and that must outlive this.
-  explicit KeptField(const std::uint16_t* distances) : elsewhere_(distances) {}
+  explicit CompactDistanceField(const std::uint16_t* distances) : elsewhere_(distances) {}
 
   Distances distances() const {
     if (elsewhere_) return {elsewhere_, nullptr};
@@ -114,7 +115,7 @@ class DistanceFields {
   }
 
  private:
-  using FieldPtr = std::shared_ptr<const KeptField>;
+  using FieldPtr = std::shared_ptr<const CompactDistanceField>;
   FieldPtr field_to(Place place, const DistanceFields* known) const;
 
   const SharedArrays* arrays_ = nullptr;  // null: fields_ own their memory
