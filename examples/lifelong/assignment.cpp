@@ -11,9 +11,9 @@ namespace {
 constexpr int kFar = std::numeric_limits<int>::max();
 
 // Steps from every cell to one, by breadth-first search; kFar from where there is no way.
-class Distances {
+class DistanceView {
  public:
-  Distances(const grove::World& world, grove::Cell to)
+  DistanceView(const grove::World& world, grove::Cell to)
       : width_(world.width()),
         steps_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(world.height()), kFar) {
     std::deque<grove::Cell> next{to};
@@ -58,7 +58,7 @@ Given Assignment::give(const grove::Instance& now) {
       ++errand;
       continue;
     }
-    Distances distances(world_, errand->cell);
+    DistanceView distances(world_, errand->cell);
     const auto nearest = std::ranges::min_element(
         free, {}, [&](const auto* robot) { return distances.from(*robot); });
     given.emplace_back((*nearest)->id, *errand);

@@ -108,8 +108,8 @@ class Walker {
 
   // None: there is no memory left for what is too far for 16 bits.
   std::optional<CompactDistanceField> field(std::span<const State> targets, const Limits& limits) {
-    std::vector<std::uint16_t> distances(queue_.size(), Distances::kShortNever);
-    if (walk(targets, Distances::kShortNever, distances.data()))
+    std::vector<std::uint16_t> distances(queue_.size(), DistanceView::kShortNever);
+    if (walk(targets, DistanceView::kShortNever, distances.data()))
       return CompactDistanceField(std::move(distances));
     if (!limits.memory_allows(queue_.size() * sizeof(Time))) return std::nullopt;
     return CompactDistanceField(walk(targets));
@@ -117,8 +117,8 @@ class Walker {
 
   // Into memory that is there already. False: 16 bits are not enough.
   bool fill(std::span<const State> targets, std::uint16_t* distances) {
-    std::fill_n(distances, queue_.size(), Distances::kShortNever);
-    return walk(targets, Distances::kShortNever, distances);
+    std::fill_n(distances, queue_.size(), DistanceView::kShortNever);
+    return walk(targets, DistanceView::kShortNever, distances);
   }
 
  private:
@@ -207,7 +207,7 @@ DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, i
     if (map_ && targets.places[set] != kNoPlace)
       to_place_.emplace(targets.places[set], fields_[set]);
   const auto distances = [&](int set) {
-    return set == Targets::kNone ? Distances() : fields_[set]->distances();
+    return set == Targets::kNone ? DistanceView() : fields_[set]->distances();
   };
   for (const int set : targets.of_tasks) by_task_.push_back(distances(set));
   for (const int set : targets.of_agents) by_agent_.push_back(distances(set));
@@ -222,14 +222,14 @@ DistanceFields::FieldPtr DistanceFields::field_to(Place place, const DistanceFie
   return found == known->to_place_.end() ? nullptr : found->second;
 }
 
-Time least_from(const World& world, Place place, int kind, Distances distances) {
+Time least_from(const World& world, Place place, int kind, DistanceView distances) {
   const StateRange bases = world.bases(place, kind);
   Time least = distances[bases.first];
   for (State s = bases.first + 1; s < bases.end; ++s) least = std::min(least, distances[s]);
   return least;
 }
 
-Time most_from(const World& world, Place place, int kind, Distances distances) {
+Time most_from(const World& world, Place place, int kind, DistanceView distances) {
   const StateRange bases = world.bases(place, kind);
   Time most = distances[bases.first];
   for (State s = bases.first + 1; s < bases.end; ++s) most = std::max(most, distances[s]);

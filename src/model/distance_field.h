@@ -28,11 +28,11 @@ DistanceField distance_field(const World& world, Place target);
 
 // A distance field as it is kept, in half the memory where nothing is further than 65,534 steps. A
 // view of what a CompactDistanceField holds.
-class Distances {
+class DistanceView {
  public:
-  Distances() = default;  // none
+  DistanceView() = default;  // none
   // Of a field that stays where it is.
-  explicit Distances(const DistanceField& field) : long_(field.data()) {}
+  explicit DistanceView(const DistanceField& field) : long_(field.data()) {}
 
   Time operator[](State state) const {
     if (!short_) return long_[state];
@@ -41,13 +41,13 @@ class Distances {
   }
   explicit operator bool() const { return short_ || long_; }
   // By which field it is, not by what is in it.
-  friend auto operator<=>(const Distances&, const Distances&) = default;
+  friend auto operator<=>(const DistanceView&, const DistanceView&) = default;
 
   static constexpr std::uint16_t kShortNever = 0xFFFF;
 
  private:
   friend class CompactDistanceField;
-  Distances(const std::uint16_t* in_short, const Time* in_long)
+  DistanceView(const std::uint16_t* in_short, const Time* in_long)
       : short_(in_short), long_(in_long) {}
 
   const std::uint16_t* short_ = nullptr;  // null: they are in long_
@@ -64,7 +64,7 @@ class CompactDistanceField {
   // In memory that somebody else owns, and that must outlive this.
   explicit CompactDistanceField(const std::uint16_t* distances) : elsewhere_(distances) {}
 
-  Distances distances() const {
+  DistanceView distances() const {
     if (elsewhere_) return {elsewhere_, nullptr};
     return {short_.empty() ? nullptr : short_.data(), long_.empty() ? nullptr : long_.data()};
   }
@@ -100,16 +100,16 @@ class DistanceFields {
   bool complete() const { return complete_; }
 
   // To where the task is visited: a state on its place or, if it takes time, the end of the work.
-  Distances to_task(TaskIndex task) const { return by_task_[task]; }
+  DistanceView to_task(TaskIndex task) const { return by_task_[task]; }
   // The same in one heading, a port: the agent of that kind is there, or has done the work, looking
   // that way. Only if there are such fields: on worlds of moderate size in which agents turn.
   static constexpr int kPorts = 4;
   bool has_ports() const { return !by_port_.empty(); }
-  Distances to_port(TaskIndex task, int kind, int port) const {
+  DistanceView to_port(TaskIndex task, int kind, int port) const {
     return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
   }
   // To where the agent may rest. Not of agents that rest on the last stop of their sequence.
-  Distances to_rest(AgentIndex agent) const {
+  DistanceView to_rest(AgentIndex agent) const {
     GROVE_ASSERT(by_agent_[agent], "an agent that rests on its last stop has no other place");
     return by_agent_[agent];
   }
@@ -122,17 +122,17 @@ class DistanceFields {
   std::shared_ptr<const Map> map_;        // null unless every state is its place
   std::map<Place, FieldPtr> to_place_;    // of that map
   std::vector<FieldPtr> fields_;
-  std::vector<Distances> by_task_;
-  std::vector<Distances> by_agent_;
+  std::vector<DistanceView> by_task_;
+  std::vector<DistanceView> by_agent_;
   // By task, kind and heading; empty where no such agent has the task.
-  std::vector<Distances> by_port_;
+  std::vector<DistanceView> by_port_;
   std::size_t kinds_ = 1;
   bool complete_ = false;
 };
 
 // The least of the distances from the base states of one kind on a place.
-Time least_from(const World& world, Place place, int kind, Distances distances);
+Time least_from(const World& world, Place place, int kind, DistanceView distances);
 // The greatest.
-Time most_from(const World& world, Place place, int kind, Distances distances);
+Time most_from(const World& world, Place place, int kind, DistanceView distances);
 
 }  // namespace grove::detail

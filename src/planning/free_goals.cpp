@@ -108,7 +108,7 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
   longest_legs_.resize(ports * ports);
   for (std::size_t port = 0; port < ports; ++port) {
     const auto stop = port / static_cast<std::size_t>(ports_);
-    const Distances field =
+    const DistanceView field =
         ports_ == 1 ? distances.to_task(who.stops[stop])
                     : distances.to_port(who.stops[stop], who.kind, static_cast<int>(port) % ports_);
     to_port_.push_back(field);

@@ -98,10 +98,10 @@ class AgentStops {
   std::vector<Time> durations_;  // by stop
   StopSet work_stops_ = 0;
   std::shared_ptr<const std::int8_t[]> stop_at_;  // by state; owns nothing where that is shared
-  std::vector<Distances> to_port_;
+  std::vector<DistanceView> to_port_;
   std::vector<Time> longest_legs_;  // by port, then port
   int ports_ = 1;
-  Distances to_rest_;
+  DistanceView to_rest_;
   Completions completions_;
 };
 

@@ -11,7 +11,7 @@ GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& dista
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);
   turn_about_ = world.turn_about(who.kind);
-  const auto add = [&](Place place, TaskIndex work, Time duration, Distances to_goal) {
+  const auto add = [&](Place place, TaskIndex work, Time duration, DistanceView to_goal) {
     goals_.push_back(place);
     work_.push_back(work);
     durations_.push_back(duration);

@@ -42,7 +42,7 @@ class GoalSequence {
 
   // The two parts of that: the distance field of goal k, and the steps from there on (at most
   // kNever).
-  Distances to_goal(int k) const { return to_goal_[checked(k)]; }
+  DistanceView to_goal(int k) const { return to_goal_[checked(k)]; }
   Time after_goal(int k) const { return after_goal_[checked(k)]; }
 
  private:
@@ -57,7 +57,7 @@ class GoalSequence {
   std::vector<Place> goals_;
   std::vector<TaskIndex> work_;
   std::vector<Time> durations_;
-  std::vector<Distances> to_goal_;
+  std::vector<DistanceView> to_goal_;
   std::vector<Time> after_goal_;  // from goal k through the rest
 };
 

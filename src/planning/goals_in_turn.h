@@ -89,7 +89,7 @@ class GoalsInTurn {
 
   // What there is to know of one progress.
   struct Stage {
-    Distances to_goal;     // to the next goal
+    DistanceView to_goal;  // to the next goal
     State first;           // of the base states on its place
     std::uint32_t states;  // and how many there are
     Time after_goal;

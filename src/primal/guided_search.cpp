@@ -105,9 +105,9 @@ LegFields GuidedSearch::leg_fields() const {
   fields.to_rest.resize(static_cast<std::size_t>(instance.agent_count()));
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     for (const TaskIndex task : instance.agent(agent).stops)
-      fields.to_task[task] = Distances(fields_.at(problem_.distances.to_task(task)));
+      fields.to_task[task] = DistanceView(fields_.at(problem_.distances.to_task(task)));
     if (!instance.rests_on_last_stop(agent))
-      fields.to_rest[agent] = Distances(fields_.at(problem_.distances.to_rest(agent)));
+      fields.to_rest[agent] = DistanceView(fields_.at(problem_.distances.to_rest(agent)));
   }
   return fields;
 }

@@ -54,9 +54,9 @@ class GuidedSearch {
   std::vector<Sequence> orders_;
   Dice dice_;  // the seeds
   Traffic traffic_;
-  std::int64_t learnt_ = 0;                    // plans
-  std::map<Distances, DistanceField> fields_;  // by the distances that they stand for
-  std::map<Distances, DistanceField>::iterator next_field_;
+  std::int64_t learnt_ = 0;                       // plans
+  std::map<DistanceView, DistanceField> fields_;  // by the distances that they stand for
+  std::map<DistanceView, DistanceField>::iterator next_field_;
   std::unique_ptr<Lacam> lacam_;
   std::int64_t steps_left_ = 0;
   Plan plan_;

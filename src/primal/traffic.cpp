@@ -70,7 +70,7 @@ void Traffic::visit_before(State state, Visit visit) const {
 }
 
 // Dijkstra with a bucket for each dearness, used again and again.
-DistanceField Traffic::field(Distances distance) {
+DistanceField Traffic::field(DistanceView distance) {
   DistanceField dearness(static_cast<std::size_t>(world_.state_count()), kNever);
   std::size_t left = 0;
   const auto reach = [&](State state, Time dear) {

@@ -29,7 +29,7 @@ class Traffic {
 
   // The dearness of the cheapest way from every state to one that is 0 in `distance`; kNever where
   // there is none. O(states).
-  DistanceField field(Distances distance);
+  DistanceField field(DistanceView distance);
 
  private:
   using Move = std::size_t;         // between places, by the first place

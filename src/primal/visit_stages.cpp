@@ -52,10 +52,10 @@ VisitStages::Stage VisitStages::make(StopSet left) {
 }
 
 VisitStages::Entry VisitStages::entry(StopSet left) const {
-  Distances to_next = ways_.to_rest;
+  DistanceView to_next = ways_.to_rest;
   std::int64_t onward = 0;
   Place from = kNoPlace;
-  const auto go_on = [&](Distances to) {
+  const auto go_on = [&](DistanceView to) {
     if (from == kNoPlace)
       to_next = to;
     else

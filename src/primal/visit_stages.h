@@ -15,8 +15,8 @@ namespace grove::detail {
 
 // By which agents find their ways, instead of by the distances in steps.
 struct LegFields {
-  std::vector<Distances> to_task;  // by TaskIndex
-  std::vector<Distances> to_rest;  // by AgentIndex, as DistanceFields::to_rest
+  std::vector<DistanceView> to_task;  // by TaskIndex
+  std::vector<DistanceView> to_rest;  // by AgentIndex, as DistanceFields::to_rest
 };
 
 // What an agent has still to visit, as numbered stages, made when first met. For one thread.
@@ -65,13 +65,13 @@ class VisitStages {
  private:
   // Where there is to go.
   struct Targets {
-    std::vector<Distances> to_stop;
-    Distances to_rest;
+    std::vector<DistanceView> to_stop;
+    DistanceView to_rest;
   };
   struct Entry {
     StopSet left;
-    Distances to_next;  // the first stop left; the place to rest if none is
-    Time onward;        // from there through all others; less than kNever
+    DistanceView to_next;  // the first stop left; the place to rest if none is
+    Time onward;           // from there through all others; less than kNever
   };
 
   Stage after_stop(Stage stage, int stop) {

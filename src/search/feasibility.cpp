@@ -44,7 +44,7 @@ std::optional<std::string> unreachable_cell(const Problem& problem) {
   const Instance& instance = problem.instance;
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
-    const auto no_way = [&](Distances to) { return to[agent.start] == kNever; };
+    const auto no_way = [&](DistanceView to) { return to[agent.start] == kNever; };
     const auto told = [&](Place place) {
       return fmt::format("agent '{}' cannot reach {}: there is no way from its start", agent.id,
                          instance.world().name(place));
@@ -59,7 +59,7 @@ std::optional<std::string> unreachable_cell(const Problem& problem) {
 std::optional<std::string> no_order(const Problem& problem, AgentIndex index) {
   const World& world = problem.instance.world();
   const Agent& agent = problem.instance.agent(index);
-  const auto leads = [&](Place from, Distances to) {
+  const auto leads = [&](Place from, DistanceView to) {
     return least_from(world, from, agent.kind, to) < kNever;
   };
   for (TaskIndex a : agent.stops) {

@@ -19,7 +19,7 @@ CostMatrix cost_matrix(const Instance& instance, AgentIndex agent,
   const World& world = instance.world();
   const auto n = static_cast<Eigen::Index>(who.stops.size());
   CostMatrix matrix{CostMatrix::Matrix::Zero(n + 1, n + 1)};
-  const auto fill_column = [&](Eigen::Index column, Distances distance) {
+  const auto fill_column = [&](Eigen::Index column, DistanceView distance) {
     for (Eigen::Index row = 0; row < n; ++row)
       matrix.cost(row, column) =
           row == column ? 0
@@ -52,7 +52,7 @@ CostMatrix port_matrix(const Instance& instance, AgentIndex agent,
     return world.bases(instance.task(who.stops[port / kPorts]).cell, who.kind).first +
            port % kPorts;
   };
-  const auto fill_column = [&](Eigen::Index column, Distances distance) {
+  const auto fill_column = [&](Eigen::Index column, DistanceView distance) {
     for (int port = 0; port < n * kPorts; ++port) matrix.cost(port, column) = distance[state(port)];
     matrix.cost(n * kPorts, column) = distance[who.start];
   };

@@ -51,7 +51,7 @@ class Part : public SharedMemory {
 std::string difference(const Problem& shared, const Problem& alone) {
   const Instance& instance = alone.instance;
   const State states = instance.world().state_count();
-  const auto same = [&](Distances one, Distances other) {
+  const auto same = [&](DistanceView one, DistanceView other) {
     for (State state = 0; state < states; ++state)
       if (one[state] != other[state]) return false;
     return true;

@@ -150,7 +150,7 @@ TEST(Lacam, LeavesAGuideThatLeadsNowhere) {
   const Problem problem(instance, limits);
   const DistanceField nowhere(static_cast<std::size_t>(instance.world().state_count()), 1);
   const LegFields guide{
-      {}, std::vector(static_cast<std::size_t>(instance.agent_count()), Distances(nowhere))};
+      {}, std::vector(static_cast<std::size_t>(instance.agent_count()), DistanceView(nowhere))};
   Lacam search(problem, *cheapest_orders(problem, limits), 0, &guide);
   std::int64_t steps = 20'000;
   ASSERT_EQ(search.run(limits, steps), Lacam::Outcome::kFound);

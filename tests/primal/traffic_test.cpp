@@ -17,7 +17,7 @@ struct Block {
   Block() { traffic.set_prices(); }
   DistanceField field(Place to) {
     const DistanceField steps = distance_field(world, to);
-    return traffic.field(Distances(steps));
+    return traffic.field(DistanceView(steps));
   }
   void walk(const Path& path) {
     traffic.add(path, 1);
@@ -41,7 +41,7 @@ TEST(Traffic, WithoutAnyAStepIsAStep) {
     traffic.set_prices();
     const DistanceFields distances(instance);
     for (TaskIndex task = 0; task < instance.task_count(); ++task) {
-      const Distances steps = distances.to_task(task);
+      const DistanceView steps = distances.to_task(task);
       const DistanceField dear = traffic.field(steps);
       for (State state = 0; state < world.state_count(); ++state) {
         ASSERT_EQ(dear[state] == kNever, steps[state] == kNever);

@@ -73,7 +73,7 @@ class Fuzzer {
 
   bool reaches_all(AgentIndex agent) const {
     const Agent& a = instance_.agent(agent);
-    const auto reaches = [&](Distances to) { return to[a.start] < kNever; };
+    const auto reaches = [&](DistanceView to) { return to[a.start] < kNever; };
     return std::ranges::all_of(a.stops,
                                [&](TaskIndex t) { return reaches(distances_.to_task(t)); }) &&
            (instance_.rests_on_last_stop(agent) || reaches(distances_.to_rest(agent)));
