@@ -126,7 +126,7 @@ class World {
   const Work& work(State state) const { return work_[state - first_working_]; }
   // How many steps it takes at most to come from any base state of an agent's kind to any other on
   // the same place.
-  Time turn_about(int kind) const { return kinds_[kind].turn_about; }
+  Time max_turn_time(int kind) const { return kinds_[kind].max_turn_time; }
 
   // Every state is its place.
   bool states_are_places() const { return state_count() == places_; }
@@ -145,7 +145,7 @@ class World {
   struct Kind {
     State first = 0;
     int on_a_place = 1;
-    Time turn_about = 0;
+    Time max_turn_time = 0;
   };
 
   // One state for each place; moves by place.

@@ -150,7 +150,7 @@ std::shared_ptr<const std::int8_t[]> AgentStops::stops_of_states(const Instance&
 // Whoever is there for good, on what nobody bars for ever after, turns and works at once: all of
 // its work there, with a turn before and after at most.
 Time AgentStops::longest_finish(Place place) const {
-  Time longest = world_->turn_about(kind_);
+  Time longest = world_->max_turn_time(kind_);
   for (std::size_t stop = 0; stop < places_.size(); ++stop)
     if (places_[stop] == place) longest += durations_[stop];
   return longest;
@@ -159,7 +159,7 @@ Time AgentStops::longest_finish(Place place) const {
 Time AgentStops::turn(State state, int port) const {
   const State base = world_->base(state);
   const int heading = base - world_->bases(world_->place(base), kind_).first;
-  if (ports_ == 1 || heading >= ports_) return world_->turn_about(kind_);
+  if (ports_ == 1 || heading >= ports_) return world_->max_turn_time(kind_);
   const int quarters = std::abs(heading - port % ports_);
   return std::min(quarters, ports_ - quarters) * turn_steps_;
 }

@@ -10,7 +10,7 @@ GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& dista
     : start_(instance.agent(agent).start) {
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);
-  turn_about_ = world.turn_about(who.kind);
+  turn_about_ = world.max_turn_time(who.kind);
   const auto add = [&](Place place, TaskIndex work, Time duration, DistanceView to_goal) {
     goals_.push_back(place);
     work_.push_back(work);

@@ -30,7 +30,7 @@ class GoalSequence {
   bool has_work() const { return has_work_; }
   // See AgentStops.
   Time longest_finish(Place place) const;
-  Time turn_about() const { return turn_about_; }
+  Time max_turn_time() const { return turn_about_; }
 
   // Steps from `state` through goals k, k+1, ... to the last one, ignoring everything else, at
   // least: exact where agents turn freely. Admissible and consistent. kNever or more when there is

@@ -9,7 +9,7 @@ namespace grove::detail {
 bool GoalsInTurn::assign(const World& world, const GoalSequence& goals,
                          const SafeIntervals& intervals) {
   world_ = &world;
-  turn_about_ = goals.turn_about();
+  turn_about_ = goals.max_turn_time();
   last_progress_ = goals.size() - 1;
   first_rest_ = goals.last() == kNoPlace ? 0 : intervals.rest_begin(goals.last());
   if (first_rest_ >= kNever || goals.distance(goals.start(), 0) >= kNever) return false;

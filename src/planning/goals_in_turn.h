@@ -18,7 +18,8 @@
 //   right side over all k >= p is latest_[p]. That the agent must rest by t (kRestBy) is such a
 //   deadline of the last goal: a path of least cost finishes longest_finish() later at most.
 //
-// - *Gates.* (Agents that turn: g is turn_about() later here, see gates.cpp.) Let G be a label of
+// - *Gates.* (Agents that turn: g is max_turn_time() later here, see gates.cpp.) Let G be a label
+// of
 //   goal k just visited, in interval [a, b], reached at time g, and L
 //   a label that has yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A
 //   path P through L that visits goal k at some time <= b does so at a time in [g, b], where G
