@@ -7,7 +7,7 @@
 namespace grove::detail {
 
 // The same on every machine. All bits of the result depend on all of both.
-inline std::uint64_t mixed_in(std::uint64_t hash, std::uint64_t value) {
+inline std::uint64_t hash_combine(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
   hash ^= hash >> 32;
   hash *= 0xD6E8FEB86659FD93u;

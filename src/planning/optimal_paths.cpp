@@ -129,9 +129,9 @@ std::uint64_t OptimalPaths::hash() const {
   std::uint64_t hash = first_of_layer_.size();
   for (const auto* numbers : {&first_of_layer_, &first_successor_, &successors_})
     for (const std::int32_t number : *numbers)
-      hash = mixed_in(hash, static_cast<std::uint64_t>(number));
+      hash = hash_combine(hash, static_cast<std::uint64_t>(number));
   for (NodeId node = 0; node < node_count(); ++node)
-    hash = mixed_in(hash, static_cast<std::uint64_t>(state(node)));
+    hash = hash_combine(hash, static_cast<std::uint64_t>(state(node)));
   return hash;
 }
 

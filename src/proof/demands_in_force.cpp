@@ -54,7 +54,7 @@ bool DemandsInForce::is_of(const CertificateDemand& demand, const CertificateDem
 std::size_t DemandsInForce::Hash::operator()(const CertificateDemand& demand) const {
   std::uint64_t hash = static_cast<std::uint64_t>(demand.kind);
   for (const std::int32_t value : {demand.agent, demand.p, demand.q, demand.begin, demand.end})
-    hash = mixed_in(hash, static_cast<std::uint64_t>(value));
+    hash = hash_combine(hash, static_cast<std::uint64_t>(value));
   return hash;
 }
 

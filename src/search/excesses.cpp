@@ -17,7 +17,7 @@ constexpr std::size_t kBytesPerGroup = 160;
 
 std::uint32_t hash_of(Excesses::Id first, Excesses::Id second) {
   const auto both = static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint32_t>(second);
-  return static_cast<std::uint32_t>(mixed_in(0, both));
+  return static_cast<std::uint32_t>(hash_combine(0, both));
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ ProofKey proof_key(const Tree& tree) {
   ProofKey key = 1;
   for (std::size_t agent = 0; agent < tree.orders.size(); ++agent) {
     const SequenceClass& sequences = tree.orders[agent]->sequences;
-    key = mixed_in(key, agent);
-    for (const Stop stop : sequences.prefix) key = mixed_in(key, stop);
-    key = mixed_in(key, sequences.forbidden_next);
+    key = hash_combine(key, agent);
+    for (const Stop stop : sequences.prefix) key = hash_combine(key, stop);
+    key = hash_combine(key, sequences.forbidden_next);
   }
   return key;
 }
@@ -47,13 +47,13 @@ ProofKey proof_key(const Node& node) {
 ProofKey proof_key(ProofKey parent, const AgentConstraint& added) {
   const Constraint& c = added.constraint;
   for (const std::int64_t value : {added.agent, c.cell, c.from, c.begin, c.end})
-    parent = mixed_in(parent, static_cast<std::uint64_t>(value));
-  return mixed_in(parent, static_cast<std::uint64_t>(c.kind));
+    parent = hash_combine(parent, static_cast<std::uint64_t>(value));
+  return hash_combine(parent, static_cast<std::uint64_t>(c.kind));
 }
 
 ProofKey ProofLemma::key() const {
-  ProofKey key = mixed_in(2, static_cast<std::uint64_t>(bound));
-  for (const AgentIndex agent : agents) key = mixed_in(key, static_cast<std::uint64_t>(agent));
+  ProofKey key = hash_combine(2, static_cast<std::uint64_t>(bound));
+  for (const AgentIndex agent : agents) key = hash_combine(key, static_cast<std::uint64_t>(agent));
   for (const AgentConstraint& demand : demands) key = proof_key(key, demand);
   return key;
 }

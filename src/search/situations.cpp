@@ -51,10 +51,10 @@ Situation situation_of(std::string_view key) {
 // Of values, not of addresses: the same in every run, so that tables are of the same size.
 std::uint64_t hash_of(const AgentOrder& order, std::string_view key) {
   std::uint64_t hash = order.sequences.forbidden_next;
-  for (const Stop stop : order.sequences.prefix) hash = mixed_in(hash, stop);
+  for (const Stop stop : order.sequences.prefix) hash = hash_combine(hash, stop);
   key.remove_prefix(sizeof &order);
-  while (key.size() >= sizeof hash) hash = mixed_in(hash, taken_from<std::uint64_t>(key));
-  for (const char byte : key) hash = mixed_in(hash, static_cast<unsigned char>(byte));
+  while (key.size() >= sizeof hash) hash = hash_combine(hash, taken_from<std::uint64_t>(key));
+  for (const char byte : key) hash = hash_combine(hash, static_cast<unsigned char>(byte));
   return hash;
 }
 
