@@ -30,7 +30,7 @@ void LedgerCopy::adopt(Plan plan) {
 
 void LedgerCopy::end() {
   over_ = true;
-  limits_.end_work();
+  limits_.cancel_workers();
 }
 
 void LedgerCopy::prove(Cost bound, ProvenBy by) {

@@ -41,7 +41,7 @@ class Searching {
                                                   number * options.threads + i));
     thread_ = std::jthread([this] { run(); });
   }
-  ~Searching() { limits_.end_work(); }
+  ~Searching() { limits_.cancel_workers(); }
 
   // Throws what a worker threw.
   bool ended() const {

@@ -194,7 +194,7 @@ class Simulation {
     if (r.said_farewell) return;
     const double alone_until = first_talk(r, now_);
     for (double time = now_; time == now_ || time < alone_until; time = r.player.busy_until()) {
-      if (r.player.busy() && !end_work(rank, time)) return;
+      if (r.player.busy() && !cancel_workers(rank, time)) return;
       r.player.begin(time, expander_);
       if (!r.player.busy()) return;
     }
@@ -202,7 +202,7 @@ class Simulation {
   }
 
   // False: what it works on takes longer; this was foreseen before that was begun.
-  bool end_work(int rank, double time) {
+  bool cancel_workers(int rank, double time) {
     SimulatedRank& r = at(rank);
     if (r.player.busy_until() > time) return false;
     r.player.end();

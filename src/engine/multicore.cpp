@@ -56,7 +56,7 @@ class Crew {
   }
 
   void end() {
-    limits_.end_work();
+    limits_.cancel_workers();
     {
       const std::lock_guard lock(mutex_);
       --awake_;
@@ -153,7 +153,7 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
                     const Limits& limits, const BetweenTurns& between_turns) {
   struct AllowWork {
     const Limits& limits;
-    ~AllowWork() { limits.allow_work(); }
+    ~AllowWork() { limits.clear_cancel(); }
   } const at_last{limits};
   Crew crew(shared, limits, between_turns);
   ThreadTeam(static_cast<int>(workers.size())).run([&](int thread) {

@@ -69,9 +69,9 @@ class Limits {
   }
   // Ends all work of the run, which has reached its end: stop_requested() is true from now on, and
   // reason() what it was.
-  void end_work() const { finished_.store(true, std::memory_order_relaxed); }
-  // Takes end_work() back, when all work has ended.
-  void allow_work() const { finished_.store(false, std::memory_order_relaxed); }
+  void cancel_workers() const { finished_.store(true, std::memory_order_relaxed); }
+  // Takes cancel_workers() back, when all work has ended.
+  void clear_cancel() const { finished_.store(false, std::memory_order_relaxed); }
   // Stops the run for a reason that was found elsewhere.
   void stop(StopReason reason) const;
   // For allocations refused elsewhere: stops the run for lack of memory.
