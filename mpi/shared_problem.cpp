@@ -20,13 +20,13 @@ SharedProblem::SharedProblem(const Instance& instance, const Limits& limits, int
                              const SharedMemory& memory) {
   if (!memory.bytes().empty()) {
     arrays_.emplace(memory.bytes(), array_layout(instance), memory.member(), memory.members());
-    share_memory_among(arrays_->members(), memory.bytes().size());
+    set_shared_memory_accounting(arrays_->members(), memory.bytes().size());
   }
   problem_.emplace(instance, limits, threads, nullptr, arrays_ ? &*arrays_ : nullptr);
 }
 
 SharedProblem::~SharedProblem() {
-  share_memory_among(1, 0);
+  set_shared_memory_accounting(1, 0);
 }
 
 }  // namespace grove::detail

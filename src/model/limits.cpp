@@ -38,7 +38,7 @@ std::size_t resident_bytes() {
                    sharers.load(std::memory_order_relaxed);
 }
 
-void share_memory_among(int processes, std::size_t bytes) {
+void set_shared_memory_accounting(int processes, std::size_t bytes) {
   sharers = static_cast<std::size_t>(processes);
   shared_bytes = bytes;
 }

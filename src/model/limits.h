@@ -23,7 +23,7 @@ std::size_t peak_resident_bytes();
 // So many processes share so many bytes. From now on resident_bytes() counts its part of these,
 // whoever has touched them, and of files, in place of what this process has touched of both. 1, 0:
 // nothing is shared, as in the beginning.
-void share_memory_among(int processes, std::size_t bytes);
+void set_shared_memory_accounting(int processes, std::size_t bytes);
 
 // Limits on a run. One object per run, shared by reference; every method may be called from any
 // thread. Once stopped it stays stopped, with the first reason.

@@ -86,11 +86,11 @@ TEST(ResidentBytes, OfWhatIsSharedAreAPart) {
   ASSERT_NE(shared, MAP_FAILED);
   std::memset(shared, 1, kSize);
   const std::size_t whole = resident_bytes();
-  share_memory_among(4, kSize);
+  set_shared_memory_accounting(4, kSize);
   const std::size_t part = resident_bytes();
-  share_memory_among(4, 4 * kSize);  // most of it touched by others
+  set_shared_memory_accounting(4, 4 * kSize);  // most of it touched by others
   const std::size_t part_of_more = resident_bytes();
-  share_memory_among(1, 0);
+  set_shared_memory_accounting(1, 0);
   EXPECT_GT(whole, kSize);
   EXPECT_LT(part + kSize / 4 * 3, whole + (std::size_t{1} << 20));
   EXPECT_GT(part, kSize / 4);
