@@ -207,8 +207,9 @@ class Session::Impl {
     const bool is_anyone_late =
         std::ranges::any_of(late, [](const Late& l) { return l.steps != 0; });
     const Plan driven =
-        is_anyone_late ? late_plan(instance_, *plan_, PassingOrder(instance_, *plan_), steps, late)
-                       : *plan_;
+        is_anyone_late
+            ? late_plan(instance_, *plan_, ActionDependencyGraph(instance_, *plan_), steps, late)
+            : *plan_;
     Remainder rest =
         grove::detail::advance(instance_, driven, steps, Rests::kAnywhere, ends_with_plan_);
     require_valid_plan_of(rest.instance, rest.plan);

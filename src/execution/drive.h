@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "execution/passing_order.h"
+#include "execution/action_dependency_graph.h"
 
 namespace grove::detail {
 
@@ -15,7 +15,7 @@ struct Drive {
   std::vector<Time> end;
 
   // When the robot had done everything; kNever: it never has.
-  Time finish(const PassingOrder& order, AgentIndex agent) const {
+  Time finish(const ActionDependencyGraph& order, AgentIndex agent) const {
     return order.begin_of(agent) == order.end_of(agent) ? 0 : end[order.end_of(agent) - 1];
   }
 };
@@ -30,13 +30,13 @@ Time end_of_action(Time begin, Time duration);
 
 // O(actions). The moves of a ring take as long as the slowest of them. Throws std::overflow_error
 // for times that no plan can mention.
-Drive drive(const PassingOrder& order, const Duration& duration);
+Drive drive(const ActionDependencyGraph& order, const Duration& duration);
 // As long as the plan has it.
-Drive drive_undisturbed(const PassingOrder& order);
+Drive drive_undisturbed(const ActionDependencyGraph& order);
 
 // The plan that was driven: an action that takes longer than it must is a wait before it. If
 // everybody has done everything a valid plan of `instance`; else of what was done.
-Plan driven_plan(const Instance& instance, const Plan& plan, const PassingOrder& order,
+Plan driven_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                  const Drive& drive);
 
 // A robot that waits for ever, and for whom; for itself if it does not move again.
@@ -45,6 +45,6 @@ struct Stuck {
   AgentIndex waits_for = -1;
 };
 // All that have not done everything.
-std::vector<Stuck> stuck(const PassingOrder& order, const Drive& drive);
+std::vector<Stuck> stuck(const ActionDependencyGraph& order, const Drive& drive);
 
 }  // namespace grove::detail

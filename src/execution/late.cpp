@@ -22,7 +22,7 @@ namespace {
 // When actions would begin if nobody were in the way.
 class Wishes {
  public:
-  Wishes(const PassingOrder& order, Time time, std::span<const Late> late)
+  Wishes(const ActionDependencyGraph& order, Time time, std::span<const Late> late)
       : order_(order), time_(time), late_(static_cast<std::size_t>(order.agent_count())) {
     for (const Late& l : late) late_[l.agent] = l.steps;
   }
@@ -46,13 +46,13 @@ class Wishes {
     return action.begin < clock(action) && !is_done(action);
   }
 
-  const PassingOrder& order_;
+  const ActionDependencyGraph& order_;
   const Time time_;
   std::vector<Time> late_;  // by agent
 };
 
-[[noreturn]] void refuse(const Instance& instance, const PassingOrder& order, ActionIndex index,
-                         Time time) {
+[[noreturn]] void refuse(const Instance& instance, const ActionDependencyGraph& order,
+                         ActionIndex index, Time time) {
   const Action& action = order.actions()[index];
   const ActionIndex other = order.after(index);
   const std::string before =
@@ -95,8 +95,8 @@ void delay_work_begun_before(const Instance& instance, std::span<const Late> lat
 
 }  // namespace
 
-Plan late_plan(const Instance& instance, const Plan& plan, const PassingOrder& order, Time time,
-               std::span<const Late> late) {
+Plan late_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
+               Time time, std::span<const Late> late) {
   require_possible(instance, time, late);
   const Wishes wishes(order, time, late);
   Drive drive{std::vector<Time>(order.actions().size()), std::vector<Time>(order.actions().size())};

@@ -36,7 +36,7 @@ class ImpossibleLateness : public std::invalid_argument {
 // no robot late it is `plan` up to `time`. A late robot that starts at work continues later than a
 // valid plan may say: its WorkTime is moved by its lateness, which is what advance() needs. Throws
 // ImpossibleLateness.
-Plan late_plan(const Instance& instance, const Plan& plan, const PassingOrder& order, Time time,
-               std::span<const Late> late);
+Plan late_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
+               Time time, std::span<const Late> late);
 
 }  // namespace grove::detail

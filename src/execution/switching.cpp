@@ -33,7 +33,7 @@ struct Visit {
 // Who is on a place after whom, and what follows for actions.
 class PlaceRows {
  public:
-  PlaceRows(const World& world, const Plan& plan, const PassingOrder& order)
+  PlaceRows(const World& world, const Plan& plan, const ActionDependencyGraph& order)
       : order_(order),
         by_agent_(static_cast<std::size_t>(order.agent_count())),
         number_(order.actions().size(), -1),
@@ -118,7 +118,7 @@ class PlaceRows {
     return is_of(theirs, other) && is_of(mine, self) && place_[theirs] == place_[mine];
   }
 
-  const PassingOrder& order_;
+  const ActionDependencyGraph& order_;
   std::vector<std::pair<int, int>> by_agent_;  // their visits, in order of time
   std::vector<int> number_;                    // by action: the visit that it begins
   std::vector<Visit> visits_;
@@ -129,7 +129,7 @@ class PlaceRows {
 
 class Switching {
  public:
-  Switching(const World& world, const Plan& plan, const PassingOrder& order,
+  Switching(const World& world, const Plan& plan, const ActionDependencyGraph& order,
             const Duration& duration, Time patience)
       : order_(order),
         duration_(duration),
@@ -338,7 +338,7 @@ class Switching {
     if (--left_[step_of_[a]] == 0) queue_.push_back(step_of_[a]);
   }
 
-  const PassingOrder& order_;
+  const ActionDependencyGraph& order_;
   const Duration& duration_;
   const Time patience_;
   PlaceRows rows_;
@@ -359,8 +359,9 @@ class Switching {
 
 }  // namespace
 
-SwitchedDrive drive_switching(const World& world, const Plan& plan, const PassingOrder& order,
-                              const Duration& duration, Time patience) {
+SwitchedDrive drive_switching(const World& world, const Plan& plan,
+                              const ActionDependencyGraph& order, const Duration& duration,
+                              Time patience) {
   return Switching(world, plan, order, duration, patience).run();
 }
 

@@ -22,7 +22,8 @@ struct SwitchedDrive {
 // expected that actions take as long as in the plan, and one that is overdue as long again as it is
 // overdue. Nobody ever waits in a circle, and nobody collides: switching.cpp. `plan` is that of
 // `order`. O(actions log actions), and O(actions) for each switch that is considered.
-SwitchedDrive drive_switching(const World& world, const Plan& plan, const PassingOrder& order,
-                              const Duration& duration, Time patience = 5);
+SwitchedDrive drive_switching(const World& world, const Plan& plan,
+                              const ActionDependencyGraph& order, const Duration& duration,
+                              Time patience = 5);
 
 }  // namespace grove::detail

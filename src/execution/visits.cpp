@@ -28,7 +28,7 @@ void come_by(Place place, ActionIndex action, Open& open, std::vector<TaskVisit>
 }  // namespace
 
 std::vector<std::vector<TaskVisit>> task_visits(const Instance& instance,
-                                                const PassingOrder& order) {
+                                                const ActionDependencyGraph& order) {
   const World& world = instance.world();
   std::vector<Open> open = open_tasks(instance);
   std::vector<std::vector<TaskVisit>> visits(instance.agent_count());

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "execution/passing_order.h"
+#include "execution/action_dependency_graph.h"
 #include "model/instance.h"
 
 namespace grove::detail {
@@ -18,6 +18,6 @@ struct TaskVisit {
 // By agent, in the order of the actions. A task without duration is visited when the agent first
 // is on its place, others when the work is done. Tasks that the order does not visit are left out.
 std::vector<std::vector<TaskVisit>> task_visits(const Instance& instance,
-                                                const PassingOrder& order);
+                                                const ActionDependencyGraph& order);
 
 }  // namespace grove::detail

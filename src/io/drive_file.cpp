@@ -25,7 +25,7 @@ constexpr double kMostSeconds = 1e9;  // seconds
 
 class DriveReader {
  public:
-  DriveReader(std::string file, const Instance& instance, const PassingOrder& order)
+  DriveReader(std::string file, const Instance& instance, const ActionDependencyGraph& order)
       : file_(std::move(file)), order_(order) {
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
       agents_.emplace(instance.agent(agent).id, agent);
@@ -120,7 +120,7 @@ class DriveReader {
   }
 
   const std::string file_;
-  const PassingOrder& order_;
+  const ActionDependencyGraph& order_;
   std::unordered_map<std::string, AgentIndex> agents_;
   std::unordered_set<std::string> named_;  // by the first line
   DriveLog log_;
@@ -132,7 +132,7 @@ class DriveReader {
 }  // namespace
 
 DriveLog read_drive_file(const std::filesystem::path& path, const Instance& instance,
-                         const PassingOrder& order) {
+                         const ActionDependencyGraph& order) {
   const std::string text = read_text(path);
   const std::size_t whole = text.rfind('\n') + 1;  // npos + 1 is 0
   return DriveReader(path.string(), instance, order).read(std::string_view(text).substr(0, whole));

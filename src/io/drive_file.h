@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "execution/passing_order.h"
+#include "execution/action_dependency_graph.h"
 #include "model/instance.h"
 
 namespace grove::detail {
@@ -34,6 +34,6 @@ struct DriveLog {
 // The whole lines of the log of a drive along `order`; a last line that has not ended is left out.
 // Throws InputError.
 DriveLog read_drive_file(const std::filesystem::path& path, const Instance& instance,
-                         const PassingOrder& order);
+                         const ActionDependencyGraph& order);
 
 }  // namespace grove::detail

@@ -25,7 +25,7 @@ const char* name_of(Action::Kind kind) {
 }
 
 // By action: the number of its ring, from 0; -1: of none.
-std::vector<int> rings_of(const PassingOrder& order) {
+std::vector<int> rings_of(const ActionDependencyGraph& order) {
   std::vector<int> rings(order.actions().size(), -1);
   int ring = 0;
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
@@ -42,7 +42,8 @@ OrderedJson point_json(const Instance& instance, const Frame& frame, State state
 }
 
 // When the plan has the action begin: below 0 if the robot starts at work on it.
-Time planned_begin(const Instance& instance, const PassingOrder& order, ActionIndex index) {
+Time planned_begin(const Instance& instance, const ActionDependencyGraph& order,
+                   ActionIndex index) {
   const Action& action = order.actions()[index];
   const State start = instance.agent(action.agent).start;
   const bool starts_at_it = index == order.begin_of(action.agent) &&
@@ -51,8 +52,8 @@ Time planned_begin(const Instance& instance, const PassingOrder& order, ActionIn
   return starts_at_it ? -instance.world().work(start).done : action.begin;
 }
 
-OrderedJson action_json(const Instance& instance, const PassingOrder& order, const Frame& frame,
-                        ActionIndex index, int ring) {
+OrderedJson action_json(const Instance& instance, const ActionDependencyGraph& order,
+                        const Frame& frame, ActionIndex index, int ring) {
   const Action& action = order.actions()[index];
   const Motion motion = instance.agent(action.agent).motion;
   OrderedJson json{{"do", name_of(action.kind)}};
@@ -74,7 +75,8 @@ OrderedJson action_json(const Instance& instance, const PassingOrder& order, con
 
 }  // namespace
 
-std::string order_text(const Instance& instance, const PassingOrder& order, const Frame& frame) {
+std::string order_text(const Instance& instance, const ActionDependencyGraph& order,
+                       const Frame& frame) {
   const std::vector<int> rings = rings_of(order);
   const std::vector<std::vector<TaskVisit>> visits = task_visits(instance, order);
   OrderedJson robots = OrderedJson::array();

@@ -4,13 +4,14 @@
 
 #include <string>
 
-#include "execution/passing_order.h"
+#include "execution/action_dependency_graph.h"
 #include "io/frame.h"
 #include "model/instance.h"
 
 namespace grove::detail {
 
 // One JSON object: what each robot does, where in the world, and what each action waits for.
-std::string order_text(const Instance& instance, const PassingOrder& order, const Frame& frame);
+std::string order_text(const Instance& instance, const ActionDependencyGraph& order,
+                       const Frame& frame);
 
 }  // namespace grove::detail

@@ -287,7 +287,8 @@ void expect_kept(const Kept& kept, const Plan& plan, std::uint64_t seed) {
           << seed << ": agent " << agent << " at " << t;
 }
 
-bool same_actions(const PassingOrder& before, const PassingOrder& after, Time steps) {
+bool same_actions(const ActionDependencyGraph& before, const ActionDependencyGraph& after,
+                  Time steps) {
   for (AgentIndex robot = 0; robot < before.agent_count(); ++robot)
     for (ActionIndex a = before.begin_of(robot); a < before.end_of(robot); ++a) {
       const ActionIndex same = after.begin_of(robot) + a - before.begin_of(robot);
@@ -302,8 +303,8 @@ bool same_actions(const PassingOrder& before, const PassingOrder& after, Time st
 // Robots go on by the old order with all kinds of delays, within the committed steps: whatever they
 // have done at whatever moment, the new order allows.
 void expect_safe(const Kept& kept, const Instance& now, const Plan& plan, std::uint64_t seed) {
-  const PassingOrder before(kept.instance, kept.plan);
-  const PassingOrder after(now, plan);
+  const ActionDependencyGraph before(kept.instance, kept.plan);
+  const ActionDependencyGraph after(now, plan);
   if (!same_actions(before, after, kept.steps)) {
     ASSERT_TRUE(kept.work_is_dropped) << seed;
     return;

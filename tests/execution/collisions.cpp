@@ -19,7 +19,7 @@ struct Stay {
   Place goes_to = kNoPlace;
 };
 
-std::map<Place, std::vector<Stay>> stays_of(const World& world, const PassingOrder& order,
+std::map<Place, std::vector<Stay>> stays_of(const World& world, const ActionDependencyGraph& order,
                                             const Drive& drive, const std::vector<State>& starts) {
   std::map<Place, std::vector<Stay>> stays;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
@@ -47,7 +47,7 @@ bool follows(const Stay& first, const Stay& next) {
 
 }  // namespace
 
-std::string collision(const World& world, const PassingOrder& order, const Drive& drive,
+std::string collision(const World& world, const ActionDependencyGraph& order, const Drive& drive,
                       const std::vector<State>& starts) {
   for (auto& [place, row] : stays_of(world, order, drive, starts)) {
     std::ranges::sort(row, {}, &Stay::enters_begin);

@@ -14,7 +14,7 @@ double part(std::mt19937_64& dice) {
 
 }  // namespace
 
-Delays::Delays(const PassingOrder& order, std::uint64_t seed, bool may_die)
+Delays::Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_die)
     : order_(order),
       seed_(seed),
       dice_(seed),

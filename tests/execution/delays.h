@@ -14,13 +14,13 @@ namespace grove::detail::testing {
 // `may_die` robots that stop for good. The same seed makes the same one, whenever actions begin.
 class Delays {
  public:
-  Delays(const PassingOrder& order, std::uint64_t seed, bool may_die = false);
+  Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_die = false);
 
   Time operator()(ActionIndex action, Time begin);
   bool anybody_dies() const { return dies_; }
 
  private:
-  const PassingOrder& order_;
+  const ActionDependencyGraph& order_;
   std::uint64_t seed_;
   std::mt19937_64 dice_;           // of the robots
   double delayed_ = 0;             // how often an action takes longer

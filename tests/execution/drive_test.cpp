@@ -37,7 +37,7 @@ TEST(Drive, NobodyCollidesAndEverybodyArrives) {
     const Instance instance = fuzz::random_world(seed).build();
     const auto plan = solved(instance);
     if (!plan) continue;
-    const PassingOrder order(instance, *plan);
+    const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 50; ++schedule, ++drives) {
       const Drive driven = drive(order, Delays(order, schedule));
       ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
@@ -59,7 +59,7 @@ TEST(Drive, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
     const Instance instance = fuzz::random_world(seed).build();
     const auto plan = solved(instance);
     if (!plan) continue;
-    const PassingOrder order(instance, *plan);
+    const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 20; ++schedule) {
       Delays delays(order, schedule, true);
       const Drive driven = drive(order, std::ref(delays));
@@ -88,7 +88,7 @@ TEST(Drive, UndisturbedItTakesNoLongerThanAPlanWithoutFollowing) {
     const Instance instance = fuzz::random_world(seed).build();
     const auto plan = solved(instance);
     if (!plan) continue;
-    const PassingOrder order(instance, *plan);
+    const ActionDependencyGraph order(instance, *plan);
     const Drive driven = drive_undisturbed(order);
     bool follows = order.rings() > 0;
     bool is_longer = false;

@@ -81,7 +81,7 @@ Instance roundabouts(std::uint64_t seed) {
 }
 
 // As if there were nobody else, but never before the time of the plan.
-Drive by_clock(const PassingOrder& order, Delays delays) {
+Drive by_clock(const ActionDependencyGraph& order, Delays delays) {
   Drive drive{std::vector<Time>(order.actions().size()), std::vector<Time>(order.actions().size())};
   for (std::int32_t number = 0; number < order.step_count(); ++number)
     for (const ActionIndex a : order.step(number)) {
@@ -93,7 +93,7 @@ Drive by_clock(const PassingOrder& order, Delays delays) {
 }
 
 // Makespan and sum of costs.
-std::pair<double, double> took(const PassingOrder& order, const Drive& drive) {
+std::pair<double, double> took(const ActionDependencyGraph& order, const Drive& drive) {
   Time makespan = 0;
   Cost cost = 0;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
@@ -106,7 +106,7 @@ std::pair<double, double> took(const PassingOrder& order, const Drive& drive) {
 void drive_all(const Instance& instance, const Plan& plan, std::int64_t drives, std::uint64_t seed,
                Counts& counts) {
   const World& world = instance.world();
-  const PassingOrder order(instance, plan);
+  const ActionDependencyGraph order(instance, plan);
   std::vector<State> starts;
   for (const Agent& agent : instance.agents()) starts.push_back(agent.start);
   const double planned = std::max(1, std::ranges::max(plan.agents, {}, &AgentPlan::cost).cost);

@@ -59,7 +59,7 @@ std::string wrong_with(const Instance& instance, const Plan& plan) {
   return wrong.empty() ? "" : wrong.front().place + ": " + wrong.front().message;
 }
 
-Cost cost_of(const PassingOrder& order, const Drive& drive) {
+Cost cost_of(const ActionDependencyGraph& order, const Drive& drive) {
   Cost cost = 0;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent)
     cost += drive.finish(order, agent);
@@ -84,7 +84,7 @@ TEST(Switching, WhoWaitsForALateOneGoesFirst) {
       {6, {}, path({{3, 0}, {3, 1}, {3, 1}, {3, 1}, {3, 2}, {3, 3}, {3, 4}}), {}});
   plan.cost = 12;
   ASSERT_EQ(wrong_with(instance, plan), "");
-  const PassingOrder order(instance, plan);
+  const ActionDependencyGraph order(instance, plan);
   const Duration stops = [&](ActionIndex a, Time) { return a == 0 ? 50 : 1; };
   const SwitchedDrive switched = drive_switching(instance.world(), plan, order, stops);
   EXPECT_EQ(switched.switches, 1);
@@ -102,7 +102,7 @@ TEST(Switching, NobodyWaitsInACircle) {
     const Instance instance = seed % 2 == 0 ? crowd(seed) : fuzz::random_world(seed).build();
     const auto plan = solved(instance);
     if (!plan) continue;
-    const PassingOrder order(instance, *plan);
+    const ActionDependencyGraph order(instance, *plan);
     std::vector<State> starts;
     for (const Agent& agent : instance.agents()) starts.push_back(agent.start);
     for (std::uint64_t schedule = 0; schedule < 20; ++schedule) {
@@ -129,7 +129,7 @@ TEST(Switching, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
     const Instance instance = crowd(seed);
     const auto plan = solved(instance);
     if (!plan) continue;
-    const PassingOrder order(instance, *plan);
+    const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 10; ++schedule) {
       const Delays delays(order, schedule, true);
       const SwitchedDrive switched = drive_switching(instance.world(), *plan, order, delays);

@@ -41,7 +41,7 @@ class DriveFile : public ::testing::Test {
  protected:
   DriveLog read(const std::string& content) {
     return read_drive_file(directory_.write("d.jsonl", content), instance_,
-                           PassingOrder(instance_, plan()));
+                           ActionDependencyGraph(instance_, plan()));
   }
   std::string refused(const std::string& content) {
     return refusal([&] { read(content); });

@@ -76,7 +76,7 @@ struct Took {
   std::vector<Cost> makespans;
   std::vector<Cost> costs;
 
-  void add(const PassingOrder& order, const Drive& drive) {
+  void add(const ActionDependencyGraph& order, const Drive& drive) {
     Cost makespan = 0;
     Cost cost = 0;
     for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
@@ -231,7 +231,7 @@ class Execution {
   const std::string options_;
   const LoadedInstance loaded_;
   const ClaimedPlan claimed_;
-  const PassingOrder order_;
+  const ActionDependencyGraph order_;
   Took fixed_;
   Took switching_;
   std::int64_t switches_ = 0;

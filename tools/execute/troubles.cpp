@@ -68,7 +68,7 @@ void Troubles::read_stops(const TroubleArguments& arguments, const Instance& ins
 }
 
 // Of a slow robot the steps of all actions together are rounded, not each.
-Duration Troubles::durations(const PassingOrder& order, std::uint64_t seed) const {
+Duration Troubles::durations(const ActionDependencyGraph& order, std::uint64_t seed) const {
   struct Run {
     std::vector<double> owed;  // by agent: parts of steps
     std::vector<Stop> stops;   // to come

@@ -27,7 +27,7 @@ class Troubles {
   Troubles(const TroubleArguments& arguments, const Instance& instance);
 
   // How long actions take in one drive; another seed, another drive.
-  Duration durations(const PassingOrder& order, std::uint64_t seed) const;
+  Duration durations(const ActionDependencyGraph& order, std::uint64_t seed) const;
 
  private:
   struct Stop {

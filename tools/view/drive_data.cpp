@@ -74,7 +74,7 @@ std::string drive_data(const DriveLog& log) {
   return text + "]}";
 }
 
-std::string order_data(const Instance& instance, const PassingOrder& order) {
+std::string order_data(const Instance& instance, const ActionDependencyGraph& order) {
   const std::vector<std::vector<TaskVisit>> all_visits = task_visits(instance, order);
   nlohmann::json robots = nlohmann::json::array();
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {

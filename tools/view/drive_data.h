@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "execution/passing_order.h"
+#include "execution/action_dependency_graph.h"
 #include "io/drive_file.h"
 #include "model/instance.h"
 
@@ -16,6 +16,6 @@ std::string drive_data(const DriveLog& log);
 
 // One JSON object: of each robot when the plan has its actions end, which tasks they visit, and
 // what they wait for.
-std::string order_data(const Instance& instance, const PassingOrder& order);
+std::string order_data(const Instance& instance, const ActionDependencyGraph& order);
 
 }  // namespace grove::detail

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "execution/passing_order.h"
+#include "execution/action_dependency_graph.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "io/plan_import.h"
@@ -170,7 +170,7 @@ void show_drive(const ViewArguments& arguments, const Instance& instance, const 
   require_valid(instance, plan, "the valid plan that is driven");
   const std::string name = name_of(arguments.instance.name());
   const std::string data = page_data(name, instance, std::span(&plan, 1));
-  const PassingOrder order(instance, *plan.claimed.solution.plan);
+  const ActionDependencyGraph order(instance, *plan.claimed.solution.plan);
   const std::string order_text = order_data(instance, order);
   const std::string& log = arguments.drive;
   if (arguments.follow)

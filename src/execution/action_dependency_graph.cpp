@@ -25,7 +25,7 @@
 // completed with it, then a is completed when x may begin: the wait says nothing more. For 16
 // robots at a time one pass over all steps, in order, finds the last action of each that must be
 // completed before each action can be.
-#include "execution/passing_order.h"
+#include "execution/action_dependency_graph.h"
 
 #include <algorithm>
 #include <array>
@@ -60,7 +60,7 @@ bool goes_on(const Instance& instance, const Action& turn, State from) {
 
 }  // namespace
 
-PassingOrder::PassingOrder(const Instance& instance, const Plan& plan) {
+ActionDependencyGraph::ActionDependencyGraph(const Instance& instance, const Plan& plan) {
   if (static_cast<int>(plan.agents.size()) != instance.agent_count())
     throw std::invalid_argument("a passing order is of a plan of all agents");
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
@@ -74,7 +74,8 @@ PassingOrder::PassingOrder(const Instance& instance, const Plan& plan) {
 }
 
 // Work is done where the path stands still; what is left of it if it was begun before the start.
-void PassingOrder::add_actions(const Instance& instance, AgentIndex agent, const AgentPlan& plan) {
+void ActionDependencyGraph::add_actions(const Instance& instance, AgentIndex agent,
+                                        const AgentPlan& plan) {
   const World& world = instance.world();
   auto work = plan.work.begin();
   const auto do_work_until = [&](Time time, State state) {
@@ -101,7 +102,7 @@ void PassingOrder::add_actions(const Instance& instance, AgentIndex agent, const
   do_work_until(kNever, plan.path.back());
 }
 
-void PassingOrder::find_waits(const World& world, const Plan& plan) {
+void ActionDependencyGraph::find_waits(const World& world, const Plan& plan) {
   std::vector<Stay> stays;
   for (AgentIndex agent = 0; agent < agent_count(); ++agent) {
     stays.push_back({world.place(plan.agents[agent].path.front())});
@@ -125,7 +126,7 @@ void PassingOrder::find_waits(const World& world, const Plan& plan) {
 }
 
 // By their begin in the plan, and in a step of the plan whoever leaves a place first.
-void PassingOrder::order_steps() {
+void ActionDependencyGraph::order_steps() {
   std::vector<ActionIndex> by_begin(actions_.size());
   std::iota(by_begin.begin(), by_begin.end(), 0);
   std::ranges::stable_sort(by_begin, {}, [&](ActionIndex a) { return actions_[a].begin; });
@@ -153,7 +154,7 @@ void PassingOrder::order_steps() {
   }
 }
 
-void PassingOrder::leave_out_transitive() {
+void ActionDependencyGraph::leave_out_transitive() {
   std::vector<Known> known(actions_.size());
   std::vector<bool> is_transitive(actions_.size());
   for (AgentIndex group = 0; group < agent_count(); group += kLanes) {

@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-using ActionIndex = std::int32_t;  // position in PassingOrder::actions()
+using ActionIndex = std::int32_t;  // position in ActionDependencyGraph::actions()
 inline constexpr ActionIndex kNoAction = -1;
 
 // One thing that a robot does, begun and completed as a whole.
@@ -34,12 +34,12 @@ struct Action {
 // Robots that follow each other in a ring wait for each other all round: their moves are one joint
 // step, begun together when each of them may begin but for that, and completed together. Why no
 // others wait in a circle: passing_order.cpp. Immutable, so any number of threads may read one.
-class PassingOrder {
+class ActionDependencyGraph {
  public:
   // Throws std::invalid_argument for what is no plan without collisions. Transitive waits are left
   // out: an action names another only if it could otherwise begin before that is completed.
   // O(actions * (log actions + agents / 16)).
-  PassingOrder(const Instance& instance, const Plan& plan);
+  ActionDependencyGraph(const Instance& instance, const Plan& plan);
 
   // In order of agents, and for each in order of time.
   std::span<const Action> actions() const { return actions_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "execution/passing_order.h"
+#include "execution/action_dependency_graph.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,35 +32,36 @@ Plan plan_of(const Instance& instance, const std::vector<std::vector<Position>>&
   return plan;
 }
 
-std::vector<ActionIndex> afters(const PassingOrder& order) {
+std::vector<ActionIndex> afters(const ActionDependencyGraph& order) {
   std::vector<ActionIndex> afters;
   for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a)
     afters.push_back(order.after(a));
   return afters;
 }
 
-TEST(PassingOrder, LeavesOutWaits) {
+TEST(ActionDependencyGraph, LeavesOutWaits) {
   const Instance instance = instance_of({"..."}, {AgentSpec{{0, 0}, Position{2, 0}}});
-  const PassingOrder order(instance, plan_of(instance, {{{0, 0}, {0, 0}, {1, 0}, {1, 0}, {2, 0}}}));
+  const ActionDependencyGraph order(instance,
+                                    plan_of(instance, {{{0, 0}, {0, 0}, {1, 0}, {1, 0}, {2, 0}}}));
   ASSERT_EQ(order.actions().size(), 2u);
   EXPECT_EQ(order.actions()[0].begin, 1);
   EXPECT_EQ(order.actions()[1].begin, 3);
   EXPECT_EQ(order.waits(), 0);
 }
 
-TEST(PassingOrder, WhoFollowsWaitsForTheArrival) {
+TEST(ActionDependencyGraph, WhoFollowsWaitsForTheArrival) {
   const Instance instance =
       instance_of({"...."}, {AgentSpec{{1, 0}, Position{3, 0}}, AgentSpec{{0, 0}, Position{2, 0}}});
-  const PassingOrder order(instance,
-                           plan_of(instance, {{{1, 0}, {2, 0}, {3, 0}}, {{0, 0}, {1, 0}, {2, 0}}}));
+  const ActionDependencyGraph order(
+      instance, plan_of(instance, {{{1, 0}, {2, 0}, {3, 0}}, {{0, 0}, {1, 0}, {2, 0}}}));
   EXPECT_THAT(afters(order), ElementsAre(kNoAction, kNoAction, 0, 1));
 }
 
 // The second agent enters three places after the first: but it has waited for it to be away once.
-TEST(PassingOrder, LeavesOutWhatFollowsAnyway) {
+TEST(ActionDependencyGraph, LeavesOutWhatFollowsAnyway) {
   const Instance instance = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{3, 0}}});
-  const PassingOrder order(
+  const ActionDependencyGraph order(
       instance,
       plan_of(instance,
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
@@ -68,7 +69,7 @@ TEST(PassingOrder, LeavesOutWhatFollowsAnyway) {
   EXPECT_EQ(order.waits(), 2);  // for (2, 0) and (3, 0), which are left one after the other
   const Instance back = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
-  const PassingOrder backwards(
+  const ActionDependencyGraph backwards(
       back,
       plan_of(back,
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
@@ -77,11 +78,11 @@ TEST(PassingOrder, LeavesOutWhatFollowsAnyway) {
   EXPECT_EQ(backwards.transitive_waits(), 2);
 }
 
-TEST(PassingOrder, ARingIsOneStep) {
+TEST(ActionDependencyGraph, ARingIsOneStep) {
   const Instance instance = instance_of(
       {"..", ".."}, {AgentSpec{{0, 0}, Position{1, 0}}, AgentSpec{{1, 0}, Position{1, 1}},
                      AgentSpec{{1, 1}, Position{0, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
-  const PassingOrder order(
+  const ActionDependencyGraph order(
       instance,
       plan_of(instance, {{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 1}}, {{0, 1}, {0, 0}}}));
   EXPECT_EQ(order.rings(), 1);
@@ -90,16 +91,16 @@ TEST(PassingOrder, ARingIsOneStep) {
   EXPECT_EQ(order.waits(), 0);
 }
 
-TEST(PassingOrder, RefusesCollisions) {
+TEST(ActionDependencyGraph, RefusesCollisions) {
   const Instance instance =
       instance_of({"...."}, {AgentSpec{{0, 0}, Position{2, 0}}, AgentSpec{{3, 0}, Position{1, 0}}});
-  EXPECT_THROW(PassingOrder(instance, plan_of(instance, {{{0, 0}, {1, 0}, {2, 0}},
-                                                         {{3, 0}, {2, 0}, {1, 0}}})),
+  EXPECT_THROW(ActionDependencyGraph(instance, plan_of(instance, {{{0, 0}, {1, 0}, {2, 0}},
+                                                                  {{3, 0}, {2, 0}, {1, 0}}})),
                std::invalid_argument);  // a swap
-  EXPECT_THROW(
-      PassingOrder(instance, plan_of(instance, {{{0, 0}, {1, 0}}, {{3, 0}, {2, 0}, {1, 0}}})),
-      std::invalid_argument);  // at rest
-  EXPECT_THROW(PassingOrder(instance, Plan{}), std::invalid_argument);
+  EXPECT_THROW(ActionDependencyGraph(
+                   instance, plan_of(instance, {{{0, 0}, {1, 0}}, {{3, 0}, {2, 0}, {1, 0}}})),
+               std::invalid_argument);  // at rest
+  EXPECT_THROW(ActionDependencyGraph(instance, Plan{}), std::invalid_argument);
 }
 
 // --- random plans ---
@@ -108,7 +109,7 @@ TEST(PassingOrder, RefusesCollisions) {
 // another robot waits for that one's leaving; and an agent's actions for each other. Then all that
 // follows. By pairs: first must be completed before second begins.
 std::set<std::pair<ActionIndex, ActionIndex>> all_waits(const World& world,
-                                                        const PassingOrder& order,
+                                                        const ActionDependencyGraph& order,
                                                         const std::vector<bool>& in_ring) {
   const auto actions = order.actions();
   const auto count = static_cast<ActionIndex>(actions.size());
@@ -129,7 +130,7 @@ std::set<std::pair<ActionIndex, ActionIndex>> all_waits(const World& world,
 }
 
 void close_transitively(std::set<std::pair<ActionIndex, ActionIndex>>& waits,
-                        const PassingOrder& order) {
+                        const ActionDependencyGraph& order) {
   const auto count = static_cast<ActionIndex>(order.actions().size());
   std::vector<std::vector<bool>> is(count, std::vector<bool>(count));
   for (const auto& [a, b] : waits) is[a][b] = true;
@@ -152,7 +153,7 @@ void close_transitively(std::set<std::pair<ActionIndex, ActionIndex>>& waits,
       if (is[a][b]) waits.emplace(a, b);
 }
 
-std::set<std::pair<ActionIndex, ActionIndex>> waits_of(const PassingOrder& order,
+std::set<std::pair<ActionIndex, ActionIndex>> waits_of(const ActionDependencyGraph& order,
                                                        ActionIndex without = kNoAction) {
   std::set<std::pair<ActionIndex, ActionIndex>> waits;
   for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a) {
@@ -162,7 +163,7 @@ std::set<std::pair<ActionIndex, ActionIndex>> waits_of(const PassingOrder& order
   return waits;
 }
 
-TEST(PassingOrder, SaysWhatTheDefinitionSaysAndNothingTwice) {
+TEST(ActionDependencyGraph, SaysWhatTheDefinitionSaysAndNothingTwice) {
   int plans = 0;
   int rings = 0;
   std::int64_t left_out = 0;
@@ -174,7 +175,7 @@ TEST(PassingOrder, SaysWhatTheDefinitionSaysAndNothingTwice) {
     const Solution solution = solve(instance, options, limits);
     if (!solution.plan) continue;
     ++plans;
-    const PassingOrder order(instance, *solution.plan);
+    const ActionDependencyGraph order(instance, *solution.plan);
     rings += static_cast<int>(order.rings());
     left_out += order.transitive_waits();
     std::vector<bool> in_ring(order.actions().size());
