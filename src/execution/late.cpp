@@ -99,7 +99,8 @@ Plan late_plan(const Instance& instance, const Plan& plan, const ActionDependenc
                Time time, std::span<const Late> late) {
   require_possible(instance, time, late);
   const Wishes wishes(order, time, late);
-  Drive drive{std::vector<Time>(order.actions().size()), std::vector<Time>(order.actions().size())};
+  ExecutionTrace drive{std::vector<Time>(order.actions().size()),
+                       std::vector<Time>(order.actions().size())};
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     Time begin = 0;
     for (const ActionIndex a : order.step(number)) {
@@ -114,7 +115,7 @@ Plan late_plan(const Instance& instance, const Plan& plan, const ActionDependenc
       drive.end[a] = begin + order.actions()[a].steps;
     }
   }
-  Plan driven = driven_plan(instance, plan, order, drive);
+  Plan driven = executed_plan(instance, plan, order, drive);
   delay_work_begun_before(instance, late, driven);
   return driven;
 }

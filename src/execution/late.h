@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "execution/drive.h"
+#include "execution/execution_trace.h"
 
 namespace grove::detail {
 

@@ -146,7 +146,7 @@ class Switching {
       next_[agent] = order.begin_of(agent);
   }
 
-  SwitchedDrive run() {
+  SwitchableTrace run() {
     moments_.push(0);
     while (!moments_.empty()) {
       now_ = moments_.top();
@@ -347,7 +347,7 @@ class Switching {
   std::vector<ActionIndex> next_;      // by agent: not completed yet
   std::priority_queue<Time, std::vector<Time>, std::greater<>> moments_;
   Time now_ = 0;
-  SwitchedDrive driven_;
+  SwitchableTrace driven_;
 
   // Of expected().
   std::vector<Time> ends_;              // by step
@@ -359,9 +359,9 @@ class Switching {
 
 }  // namespace
 
-SwitchedDrive drive_switching(const World& world, const Plan& plan,
-                              const ActionDependencyGraph& order, const Duration& duration,
-                              Time patience) {
+SwitchableTrace simulate_switchable(const World& world, const Plan& plan,
+                                    const ActionDependencyGraph& order, const Duration& duration,
+                                    Time patience) {
   return Switching(world, plan, order, duration, patience).run();
 }
 

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "execution/drive.h"
+#include "execution/execution_trace.h"
 
 namespace grove::detail {
 
-struct SwitchedDrive {
-  Drive drive;
+struct SwitchableTrace {
+  ExecutionTrace drive;
   std::int64_t switches = 0;  // places at which a robot let another one go first after all
   std::vector<Stuck> stuck;   // who waits for whom at the end
 };
@@ -22,8 +22,8 @@ struct SwitchedDrive {
 // expected that actions take as long as in the plan, and one that is overdue as long again as it is
 // overdue. Nobody ever waits in a circle, and nobody collides: switching.cpp. `plan` is that of
 // `order`. O(actions log actions), and O(actions) for each switch that is considered.
-SwitchedDrive drive_switching(const World& world, const Plan& plan,
-                              const ActionDependencyGraph& order, const Duration& duration,
-                              Time patience = 5);
+SwitchableTrace simulate_switchable(const World& world, const Plan& plan,
+                                    const ActionDependencyGraph& order, const Duration& duration,
+                                    Time patience = 5);
 
 }  // namespace grove::detail

@@ -20,7 +20,8 @@ struct Stay {
 };
 
 std::map<Place, std::vector<Stay>> stays_of(const World& world, const ActionDependencyGraph& order,
-                                            const Drive& drive, const std::vector<State>& starts) {
+                                            const ExecutionTrace& drive,
+                                            const std::vector<State>& starts) {
   std::map<Place, std::vector<Stay>> stays;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
     Stay stay{agent, -2, -1};
@@ -47,8 +48,8 @@ bool follows(const Stay& first, const Stay& next) {
 
 }  // namespace
 
-std::string collision(const World& world, const ActionDependencyGraph& order, const Drive& drive,
-                      const std::vector<State>& starts) {
+std::string collision(const World& world, const ActionDependencyGraph& order,
+                      const ExecutionTrace& drive, const std::vector<State>& starts) {
   for (auto& [place, row] : stays_of(world, order, drive, starts)) {
     std::ranges::sort(row, {}, &Stay::enters_begin);
     for (std::size_t i = 1; i < row.size(); ++i) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "execution/drive.h"
+#include "execution/execution_trace.h"
 
 namespace grove::detail::testing {
 
@@ -13,7 +13,7 @@ namespace grove::detail::testing {
 // robots on one place at one time collide. But one may enter a place exactly while the other leaves
 // it, both moves beginning and ending together, as in one step of a plan; unless they swap. Empty:
 // nobody does; else what happens first, in words. Actions that are never begun do not happen.
-std::string collision(const World& world, const ActionDependencyGraph& order, const Drive& drive,
-                      const std::vector<State>& starts);
+std::string collision(const World& world, const ActionDependencyGraph& order,
+                      const ExecutionTrace& drive, const std::vector<State>& starts);
 
 }  // namespace grove::detail::testing

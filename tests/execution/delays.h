@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "execution/drive.h"
+#include "execution/execution_trace.h"
 
 namespace grove::detail::testing {
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "engine/solve.h"
-#include "execution/drive.h"
+#include "execution/execution_trace.h"
 #include "execution/switching.h"
 #include "io/instance_file.h"
 #include "io/plan_file.h"
@@ -81,8 +81,9 @@ Instance roundabouts(std::uint64_t seed) {
 }
 
 // As if there were nobody else, but never before the time of the plan.
-Drive by_clock(const ActionDependencyGraph& order, Delays delays) {
-  Drive drive{std::vector<Time>(order.actions().size()), std::vector<Time>(order.actions().size())};
+ExecutionTrace by_clock(const ActionDependencyGraph& order, Delays delays) {
+  ExecutionTrace drive{std::vector<Time>(order.actions().size()),
+                       std::vector<Time>(order.actions().size())};
   for (std::int32_t number = 0; number < order.step_count(); ++number)
     for (const ActionIndex a : order.step(number)) {
       const Time ready = order.before(a) == kNoAction ? 0 : drive.end[order.before(a)];
@@ -93,7 +94,7 @@ Drive by_clock(const ActionDependencyGraph& order, Delays delays) {
 }
 
 // Makespan and sum of costs.
-std::pair<double, double> took(const ActionDependencyGraph& order, const Drive& drive) {
+std::pair<double, double> took(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
   Time makespan = 0;
   Cost cost = 0;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
@@ -113,16 +114,16 @@ void drive_all(const Instance& instance, const Plan& plan, std::int64_t drives, 
   const double cost = std::max<double>(1, static_cast<double>(plan.cost));
   ++counts.plans;
   counts.rings += static_cast<int>(order.rings());
-  counts.undisturbed += took(order, drive_undisturbed(order)).first / planned;
-  const auto look_at = [&](const Drive& driven) {
+  counts.undisturbed += took(order, simulate_nominal(order)).first / planned;
+  const auto look_at = [&](const ExecutionTrace& driven) {
     counts.collisions += collision(world, order, driven, starts).empty() ? 0 : 1;
     counts.deadlocks += stuck(order, driven).empty() ? 0 : 1;
   };
   for (std::int64_t i = 0; i < drives; ++i, ++counts.drives) {
     const Delays delays(order, seed + static_cast<std::uint64_t>(i));
-    const Drive driven = drive(order, delays);
+    const ExecutionTrace driven = drive(order, delays);
     look_at(driven);
-    const SwitchedDrive switched = drive_switching(world, plan, order, delays);
+    const SwitchableTrace switched = simulate_switchable(world, plan, order, delays);
     look_at(switched.drive);
     counts.switches += switched.switches;
     counts.collisions_by_clock +=

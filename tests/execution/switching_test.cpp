@@ -59,7 +59,7 @@ std::string wrong_with(const Instance& instance, const Plan& plan) {
   return wrong.empty() ? "" : wrong.front().place + ": " + wrong.front().message;
 }
 
-Cost cost_of(const ActionDependencyGraph& order, const Drive& drive) {
+Cost cost_of(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
   Cost cost = 0;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent)
     cost += drive.finish(order, agent);
@@ -86,7 +86,7 @@ TEST(Switching, WhoWaitsForALateOneGoesFirst) {
   ASSERT_EQ(wrong_with(instance, plan), "");
   const ActionDependencyGraph order(instance, plan);
   const Duration stops = [&](ActionIndex a, Time) { return a == 0 ? 50 : 1; };
-  const SwitchedDrive switched = drive_switching(instance.world(), plan, order, stops);
+  const SwitchableTrace switched = simulate_switchable(instance.world(), plan, order, stops);
   EXPECT_EQ(switched.switches, 1);
   EXPECT_EQ(drive(order, stops).finish(order, 1), 56);
   EXPECT_LT(switched.drive.finish(order, 1), 15);
@@ -107,11 +107,11 @@ TEST(Switching, NobodyWaitsInACircle) {
     for (const Agent& agent : instance.agents()) starts.push_back(agent.start);
     for (std::uint64_t schedule = 0; schedule < 20; ++schedule) {
       const Delays delays(order, schedule);
-      const SwitchedDrive switched =
-          drive_switching(instance.world(), *plan, order, delays, 1 + static_cast<Time>(seed % 5));
+      const SwitchableTrace switched = simulate_switchable(instance.world(), *plan, order, delays,
+                                                           1 + static_cast<Time>(seed % 5));
       ASSERT_EQ(collision(instance.world(), order, switched.drive, starts), "") << seed;
       ASSERT_TRUE(switched.stuck.empty()) << seed << ", " << schedule;
-      ASSERT_EQ(wrong_with(instance, driven_plan(instance, *plan, order, switched.drive)), "")
+      ASSERT_EQ(wrong_with(instance, executed_plan(instance, *plan, order, switched.drive)), "")
           << seed;
       switches += switched.switches;
       switching += cost_of(order, switched.drive);
@@ -132,7 +132,7 @@ TEST(Switching, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
     const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 10; ++schedule) {
       const Delays delays(order, schedule, true);
-      const SwitchedDrive switched = drive_switching(instance.world(), *plan, order, delays);
+      const SwitchableTrace switched = simulate_switchable(instance.world(), *plan, order, delays);
       const std::vector<Stuck> fixed = stuck(order, drive(order, delays));
       bool has_dead = switched.stuck.empty();
       for (const Stuck& s : switched.stuck) {

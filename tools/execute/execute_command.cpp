@@ -76,7 +76,7 @@ struct Took {
   std::vector<Cost> makespans;
   std::vector<Cost> costs;
 
-  void add(const ActionDependencyGraph& order, const Drive& drive) {
+  void add(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
     Cost makespan = 0;
     Cost cost = 0;
     for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
@@ -120,12 +120,12 @@ class Execution {
     const auto durations = [&] {
       return troubles.durations(order_, static_cast<std::uint64_t>(seed));
     };
-    Drive drive = grove::detail::drive(order_, durations());
+    ExecutionTrace drive = grove::detail::drive(order_, durations());
     std::vector<Stuck> stuck = grove::detail::stuck(order_, drive);
     if (stuck.empty()) fixed_.add(order_, drive);
     if (a_.switches) {
-      SwitchedDrive switched =
-          drive_switching(loaded_.instance.world(), *claimed_.solution.plan, order_, durations());
+      SwitchableTrace switched = simulate_switchable(loaded_.instance.world(),
+                                                     *claimed_.solution.plan, order_, durations());
       drive = std::move(switched.drive);
       stuck = std::move(switched.stuck);
       switches_ += switched.switches;
@@ -138,9 +138,9 @@ class Execution {
     first_stuck_seed_ = seed;
   }
 
-  Solution solution_of(const Drive& drive) const {
+  Solution solution_of(const ExecutionTrace& drive) const {
     Solution solution;
-    solution.plan = driven_plan(loaded_.instance, *claimed_.solution.plan, order_, drive);
+    solution.plan = executed_plan(loaded_.instance, *claimed_.solution.plan, order_, drive);
     solution.lower_bound = 0;
     solution.may_follow = claimed_.solution.may_follow;  // who waits for others still does not
     solution.status = status_of(solution.plan->cost, 0, solution.omega);
@@ -149,7 +149,7 @@ class Execution {
     return solution;
   }
 
-  void show(const Drive& drive, const std::vector<Stuck>& stuck) const {
+  void show(const ExecutionTrace& drive, const std::vector<Stuck>& stuck) const {
     const Solution driven = solution_of(drive);
     if (!a_.output.empty() && stuck.empty())
       write(a_.output, solution_text(loaded_.instance, driven));
@@ -170,7 +170,7 @@ class Execution {
   }
 
   // By the independent checker: a drive that collides is a bug.
-  void require_valid(const Drive& drive) const {
+  void require_valid(const ExecutionTrace& drive) const {
     require_valid_plan(loaded_.instance, solution_of(drive));
   }
 
@@ -196,7 +196,7 @@ class Execution {
   void print() {
     const Plan& plan = *claimed_.solution.plan;
     Took undisturbed;
-    undisturbed.add(order_, drive_undisturbed(order_));
+    undisturbed.add(order_, simulate_nominal(order_));
     const Cost makespan = std::ranges::max(plan.agents, {}, &AgentPlan::cost).cost;
     fmt::print("passing order: {} actions, {} waits between robots, {} rings\n",
                order_.actions().size(), order_.waits(), order_.rings());

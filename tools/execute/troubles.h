@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "execution/drive.h"
+#include "execution/execution_trace.h"
 #include "model/instance.h"
 
 namespace grove::detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "execution/drive.h"
+#include "execution/execution_trace.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -7,11 +7,12 @@
 namespace grove::detail {
 namespace {
 
-Time end_of(const Drive& drive, ActionIndex action) {
+Time end_of(const ExecutionTrace& drive, ActionIndex action) {
   return action == kNoAction ? 0 : drive.end[action];
 }
 
-Time may_begin(const ActionDependencyGraph& order, const Drive& drive, ActionIndex action) {
+Time may_begin(const ActionDependencyGraph& order, const ExecutionTrace& drive,
+               ActionIndex action) {
   return std::max(end_of(drive, order.before(action)), end_of(drive, order.after(action)));
 }
 
@@ -40,7 +41,8 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
 }
 
 // Of a ring everybody waits for whoever comes last.
-AgentIndex waits_for(const ActionDependencyGraph& order, const Drive& drive, std::int32_t step) {
+AgentIndex waits_for(const ActionDependencyGraph& order, const ExecutionTrace& drive,
+                     std::int32_t step) {
   for (const ActionIndex a : order.step(step)) {
     const AgentIndex self = order.actions()[a].agent;
     if (drive.begin[a] < kNever && drive.end[a] == kNever) return self;
@@ -60,9 +62,9 @@ Time end_of_action(Time begin, Time duration) {
   return begin + duration;
 }
 
-Drive drive(const ActionDependencyGraph& order, const Duration& duration) {
-  Drive drive{std::vector<Time>(order.actions().size(), kNever),
-              std::vector<Time>(order.actions().size(), kNever)};
+ExecutionTrace drive(const ActionDependencyGraph& order, const Duration& duration) {
+  ExecutionTrace drive{std::vector<Time>(order.actions().size(), kNever),
+                       std::vector<Time>(order.actions().size(), kNever)};
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     Time begin = 0;
     for (const ActionIndex a : order.step(number))
@@ -79,12 +81,12 @@ Drive drive(const ActionDependencyGraph& order, const Duration& duration) {
   return drive;
 }
 
-Drive drive_undisturbed(const ActionDependencyGraph& order) {
+ExecutionTrace simulate_nominal(const ActionDependencyGraph& order) {
   return drive(order, [&](ActionIndex a, Time) { return order.actions()[a].steps; });
 }
 
-Plan driven_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
-                 const Drive& drive) {
+Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
+                   const ExecutionTrace& drive) {
   Plan driven;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
     AgentPlan robot{.sequence = plan.agents[agent].sequence,
@@ -100,7 +102,7 @@ Plan driven_plan(const Instance& instance, const Plan& plan, const ActionDepende
   return driven;
 }
 
-std::vector<Stuck> stuck(const ActionDependencyGraph& order, const Drive& drive) {
+std::vector<Stuck> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
   std::vector<Stuck> stuck;
   std::vector<bool> is_told(static_cast<std::size_t>(order.agent_count()));
   for (std::int32_t number = 0; number < order.step_count(); ++number) {

@@ -10,7 +10,7 @@
 namespace grove::detail {
 
 // When each action was begun and completed, by ActionIndex; kNever: it was not.
-struct Drive {
+struct ExecutionTrace {
   std::vector<Time> begin;
   std::vector<Time> end;
 
@@ -30,14 +30,14 @@ Time end_of_action(Time begin, Time duration);
 
 // O(actions). The moves of a ring take as long as the slowest of them. Throws std::overflow_error
 // for times that no plan can mention.
-Drive drive(const ActionDependencyGraph& order, const Duration& duration);
+ExecutionTrace drive(const ActionDependencyGraph& order, const Duration& duration);
 // As long as the plan has it.
-Drive drive_undisturbed(const ActionDependencyGraph& order);
+ExecutionTrace simulate_nominal(const ActionDependencyGraph& order);
 
 // The plan that was driven: an action that takes longer than it must is a wait before it. If
 // everybody has done everything a valid plan of `instance`; else of what was done.
-Plan driven_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
-                 const Drive& drive);
+Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
+                   const ExecutionTrace& drive);
 
 // A robot that waits for ever, and for whom; for itself if it does not move again.
 struct Stuck {
@@ -45,6 +45,6 @@ struct Stuck {
   AgentIndex waits_for = -1;
 };
 // All that have not done everything.
-std::vector<Stuck> stuck(const ActionDependencyGraph& order, const Drive& drive);
+std::vector<Stuck> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "execution/drive.h"
+#include "execution/execution_trace.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ std::vector<State> starts_of(const Instance& instance) {
   return starts;
 }
 
-TEST(Drive, NobodyCollidesAndEverybodyArrives) {
+TEST(ExecutionTrace, NobodyCollidesAndEverybodyArrives) {
   int drives = 0;
   for (std::uint64_t seed = 1000; seed < 1150; ++seed) {
     const Instance instance = fuzz::random_world(seed).build();
@@ -39,11 +39,11 @@ TEST(Drive, NobodyCollidesAndEverybodyArrives) {
     if (!plan) continue;
     const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 50; ++schedule, ++drives) {
-      const Drive driven = drive(order, Delays(order, schedule));
+      const ExecutionTrace driven = drive(order, Delays(order, schedule));
       ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
       ASSERT_TRUE(stuck(order, driven).empty()) << seed << ", " << schedule;
       Solution solution;
-      solution.plan = driven_plan(instance, *plan, order, driven);
+      solution.plan = executed_plan(instance, *plan, order, driven);
       solution.status = status_of(solution.plan->cost, 0, solution.omega);
       const auto wrong = check(instance, solution);
       ASSERT_TRUE(wrong.empty()) << seed << ", " << schedule << ": " << wrong[0].place << " "
@@ -53,7 +53,7 @@ TEST(Drive, NobodyCollidesAndEverybodyArrives) {
   EXPECT_GT(drives, 3000);
 }
 
-TEST(Drive, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
+TEST(ExecutionTrace, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
   int held_up = 0;
   for (std::uint64_t seed = 2000; seed < 2100; ++seed) {
     const Instance instance = fuzz::random_world(seed).build();
@@ -62,7 +62,7 @@ TEST(Drive, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
     const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 20; ++schedule) {
       Delays delays(order, schedule, true);
-      const Drive driven = drive(order, std::ref(delays));
+      const ExecutionTrace driven = drive(order, std::ref(delays));
       ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
       const std::vector<Stuck> all = stuck(order, driven);
       EXPECT_LE(delays.anybody_dies() ? 0 : all.size(), 0u);
@@ -81,7 +81,7 @@ TEST(Drive, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
 }
 
 // Where nobody enters a place in the step in which another leaves it.
-TEST(Drive, UndisturbedItTakesNoLongerThanAPlanWithoutFollowing) {
+TEST(ExecutionTrace, UndisturbedItTakesNoLongerThanAPlanWithoutFollowing) {
   int without_following = 0;
   int longer = 0;
   for (std::uint64_t seed = 3000; seed < 3300; ++seed) {
@@ -89,7 +89,7 @@ TEST(Drive, UndisturbedItTakesNoLongerThanAPlanWithoutFollowing) {
     const auto plan = solved(instance);
     if (!plan) continue;
     const ActionDependencyGraph order(instance, *plan);
-    const Drive driven = drive_undisturbed(order);
+    const ExecutionTrace driven = simulate_nominal(order);
     bool follows = order.rings() > 0;
     bool is_longer = false;
     for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a) {
