@@ -102,8 +102,8 @@ Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDepen
   return driven;
 }
 
-std::vector<Stuck> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
-  std::vector<Stuck> stuck;
+std::vector<BlockedRobot> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
+  std::vector<BlockedRobot> stuck;
   std::vector<bool> is_told(static_cast<std::size_t>(order.agent_count()));
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     for (const ActionIndex a : order.step(number)) {

@@ -40,11 +40,11 @@ Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDepen
                    const ExecutionTrace& drive);
 
 // A robot that waits for ever, and for whom; for itself if it does not move again.
-struct Stuck {
+struct BlockedRobot {
   AgentIndex agent = -1;
   AgentIndex waits_for = -1;
 };
 // All that have not done everything.
-std::vector<Stuck> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive);
+std::vector<BlockedRobot> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive);
 
 }  // namespace grove::detail

@@ -12,8 +12,8 @@ namespace grove::detail {
 
 struct SwitchableTrace {
   ExecutionTrace drive;
-  std::int64_t switches = 0;  // places at which a robot let another one go first after all
-  std::vector<Stuck> stuck;   // who waits for whom at the end
+  std::int64_t switches = 0;        // places at which a robot let another one go first after all
+  std::vector<BlockedRobot> stuck;  // who waits for whom at the end
 };
 
 // As drive(), but a robot that has waited for another for `patience` >= 1 steps, and ever longer if

@@ -64,15 +64,15 @@ TEST(ExecutionTrace, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
       Delays delays(order, schedule, true);
       const ExecutionTrace driven = drive(order, std::ref(delays));
       ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
-      const std::vector<Stuck> all = stuck(order, driven);
+      const std::vector<BlockedRobot> all = stuck(order, driven);
       EXPECT_LE(delays.anybody_dies() ? 0 : all.size(), 0u);
       bool has_dead = all.empty();
-      for (const Stuck& s : all) {
+      for (const BlockedRobot& s : all) {
         ASSERT_GE(s.waits_for, 0);
         has_dead |= s.waits_for == s.agent;
         held_up += s.waits_for != s.agent ? 1 : 0;
         // Whom somebody waits for stands still, too.
-        EXPECT_TRUE(std::ranges::find(all, s.waits_for, &Stuck::agent) != all.end());
+        EXPECT_TRUE(std::ranges::find(all, s.waits_for, &BlockedRobot::agent) != all.end());
       }
       EXPECT_TRUE(has_dead) << seed << ", " << schedule;
     }

@@ -133,11 +133,11 @@ TEST(Switching, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
     for (std::uint64_t schedule = 0; schedule < 10; ++schedule) {
       const Delays delays(order, schedule, true);
       const SwitchableTrace switched = simulate_switchable(instance.world(), *plan, order, delays);
-      const std::vector<Stuck> fixed = stuck(order, drive(order, delays));
+      const std::vector<BlockedRobot> fixed = stuck(order, drive(order, delays));
       bool has_dead = switched.stuck.empty();
-      for (const Stuck& s : switched.stuck) {
+      for (const BlockedRobot& s : switched.stuck) {
         has_dead |= s.waits_for == s.agent;
-        EXPECT_TRUE(std::ranges::find(switched.stuck, s.waits_for, &Stuck::agent) !=
+        EXPECT_TRUE(std::ranges::find(switched.stuck, s.waits_for, &BlockedRobot::agent) !=
                     switched.stuck.end());
       }
       EXPECT_TRUE(has_dead) << seed << ", " << schedule;

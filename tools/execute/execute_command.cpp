@@ -121,7 +121,7 @@ class Execution {
       return troubles.durations(order_, static_cast<std::uint64_t>(seed));
     };
     ExecutionTrace drive = grove::detail::drive(order_, durations());
-    std::vector<Stuck> stuck = grove::detail::stuck(order_, drive);
+    std::vector<BlockedRobot> stuck = grove::detail::stuck(order_, drive);
     if (stuck.empty()) fixed_.add(order_, drive);
     if (a_.switches) {
       SwitchableTrace switched = simulate_switchable(loaded_.instance.world(),
@@ -149,7 +149,7 @@ class Execution {
     return solution;
   }
 
-  void show(const ExecutionTrace& drive, const std::vector<Stuck>& stuck) const {
+  void show(const ExecutionTrace& drive, const std::vector<BlockedRobot>& stuck) const {
     const Solution driven = solution_of(drive);
     if (!a_.output.empty() && stuck.empty())
       write(a_.output, solution_text(loaded_.instance, driven));
@@ -183,7 +183,7 @@ class Execution {
     fmt::print("{}{} of {} robots do not get to their end:\n", which, first_stuck_.size(),
                order_.agent_count());
     for (std::size_t i = 0; i < std::min(first_stuck_.size(), kMostStuck); ++i) {
-      const Stuck& s = first_stuck_[i];
+      const BlockedRobot& s = first_stuck_[i];
       if (s.agent == s.waits_for)
         fmt::print("  {} does not move any more\n", id(s.agent));
       else
@@ -236,7 +236,7 @@ class Execution {
   Took switching_;
   std::int64_t switches_ = 0;
   std::int64_t unfinished_ = 0;  // drives
-  std::vector<Stuck> first_stuck_;
+  std::vector<BlockedRobot> first_stuck_;
   std::int64_t first_stuck_seed_ = 0;
 };
 
