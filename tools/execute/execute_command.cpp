@@ -21,8 +21,8 @@
 #include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
 #include "tools/common/own_files.h"
+#include "tools/execute/disturbances.h"
 #include "tools/execute/robots.h"
-#include "tools/execute/troubles.h"
 #include "tools/solve/solve_arguments.h"
 #include "tools/view/page.h"
 #include "tools/view/page_data.h"
@@ -61,7 +61,7 @@ Examples:
 struct ExecuteArguments {
   InstanceArguments instance;
   std::string plan;
-  TroubleArguments troubles;
+  DisturbanceArguments troubles;
   bool switches = false;
   std::int64_t runs = 1;
   std::int64_t seed = 0;
@@ -103,7 +103,7 @@ class Execution {
                       a_.instance, loaded_, {a_.plan});
     if (!a_.order.empty())
       write(a_.order, order_text(loaded_.instance, order_, a_.frame.frame(loaded_.instance)));
-    const Troubles troubles(a_.troubles, loaded_.instance);
+    const Disturbances troubles(a_.troubles, loaded_.instance);
     for (std::int64_t run = 0; run < a_.runs; ++run) drive_once(troubles, a_.seed + run);
     print();
     if (a_.switches) fmt::print("switched: {} places\n", switches_);
@@ -116,7 +116,7 @@ class Execution {
     fmt::print("wrote {}\n", file);
   }
 
-  void drive_once(const Troubles& troubles, std::int64_t seed) {
+  void drive_once(const Disturbances& troubles, std::int64_t seed) {
     const auto durations = [&] {
       return troubles.durations(order_, static_cast<std::uint64_t>(seed));
     };
@@ -250,7 +250,7 @@ void add_execute_command(CLI::App& app) {
   command->add_option("PLAN", arguments->plan, "plan file, or another solver's paths")
       ->required()
       ->type_name("");
-  TroubleArguments& t = arguments->troubles;
+  DisturbanceArguments& t = arguments->troubles;
   add_number(*command, "--delays", t.delayed, 0, 1, "share of actions that take longer");
   add_integer(*command, "--delay-steps", t.delay_steps, kDelaySteps, "by 1 to so many steps");
   add_repeated(*command, "--slow", t.slow, "ROBOT=FACTOR",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/execute/troubles.h"
+#include "tools/execute/disturbances.h"
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ double factor_of(const std::string& option, const std::string& text, const std::
 
 }  // namespace
 
-Troubles::Troubles(const TroubleArguments& arguments, const Instance& instance)
+Disturbances::Disturbances(const DisturbanceArguments& arguments, const Instance& instance)
     : delayed_(arguments.delayed),
       delay_steps_(static_cast<Time>(arguments.delay_steps)),
       slowness_(static_cast<std::size_t>(instance.agent_count()), 1) {
@@ -46,7 +46,7 @@ Troubles::Troubles(const TroubleArguments& arguments, const Instance& instance)
   read_stops(arguments, instance);
 }
 
-void Troubles::read_stops(const TroubleArguments& arguments, const Instance& instance) {
+void Disturbances::read_stops(const DisturbanceArguments& arguments, const Instance& instance) {
   for (const std::string& text : arguments.stop) {
     const auto at = text.rfind('@');
     const auto split = text.rfind('=');
@@ -68,7 +68,7 @@ void Troubles::read_stops(const TroubleArguments& arguments, const Instance& ins
 }
 
 // Of a slow robot the steps of all actions together are rounded, not each.
-Duration Troubles::durations(const ActionDependencyGraph& order, std::uint64_t seed) const {
+Duration Disturbances::durations(const ActionDependencyGraph& order, std::uint64_t seed) const {
   struct Run {
     std::vector<double> owed;  // by agent: parts of steps
     std::vector<Stop> stops;   // to come

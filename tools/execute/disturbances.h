@@ -12,7 +12,7 @@
 namespace grove::detail {
 
 // Of a command line.
-struct TroubleArguments {
+struct DisturbanceArguments {
   double delayed = 0;             // share of actions that take longer
   std::int64_t delay_steps = 3;   // by so many steps at most
   std::vector<std::string> slow;  // ROBOT=FACTOR
@@ -21,10 +21,10 @@ struct TroubleArguments {
 };
 
 // The same of an instance's robots, in numbers.
-class Troubles {
+class Disturbances {
  public:
   // Throws CLI::ValidationError, naming option and value.
-  Troubles(const TroubleArguments& arguments, const Instance& instance);
+  Disturbances(const DisturbanceArguments& arguments, const Instance& instance);
 
   // How long actions take in one drive; another seed, another drive.
   Duration durations(const ActionDependencyGraph& order, std::uint64_t seed) const;
@@ -36,7 +36,7 @@ class Troubles {
     Time steps = 0;  // kNever: for good
   };
 
-  void read_stops(const TroubleArguments& arguments, const Instance& instance);
+  void read_stops(const DisturbanceArguments& arguments, const Instance& instance);
 
   double delayed_;
   Time delay_steps_;
