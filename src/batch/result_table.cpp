@@ -181,7 +181,7 @@ void ResultTable::write_csv() const {
   });
   std::string text = csv_header();
   for (const Row* row : rows) text += csv_line(*row);
-  write_file_atomically(csv_file(folder_), text, Outlives::kProcess);
+  write_file_atomically(csv_file(folder_), text, Durability::kProcess);
 }
 
 void ResultTable::end() {

@@ -127,8 +127,8 @@ void AtomicFile::write(std::string_view bytes) {
   if (!write_all(file_->get(), bytes)) fail_to_write(name_);
 }
 
-void AtomicFile::commit(Outlives outlives) {
-  const bool is_flushed = outlives == Outlives::kMachine && !temporary_.empty();
+void AtomicFile::commit(Durability outlives) {
+  const bool is_flushed = outlives == Durability::kMachine && !temporary_.empty();
   if (is_flushed && ::fsync(file_->get()) != 0) fail_to_write(name_);
   if (!file_->reports_no_error()) fail_to_write(name_);
   if (temporary_.empty()) return;
@@ -137,7 +137,7 @@ void AtomicFile::commit(Outlives outlives) {
   if (is_flushed) flush_directory(target_.parent_path());
 }
 
-void write_file_atomically(const fs::path& path, std::string_view content, Outlives outlives) {
+void write_file_atomically(const fs::path& path, std::string_view content, Durability outlives) {
   AtomicFile file(path);
   file.write(content);
   file.commit(outlives);

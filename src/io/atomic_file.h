@@ -13,7 +13,7 @@ namespace grove::detail {
 
 // What a file that was written outlives: this process, however it ends, or a crash of the machine
 // too. To wait until the disk has it can take seconds, where others keep the machine busy.
-enum class Outlives : std::uint8_t { kProcess, kMachine };
+enum class Durability : std::uint8_t { kProcess, kMachine };
 
 // The file at `path`, replaced piece by piece: written beside it under a temporary name, flushed to
 // disk if it is to outlive the machine, and renamed by commit(). Without that the old file stands
@@ -30,7 +30,7 @@ class AtomicFile {
 
   void write(std::string_view bytes);
   // To be called once, last.
-  void commit(Outlives outlives = Outlives::kMachine);
+  void commit(Durability outlives = Durability::kMachine);
 
  private:
   const std::filesystem::path name_;  // as it was given, for messages
@@ -45,7 +45,7 @@ class AtomicFile {
 // directly. A program that may run under a limit on file sizes must ignore SIGXFSZ, or the signal
 // ends it half-way.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
-                           Outlives outlives = Outlives::kMachine);
+                           Durability outlives = Durability::kMachine);
 
 // Waits until the disk has the file at `path`, which was to outlive the process alone so far. Of
 // any thread. Throws InputError.

@@ -339,7 +339,7 @@ std::string instance_text(const Instance& instance, const std::string& map) {
 }
 
 void write_instance(const std::filesystem::path& path, const Instance& instance,
-                    const std::string& map, Outlives outlives) {
+                    const std::string& map, Durability outlives) {
   write_file_atomically(path, instance_text(instance, map), outlives);
 }
 

@@ -49,6 +49,6 @@ std::string instance_text(const Instance& instance, const std::string& map);
 // Writes `instance` as *.cts.json, whole or not at all; `map` is stored as it is given and should
 // be relative to the file. Throws InputError when the file cannot be written.
 void write_instance(const std::filesystem::path& path, const Instance& instance,
-                    const std::string& map, Outlives outlives = Outlives::kMachine);
+                    const std::string& map, Durability outlives = Durability::kMachine);
 
 }  // namespace grove::detail

@@ -178,7 +178,7 @@ std::string solution_text(const Instance& instance, const Solution& solution) {
 }
 
 void write_solution(const std::filesystem::path& path, const Instance& instance,
-                    const Solution& solution, Outlives outlives) {
+                    const Solution& solution, Durability outlives) {
   write_file_atomically(path, solution_text(instance, solution), outlives);
 }
 

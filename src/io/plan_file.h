@@ -19,7 +19,7 @@ std::string solution_text(const Instance& instance, const Solution& solution);
 // Writes `solution` whole or not at all. Throws InputError when the file cannot be written, and
 // InvalidPlan.
 void write_solution(const std::filesystem::path& path, const Instance& instance,
-                    const Solution& solution, Outlives outlives = Outlives::kMachine);
+                    const Solution& solution, Durability outlives = Durability::kMachine);
 
 // Reads a plan file and translates its ids with `instance`; believes every number it finds, for
 // check() to refute. Agents come back by AgentIndex whatever their order in the file; an agent that

@@ -98,7 +98,7 @@ Roadmap parse_roadmap(std::string_view text, const std::string& name, const Inpu
   return Roadmap(std::move(vertices), std::move(roads));
 }
 
-void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap, Outlives outlives) {
+void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap, Durability outlives) {
   OrderedJson vertices = OrderedJson::array();
   for (const Vertex& vertex : roadmap.vertices())
     vertices.push_back({{"id", vertex.id}, {"at", {vertex.at.x, vertex.at.y}}});

@@ -19,6 +19,6 @@ Roadmap parse_roadmap(std::string_view text, const std::string& name, const Inpu
 
 // Writes it whole or not at all. Throws InputError when the file cannot be written.
 void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap,
-                   Outlives outlives = Outlives::kMachine);
+                   Durability outlives = Durability::kMachine);
 
 }  // namespace grove::detail

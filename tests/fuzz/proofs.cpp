@@ -178,11 +178,11 @@ class Trial {
 
   void write(const Instance& instance) const {
     if (const Roadmap* roadmap = instance.roadmap()) {
-      write_roadmap(roadmap_, *roadmap, Outlives::kProcess);
-      write_instance(instance_file_, instance, roadmap_.filename(), Outlives::kProcess);
+      write_roadmap(roadmap_, *roadmap, Durability::kProcess);
+      write_instance(instance_file_, instance, roadmap_.filename(), Durability::kProcess);
     } else {
       write_map(map_, instance.grid());
-      write_instance(instance_file_, instance, map_.filename(), Outlives::kProcess);
+      write_instance(instance_file_, instance, map_.filename(), Durability::kProcess);
     }
   }
 

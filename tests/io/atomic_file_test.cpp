@@ -199,7 +199,7 @@ TEST(WriteFileAtomically, BelievesThatOthersAreDeadAfterAWhile) {
 
 TEST(FlushFile, RefusesWhatIsNotThere) {
   const TemporaryDirectory directory;
-  write_file_atomically(directory / "file", "new", Outlives::kProcess);
+  write_file_atomically(directory / "file", "new", Durability::kProcess);
   EXPECT_EQ(refusal([&] { flush_file(directory / "file"); }), "accepted");
   EXPECT_EQ(refusal([&] { flush_file(directory / "none"); }),
             "none: cannot be written: No such file or directory");

@@ -220,7 +220,8 @@ class Bench {
     fs::path instance = entry.path;
     if (entry.agents > 0) {
       instance = files.instance;
-      write_instance(instance, loaded.instance, fs::absolute(loaded.map_path), Outlives::kProcess);
+      write_instance(instance, loaded.instance, fs::absolute(loaded.map_path),
+                     Durability::kProcess);
     }
     std::vector<std::string> command{options_.verify, instance.string(), files.proof.string()};
     if (entry.rules.confined && entry.agents == 0) command.push_back("--confine");

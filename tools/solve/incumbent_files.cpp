@@ -67,7 +67,7 @@ void IncumbentFiles::write(const Plan& plan, const Progress& progress) {
 }
 
 void IncumbentFiles::write_file(const std::filesystem::path& file, const Solution& solution) {
-  write_solution(file, instance_, solution, Outlives::kProcess);
+  write_solution(file, instance_, solution, Durability::kProcess);
   if (!flusher_) flusher_.emplace();
   flusher_->flush(file);
 }
