@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 
 namespace grove::detail::batch {
 
@@ -19,7 +19,7 @@ class FolderLock {
   explicit FolderLock(const std::filesystem::path& folder);
 
  private:
-  const Descriptor file_;
+  const FileDescriptor file_;
 };
 
 }  // namespace grove::detail::batch

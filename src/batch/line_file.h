@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 
 namespace grove::detail::batch {
 
@@ -27,7 +27,7 @@ class LineFile {
 
  private:
   const std::filesystem::path path_;
-  const Descriptor file_;
+  const FileDescriptor file_;
 };
 
 }  // namespace grove::detail::batch

@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 #include "io/input_error.h"
 #include "io/special_file.h"
 
@@ -72,7 +72,7 @@ void clear_abandoned(const fs::path& folder) {
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     if (!name.starts_with(kTemporary) || !name.ends_with(".tmp")) continue;
-    const Descriptor file(entry->path(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW);
+    const FileDescriptor file(entry->path(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW);
     if (file.is_open() && is_abandoned(entry->path(), file.get())) ::unlink(entry->path().c_str());
   }
 }
@@ -86,8 +86,8 @@ void clear_abandoned_once(const fs::path& folder) {
 }
 
 // A new, empty file, locked as long as it is open. None: somebody has taken it for abandoned.
-std::optional<Descriptor> make_locked(const fs::path& path) {
-  Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
+std::optional<FileDescriptor> make_locked(const fs::path& path) {
+  FileDescriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
   if (!file.is_open()) return file;
   struct stat status {};
   const bool is_locked = lock(file.get()) != LockResult::kHeld;
@@ -97,7 +97,7 @@ std::optional<Descriptor> make_locked(const fs::path& path) {
 
 // After a crash of the machine either name must lead to a whole file.
 void flush_directory(const fs::path& directory) {
-  const Descriptor handle(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);
+  const FileDescriptor handle(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);
   if (handle.is_open()) (void)::fsync(handle.get());
 }
 
@@ -144,7 +144,7 @@ void write_file_atomically(const fs::path& path, std::string_view content, Durab
 }
 
 void flush_file(const fs::path& path) {
-  const Descriptor file(path, O_RDONLY);
+  const FileDescriptor file(path, O_RDONLY);
   if (!file.is_open() || ::fsync(file.get()) != 0) fail_to_write(path);
   flush_directory(path.parent_path());
 }

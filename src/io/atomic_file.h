@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 
 namespace grove::detail {
 
@@ -36,7 +36,7 @@ class AtomicFile {
   const std::filesystem::path name_;  // as it was given, for messages
   std::filesystem::path target_;      // behind a symbolic link
   std::filesystem::path temporary_;   // empty: there is none, for the file is special, or no more
-  std::optional<Descriptor> file_;
+  std::optional<FileDescriptor> file_;
 };
 
 // Replaces the file at `path` by `content`: written beside it under a temporary name, flushed to

@@ -28,15 +28,15 @@ std::string who_i_am() {
                      fmt::gmtime(std::time(nullptr)));
 }
 
-std::string holder(const Descriptor& file) {
+std::string holder(const FileDescriptor& file) {
   char text[kLongestHolder];
   const ssize_t size = ::pread(file.get(), text, sizeof text, 0);
   return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : "it has just begun";
 }
 
 // In a folder where strangers may write, a link could lead to any file of the user.
-Descriptor open_lock_file(const fs::path& path) {
-  Descriptor file(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
+FileDescriptor open_lock_file(const fs::path& path) {
+  FileDescriptor file(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
   if (!file.is_open() && errno != ELOOP) return file;
   struct stat status {};
   const bool is_known = file.is_open() && ::fstat(file.get(), &status) == 0;
@@ -45,7 +45,7 @@ Descriptor open_lock_file(const fs::path& path) {
   return file;
 }
 
-bool write_holder(const Descriptor& file) {
+bool write_holder(const FileDescriptor& file) {
   return ::ftruncate(file.get(), 0) == 0 && write_all(file.get(), who_i_am());
 }
 
@@ -57,7 +57,7 @@ fs::path lock_file_of(const fs::path& output) {
   return output.parent_path() / fmt::format(".grove-{}.lock", name);
 }
 
-bool is_still_there(const Descriptor& file, const fs::path& path) {
+bool is_still_there(const FileDescriptor& file, const fs::path& path) {
   struct stat opened {};
   struct stat named {};
   return ::fstat(file.get(), &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&

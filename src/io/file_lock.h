@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 
 namespace grove::detail {
 
@@ -21,7 +21,7 @@ class FileLock {
   bool is_held() const { return held_; }
 
  private:
-  Descriptor file_;
+  FileDescriptor file_;
   bool held_ = true;
 };
 
@@ -39,7 +39,7 @@ class OutputLock {
 
  private:
   std::filesystem::path path_;
-  Descriptor file_;  // not open: nothing is locked
+  FileDescriptor file_;  // not open: nothing is locked
 };
 
 }  // namespace grove::detail

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 #include "proof/zstd_stream.h"
 
 namespace grove::detail {
@@ -25,7 +25,7 @@ class CertificateBytes {
   std::size_t read_file(char* buffer, std::size_t size);
 
   const std::filesystem::path path_;
-  const Descriptor file_;
+  const FileDescriptor file_;
   std::string first_;  // bytes of the file, of which these are not told yet
   std::optional<ZstdDecompressor> stream_;
 };

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 #include "io/input_error.h"
 #include "proof/zstd_stream.h"
 
@@ -183,7 +183,7 @@ class ProofRecorder::Stream {
       write();
     } catch (const InputError& error) {
       failure_ = error.what();
-      file_ = Descriptor(-1);
+      file_ = FileDescriptor(-1);
       std::error_code ignored;
       std::filesystem::remove(path_, ignored);
     }
@@ -194,7 +194,7 @@ class ProofRecorder::Stream {
   }
 
   const std::filesystem::path path_;
-  Descriptor file_;
+  FileDescriptor file_;
   std::mutex mutex_;  // guards:
   ZstdCompressor compressor_;
   std::string failure_;  // why nothing more is recorded
@@ -257,7 +257,7 @@ std::string ProofRecorder::flush() {
 }
 
 void read_proof_part(const std::filesystem::path& path, ProofLog& log) {
-  const Descriptor file(path, O_RDONLY | O_NOFOLLOW);
+  const FileDescriptor file(path, O_RDONLY | O_NOFOLLOW);
   if (!file.is_open()) fail_to_read(path);
   ZstdDecompressor stream([&](char* buffer, std::size_t size) {
     const ssize_t count = ::read(file.get(), buffer, size);

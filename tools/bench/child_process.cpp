@@ -15,7 +15,7 @@
 #include <csignal>
 #include <system_error>
 
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 
 namespace grove::detail::bench {
 namespace {
@@ -67,9 +67,9 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  const Descriptor input("/dev/null", O_RDONLY);
+  const FileDescriptor input("/dev/null", O_RDONLY);
   if (!input.is_open()) fail("/dev/null");
-  const Descriptor output(said, O_WRONLY | O_CREAT | O_TRUNC);
+  const FileDescriptor output(said, O_WRONLY | O_CREAT | O_TRUNC);
   if (!output.is_open()) fail(said.c_str());
 
   rlimit memory{};
@@ -84,7 +84,7 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
            limits.memory_gb ? &memory : nullptr);
 
   // glibc 2.36 declares pidfd_open() for C alone.
-  const Descriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
+  const FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
   if (!process.is_open()) {
     const int error = errno;
     ::kill(pid, SIGKILL);

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 #include "tools/common/machine.h"
 
 namespace grove::detail {

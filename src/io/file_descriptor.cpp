@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/descriptor.h"
+#include "io/file_descriptor.h"
 
 #include <cerrno>
 

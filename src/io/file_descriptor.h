@@ -14,19 +14,19 @@
 namespace grove::detail {
 
 // An open file; closes itself.
-class Descriptor {
+class FileDescriptor {
  public:
   // Takes over one that is open, or -1.
-  explicit Descriptor(int fd) : fd_(fd) {}
+  explicit FileDescriptor(int fd) : fd_(fd) {}
   // `flags` as those of open(2); a file that is made can be read and written by all, but for the
   // umask. errno says why if it is not open then.
-  Descriptor(const std::filesystem::path& path, int flags)
-      : Descriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() {
+  FileDescriptor(const std::filesystem::path& path, int flags)
+      : FileDescriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~FileDescriptor() {
     if (fd_ >= 0) ::close(fd_);
   }
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
+  FileDescriptor(FileDescriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
     std::swap(fd_, other.fd_);
     return *this;
   }
