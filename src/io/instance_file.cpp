@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "io/atomic_file.h"
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/input_error.h"
 #include "io/json_value.h"
 #include "io/json_writer.h"
@@ -202,11 +202,12 @@ std::pair<ScenarioRow, Time> row_of(const Instance& instance, AgentIndex i,
   const Agent& agent = instance.agent(i);
   const Time length = distance_field(grid, *agent.goal)[agent.start];
   if (length >= kNever)
-    throw NotExpressible(fmt::format("agents/{}", i),
-                         fmt::format("agent '{}' cannot reach its goal; expected a way there, for "
-                                     "a .scen file tells how long it is",
-                                     agent.id),
-                         Loss::kNothing);
+    throw NotRepresentable(
+        fmt::format("agents/{}", i),
+        fmt::format("agent '{}' cannot reach its goal; expected a way there, for "
+                    "a .scen file tells how long it is",
+                    agent.id),
+        Loss::kNothing);
   return {{.line = i + 2,
            .map = map,
            .width = grid.width(),

@@ -38,9 +38,10 @@ LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
                                       const InputRules& rules = {});
 
 // Writes classical MAPF as a scenario, one row per agent, whole or not at all; `map` is the map's
-// file name. The length column is the 4-connected distance (write_scenario). Throws NotExpressible
-// for tasks, for agents without a destination or out of its reach, and for ids that are not the
-// default ones; InputError when the file cannot be written or the name has blanks in it.
+// file name. The length column is the 4-connected distance (write_scenario). Throws
+// NotRepresentable for tasks, for agents without a destination or out of its reach, and for ids
+// that are not the default ones; InputError when the file cannot be written or the name has blanks
+// in it.
 void write_scenario_instance(const std::filesystem::path& path, const Instance& instance,
                              const std::string& map);
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "io/atomic_file.h"
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/input_error.h"
 #include "io/waypoints.h"
 #include "io/yaml_text.h"
@@ -114,7 +114,7 @@ std::string head_text(const Grid& grid, const Agent& agent) {
 void require_no_goals(const Instance& instance, std::string_view format) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (instance.agent(i).goal)
-      throw NotExpressible(
+      throw NotRepresentable(
           fmt::format("agents/{}", i),
           fmt::format("agent '{}' has a goal to end on, which cannot be said in {}; expected an "
                       "agent that may end on any of its tasks (MG-MAPF)",

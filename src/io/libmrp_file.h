@@ -34,7 +34,7 @@ Instance read_libmrp_instance(const std::filesystem::path& path,
                               std::vector<std::string>* warnings = nullptr,
                               const InputRules& rules = {});
 
-// Writes classical MAPF for libMultiRobotPlanning, whole or not at all. Throws NotExpressible for
+// Writes classical MAPF for libMultiRobotPlanning, whole or not at all. Throws NotRepresentable for
 // tasks and for agents without a destination, InputError when the file cannot be written.
 void write_libmrp_instance(const std::filesystem::path& path, const Instance& instance);
 
@@ -42,7 +42,7 @@ void write_libmrp_instance(const std::filesystem::path& path, const Instance& in
 // goals, of one.
 void write_potential_goals(const std::filesystem::path& path, const Instance& instance);
 
-// Writes MG-MAPF for MGCBS, whole or not at all. Throws NotExpressible for agents with a
+// Writes MG-MAPF for MGCBS, whole or not at all. Throws NotRepresentable for agents with a
 // destination and ids of tasks that are not the default ones, InputError when the file cannot be
 // written.
 void write_mgcbs_instance(const std::filesystem::path& path, const Instance& instance);

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "io/atomic_file.h"
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/plan_export.h"
 #include "io/plan_steps.h"
 #include "io/yaml_text.h"
@@ -43,7 +43,7 @@ constexpr std::size_t kLongestKey = 1024;
 std::string key_text(const Instance& instance, AgentIndex agent) {
   std::string key = yaml_text(instance.agent(agent).id);
   if (key.size() > kLongestKey)
-    throw NotExpressible(
+    throw NotRepresentable(
         fmt::format("agents/{}", agent),
         fmt::format("the id has {} bytes in YAML; expected at most {}, for it is a "
                     "key there",

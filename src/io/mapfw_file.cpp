@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "io/atomic_file.h"
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/input_error.h"
 #include "io/json_value.h"
 #include "io/json_writer.h"

@@ -23,7 +23,7 @@ Instance read_mapfw_problem(const std::filesystem::path& path,
                             std::vector<std::string>* warnings = nullptr);
 
 // Writes a problem, whole or not at all; a task is a waypoint of each of its agents. Throws
-// NotExpressible for agents without a destination and for ids that are not the default ones,
+// NotRepresentable for agents without a destination and for ids that are not the default ones,
 // InputError when the file cannot be written.
 void write_mapfw_problem(const std::filesystem::path& path, const Instance& instance);
 

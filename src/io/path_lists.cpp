@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "io/atomic_file.h"
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/plan_export.h"
 #include "io/plan_steps.h"
 

@@ -16,8 +16,8 @@ namespace grove::detail {
 
 // libMultiRobotPlanning's schedule (YAML): x, y, t of every step until the agent comes to rest, x
 // the column and y the row. Its viewer finds an agent by its name in the instance, so the ids are
-// the names. Statistics that the plan file does not tell are left out. Throws NotExpressible for an
-// id that is longer than a key of YAML may be.
+// the names. Statistics that the plan file does not tell are left out. Throws NotRepresentable for
+// an id that is longer than a key of YAML may be.
 void write_libmrp_schedule(const std::filesystem::path& path, const Instance& instance,
                            const Solution& solution);
 
@@ -38,7 +38,7 @@ void write_path_lists(const std::filesystem::path& path, const Instance& instanc
 // (https://github.com/MAPF-Competition/ PlanViz), in its format of 2024: paths as actions, U, D, L,
 // R (U is one row down there) or, of robots that turn, F, R, C; W is a wait. Each agent has one
 // task of several errands: its own tasks in the order of its visits, then its destination. Throws
-// NotExpressible on roadmaps, for turns that do not take one step, and where some robots turn and
+// NotRepresentable on roadmaps, for turns that do not take one step, and where some robots turn and
 // others do not.
 void write_planviz(const std::filesystem::path& path, const Instance& instance,
                    const Solution& solution);

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.h"
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/json_writer.h"
 #include "io/plan_export.h"
 #include "io/plan_steps.h"
@@ -21,16 +21,16 @@ bool turns(const Instance& instance) {
 
 void require_expressible(const Instance& instance) {
   if (!instance.is_on_grid())
-    throw NotExpressible("roadmap", "a roadmap cannot be shown by PlanViz; expected a grid",
-                         Loss::kNothing);
+    throw NotRepresentable("roadmap", "a roadmap cannot be shown by PlanViz; expected a grid",
+                           Loss::kNothing);
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Time steps = instance.agent(i).motion.turn_steps;
     if (steps > 1 || (steps > 0) != turns(instance))
-      throw NotExpressible(fmt::format("agents/{}", i),
-                           fmt::format("agent '{}' takes {} steps for a quarter turn; PlanViz "
-                                       "expects 1 of all agents, or none of any",
-                                       instance.agent(i).id, steps),
-                           Loss::kNothing);
+      throw NotRepresentable(fmt::format("agents/{}", i),
+                             fmt::format("agent '{}' takes {} steps for a quarter turn; PlanViz "
+                                         "expects 1 of all agents, or none of any",
+                                         instance.agent(i).id, steps),
+                             Loss::kNothing);
   }
 }
 

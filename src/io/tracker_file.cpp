@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/atomic_file.h"
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/plan_steps.h"
 #include "model/parse_number.h"
 
@@ -90,11 +90,12 @@ void require_tracker_instance(const Instance& instance) {
   require_free_grid(instance, kFormat);
   require_goals(instance, kFormat);
   if (instance.task_count() > 0)
-    throw NotExpressible("tasks/0",
-                         fmt::format("task '{}' cannot be said in {}, nor would bound and cost be "
-                                     "right without it; expected no tasks",
-                                     instance.task(0).id, kFormat),
-                         Loss::kNothing);
+    throw NotRepresentable(
+        "tasks/0",
+        fmt::format("task '{}' cannot be said in {}, nor would bound and cost be "
+                    "right without it; expected no tasks",
+                    instance.task(0).id, kFormat),
+        Loss::kNothing);
 }
 
 void write_tracker_row(const std::filesystem::path& path, const Instance& instance,

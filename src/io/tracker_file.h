@@ -30,8 +30,8 @@ enum class TrackerLayout : std::uint8_t { kJson, kCsv };
 // is y - 1; what it offers for download has y + 1 there, and flip_up_down: true says so.
 enum class TrackerUp : std::uint8_t { kTowardsRowZero, kAwayFromRowZero };
 
-// Throws NotExpressible for tasks and for agents without a destination: the tracker's instances are
-// classical MAPF.
+// Throws NotRepresentable for tasks and for agents without a destination: the tracker's instances
+// are classical MAPF.
 void require_tracker_instance(const Instance& instance);
 
 // Writes `solution` as one row, whole or not at all; it must hold a valid plan of `instance` (ask

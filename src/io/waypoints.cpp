@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/input_error.h"
 
 namespace grove::detail {

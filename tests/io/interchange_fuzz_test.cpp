@@ -8,7 +8,7 @@
 #include <array>
 #include <random>
 
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/input_error.h"
 #include "io/libmrp_file.h"
 #include "io/mapfw_file.h"
@@ -109,7 +109,7 @@ int survivors(const std::string& text, Read read, Write write) {
       EXPECT_EQ(fingerprint(read(directory / "out")), fingerprint(instance));
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("in: "), std::string::npos) << error.what();
-    } catch (const NotExpressible&) {
+    } catch (const NotRepresentable&) {
       continue;  // a mixture of goal and goals
     } catch (const std::exception& error) {
       ADD_FAILURE() << error.what();

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "tests/support/instances.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
@@ -258,7 +258,7 @@ TEST_F(LibmrpFile, WhatTheToolsCannotSayIsNotWritten) {
   const auto problem = [&](auto write, const Instance& instance) -> std::string {
     try {
       write(directory_ / "o.yaml", instance);
-    } catch (const NotExpressible& error) {
+    } catch (const NotRepresentable& error) {
       return error.field() + ": " + error.what();
     }
     return "written";

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "tests/support/instances.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
@@ -126,7 +126,7 @@ TEST_F(MapfwFile, WhatItCannotSayIsNotWritten) {
   const auto problem = [&](const Instance& i) -> std::string {
     try {
       return written(i);
-    } catch (const NotExpressible& error) {
+    } catch (const NotRepresentable& error) {
       return error.field() + ": " + error.what();
     }
   };
@@ -146,7 +146,7 @@ TEST(Expressible, TasksInAnotherOrderThanTheyAppearInAreOtherIds) {
   builder.add_task("t0", {2, 0}, std::vector<std::string>{"a1"});
   builder.add_task("t1", {3, 0}, std::vector<std::string>{"a1", "a0"});
   const Instance swapped = std::move(builder).build();
-  EXPECT_THROW(require_default_task_ids(swapped, "x"), NotExpressible);
+  EXPECT_THROW(require_default_task_ids(swapped, "x"), NotRepresentable);
   const Instance renamed = with_default_task_ids(swapped);
   require_default_task_ids(renamed, "x");
   EXPECT_EQ(renamed.task(0).cell, 3);

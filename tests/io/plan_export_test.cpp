@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/tracker_file.h"
 #include "model/check.h"
 #include "tests/support/instances.h"
@@ -101,7 +101,7 @@ TEST_F(PlanExport, LibmrpSchedulesHaveNoKeysTooLongForYaml) {
     write_libmrp_schedule(directory_ / "out", std::move(builder).build(), solution);
   };
   write(1024);
-  EXPECT_THROW(write(1025), NotExpressible);
+  EXPECT_THROW(write(1025), NotRepresentable);
 }
 
 TEST_F(PlanExport, VisualizerTextIsPaddedAndEndsEveryPositionWithAComma) {
@@ -176,9 +176,9 @@ TEST_F(PlanExport, TheTrackerKnowsNoTasks) {
     write_tracker_row(directory_ / "out", instance, solution_, {"m", "even", 1},
                       TrackerLayout::kJson, TrackerUp::kTowardsRowZero);
   };
-  EXPECT_THROW(write(instance_), NotExpressible);
+  EXPECT_THROW(write(instance_), NotRepresentable);
   EXPECT_THROW(write(testing::instance_of({"..."}, {{{0, 0}, Position{2, 0}, {{1, 0}}}})),
-               NotExpressible);
+               NotRepresentable);
   EXPECT_TRUE(directory_.files().empty());
 }
 
@@ -264,7 +264,7 @@ TEST_F(PlanExport, PlanVizKnowsOneWayToTurn) {
     ASSERT_TRUE(check(instance, solution).empty());
     const auto write = [&] { write_planviz(directory_ / "out", instance, solution); };
     if (steps == 2) {
-      EXPECT_THROW(write(), NotExpressible);
+      EXPECT_THROW(write(), NotRepresentable);
     } else {
       write();
       const std::string text = file_content(directory_ / "out");

@@ -19,7 +19,7 @@
 
 #include "batch/batch_clock.h"
 #include "batch/result_table.h"
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/input_error.h"
 #include "io/instance_file.h"
 #include "io/plan_file.h"
@@ -248,7 +248,7 @@ class Bench {
       if (end.kind == ChildEnd::Kind::kCancelled) return false;
       row.outcome = foreign.judged(end, files.said);
       if (options_.keep_plans) keep(foreign, loaded.instance, files, row);
-    } catch (const NotExpressible& error) {
+    } catch (const NotRepresentable& error) {
       row.outcome = {.status = batch::kUnsuitable,
                      .error = fmt::format("{}: {}", error.field(), error.what())};
     }

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/input_error.h"
 #include "io/libmrp_file.h"
 #include "io/map_file.h"

@@ -26,7 +26,7 @@ struct ForeignSolver {
 class ForeignRun {
  public:
   // Writes what the solver reads into `folder`, which is its own and made anew. Throws
-  // NotExpressible where it cannot be given this instance, InputError where files cannot be
+  // NotRepresentable where it cannot be given this instance, InputError where files cannot be
   // written. `loaded` is the instance of `entry`; all must outlive this.
   ForeignRun(const ForeignSolver& solver, const batch::Entry& entry, const LoadedInstance& loaded,
              const batch::Settings& settings, std::filesystem::path folder);

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "io/atomic_file.h"
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/input_error.h"
 #include "io/libmrp_file.h"
 #include "io/map_file.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/expressible.h"
+#include "io/format_support.h"
 #include "io/input_error.h"
 #include "io/libmrp_file.h"
 #include "io/mapfw_file.h"
@@ -75,7 +75,7 @@ void express(const ConvertArguments& arguments, const Instance& instance, Instan
              const std::function<void()>& write) {
   try {
     write();
-  } catch (const NotExpressible& error) {
+  } catch (const NotRepresentable& error) {
     throw InputError(arguments.instance, place_of(error, instance, from),
                      error.what() + hint(error.loss()));
   } catch (const InstanceError& error) {

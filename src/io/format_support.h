@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the files of other tools can hold of an instance. Their writers have one rule: what is read
-// back is the instance that was written, or they throw NotExpressible. Only the order of the agents
-// of a task, which means nothing, is not kept, nor the letters with which a map file names terrain.
+// back is the instance that was written, or they throw NotRepresentable. Only the order of the
+// agents of a task, which means nothing, is not kept, nor the letters with which a map file names
+// terrain.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,9 @@ enum class Loss : std::uint8_t { kNothing, kIds, kTasks };
 
 // The format cannot hold this instance. field() is "agents/3" or "tasks/0"; what() says what it is
 // about them and what was expected.
-class NotExpressible : public InstanceError {
+class NotRepresentable : public InstanceError {
  public:
-  NotExpressible(std::string field, const std::string& message, Loss loss)
+  NotRepresentable(std::string field, const std::string& message, Loss loss)
       : InstanceError(std::move(field), message), loss_(loss) {}
   // Giving this up would help; kNothing: nothing would.
   Loss loss() const { return loss_; }
@@ -33,8 +34,8 @@ class NotExpressible : public InstanceError {
 std::string default_agent_id(AgentIndex agent);
 std::string default_task_id(TaskIndex task);
 
-// These throw NotExpressible unless `instance` is as their names say. `format` is named in what().
-// A grid, agents that turn freely, tasks that take no time.
+// These throw NotRepresentable unless `instance` is as their names say. `format` is named in
+// what(). A grid, agents that turn freely, tasks that take no time.
 void require_free_grid(const Instance& instance, std::string_view format);
 // No idle agents.
 void require_work_for_all(const Instance& instance, std::string_view format);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/expressible.h"
+#include "io/format_support.h"
 
 #include <fmt/format.h>
 
@@ -69,33 +69,35 @@ std::string default_task_id(TaskIndex task) {
 
 void require_free_grid(const Instance& instance, std::string_view format) {
   if (!instance.is_on_grid())
-    throw NotExpressible("roadmap",
-                         fmt::format("a roadmap cannot be said in {}; expected a grid", format),
-                         Loss::kNothing);
+    throw NotRepresentable("roadmap",
+                           fmt::format("a roadmap cannot be said in {}; expected a grid", format),
+                           Loss::kNothing);
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (instance.agent(i).motion.turn_steps > 0)
-      throw NotExpressible(agent_field(i),
-                           fmt::format("agent '{}' turns, which cannot be said in {}; expected "
-                                       "agents that turn freely",
-                                       instance.agent(i).id, format),
-                           Loss::kNothing);
+      throw NotRepresentable(agent_field(i),
+                             fmt::format("agent '{}' turns, which cannot be said in {}; expected "
+                                         "agents that turn freely",
+                                         instance.agent(i).id, format),
+                             Loss::kNothing);
   for (TaskIndex i = 0; i < instance.task_count(); ++i)
     if (instance.task(i).duration > 0)
-      throw NotExpressible(task_field(i),
-                           fmt::format("task '{}' takes time, which cannot be said in {}; expected "
-                                       "none that does",
-                                       instance.task(i).id, format),
-                           Loss::kNothing);
+      throw NotRepresentable(
+          task_field(i),
+          fmt::format("task '{}' takes time, which cannot be said in {}; expected "
+                      "none that does",
+                      instance.task(i).id, format),
+          Loss::kNothing);
 }
 
 void require_work_for_all(const Instance& instance, std::string_view format) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (instance.agent(i).is_idle())
-      throw NotExpressible(agent_field(i),
-                           fmt::format("agent '{}' has neither a goal nor a task, which cannot be "
-                                       "said in {}; expected one of them",
-                                       instance.agent(i).id, format),
-                           Loss::kNothing);
+      throw NotRepresentable(
+          agent_field(i),
+          fmt::format("agent '{}' has neither a goal nor a task, which cannot be "
+                      "said in {}; expected one of them",
+                      instance.agent(i).id, format),
+          Loss::kNothing);
 }
 
 void require_distinct_cells(const Instance& instance, std::string_view format) {
@@ -103,7 +105,7 @@ void require_distinct_cells(const Instance& instance, std::string_view format) {
   for (TaskIndex i = 0; i < instance.task_count(); ++i) {
     const auto [first, is_new] = by_cell.emplace(instance.task(i).cell, i);
     if (!is_new)
-      throw NotExpressible(
+      throw NotRepresentable(
           task_field(i),
           fmt::format("task '{}' is on the cell of task '{}', which cannot be "
                       "said in {}; expected one task per cell",
@@ -115,16 +117,17 @@ void require_distinct_cells(const Instance& instance, std::string_view format) {
 void require_goals(const Instance& instance, std::string_view format) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (!instance.agent(i).goal)
-      throw NotExpressible(agent_field(i),
-                           fmt::format("agent '{}' has no goal; expected one for every agent, for "
-                                       "{} cannot do without",
-                                       instance.agent(i).id, format),
-                           Loss::kNothing);
+      throw NotRepresentable(
+          agent_field(i),
+          fmt::format("agent '{}' has no goal; expected one for every agent, for "
+                      "{} cannot do without",
+                      instance.agent(i).id, format),
+          Loss::kNothing);
 }
 
 void require_no_tasks(const Instance& instance, std::string_view format) {
   if (instance.task_count() == 0) return;
-  throw NotExpressible(
+  throw NotRepresentable(
       "tasks/0",
       fmt::format("task '{}' cannot be said in {}; expected no tasks", instance.task(0).id, format),
       Loss::kTasks);
@@ -133,7 +136,7 @@ void require_no_tasks(const Instance& instance, std::string_view format) {
 void require_default_agent_ids(const Instance& instance, std::string_view format) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (instance.agent(i).id != default_agent_id(i))
-      throw NotExpressible(
+      throw NotRepresentable(
           agent_field(i),
           fmt::format("{} has no ids: read back, agent '{}' would be '{}'; expected that id",
                       format, instance.agent(i).id, default_agent_id(i)),
@@ -145,7 +148,7 @@ void require_default_task_ids(const Instance& instance, std::string_view format)
   for (TaskIndex i = 0; i < instance.task_count(); ++i) {
     const std::string& id = instance.task(order[i]).id;
     if (id != default_task_id(i) || order[i] != i)
-      throw NotExpressible(
+      throw NotRepresentable(
           fmt::format("tasks/{}", order[i]),
           fmt::format("{} has no ids of tasks: read back, task '{}' (number {}) would be '{}' "
                       "(number {}); expected that",
