@@ -12,7 +12,7 @@
 #include "execution/switching.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
-#include "io/order_file.h"
+#include "io/passing_order_file.h"
 #include "io/plan_file.h"
 #include "io/plan_import.h"
 #include "model/check.h"
@@ -102,7 +102,8 @@ class Execution {
     require_own_files({{"--order", a_.order}, {"--output", a_.output}, {"--view", a_.view}},
                       a_.instance, loaded_, {a_.plan});
     if (!a_.order.empty())
-      write(a_.order, order_text(loaded_.instance, order_, a_.frame.frame(loaded_.instance)));
+      write(a_.order,
+            passing_order_text(loaded_.instance, order_, a_.frame.frame(loaded_.instance)));
     const Disturbances troubles(a_.troubles, loaded_.instance);
     for (std::int64_t run = 0; run < a_.runs; ++run) drive_once(troubles, a_.seed + run);
     print();

@@ -171,12 +171,13 @@ void show_drive(const ViewArguments& arguments, const Instance& instance, const 
   const std::string name = name_of(arguments.instance.name());
   const std::string data = page_data(name, instance, std::span(&plan, 1));
   const ActionDependencyGraph order(instance, *plan.claimed.solution.plan);
-  const std::string order_text = order_data(instance, order);
+  const std::string passing_order_text = order_data(instance, order);
   const std::string& log = arguments.drive;
   if (arguments.follow)
-    follow(arguments, log, following_drive_page(name_of(log), data, order_text));
+    follow(arguments, log, following_drive_page(name_of(log), data, passing_order_text));
   const DriveLog drive = read_drive_file(log, instance, order);
-  write_log_page(arguments, log, drive_page(name_of(log), data, order_text, drive_data(drive)));
+  write_log_page(arguments, log,
+                 drive_page(name_of(log), data, passing_order_text, drive_data(drive)));
 }
 
 void show_proof(const ViewArguments& arguments, const Instance& instance,

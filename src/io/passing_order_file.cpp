@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/order_file.h"
+#include "io/passing_order_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -75,8 +75,8 @@ OrderedJson action_json(const Instance& instance, const ActionDependencyGraph& o
 
 }  // namespace
 
-std::string order_text(const Instance& instance, const ActionDependencyGraph& order,
-                       const Frame& frame) {
+std::string passing_order_text(const Instance& instance, const ActionDependencyGraph& order,
+                               const Frame& frame) {
   const std::vector<int> rings = rings_of(order);
   const std::vector<std::vector<TaskVisit>> visits = task_visits(instance, order);
   OrderedJson robots = OrderedJson::array();

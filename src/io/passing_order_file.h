@@ -11,7 +11,7 @@
 namespace grove::detail {
 
 // One JSON object: what each robot does, where in the world, and what each action waits for.
-std::string order_text(const Instance& instance, const ActionDependencyGraph& order,
-                       const Frame& frame);
+std::string passing_order_text(const Instance& instance, const ActionDependencyGraph& order,
+                               const Frame& frame);
 
 }  // namespace grove::detail
