@@ -27,11 +27,11 @@ std::int64_t degrees(double angle) {
 // `"name":[1,0,-3]`: the numbers that `of` makes of what was seen, each but the first one as what
 // it is more than the one before it.
 template <typename Of>
-void append_differences(std::string& text, const char* name, std::span<const Sighting> seen,
+void append_differences(std::string& text, const char* name, std::span<const PoseSample> seen,
                         Of of) {
   fmt::format_to(std::back_inserter(text), "\"{}\":[", name);
   std::int64_t before = 0;
-  for (const Sighting& sighting : seen) {
+  for (const PoseSample& sighting : seen) {
     const std::int64_t now = of(sighting);
     fmt::format_to(std::back_inserter(text), "{}{}", &sighting == seen.data() ? "" : ",",
                    now - before);
@@ -40,20 +40,20 @@ void append_differences(std::string& text, const char* name, std::span<const Sig
   text += ']';
 }
 
-void append_robot(std::string& text, std::span<const Sighting> seen) {
+void append_robot(std::string& text, std::span<const PoseSample> seen) {
   const auto column = [&](const char* name, auto of) { append_differences(text, name, seen, of); };
   text += '{';
-  column("t", [](const Sighting& s) { return in_parts(s.seconds); });
+  column("t", [](const PoseSample& s) { return in_parts(s.seconds); });
   text += ',';
-  column("x", [](const Sighting& s) { return in_parts(s.x); });
+  column("x", [](const PoseSample& s) { return in_parts(s.x); });
   text += ',';
-  column("y", [](const Sighting& s) { return in_parts(s.y); });
+  column("y", [](const PoseSample& s) { return in_parts(s.y); });
   text += ',';
-  column("angle", [](const Sighting& s) { return degrees(s.angle); });
+  column("angle", [](const PoseSample& s) { return degrees(s.angle); });
   text += ',';
-  column("action", [](const Sighting& s) { return std::int64_t{s.completed}; });
+  column("action", [](const PoseSample& s) { return std::int64_t{s.completed}; });
   text += ',';
-  column("state", [](const Sighting& s) { return std::int64_t{s.state}; });
+  column("state", [](const PoseSample& s) { return std::int64_t{s.state}; });
   text += '}';
 }
 
@@ -63,11 +63,11 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-std::string drive_data(const DriveLog& log) {
+std::string drive_data(const ExecutionLog& log) {
   std::string text =
       fmt::format("{{\"order\":{},\"seconds_per_step\":{},\"states\":{},\"robots\":[",
                   quoted(log.order), log.seconds_per_step, nlohmann::json(kDriveStates).dump());
-  for (const std::vector<Sighting>& seen : log.robots) {
+  for (const std::vector<PoseSample>& seen : log.robots) {
     if (&seen != log.robots.data()) text += ',';
     append_robot(text, seen);
   }

@@ -6,13 +6,13 @@
 #include <string>
 
 #include "execution/action_dependency_graph.h"
-#include "io/drive_file.h"
+#include "io/execution_log_file.h"
 #include "model/instance.h"
 
 namespace grove::detail {
 
 // One JSON object: of each robot what was seen of it, in columns.
-std::string drive_data(const DriveLog& log);
+std::string drive_data(const ExecutionLog& log);
 
 // One JSON object: of each robot when the plan has its actions end, which tasks they visit, and
 // what they wait for.

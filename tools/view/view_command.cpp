@@ -175,7 +175,7 @@ void show_drive(const ViewArguments& arguments, const Instance& instance, const 
   const std::string& log = arguments.drive;
   if (arguments.follow)
     follow(arguments, log, following_drive_page(name_of(log), data, passing_order_text));
-  const DriveLog drive = read_drive_file(log, instance, order);
+  const ExecutionLog drive = read_drive_file(log, instance, order);
   write_log_page(arguments, log,
                  drive_page(name_of(log), data, passing_order_text, drive_data(drive)));
 }

@@ -7,7 +7,7 @@ import unittest
 
 import orders
 import plans
-from grove_driving.drive_log import DriveLog
+from grove_driving.drive_log import ExecutionLog
 from grove_toio.driver import Driver
 from grove_toio.mat import BODY
 from grove_toio.rings import PARTS
@@ -116,7 +116,7 @@ class TheLog(unittest.TestCase):
     @functools.cache
     def lines():
         stream = io.StringIO()
-        log = DriveLog(stream, "o.json", [r.name for r in plans.order("work").robots], 1.0)
+        log = ExecutionLog(stream, "o.json", [r.name for r in plans.order("work").robots], 1.0)
         plans.drive("work", 0.05, 1, log=log)
         return [json.loads(line) for line in stream.getvalue().splitlines()]
 

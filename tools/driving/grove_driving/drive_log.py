@@ -15,7 +15,7 @@ def open_log(path):
         raise BadInput(f"{path}: cannot be written: {error.strerror}") from None
 
 
-class DriveLog:
+class ExecutionLog:
     def __init__(self, stream, order_file, robots, seconds_per_step):
         self.stream = stream
         self.last = {}          # robot: time and what was written of it

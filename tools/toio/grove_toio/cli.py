@@ -9,7 +9,7 @@ from typing import NamedTuple
 from grove_driving.arguments import (Parser, amount, integer, integers, number, positive, robot_at_for, seed, share,
                                      wrong)
 from grove_driving.bad_input import BadInput, at
-from grove_driving.drive_log import DriveLog, open_log
+from grove_driving.drive_log import ExecutionLog, open_log
 from grove_driving.program import FAILURE, complain, exit_code
 
 from . import demo, rings
@@ -247,7 +247,7 @@ def _run(arguments):
         options = {"speed": a.speed, "step_seconds": a.step_seconds, "say": say}
         if a.log:
             stream = stack.enter_context(open_log(a.log))
-            options["log"] = DriveLog(stream, "demo.order.json" if a.demo else name, [r.name for r in order.robots],
+            options["log"] = ExecutionLog(stream, "demo.order.json" if a.demo else name, [r.name for r in order.robots],
                                       a.step_seconds)
         runner = stack.enter_context(asyncio.Runner(loop_factory=VirtualLoop if a.fast else None))
         outcome, world = runner.run(_drive(a, order, grid, options))

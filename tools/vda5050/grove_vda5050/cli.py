@@ -14,7 +14,7 @@ from pathlib import Path
 
 from grove_driving.arguments import (Parser, amount, integer, positive, robot_at_for, seed, share, wrong)
 from grove_driving.bad_input import BadInput
-from grove_driving.drive_log import DriveLog, open_log
+from grove_driving.drive_log import ExecutionLog, open_log
 from grove_driving.frame import Frame
 from grove_driving.order import read_order
 from grove_driving.program import FAILURE, complain, exit_code
@@ -321,7 +321,7 @@ def _log(a, setup):
         yield None
         return
     with open_log(a.log) as stream:
-        log = DriveLog(stream, os.path.basename(a.order), list(setup.routes), a.step_seconds)
+        log = ExecutionLog(stream, os.path.basename(a.order), list(setup.routes), a.step_seconds)
 
         def write(seconds, name, at, theta, done, state):
             log.write(seconds, name, setup.frame.cells(at), None if theta is None else 90 - math.degrees(theta), done,

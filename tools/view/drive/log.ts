@@ -10,7 +10,7 @@ import { Drive } from "./drive";
 import type { Order } from "./order";
 
 const kFormat = "grove drive 1";
-// As `grove view` has them: src/io/drive_file.cpp.
+// As `grove view` has them: src/io/execution_log_file.cpp.
 const kFar = 1e7; // cells or metres
 const kLong = 1e9; // seconds
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/drive_file.h"
+#include "io/execution_log_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ const std::string kDone =
 
 class DriveFile : public ::testing::Test {
  protected:
-  DriveLog read(const std::string& content) {
+  ExecutionLog read(const std::string& content) {
     return read_drive_file(directory_.write("d.jsonl", content), instance_,
                            ActionDependencyGraph(instance_, plan()));
   }
@@ -58,13 +58,13 @@ class DriveFile : public ::testing::Test {
 };
 
 TEST_F(DriveFile, IsRead) {
-  const DriveLog log = read(kHeader + kSeen + "\n" + kDone);
+  const ExecutionLog log = read(kHeader + kSeen + "\n" + kDone);
   EXPECT_EQ(log.order, "o.json");
   EXPECT_EQ(log.seconds_per_step, 1.5);
   ASSERT_EQ(log.robots.size(), 2u);
   ASSERT_EQ(log.robots[0].size(), 2u);
   EXPECT_TRUE(log.robots[1].empty());
-  const Sighting& seen = log.robots[0][0];
+  const PoseSample& seen = log.robots[0][0];
   EXPECT_EQ(seen.seconds, 0.5);
   EXPECT_EQ(seen.x, 0.25);
   EXPECT_EQ(seen.y, -0.1);

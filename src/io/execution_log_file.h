@@ -16,7 +16,7 @@ namespace grove::detail {
 inline constexpr std::array kDriveStates{"waiting", "moving", "working", "lifted", "lost", "done"};
 
 // What was seen of a robot at a moment.
-struct Sighting {
+struct PoseSample {
   double seconds = 0;
   double x = 0;  // cells, y down; or metres of a roadmap, y up
   double y = 0;
@@ -25,15 +25,15 @@ struct Sighting {
   std::uint8_t state = 0;  // of kDriveStates
 };
 
-struct DriveLog {
+struct ExecutionLog {
   std::string order;  // name of the passing order's file
   double seconds_per_step = 1;
-  std::vector<std::vector<Sighting>> robots;  // by agent, in the order of time
+  std::vector<std::vector<PoseSample>> robots;  // by agent, in the order of time
 };
 
 // The whole lines of the log of a drive along `order`; a last line that has not ended is left out.
 // Throws InputError.
-DriveLog read_drive_file(const std::filesystem::path& path, const Instance& instance,
-                         const ActionDependencyGraph& order);
+ExecutionLog read_drive_file(const std::filesystem::path& path, const Instance& instance,
+                             const ActionDependencyGraph& order);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/drive_file.h"
+#include "io/execution_log_file.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ class DriveReader {
     log_.robots.resize(agents_.size());
   }
 
-  DriveLog read(std::string_view text) {
+  ExecutionLog read(std::string_view text) {
     while (!text.empty()) {
       const std::string_view line = text.substr(0, text.find('\n'));
       text.remove_prefix(std::min(text.size(), line.size() + 1));
@@ -78,8 +78,8 @@ class DriveReader {
 
   void see(const JsonValue& value) {
     const AgentIndex agent = agent_of(value.member("robot"));
-    std::vector<Sighting>& before = log_.robots[agent];
-    Sighting now;
+    std::vector<PoseSample>& before = log_.robots[agent];
+    PoseSample now;
     now.seconds = seconds(value.member("t"), before.empty() ? 0 : before.back().seconds);
     const JsonValue at = value.member("at");
     if (at.size() != 2) at.fail_expected("[x, y]");
@@ -123,7 +123,7 @@ class DriveReader {
   const ActionDependencyGraph& order_;
   std::unordered_map<std::string, AgentIndex> agents_;
   std::unordered_set<std::string> named_;  // by the first line
-  DriveLog log_;
+  ExecutionLog log_;
   std::string place_;
   std::size_t lines_ = 0;
   bool is_begun_ = false;
@@ -131,8 +131,8 @@ class DriveReader {
 
 }  // namespace
 
-DriveLog read_drive_file(const std::filesystem::path& path, const Instance& instance,
-                         const ActionDependencyGraph& order) {
+ExecutionLog read_drive_file(const std::filesystem::path& path, const Instance& instance,
+                             const ActionDependencyGraph& order) {
   const std::string text = read_text(path);
   const std::size_t whole = text.rfind('\n') + 1;  // npos + 1 is 0
   return DriveReader(path.string(), instance, order).read(std::string_view(text).substr(0, whole));
