@@ -22,8 +22,8 @@
 #include <algorithm>
 
 #include "sequencing/assignment.h"
-#include "sequencing/completions.h"
 #include "sequencing/cost_matrix.h"
+#include "sequencing/cost_to_go.h"
 #include "sequencing/rtsp.h"
 #include "sequencing/sum_of_best_sequences.h"
 
@@ -49,7 +49,7 @@ class Ends {
   Time best() const { return best_; }
   // Of the sequences that end on a task; kNever: beyond().
   Time cost(int stop) const {
-    return ends_.completion(ends_.matrix().all() & ~(StopSet{1} << stop), stop);
+    return ends_.cost_to_go(ends_.matrix().all() & ~(StopSet{1} << stop), stop);
   }
   Time beyond() const { return ends_.beyond(); }
   bool all_known() const { return ends_.beyond() >= kNever; }
@@ -76,7 +76,7 @@ class Ends {
 
   AgentIndex agent_;
   std::vector<TaskIndex> tasks_;
-  Completions ends_;
+  CostToGo ends_;
   Time best_ = kNever;
 };
 

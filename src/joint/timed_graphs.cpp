@@ -36,8 +36,8 @@ TimedGraphs::Outcome TimedGraphs::make(FreeGoals& goals, std::span<const Constra
   graph.agent_ = goals.stops().agent();
   graph.first_move_.push_back(0);
   if (most_cost < 0 || !goals.plausible()) return Outcome::kMade;
-  Completions& completions = goals.completions();
-  if (completions.beyond() <= most_cost && !completions.widen(most_cost, limits))
+  CostToGo& cost_to_go = goals.cost_to_go();
+  if (cost_to_go.beyond() <= most_cost && !cost_to_go.widen(most_cost, limits))
     return Outcome::kStopped;
   goals_ = &goals;
   most_cost_ = most_cost;

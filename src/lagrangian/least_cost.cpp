@@ -4,15 +4,15 @@
 namespace grove::detail {
 
 Time least_cost(FreeGoals& goals, const Limits& limits) {
-  Completions& completions = goals.completions();
+  CostToGo& cost_to_go = goals.cost_to_go();
   for (;;) {
     const FreeGoals::StageId stage = goals.first_stage();
-    const Time beyond = completions.beyond();
+    const Time beyond = cost_to_go.beyond();
     if (stage != FreeGoals::kOutside) {
       const Time distance = goals.distance(stage, goals.stops().start());
       if (distance < beyond) return distance;
     }
-    if (beyond >= kNever || !completions.widen(beyond, limits)) return beyond;
+    if (beyond >= kNever || !cost_to_go.widen(beyond, limits)) return beyond;
   }
 }
 

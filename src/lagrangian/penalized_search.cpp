@@ -28,7 +28,7 @@ Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finis
                               std::int64_t most_labels, const Limits& limits, Path* path) {
   goals_ = &goals;
   on_finish_ = on_finish;
-  below_ = std::min({below, kMostPrice, Price{goals.completions().beyond()} * Penalties::kUnit});
+  below_ = std::min({below, kMostPrice, Price{goals.cost_to_go().beyond()} * Penalties::kUnit});
   best_.reset();
   labels_.clear();
   rests_.clear();

@@ -46,9 +46,9 @@ Price Pricer::first_price(AgentIndex agent, const Limits& limits, Path& path) {
 
 Price Pricer::price_below(Price below, AgentIndex agent, const Limits& limits, Path& path) {
   FreeGoals& goals = this->goals(agent);
-  Completions& completions = goals.completions();
-  if (Price{completions.beyond()} * Penalties::kUnit < below)
-    completions.widen(static_cast<Time>(below / Penalties::kUnit), limits);
+  CostToGo& cost_to_go = goals.cost_to_go();
+  if (Price{cost_to_go.beyond()} * Penalties::kUnit < below)
+    cost_to_go.widen(static_cast<Time>(below / Penalties::kUnit), limits);
   return search_.search(goals, tariff_.on_finish(agent), below, kMostLabels, limits, &path);
 }
 

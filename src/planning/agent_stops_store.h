@@ -24,7 +24,7 @@ class AgentStopsStore {
     for (std::size_t agent = 0; agent < stops_.size(); ++agent)
       if (other.stops_[agent]) {
         stops_[agent] = std::make_unique<AgentStops>(*other.stops_[agent]);
-        stops_[agent]->completions().mark();
+        stops_[agent]->cost_to_go().mark();
       }
   }
 

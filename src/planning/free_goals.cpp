@@ -166,21 +166,21 @@ Time AgentStops::turn(State state, int port) const {
 
 FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work)
     : stops_(stops),
-      completions_(&stops.completions()),
+      completions_(&stops.cost_to_go()),
       class_(std::move(work)),
       free_(stops.all() & ~checked_set(class_.prefix, stops.all())),
       first_free_(free_ & ~class_.forbidden_next),
       rest_is_not_first_(stops.rests_on_last_stop() && first_free_ != free_ &&
                          std::popcount(free_) > 1),
       stride_(static_cast<std::size_t>(stops.count())) {
-  own_ = stops.completions().of_class(class_);
+  own_ = stops.cost_to_go().of_class(class_);
   if (own_) completions_ = &*own_;
 }
 
-FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work, Completions& completions)
+FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go)
     : FreeGoals(stops, std::move(work)) {
   own_.reset();
-  completions_ = &completions;
+  completions_ = &cost_to_go;
 }
 
 bool FreeGoals::plausible() const {
@@ -226,12 +226,12 @@ FreeGoals::PortCosts FreeGoals::onward_costs(StopSet left, int stop) const {
   const int ports = stops_.ports();
   const int first = stop * ports;
   left &= ~bit(stop);
-  const Completions& completions = *completions_;
+  const CostToGo& cost_to_go = *completions_;
   PortCosts costs;
   costs.fill(kNever);
   if (left == 0 || (left != free_ && (left & ~free_) == 0)) {
     for (int port = 0; port < ports; ++port)
-      costs[port] = completions.completion(left, first + port);
+      costs[port] = cost_to_go.cost_to_go(left, first + port);
     return costs;
   }
   for (StopSet next = next_of(left); next != 0; next &= next - 1) {
@@ -239,7 +239,7 @@ FreeGoals::PortCosts FreeGoals::onward_costs(StopSet left, int stop) const {
     const PortCosts rest = onward_costs(left, then);
     for (int from = 0; from < ports; ++from)
       for (int to = 0; to < ports; ++to) {
-        const Time leg = completions.matrix().between(first + from, then * ports + to);
+        const Time leg = cost_to_go.matrix().between(first + from, then * ports + to);
         if (leg < kNever && rest[to] < kNever) costs[from] = std::min(costs[from], leg + rest[to]);
       }
   }

@@ -14,7 +14,7 @@
 #include "model/distance_field.h"
 #include "model/instance.h"
 #include "model/plan.h"
-#include "sequencing/completions.h"
+#include "sequencing/cost_to_go.h"
 #include "sequencing/rtsp.h"
 #include "sequencing/sequence_dag.h"
 
@@ -74,8 +74,8 @@ class AgentStops {
   Time turn(State state, int port) const;
 
   // Of all sequences.
-  const Completions& completions() const { return completions_; }
-  Completions& completions() { return completions_; }
+  const CostToGo& cost_to_go() const { return completions_; }
+  CostToGo& cost_to_go() { return completions_; }
 
  private:
   std::size_t port_count() const { return places_.size() * static_cast<std::size_t>(ports_); }
@@ -102,7 +102,7 @@ class AgentStops {
   std::vector<Time> longest_legs_;  // by port, then port
   int ports_ = 1;
   DistanceView to_rest_;
-  Completions completions_;
+  CostToGo completions_;
 };
 
 // The stages of one agent under one sequence class - how far it has come with its stops -, numbered
@@ -135,13 +135,13 @@ class FreeGoals {
   FreeGoals(AgentStops& stops, SequenceClass work);
   // The same with other completions than those of `stops`, of this class and over as many stops.
   // They must outlive this.
-  FreeGoals(AgentStops& stops, SequenceClass work, Completions& completions);
+  FreeGoals(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go);
 
   AgentStops& stops() { return stops_; }
   const AgentStops& stops() const { return stops_; }
   const SequenceClass& sequence_class() const { return class_; }
-  const Completions& completions() const { return *completions_; }
-  Completions& completions() { return *completions_; }
+  const CostToGo& cost_to_go() const { return *completions_; }
+  CostToGo& cost_to_go() { return *completions_; }
 
   // False if the class is empty or something in it cannot be reached at all.
   bool plausible() const;
@@ -222,8 +222,8 @@ class FreeGoals {
   void add_onward(Stage& stage);
 
   AgentStops& stops_;
-  std::optional<Completions> own_;  // of the class, if that is not all sequences
-  Completions* completions_;
+  std::optional<CostToGo> own_;  // of the class, if that is not all sequences
+  CostToGo* completions_;
   SequenceClass class_;
   StopSet free_;            // the stops that are not in the prefix
   StopSet first_free_;      // those of them that may be the first

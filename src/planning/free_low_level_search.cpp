@@ -143,8 +143,8 @@ PathOutcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals, const PathQuer
   if (search_.goals().first_rest() > latest_) return above_;
   if (intervals.start_slot(goals.stops().start()) < 0) return PathOutcome::kInfeasible;
   decide_when(query);
-  return query.known_sequences && goals.completions().beyond() <= query.cutoff ? find_known()
-                                                                               : find_any();
+  return query.known_sequences && goals.cost_to_go().beyond() <= query.cutoff ? find_known()
+                                                                              : find_any();
 }
 
 void FreeLowLevelSearch::Workspace::decide_when(const PathQuery& query) {
@@ -159,13 +159,13 @@ PathOutcome FreeLowLevelSearch::Workspace::find_known() {
   price_at_ = kNotAgain;
   const PathOutcome outcome = *find_within(latest_);
   if (outcome == PathOutcome::kFound) return outcome;
-  if (goals().completions().beyond() < kNever) return PathOutcome::kStopped;
+  if (goals().cost_to_go().beyond() < kNever) return PathOutcome::kStopped;
   return outcome == PathOutcome::kAbove ? above_ : outcome;
 }
 
 PathOutcome FreeLowLevelSearch::Workspace::find_any() {
   for (;;) {
-    const Time beyond = goals().completions().beyond();
+    const Time beyond = goals().cost_to_go().beyond();
     const Time optimal = std::max(beyond, search_.goals().first_rest());
     const std::optional<PathOutcome> outcome = find_within(std::min(latest_, optimal));
     if (!outcome) continue;
@@ -175,14 +175,14 @@ PathOutcome FreeLowLevelSearch::Workspace::find_any() {
       if (const auto answer = doubt()) return *answer;
       if (price_anew()) continue;
     }
-    if (!goals().completions().widen(beyond, *limits_)) return PathOutcome::kStopped;
+    if (!goals().cost_to_go().widen(beyond, *limits_)) return PathOutcome::kStopped;
   }
 }
 
 // A path of least cost, if the cost is at most `cap`; of least cost if that is at most beyond().
 // None: the goals changed meanwhile, begin again.
 std::optional<PathOutcome> FreeLowLevelSearch::Workspace::find_within(Time cap) {
-  const bool all_known = goals().completions().beyond() == kNever;
+  const bool all_known = goals().cost_to_go().beyond() == kNever;
   const FreeGoals::StageId first = goals().first_stage();
   if (first == FreeGoals::kOutside)
     return all_known ? PathOutcome::kInfeasible : PathOutcome::kAbove;

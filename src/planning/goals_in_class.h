@@ -53,7 +53,7 @@ class GoalsInClass {
   void begin(Time cap);
   // Was nothing dropped that could matter, so that no path found means that there is none?
   bool is_complete() const {
-    return !over_ && (!outside_ || goals_->completions().beyond() == kNever);
+    return !over_ && (!outside_ || goals_->cost_to_go().beyond() == kNever);
   }
 
   Time first_rest() const { return first_rest_; }

@@ -29,7 +29,7 @@ namespace {
 class LateCosts {
  public:
   LateCosts(const World& world, SafeIntervals& intervals, const AgentStops& stops)
-      : world_(world), stops_(stops), matrix_(stops.completions().matrix()) {
+      : world_(world), stops_(stops), matrix_(stops.cost_to_go().matrix()) {
     last_.resize(static_cast<std::size_t>(world.place_count()), kNever);
     for (Place place = 0; place < world.place_count(); ++place) {
       intervals.see(place);

@@ -13,7 +13,7 @@ namespace {
 
 // At most what any sequence of the class costs, by the completions.
 Time least_cost(FreeGoals& goals) {
-  const Time beyond = goals.completions().beyond();
+  const Time beyond = goals.cost_to_go().beyond();
   const FreeGoals::StageId stage = goals.first_stage();
   if (stage == FreeGoals::kOutside) return beyond;
   return std::min(beyond, goals.distance(stage, goals.stops().start()));
@@ -21,14 +21,14 @@ Time least_cost(FreeGoals& goals) {
 
 // A direct leg costs at least what the late one by any way does. The last one is that of the plain
 // matrix, for the late one begins when all others are done (sequence_dag.cpp, Pairs).
-Completions late_completions(const AgentStops& stops, CostMatrix late) {
+CostToGo late_completions(const AgentStops& stops, CostMatrix late) {
   const auto make_direct = [&instance = stops.instance(), agent = stops.agent(), late,
-                            plain = stops.completions().matrix()] {
+                            plain = stops.cost_to_go().matrix()] {
     CostMatrix direct = direct_legs(instance, agent, late);
     direct.cost.col(direct.cost.cols() - 1) = plain.cost.col(plain.cost.cols() - 1);
     return direct;
   };
-  return Completions(std::move(late), {}, make_direct);
+  return CostToGo(std::move(late), {}, make_direct);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class LateGoals {
  private:
   const World& world_;
   SafeIntervals& intervals_;
-  std::optional<Completions> completions_;
+  std::optional<CostToGo> completions_;
   AgentIndex agent_ = 0;            // whose they are,
   SequenceClass class_;             // and of which class
   std::optional<FreeGoals> goals_;  // over these

@@ -167,8 +167,8 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::build(
   const Time latest = world_.states_are_places() ? intervals_.latest_rest() : kNever;
   if (cost < 0 || cost >= kNever || cost > latest || !goals.plausible()) return Outcome::kNone;
   if (limits.stop_requested()) return Outcome::kStopped;
-  Completions& completions = goals.completions();
-  if (completions.beyond() <= cost && !completions.widen(cost, limits)) return Outcome::kStopped;
+  CostToGo& cost_to_go = goals.cost_to_go();
+  if (cost_to_go.beyond() <= cost && !cost_to_go.widen(cost, limits)) return Outcome::kStopped;
   goals_ = &goals;
   limits_ = &limits;
   cost_ = cost;

@@ -25,7 +25,7 @@ Time VisitCheck::least_cost_through(int via) {
   via_ = via;
   after_via_ = 0;
   if (!stops_->rests_on_last_stop()) {
-    const CostMatrix& matrix = stops_->completions().matrix();
+    const CostMatrix& matrix = stops_->cost_to_go().matrix();
     after_via_ = kNever;
     for (int port = via * matrix.ports; port < (via + 1) * matrix.ports; ++port)
       after_via_ = std::min(after_via_, matrix.to_end(port));

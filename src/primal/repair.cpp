@@ -119,7 +119,7 @@ Cost sum_of_own_costs(const Problem& problem, AgentStopsStore& stops, const Limi
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     if (router.meet(agent, limits))
       sum += router.knows_best(agent) ? router.own_cost(agent)
-                                      : stops.of(agent).completions().relaxed_bound();
+                                      : stops.of(agent).cost_to_go().relaxed_bound();
   return sum;
 }
 

@@ -48,9 +48,8 @@ bool Router::meet(AgentIndex agent, const Limits& limits) {
 // Where sequences are too many to tell the best one, a good one serves.
 bool Router::follow_good_sequence(AgentIndex agent, const Limits& limits) {
   AgentStops& stops = stops_.of(agent);
-  const CostMatrix& matrix = stops.completions().matrix();
-  in_order_[agent] =
-      std::make_unique<Completions>(Completions::in_order(matrix, good_sequence(matrix)));
+  const CostMatrix& matrix = stops.cost_to_go().matrix();
+  in_order_[agent] = std::make_unique<CostToGo>(CostToGo::in_order(matrix, good_sequence(matrix)));
   goals_[agent] = std::make_unique<FreeGoals>(stops, SequenceClass(), *in_order_[agent]);
   ++calls_;
   const PathQuery query{.known_sequences = true};

@@ -69,7 +69,7 @@ class Router {
   AgentStopsStore& stops_;
   FreeLowLevelSearch low_level_;
   // By AgentIndex. Of an agent that follows a good sequence: its completions.
-  std::vector<std::unique_ptr<Completions>> in_order_;
+  std::vector<std::unique_ptr<CostToGo>> in_order_;
   std::vector<std::unique_ptr<FreeGoals>> goals_;
   std::vector<Path> own_paths_;  // by AgentIndex
   std::int64_t calls_ = 0;

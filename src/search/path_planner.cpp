@@ -92,7 +92,7 @@ FreeGoals& PathPlanner::free_goals(AgentIndex agent, const SequenceClass& work) 
     if (kept.size() == kMostClassesKept) kept.pop_back();
     kept.insert(kept.begin(), std::make_unique<FreeGoals>(stops_.of(agent), work));
   }
-  if (repeatable_) kept.front()->completions().reset();
+  if (repeatable_) kept.front()->cost_to_go().reset();
   return *kept.front();
 }
 

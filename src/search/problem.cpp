@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "search/problem.h"
 
-#include "sequencing/completions.h"
+#include "sequencing/cost_to_go.h"
 
 namespace grove::detail {
 
@@ -16,7 +16,7 @@ ArrayLayout array_layout(const Instance& instance) {
     arrays(ArrayKind::kStopsOfStates).push_back(states);
     const int ports = agent.kind > 0 ? DistanceFields::kPorts : 1;
     arrays(ArrayKind::kSequenceTable)
-        .push_back(Completions::table_bytes(static_cast<int>(agent.stops.size()), ports));
+        .push_back(CostToGo::table_bytes(static_cast<int>(agent.stops.size()), ports));
   }
   return layout;
 }

@@ -21,7 +21,7 @@ SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool&
       planner_(planner ? std::move(planner)
                        : std::make_unique<FreeLowLevelSearch>(problem.instance.world())) {
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
-    relaxed_bound_ += stops.of(agent).completions().relaxed_bound();
+    relaxed_bound_ += stops.of(agent).cost_to_go().relaxed_bound();
 }
 
 // Plans the agents one after the other around those before, which spares conflicts that are mere

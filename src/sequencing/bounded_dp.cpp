@@ -34,8 +34,8 @@ namespace grove::detail {
 namespace {
 
 class BoundedDp : public RtspSolver {
-  auto completion() const {
-    return [this](StopSet left, int stop) { return dag_.completion(left, stop); };
+  auto cost_to_go() const {
+    return [this](StopSet left, int stop) { return dag_.cost_to_go(left, stop); };
   }
 
  public:
@@ -52,7 +52,7 @@ class BoundedDp : public RtspSolver {
     const Time relaxed = class_bound(root);
     turn_to(work, relaxed);
     while (true) {
-      const Time value = best_cost(matrix_, root, completion());
+      const Time value = best_cost(matrix_, root, cost_to_go());
       const Time bound = std::max(relaxed, dag_.beyond());
       if (value <= bound) return {value < kNever ? Kind::kExact : Kind::kInfeasible, value};
       if (bound > cutoff) return {Kind::kAbove, bound};
@@ -62,7 +62,7 @@ class BoundedDp : public RtspSolver {
 
   Sequence best_sequence(const SequenceClass& work) override {
     if (passed_ && work != class_) best(work, kNever);
-    return best_member(matrix_, work, completion());
+    return best_member(matrix_, work, cost_to_go());
   }
 
   Time root_bound() const override { return relaxation_.root_bound(); }

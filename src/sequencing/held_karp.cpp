@@ -32,20 +32,20 @@ class HeldKarp : public RtspSolver {
   RtspAnswer best(const SequenceClass& work, Time) override {
     if (!table_.built() && !table_.build(matrix_, limits_))
       return {RtspAnswer::Kind::kStopped, root_bound_};
-    const Time cost = best_cost(matrix_, class_root(matrix_, work), completion());
+    const Time cost = best_cost(matrix_, class_root(matrix_, work), cost_to_go());
     if (cost >= kNever) return {RtspAnswer::Kind::kInfeasible, kNever};
     return {RtspAnswer::Kind::kExact, cost};
   }
 
   Sequence best_sequence(const SequenceClass& work) override {
-    return best_member(matrix_, work, completion());
+    return best_member(matrix_, work, cost_to_go());
   }
 
   Time root_bound() const override { return root_bound_; }
 
  private:
-  auto completion() const {
-    return [this](StopSet left, int stop) { return table_.completion(left, stop); };
+  auto cost_to_go() const {
+    return [this](StopSet left, int stop) { return table_.cost_to_go(left, stop); };
   }
 
   const CostMatrix& matrix_;

@@ -78,7 +78,7 @@ class HeldKarpTable {
   }
 
   // The least cost from a port through all of `left` to the end; kNever when there is no way.
-  Time completion(StopSet left, int port) const {
+  Time cost_to_go(StopSet left, int port) const {
     const Entry cost = table_[left * static_cast<StopSet>(stops_ * ports_) + port];
     return cost == kNoWay<Entry> ? kNever : Time{cost};
   }

@@ -33,12 +33,12 @@ inline ClassRoot class_root(const CostMatrix& matrix, const SequenceClass& work)
 // The cheapest complete sequence of a class, given completion(left, stop): the least cost from
 // `stop` through all of `left` to the end.
 template <class Completion>
-Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion& completion) {
+Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion& cost_to_go) {
   if (root.left == 0) return add_costs(root.cost, matrix.to_end(root.last));
   Time best = kNever;
   for_each_stop(root.next, [&](int stop) {
     best = std::min(
-        best, add_costs(matrix.between(root.last, stop), completion(root.left & ~bit(stop), stop)));
+        best, add_costs(matrix.between(root.last, stop), cost_to_go(root.left & ~bit(stop), stop)));
   });
   return add_costs(root.cost, best);
 }
@@ -46,14 +46,14 @@ Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion
 // A member of that cost: of several, the one whose stops come first. The class must not be empty.
 template <class Completion>
 Sequence best_member(const CostMatrix& matrix, const SequenceClass& work,
-                     const Completion& completion) {
+                     const Completion& cost_to_go) {
   Sequence sequence = work.prefix;
   for (ClassRoot root = class_root(matrix, work); root.left != 0;) {
     int best_stop = std::countr_zero(root.next);
     Time best = kNever;
     for_each_stop(root.next, [&](int stop) {
       const Time cost =
-          add_costs(matrix.between(root.last, stop), completion(root.left & ~bit(stop), stop));
+          add_costs(matrix.between(root.last, stop), cost_to_go(root.left & ~bit(stop), stop));
       if (cost < best) {
         best = cost;
         best_stop = stop;

@@ -114,7 +114,7 @@ void StopSetIndex::grow() {
     if (slot.number != kAbsent) slots_[slot_of(slot.set)] = slot;
 }
 
-Time SequenceDag::completion(StopSet left, int port) const {
+Time SequenceDag::cost_to_go(StopSet left, int port) const {
   const std::uint32_t number = index_.find(left);
   if (number == StopSetIndex::kAbsent) return kNever;
   const Node& node = nodes_[number];
@@ -416,7 +416,7 @@ class SequenceDagBuilder {
     std::array<Time, kMaxTasksPerAgent * kPorts> onward;
     for_each_stop(node.left, [&](int next) {
       for (int port = next * kPorts; port < (next + 1) * kPorts; ++port)
-        onward[port] = dag_.completion(node.left & ~bit(next), port);
+        onward[port] = dag_.cost_to_go(node.left & ~bit(next), port);
     });
     const auto for_each_visited = [&](auto visit) {
       for_each_stop(visited(node), [&](int stop) {
@@ -452,7 +452,7 @@ class SequenceDagBuilder {
     Time onward[kMaxTasksPerAgent * kPorts];
     for_each_stop(node.left, [&](int next) {
       for (int port = next * kPorts; port < (next + 1) * kPorts; ++port)
-        onward[port] = dag_.completion(node.left & ~bit(next), port);
+        onward[port] = dag_.cost_to_go(node.left & ~bit(next), port);
     });
     std::uint32_t state = node.first;
     for_each_stop(node.at, [&](int stop) {

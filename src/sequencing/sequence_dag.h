@@ -81,7 +81,7 @@ class SequenceDag {
 
   // The least cost from a port through all of `left` to the end, over the ways inside the graph;
   // kNever when there is none, or the state is outside.
-  Time completion(StopSet left, int port) const;
+  Time cost_to_go(StopSet left, int port) const;
 
   std::size_t state_count() const { return completions_.size() / static_cast<std::size_t>(ports_); }
 

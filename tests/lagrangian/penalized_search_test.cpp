@@ -115,7 +115,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
       if (!graph || graph->count() == 0) continue;
       FreeGoals goals(known.stops.of(agent), SequenceClass{});
       ASSERT_LE(least_cost(goals, {}), graph->to_go(AgentGraph::start()));
-      goals.completions().widen(kHorizon, {});
+      goals.cost_to_go().widen(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
       const Price least =
           Reference(*graph, penalties, on_finish).price(Reservations(known.instance.world()));
@@ -149,7 +149,7 @@ TEST(PenalizedSearch, ImprovesAPathAroundOthers) {
       const auto graph = AgentGraph::make(instance, agent);
       if (!graph || graph->count() == 0) continue;
       FreeGoals goals(known.stops.of(agent), SequenceClass{});
-      goals.completions().widen(kHorizon, {});
+      goals.cost_to_go().widen(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
       const Time latest = random.below(20);
       const Price least = Reference(*graph, penalties, on_finish).price(others, latest);

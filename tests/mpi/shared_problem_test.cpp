@@ -74,14 +74,14 @@ std::string difference(const Problem& shared, const Problem& alone) {
         return "to rest";
     }
     if (other.count() == 0) continue;
-    if (!one.completions().widen(1, Limits()) || !other.completions().widen(1, Limits()))
+    if (!one.cost_to_go().widen(1, Limits()) || !other.cost_to_go().widen(1, Limits()))
       return "not widened";
-    if (one.completions().beyond() != other.completions().beyond()) return "beyond";
+    if (one.cost_to_go().beyond() != other.cost_to_go().beyond()) return "beyond";
     for (int i = 0; i < 300; ++i) {
       const int port =
           static_cast<int>(dice() % static_cast<unsigned>(other.count() * other.ports()));
       const StopSet left = dice() & other.all() & ~(StopSet{1} << (port / other.ports()));
-      if (one.completions().completion(left, port) != other.completions().completion(left, port))
+      if (one.cost_to_go().cost_to_go(left, port) != other.cost_to_go().cost_to_go(left, port))
         return "a completion";
     }
   }
@@ -143,7 +143,7 @@ TEST(SharedProblem, LiesInTheMemoryShared) {
   const SharedProblem shared(instance, Limits(), 1, part);
   AgentStopsStore stops(instance, shared.problem().distances);
   for (AgentIndex agent = 0; agent < 2; ++agent)
-    ASSERT_TRUE(stops.of(agent).completions().widen(1, Limits()));
+    ASSERT_TRUE(stops.of(agent).cost_to_go().widen(1, Limits()));
   const SharedArrays arrays(part.bytes(), layout, 0, 1);
   const auto is_there = [&](ArrayKind kind, std::size_t number) {
     return arrays.array(kind, number).await(Limits()) != nullptr;

@@ -43,9 +43,9 @@ struct Agent : FreeAgent {
         free(*given.grid),
         fixed(*given.grid) {}
 
-  static Completions by_direct_legs(const FreeAgent& agent) {
-    const CostMatrix& matrix = agent.stops.completions().matrix();
-    const Completions graph = Completions::as_graph(
+  static CostToGo by_direct_legs(const FreeAgent& agent) {
+    const CostMatrix& matrix = agent.stops.cost_to_go().matrix();
+    const CostToGo graph = CostToGo::as_graph(
         matrix, [&agent, matrix] { return direct_legs(agent.instance, 0, matrix); });
     return graph.of_class(agent.problem.work).value_or(graph);
   }
@@ -95,7 +95,7 @@ struct Agent : FreeAgent {
     return best;
   }
 
-  Completions direct;
+  CostToGo direct;
   FreeGoals direct_goals;
   FreeLowLevelSearch free;
   LowLevelSearch fixed;
@@ -261,7 +261,7 @@ class ManyStops {
 
   void expect_best(Agent& agent, Time cost) {
     const Limits limits;
-    const CostMatrix& matrix = agent.stops.completions().matrix();
+    const CostMatrix& matrix = agent.stops.cost_to_go().matrix();
     KBestSequences best(make_rtsp_solver(RtspBackend::kAuto, matrix, limits), matrix, limits);
     for (std::size_t rank = 0; rank < kMostSequences && best.resolve(rank, cost - 1) < cost; ++rank)
       EXPECT_GE(agent.fixed_cost(best.sequence(rank)).value_or(kNever), cost);

@@ -29,7 +29,7 @@ class LateCosts {
         intervals_(grid) {}
 
   int count() const { return stops_.count(); }
-  const CostMatrix& plain() const { return stops_.completions().matrix(); }
+  const CostMatrix& plain() const { return stops_.cost_to_go().matrix(); }
   // The costs with these constraints; the plain ones where none is higher.
   CostMatrix late(const std::vector<Constraint>& constraints, Time least_cost) {
     intervals_.assign(constraints);

@@ -10,7 +10,7 @@
 
 #include "brute_force.h"
 #include "matrices.h"
-#include "sequencing/completions.h"
+#include "sequencing/cost_to_go.h"
 #include "sequencing/k_best_sequences.h"
 #include "sequencing/path_relaxation.h"
 #include "sequencing/sequence_dag.h"
@@ -93,7 +93,7 @@ std::vector<Time> costs_of_walks(const CostMatrix& matrix, Time reach, const May
 
 std::vector<Time> costs_within(const SequenceDag& dag, const CostMatrix& matrix, Time reach) {
   return costs_of_walks(matrix, reach, [&](StopSet left, int port, Time cost) {
-    return add_costs(cost, dag.completion(left, port)) <= reach;
+    return add_costs(cost, dag.cost_to_go(left, port)) <= reach;
   });
 }
 
@@ -154,7 +154,7 @@ TEST(SequenceDag, KnowsItsCostsToGoExactly) {
     EXPECT_EQ(dag->beyond(), kNever);  // nothing was dropped
     for (StopSet left = 0; left < matrix.all(); ++left)
       for_each_port(matrix, matrix.all() & ~left, [&](int at) {
-        EXPECT_EQ(dag->completion(left, at), cheapest_rest(matrix, left, at));
+        EXPECT_EQ(dag->cost_to_go(left, at), cheapest_rest(matrix, left, at));
       });
   }
 }
@@ -168,13 +168,13 @@ TEST(PathRelaxation, SeesMostTurns) {
   Time exact = 0;
   for (int round = 0; round < 20; ++round) {
     const CostMatrix matrix = turning_matrix(8, Variant::kCts, random);
-    Completions table(matrix);
+    CostToGo table(matrix);
     ASSERT_TRUE(table.widen(0, Limits()));
     Time best = kNever;
     for_each_port(matrix, matrix.all(), [&](int first) {
       best = std::min(best,
                       add_costs(matrix.from_start(first),
-                                table.completion(matrix.all() & ~stop_of(matrix, first), first)));
+                                table.cost_to_go(matrix.all() & ~stop_of(matrix, first), first)));
     });
     if (best >= kNever) continue;
     blind += PathRelaxation(least_matrix(matrix)).root_bound();

@@ -473,11 +473,11 @@ TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
     const DistanceFields distances(instance);
     OptimalPathsBuilder builder(grid);
     AgentStops narrow(instance, distances, 0);
-    ASSERT_TRUE(narrow.completions().widen(0, Limits()));
+    ASSERT_TRUE(narrow.cost_to_go().widen(0, Limits()));
     for (int more = 0; more < 3; ++more) {
-      const Time cost = narrow.completions().beyond();
+      const Time cost = narrow.cost_to_go().beyond();
       AgentStops wide(instance, distances, 0);
-      ASSERT_TRUE(wide.completions().widen(cost + 4, Limits()));
+      ASSERT_TRUE(wide.cost_to_go().widen(cost + 4, Limits()));
       OptimalPaths graphs[2];
       FreeGoals few(narrow, {});
       FreeGoals all(wide, {});
@@ -485,7 +485,7 @@ TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
       ASSERT_EQ(of_few, builder.build(all, {}, cost, kPlenty, Limits(), graphs[1])) << cost;
       ASSERT_TRUE(cells_of(graphs[0]) == cells_of(graphs[1])) << cost;
       at_the_bound += static_cast<int>(of_few == OptimalPathsBuilder::Outcome::kBuilt);
-      ASSERT_TRUE(narrow.completions().widen(cost, Limits()));
+      ASSERT_TRUE(narrow.cost_to_go().widen(cost, Limits()));
     }
   }
   EXPECT_GT(at_the_bound, 10);
@@ -498,7 +498,7 @@ TEST(OptimalPathsLanguage, WidensTheCompletionsThatItsStatesAreMadeOf) {
   const Instance instance = instance_of(problem);
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
-  Completions others(stops.completions().matrix());
+  CostToGo others(stops.cost_to_go().matrix());
   FreeGoals goals(stops, {}, others);
   OptimalPaths graph;
   EXPECT_EQ(OptimalPathsBuilder(grid).build(goals, {}, 4, kPlenty, Limits(), graph),

@@ -16,8 +16,8 @@
 #include "planning/low_level_search.h"
 #include "planning/optimal_paths.h"
 #include "planning/visit_check.h"
-#include "sequencing/completions.h"
 #include "sequencing/cost_matrix.h"
+#include "sequencing/cost_to_go.h"
 #include "sequencing/direct_legs.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/planning/worlds/world_reference.h"
@@ -92,18 +92,18 @@ class Fuzzer {
   }
 
   // As the search has them, as a graph, or as a graph by direct legs.
-  Completions completions_of(const AgentStops& stops, const SequenceClass& work) {
-    const Completions& given = stops.completions();
+  CostToGo completions_of(const AgentStops& stops, const SequenceClass& work) {
+    const CostToGo& given = stops.cost_to_go();
     switch (below(3)) {
       case 0:
         return given;
       case 1:
-        return Completions::as_graph(given.matrix());
+        return CostToGo::as_graph(given.matrix());
       default:
         break;
     }
     const CostMatrix matrix = given.matrix();
-    const Completions graph = Completions::as_graph(matrix, [this, agent = stops.agent(), matrix] {
+    const CostToGo graph = CostToGo::as_graph(matrix, [this, agent = stops.agent(), matrix] {
       return direct_legs(instance_, agent, matrix);
     });
     return graph.of_class(work).value_or(graph);
@@ -114,8 +114,8 @@ class Fuzzer {
     const SequenceClass work = sequence_class(stops.count());
     agent_ = agent;
     work_ = work;
-    Completions completions = completions_of(stops, work);
-    FreeGoals goals(stops, work, completions);
+    CostToGo cost_to_go = completions_of(stops, work);
+    FreeGoals goals(stops, work, cost_to_go);
     constraints_.clear();
     Path path;
     for (int n = below(14); n >= 0; --n) {

@@ -19,7 +19,7 @@ namespace grove::detail {
 // where that is small, else a sequence graph that grows on demand. At first there is nothing:
 // widen(). Any number of threads may read one that nobody widens. Copies share what is known, and
 // each is widened for itself: a copy may go to another thread.
-class Completions {
+class CostToGo {
  public:
   // Direct legs of the agent over the same stops (direct_legs.h), asked for once at most.
   using MakeDirectLegs = std::function<CostMatrix()>;
@@ -27,20 +27,20 @@ class Completions {
   // The table, if there is one, is made in `table`, if there is room, or read from there.
   // With `direct`, a graph that grows beyond kMostStates is replaced by one of what an agent can do
   // that visits each stop it passes.
-  explicit Completions(CostMatrix matrix, SharedArray table = {}, MakeDirectLegs direct = {});
+  explicit CostToGo(CostMatrix matrix, SharedArray table = {}, MakeDirectLegs direct = {});
   // Completions of a class of sequences, for a graph by direct legs is of one class alone. Returns
   // nullopt if these serve every class.
-  std::optional<Completions> of_class(const SequenceClass& work) const;
+  std::optional<CostToGo> of_class(const SequenceClass& work) const;
   // The room that a table of so many stops with so many ports takes, in bytes, but of the largest
   // costs; 0: there is none.
   static std::size_t table_bytes(int stops, int ports);
   // A graph however small a table were, and by direct legs if there are any: they must tell the
   // same.
-  static Completions as_graph(CostMatrix matrix, MakeDirectLegs direct = {});
+  static CostToGo as_graph(CostMatrix matrix, MakeDirectLegs direct = {});
   // Of one complete sequence, to find a path and to prove nothing: beyond() is 0, and a state is
   // known if its stop comes before all that is left, its completion being the cost of what is left
   // in this order.
-  static Completions in_order(const CostMatrix& matrix, Sequence order);
+  static CostToGo in_order(const CostMatrix& matrix, Sequence order);
   const CostMatrix& matrix() const;
 
   // Proven: a sequence of the class with a state outside costs at least this, and by direct legs a
@@ -49,7 +49,7 @@ class Completions {
   // The least cost from a port (of a stop, which is the same where the matrix has none) through all
   // of `left` (without the stop) to the end, over the ways known; kNever when there is none, or the
   // state is outside.
-  Time completion(StopSet left, int port) const;
+  Time cost_to_go(StopSet left, int port) const;
 
   // A lower bound on every complete sequence (relaxation_bound() in rtsp.h), whatever is known.
   Time relaxed_bound() const;
@@ -71,7 +71,7 @@ class Completions {
 
  private:
   class Store;
-  explicit Completions(std::shared_ptr<const Store> store);
+  explicit CostToGo(std::shared_ptr<const Store> store);
   class Graph;
   class Ordered;
   template <class Entry>

@@ -9,7 +9,7 @@
 // instead of sequences, and what it says of a state is a bound on the paths that go on from there.
 // If that becomes too large as well, nothing more is known: widen() fails, now and whenever as much
 // is asked again, so that no time and no memory is taken in vain.
-#include "sequencing/completions.h"
+#include "sequencing/cost_to_go.h"
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@
 namespace grove::detail {
 
 // Immutable, so that any number of Completions may share one.
-class Completions::Store {
+class CostToGo::Store {
  public:
   explicit Store(std::shared_ptr<const CostMatrix> matrix) : matrix_(std::move(matrix)) {}
   virtual ~Store() = default;
@@ -37,7 +37,7 @@ class Completions::Store {
   const CostMatrix& matrix() const { return *matrix_; }
   virtual Time relaxed_bound() const = 0;
   virtual Time beyond() const = 0;
-  virtual Time completion(StopSet left, int port) const = 0;
+  virtual Time cost_to_go(StopSet left, int port) const = 0;
   // One with a beyond() > reach; null when a limit struck. Only if this has not.
   virtual std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const = 0;
   virtual bool knows_all_or_nothing() const { return false; }
@@ -52,7 +52,7 @@ class Completions::Store {
 };
 
 template <class Entry>
-class Completions::Table : public Store {
+class CostToGo::Table : public Store {
  public:
   Table(std::shared_ptr<const CostMatrix> matrix, SharedArray shared)
       : Store(std::move(matrix)), shared_(shared) {}
@@ -60,8 +60,8 @@ class Completions::Table : public Store {
   Time relaxed_bound() const override { return relaxation_bound(least_matrix(matrix())); }
   Time beyond() const override { return table_.built() ? kNever : 0; }
   bool knows_all_or_nothing() const override { return true; }
-  Time completion(StopSet left, int port) const override {
-    return table_.built() ? table_.completion(left, port) : kNever;
+  Time cost_to_go(StopSet left, int port) const override {
+    return table_.built() ? table_.cost_to_go(left, port) : kNever;
   }
   std::shared_ptr<const Store> widened(Time, const Limits& limits) const override {
     auto built = std::make_shared<Table>(this->shared_matrix(), shared_);
@@ -73,7 +73,7 @@ class Completions::Table : public Store {
   HeldKarpTable<Entry> table_;
 };
 
-class Completions::Graph : public Store {
+class CostToGo::Graph : public Store {
  public:
   Graph(std::shared_ptr<const CostMatrix> matrix, MakeDirectLegs make_direct)
       : Store(std::move(matrix)),
@@ -83,7 +83,7 @@ class Completions::Graph : public Store {
 
   Time relaxed_bound() const override { return relaxation_->root_bound(); }
   Time beyond() const override { return dag_->beyond(); }
-  Time completion(StopSet left, int port) const override { return dag_->completion(left, port); }
+  Time cost_to_go(StopSet left, int port) const override { return dag_->cost_to_go(left, port); }
   std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const override {
     auto wider = std::make_shared<Graph>(*this);
     return wider->widen(reach, limits) ? wider : nullptr;
@@ -143,7 +143,7 @@ class Completions::Graph : public Store {
 };
 
 // What it costs to go on in a given order, leaving out what is visited already.
-class Completions::Ordered : public Store {
+class CostToGo::Ordered : public Store {
  public:
   Ordered(std::shared_ptr<const CostMatrix> matrix, Sequence order)
       : Store(std::move(matrix)), order_(std::move(order)), later_(order_.size()) {
@@ -156,7 +156,7 @@ class Completions::Ordered : public Store {
 
   Time relaxed_bound() const override { return 0; }
   Time beyond() const override { return 0; }
-  Time completion(StopSet left, int port) const override {
+  Time cost_to_go(StopSet left, int port) const override {
     const int ports = matrix().ports;
     const int stop = port / ports;
     if ((left & ~later_[stop]) != 0) return kNever;
@@ -201,7 +201,7 @@ class Completions::Ordered : public Store {
   std::vector<StopSet> later_;  // by stop: those that come later
 };
 
-Completions::Completions(CostMatrix matrix, SharedArray table, MakeDirectLegs direct) {
+CostToGo::CostToGo(CostMatrix matrix, SharedArray table, MakeDirectLegs direct) {
   auto shared = std::make_shared<const CostMatrix>(std::move(matrix));
   if (shared->stops() > kTableStops)
     store_ = std::make_shared<Graph>(std::move(shared), std::move(direct));
@@ -212,51 +212,51 @@ Completions::Completions(CostMatrix matrix, SharedArray table, MakeDirectLegs di
   mark();
 }
 
-std::size_t Completions::table_bytes(int stops, int ports) {
+std::size_t CostToGo::table_bytes(int stops, int ports) {
   if (stops > kTableStops) return 0;
   return HeldKarpTable<std::int16_t>::entries(stops, ports) * sizeof(std::int16_t);
 }
 
-Completions::Completions(std::shared_ptr<const Store> store)
+CostToGo::CostToGo(std::shared_ptr<const Store> store)
     : store_(std::move(store)), marked_(store_) {}
 
-Completions Completions::in_order(const CostMatrix& matrix, Sequence order) {
-  return Completions(
+CostToGo CostToGo::in_order(const CostMatrix& matrix, Sequence order) {
+  return CostToGo(
       std::make_shared<Ordered>(std::make_shared<const CostMatrix>(matrix), std::move(order)));
 }
 
-Completions Completions::as_graph(CostMatrix matrix, MakeDirectLegs direct) {
+CostToGo CostToGo::as_graph(CostMatrix matrix, MakeDirectLegs direct) {
   auto graph = std::make_shared<Graph>(std::make_shared<const CostMatrix>(std::move(matrix)),
                                        std::move(direct));
   graph->turn_to_direct_legs();
-  return Completions(std::move(graph));
+  return CostToGo(std::move(graph));
 }
 
-std::optional<Completions> Completions::of_class(const SequenceClass& work) const {
+std::optional<CostToGo> CostToGo::of_class(const SequenceClass& work) const {
   auto other = store_->of_class(work);
   if (!other) return std::nullopt;
-  Completions completions(std::move(other));
-  if (marked_ != store_) completions.marked_ = marked_->of_class(work);
-  return completions;
+  CostToGo cost_to_go(std::move(other));
+  if (marked_ != store_) cost_to_go.marked_ = marked_->of_class(work);
+  return cost_to_go;
 }
 
-const CostMatrix& Completions::matrix() const {
+const CostMatrix& CostToGo::matrix() const {
   return store_->matrix();
 }
 
-Time Completions::relaxed_bound() const {
+Time CostToGo::relaxed_bound() const {
   return store_->relaxed_bound();
 }
 
-Time Completions::beyond() const {
+Time CostToGo::beyond() const {
   return store_->beyond();
 }
 
-Time Completions::completion(StopSet left, int port) const {
-  return store_->completion(left, port);
+Time CostToGo::cost_to_go(StopSet left, int port) const {
+  return store_->cost_to_go(left, port);
 }
 
-bool Completions::widen(Time reach, const Limits& limits) {
+bool CostToGo::widen(Time reach, const Limits& limits) {
   GROVE_ASSERT(reach < kNever, "there is more to know");
   if (beyond() > reach) return true;
   if (reach >= refused_) return false;
@@ -282,7 +282,7 @@ bool Completions::widen(Time reach, const Limits& limits) {
 }
 
 // Of a table all is known or nothing, and a search that knows nothing does nothing.
-void Completions::reset() {
+void CostToGo::reset() {
   if (store_->knows_all_or_nothing()) return;
   resets_ = true;
   store_ = marked_;

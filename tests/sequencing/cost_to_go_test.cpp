@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Costs to go against every order, and, where there are too many, against the Held-Karp table.
-#include "sequencing/completions.h"
+#include "sequencing/cost_to_go.h"
 
 #include <gtest/gtest.h>
 
@@ -44,28 +44,28 @@ Time brute_force(const CostMatrix& matrix, StopSet left, int stop) {
 }
 
 void expect_exact(const CostMatrix& matrix) {
-  Completions completions(matrix);
-  ASSERT_TRUE(completions.widen(0, Limits()));
-  EXPECT_EQ(completions.beyond(), kNever);
+  CostToGo cost_to_go(matrix);
+  ASSERT_TRUE(cost_to_go.widen(0, Limits()));
+  EXPECT_EQ(cost_to_go.beyond(), kNever);
   for (StopSet left = 0; left <= matrix.all(); ++left)
     for (int stop : members(matrix.all() & ~left))
-      ASSERT_EQ(completions.completion(left, stop), brute_force(matrix, left, stop));
+      ASSERT_EQ(cost_to_go.cost_to_go(left, stop), brute_force(matrix, left, stop));
 }
 
-TEST(Completions, TheRelaxedBoundIsThatOfTheMatrix) {
+TEST(CostToGo, TheRelaxedBoundIsThatOfTheMatrix) {
   Random random(5);
   for (const int n : {1, 6, 14, 15, 20}) {
     const CostMatrix matrix = testing::grid_matrix(n, Variant::kCts, random);
-    Completions completions(matrix);
+    CostToGo cost_to_go(matrix);
     const Time bound = relaxation_bound(matrix);
-    EXPECT_EQ(completions.relaxed_bound(), bound);
+    EXPECT_EQ(cost_to_go.relaxed_bound(), bound);
     if (bound == kNever) continue;
-    ASSERT_TRUE(completions.widen(bound + 3, Limits()));
-    EXPECT_EQ(completions.relaxed_bound(), bound);
+    ASSERT_TRUE(cost_to_go.widen(bound + 3, Limits()));
+    EXPECT_EQ(cost_to_go.relaxed_bound(), bound);
   }
 }
 
-TEST(Completions, SmallOnesAreExactAndComplete) {
+TEST(CostToGo, SmallOnesAreExactAndComplete) {
   Random random(1);
   for (int round = fuzz_rounds(20); round > 0; --round)
     for (const Variant variant : kVariants)
@@ -75,20 +75,20 @@ TEST(Completions, SmallOnesAreExactAndComplete) {
       }
 }
 
-TEST(Completions, LargeCostsDoNotOverflow) {
+TEST(CostToGo, LargeCostsDoNotOverflow) {
   Random random(2);
   CostMatrix matrix = testing::metric_matrix(5, Variant::kCts, random);
   matrix.cost *= 10'000;
   expect_exact(matrix);
 }
 
-TEST(Completions, NothingIsKnownAtFirst) {
+TEST(CostToGo, NothingIsKnownAtFirst) {
   Random random(3);
   for (const int n : {4, 16}) {
     const CostMatrix matrix = testing::metric_matrix(n, Variant::kCts, random);
-    const Completions completions(matrix);
-    EXPECT_LT(completions.beyond(), kNever);
-    EXPECT_EQ(completions.completion(matrix.all() & ~StopSet{1}, 0), kNever);
+    const CostToGo cost_to_go(matrix);
+    EXPECT_LT(cost_to_go.beyond(), kNever);
+    EXPECT_EQ(cost_to_go.cost_to_go(matrix.all() & ~StopSet{1}, 0), kNever);
   }
 }
 
@@ -96,27 +96,27 @@ TEST(Completions, NothingIsKnownAtFirst) {
 class GraphTest : public ::testing::Test {
  protected:
   // Every sequence below beyond() has its exact cost to go at every state: walks down all of them.
-  void expect_exact_below_beyond(const CostMatrix& matrix, const Completions& completions) {
+  void expect_exact_below_beyond(const CostMatrix& matrix, const CostToGo& cost_to_go) {
     const Limits limits;
     const auto table = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
     SequenceClass work;
-    walk(matrix, completions, *table, work, 0);
+    walk(matrix, cost_to_go, *table, work, 0);
   }
 
  private:
-  void walk(const CostMatrix& matrix, const Completions& completions, RtspSolver& table,
+  void walk(const CostMatrix& matrix, const CostToGo& cost_to_go, RtspSolver& table,
             SequenceClass& work, Time cost) {
     StopSet left = matrix.all();
     for (Stop stop : work.prefix) left &= ~(StopSet{1} << stop);
     const Time exact = table.best(work, kNever).cost;
-    if (exact >= completions.beyond() || ++visited_ > kMostVisited) return;
+    if (exact >= cost_to_go.beyond() || ++visited_ > kMostVisited) return;
     if (!work.prefix.empty()) {
-      ASSERT_EQ(cost + completions.completion(left, work.prefix.back()), exact);
+      ASSERT_EQ(cost + cost_to_go.cost_to_go(left, work.prefix.back()), exact);
     }
     const int at = work.prefix.empty() ? matrix.stops() : work.prefix.back();
     for (int stop : members(left)) {
       work.prefix.push_back(static_cast<Stop>(stop));
-      walk(matrix, completions, table, work, cost + matrix.between(at, stop));
+      walk(matrix, cost_to_go, table, work, cost + matrix.between(at, stop));
       work.prefix.pop_back();
     }
   }
@@ -129,34 +129,34 @@ TEST_F(GraphTest, EverySequenceBelowBeyondIsExact) {
   Random random(4);
   for (const Variant variant : kVariants) {
     const CostMatrix matrix = testing::grid_matrix(15, variant, random);
-    Completions completions(matrix);
-    for (int step = 0; step < 3 && completions.beyond() < kNever; ++step) {
-      const Time reach = completions.beyond();
-      ASSERT_TRUE(completions.widen(reach, Limits()));
-      EXPECT_GT(completions.beyond(), reach);
-      expect_exact_below_beyond(matrix, completions);
+    CostToGo cost_to_go(matrix);
+    for (int step = 0; step < 3 && cost_to_go.beyond() < kNever; ++step) {
+      const Time reach = cost_to_go.beyond();
+      ASSERT_TRUE(cost_to_go.widen(reach, Limits()));
+      EXPECT_GT(cost_to_go.beyond(), reach);
+      expect_exact_below_beyond(matrix, cost_to_go);
     }
   }
 }
 
 TEST_F(GraphTest, WideningToLessChangesNothing) {
   Random random(5);
-  Completions completions(testing::metric_matrix(16, Variant::kCts, random));
-  ASSERT_TRUE(completions.widen(completions.beyond(), Limits()));
-  const Time beyond = completions.beyond();
-  ASSERT_TRUE(completions.widen(beyond - 1, Limits()));
-  EXPECT_EQ(completions.beyond(), beyond);
+  CostToGo cost_to_go(testing::metric_matrix(16, Variant::kCts, random));
+  ASSERT_TRUE(cost_to_go.widen(cost_to_go.beyond(), Limits()));
+  const Time beyond = cost_to_go.beyond();
+  ASSERT_TRUE(cost_to_go.widen(beyond - 1, Limits()));
+  EXPECT_EQ(cost_to_go.beyond(), beyond);
 }
 
-TEST(Completions, ALimitChangesNothing) {
+TEST(CostToGo, ALimitChangesNothing) {
   Random random(6);
   for (const int n : {4, 16}) {
-    Completions completions(testing::metric_matrix(n, Variant::kCts, random));
-    const Time beyond = completions.beyond();
+    CostToGo cost_to_go(testing::metric_matrix(n, Variant::kCts, random));
+    const Time beyond = cost_to_go.beyond();
     Limits limits;
     limits.set_deadline(testing::kPast);
-    EXPECT_FALSE(completions.widen(beyond, limits));
-    EXPECT_EQ(completions.beyond(), beyond);
+    EXPECT_FALSE(cost_to_go.widen(beyond, limits));
+    EXPECT_EQ(cost_to_go.beyond(), beyond);
   }
 }
 
