@@ -11,7 +11,7 @@
 #include "sequencing/cost_matrix.h"
 #include "sequencing/k_best_joint_sequences.h"
 #include "sequencing/k_best_sequences.h"
-#include "sequencing/path_relaxation.h"
+#include "sequencing/one_tree_relaxation.h"
 #include "sequencing/sequence_dag.h"
 
 namespace grove::detail {
@@ -97,7 +97,7 @@ void graph(benchmark::State& state) {
     state.counters["cost"] = answer.cost;
     state.counters["gap"] = answer.cost - solver->root_bound();
   }
-  const PathRelaxation relaxation(matrix);
+  const OneTreeRelaxation relaxation(matrix);
   const auto best = static_cast<Time>(state.counters["cost"]);
   for (Time slack : {0, 2})
     state.counters["states" + std::to_string(slack)] = static_cast<double>(

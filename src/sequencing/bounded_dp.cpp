@@ -24,8 +24,8 @@
 // from graphs of at most 2,800 states.
 #include <optional>
 
+#include "sequencing/one_tree_relaxation.h"
 #include "sequencing/passed_stops.h"
-#include "sequencing/path_relaxation.h"
 #include "sequencing/rtsp_backends.h"
 #include "sequencing/sequence_class.h"
 #include "sequencing/sequence_dag.h"
@@ -110,7 +110,7 @@ class BoundedDp : public RtspSolver {
   const CostMatrix& matrix_;
   const Limits& limits_;
   const std::size_t most_states_;  // of the graph of all sequences
-  PathRelaxation relaxation_;
+  OneTreeRelaxation relaxation_;
   SequenceDag dag_;
   std::optional<PassedStops> passed_;  // once the graph of all sequences was too large
   SequenceClass class_;                // that the graph of canonical sequences is of

@@ -20,7 +20,7 @@
 #include "sequencing/cost_matrix.h"
 #include "sequencing/direct_legs.h"
 #include "sequencing/held_karp_table.h"
-#include "sequencing/path_relaxation.h"
+#include "sequencing/one_tree_relaxation.h"
 #include "sequencing/rtsp.h"
 #include "sequencing/rtsp_backends.h"
 #include "sequencing/sequence_dag.h"
@@ -77,7 +77,7 @@ class CostToGo::Graph : public Store {
  public:
   Graph(std::shared_ptr<const CostMatrix> matrix, MakeDirectLegs make_direct)
       : Store(std::move(matrix)),
-        relaxation_(std::make_shared<const PathRelaxation>(this->matrix())),
+        relaxation_(std::make_shared<const OneTreeRelaxation>(this->matrix())),
         make_direct_(std::move(make_direct)),
         dag_(nothing_known()) {}
 
@@ -135,7 +135,7 @@ class CostToGo::Graph : public Store {
     return std::make_shared<const SequenceDag>(relaxation_->root_bound());
   }
 
-  std::shared_ptr<const PathRelaxation> relaxation_;
+  std::shared_ptr<const OneTreeRelaxation> relaxation_;
   MakeDirectLegs make_direct_;                // or none
   std::shared_ptr<const DirectLegs> direct_;  // once the graph of all sequences was too large
   SequenceClass work_;

@@ -62,8 +62,8 @@
 #include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/direct_legs.h"
+#include "sequencing/one_tree_relaxation.h"
 #include "sequencing/passed_stops.h"
-#include "sequencing/path_relaxation.h"
 #include "sequencing/stop_set.h"
 
 namespace grove::detail {
@@ -163,7 +163,7 @@ class SequenceDagBuilder {
   // A set of the layer that is being reached, and a state in it.
   struct Group {
     SequenceDag::Node node;
-    PathRelaxation::Tail tail;
+    OneTreeRelaxation::Tail tail;
   };
   struct State {
     std::uint32_t group;
@@ -391,7 +391,7 @@ class SequenceDagBuilder {
     const std::size_t bytes = dag_.nodes_.capacity() * sizeof(SequenceDag::Node) +
                               dag_.completions_.capacity() * sizeof(Time) + dag_.index_.bytes() +
                               groups_.capacity() * sizeof(Group) +
-                              tails_.capacity() * sizeof(PathRelaxation::Tail) +
+                              tails_.capacity() * sizeof(OneTreeRelaxation::Tail) +
                               states_.capacity() * sizeof(State) + group_index_.bytes();
     if (bytes != asked_bytes_ && !limits_.memory_allows(bytes)) limits_.memory_exhausted();
     asked_bytes_ = bytes;
@@ -470,7 +470,7 @@ class SequenceDagBuilder {
   }
 
   const CostMatrix& matrix_;
-  const PathRelaxation& relaxation_;
+  const OneTreeRelaxation& relaxation_;
   const DirectLegs* const direct_;
   const PassedStops* const passed_;
   const SequenceClass& work_;
@@ -482,7 +482,7 @@ class SequenceDagBuilder {
 
   SequenceDag dag_{kNever};
   std::vector<Group> groups_;
-  std::vector<PathRelaxation::Tail> tails_;  // of the last layer's nodes
+  std::vector<OneTreeRelaxation::Tail> tails_;  // of the last layer's nodes
   std::vector<State> states_;
   std::vector<std::size_t> dropped_;  // by how much they exceed the reach, less 1
   StopSetIndex group_index_;
@@ -493,7 +493,7 @@ class SequenceDagBuilder {
 };
 
 std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,
-                                              const PathRelaxation& relaxation, Time reach,
+                                              const OneTreeRelaxation& relaxation, Time reach,
                                               const Limits& limits) {
   SequenceDag dag(0);
   if (build({matrix, relaxation}, reach, limits, dag) != End::kBuilt) return std::nullopt;

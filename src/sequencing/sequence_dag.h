@@ -17,7 +17,7 @@ namespace grove::detail {
 
 class DirectLegs;
 class PassedStops;
-class PathRelaxation;
+class OneTreeRelaxation;
 
 // Maps sets to numbers: open addressing, linear probing.
 class StopSetIndex {
@@ -52,13 +52,13 @@ class SequenceDag {
 
   // With every sequence of cost <= reach. Returns nullopt if a limit was reached.
   static std::optional<SequenceDag> build(const CostMatrix& matrix,
-                                          const PathRelaxation& relaxation, Time reach,
+                                          const OneTreeRelaxation& relaxation, Time reach,
                                           const Limits& limits);
 
   // What is in a graph.
   struct Scope {
     const CostMatrix& matrix;
-    const PathRelaxation& relaxation;
+    const OneTreeRelaxation& relaxation;
     // If given, only the ways of an agent that visits each plain stop of `work` that it passes, and
     // what these cost: see the .cpp.
     const DirectLegs* direct = nullptr;

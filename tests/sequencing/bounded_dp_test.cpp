@@ -12,7 +12,7 @@
 #include "matrices.h"
 #include "sequencing/cost_to_go.h"
 #include "sequencing/k_best_sequences.h"
-#include "sequencing/path_relaxation.h"
+#include "sequencing/one_tree_relaxation.h"
 #include "sequencing/sequence_dag.h"
 #include "tests/support/fuzz_factor.h"
 
@@ -48,14 +48,14 @@ Time cheapest_rest(const CostMatrix& matrix, StopSet left, int at) {
   return best;
 }
 
-TEST(PathRelaxation, BoundsEveryState) {
+TEST(OneTreeRelaxation, BoundsEveryState) {
   Random random(31);
   for (int round = 0; round < fuzz_rounds(15); ++round)
     for (Variant variant : kVariants)
       for (int n = 1; n <= 6; ++n)
         for (const CostMatrix& matrix : matrices_of(n, variant, random)) {
           if (matrix.ports > 1 && n > 3) continue;
-          const PathRelaxation relaxation(matrix);
+          const OneTreeRelaxation relaxation(matrix);
           for (StopSet left = 1; left <= matrix.all(); ++left)
             for (int at = 0; at <= n * matrix.ports; ++at) {
               if (at < n * matrix.ports && (left & stop_of(matrix, at)) != 0) continue;
@@ -108,7 +108,7 @@ TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
           const std::vector<Time> all =
               costs_of_walks(matrix, kNever - 1, [](auto...) { return true; });
           if (all.empty()) continue;
-          const PathRelaxation relaxation(matrix);
+          const OneTreeRelaxation relaxation(matrix);
           for (Time slack : {-1, 0, 1, 5}) {
             const Time reach = all.front() + slack;
             const auto dag = SequenceDag::build(matrix, relaxation, reach, limits);
@@ -122,7 +122,7 @@ TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
 }
 
 // Of every set: from each of its stops through the others, against every order.
-TEST(PathRelaxation, TheTreeOfASetBoundsTheWaysThatBeginInIt) {
+TEST(OneTreeRelaxation, TheTreeOfASetBoundsTheWaysThatBeginInIt) {
   Random random(34);
   int above_zero = 0;
   for (int round = 0; round < fuzz_rounds(10); ++round)
@@ -130,9 +130,9 @@ TEST(PathRelaxation, TheTreeOfASetBoundsTheWaysThatBeginInIt) {
       for (int n : {3, 6})
         for (const CostMatrix& matrix : matrices_of(n, variant, random)) {
           if (matrix.ports > 1 && n > 3) continue;
-          const PathRelaxation relaxation(matrix);
+          const OneTreeRelaxation relaxation(matrix);
           for (StopSet left = 1; left <= matrix.all(); ++left) {
-            const PathRelaxation::Tail tail = relaxation.tail(left);
+            const OneTreeRelaxation::Tail tail = relaxation.tail(left);
             for_each_port(matrix, left, [&](int first) {
               const Time bound = relaxation.bound_from(tail, first);
               ASSERT_LE(bound, cheapest_rest(matrix, left & ~stop_of(matrix, first), first));
@@ -149,7 +149,7 @@ TEST(SequenceDag, KnowsItsCostsToGoExactly) {
   for (const CostMatrix& matrix :
        {metric_matrix(7, Variant::kCts, random), turning_matrix(4, Variant::kCts, random),
         turning_matrix(4, Variant::kMg, random)}) {
-    const auto dag = SequenceDag::build(matrix, PathRelaxation(matrix), kNever - 1, limits);
+    const auto dag = SequenceDag::build(matrix, OneTreeRelaxation(matrix), kNever - 1, limits);
     ASSERT_TRUE(dag);
     EXPECT_EQ(dag->beyond(), kNever);  // nothing was dropped
     for (StopSet left = 0; left < matrix.all(); ++left)
@@ -161,7 +161,7 @@ TEST(SequenceDag, KnowsItsCostsToGoExactly) {
 
 // What a turn between two legs costs is seen by the shifts at ports: what no spanning tree over
 // least legs can know.
-TEST(PathRelaxation, SeesMostTurns) {
+TEST(OneTreeRelaxation, SeesMostTurns) {
   Random random(35);
   Time blind = 0;
   Time bound = 0;
@@ -177,8 +177,8 @@ TEST(PathRelaxation, SeesMostTurns) {
                                 table.cost_to_go(matrix.all() & ~stop_of(matrix, first), first)));
     });
     if (best >= kNever) continue;
-    blind += PathRelaxation(least_matrix(matrix)).root_bound();
-    bound += PathRelaxation(matrix).root_bound();
+    blind += OneTreeRelaxation(least_matrix(matrix)).root_bound();
+    bound += OneTreeRelaxation(matrix).root_bound();
     exact += best;
   }
   EXPECT_LE(bound, exact);
@@ -259,7 +259,7 @@ TEST_F(OnMaps, ServesThirtySixStops) {
         ASSERT_TRUE(is_complete(matrix, list.sequence(rank)));
         ASSERT_EQ(sequence_cost(matrix, list.sequence(rank)), cost);
       }
-      const PathRelaxation relaxation(matrix);
+      const OneTreeRelaxation relaxation(matrix);
       const auto narrow = SequenceDag::build(matrix, relaxation, best, limits_);
       const auto wide = SequenceDag::build(matrix, relaxation, best + 2, limits_);
       ASSERT_EQ(costs_within(*narrow, matrix, best), costs_within(*wide, matrix, best));

@@ -36,7 +36,7 @@
 // lost. But s may differ from port to port: what a way adds at the port where it leaves a stop it
 // takes off where it came, and that is the same port. Where the relaxed way leaves a port more
 // often than it comes there, a greater s makes it dearer: the ascent moves s along with p.
-#include "sequencing/path_relaxation.h"
+#include "sequencing/one_tree_relaxation.h"
 
 #include <algorithm>
 #include <array>
@@ -66,7 +66,7 @@ Time to_cost(std::int64_t fixed_point) {
 
 // A minimum spanning tree by Prim's algorithm: its weight, and its stops in the order in which they
 // joined it.
-struct PathRelaxation::Tree {
+struct OneTreeRelaxation::Tree {
   std::int64_t weight = 0;
   int size = 0;
   std::array<Stop, kMaxTasksPerAgent> stops;
@@ -74,13 +74,13 @@ struct PathRelaxation::Tree {
 };
 
 // The cheapest pair of first and last leg, and the stops where they meet the tree.
-struct PathRelaxation::EndLegs {
+struct OneTreeRelaxation::EndLegs {
   std::int64_t cost = 4 * kNoLeg;
   int first = 0;
   int last = 0;
 };
 
-PathRelaxation::PathRelaxation(const CostMatrix& matrix)
+OneTreeRelaxation::OneTreeRelaxation(const CostMatrix& matrix)
     : stops_(matrix.stops()),
       ports_(matrix.ports),
       shift_(row_count(), 0),
@@ -101,12 +101,12 @@ PathRelaxation::PathRelaxation(const CostMatrix& matrix)
   }
 }
 
-std::int64_t PathRelaxation::shifted(int from, int to) const {
+std::int64_t OneTreeRelaxation::shifted(int from, int to) const {
   const std::int64_t cost = costs_[from * row_count() + to];
   return cost == kNoLeg ? kNoLeg : cost + shift_[from] - shift_[to];
 }
 
-void PathRelaxation::shift_legs() {
+void OneTreeRelaxation::shift_legs() {
   const int width = stops_ + 1;
   legs_.assign(row_count() * width, kNoLeg);
   edges_.assign(width * width, kNoLeg);
@@ -121,7 +121,7 @@ void PathRelaxation::shift_legs() {
     for (int j = 0; j < stops_; ++j) apart_[i * stops_ + j] = std::min(edge(i, j), edge(j, i));
 }
 
-void PathRelaxation::balance() {
+void OneTreeRelaxation::balance() {
   for (int i = 0; i < stops_; ++i) {
     std::int64_t more = 0;
     std::int64_t pairs = 0;
@@ -135,13 +135,13 @@ void PathRelaxation::balance() {
   shift_legs();
 }
 
-void PathRelaxation::weigh() {
+void OneTreeRelaxation::weigh() {
   for (int i = 0; i < stops_; ++i)
     for (int j = 0; j < stops_; ++j)
       weight_[i * stops_ + j] = apart_[i * stops_ + j] + potential_[i] + potential_[j];
 }
 
-PathRelaxation::Tree PathRelaxation::tree(StopSet left) const {
+OneTreeRelaxation::Tree OneTreeRelaxation::tree(StopSet left) const {
   Tree tree;
   for_each_stop(left, [&](int stop) { tree.stops[tree.size++] = static_cast<Stop>(stop); });
   // tree.stops[0 .. in_tree-1] are connected; the others wait with their cheapest edge to those.
@@ -170,7 +170,7 @@ PathRelaxation::Tree PathRelaxation::tree(StopSet left) const {
   return tree;
 }
 
-void PathRelaxation::add_end_legs(Tail& tail, StopSet left) const {
+void OneTreeRelaxation::add_end_legs(Tail& tail, StopSet left) const {
   const auto last_leg = [&](int stop) { return edge(stop, stops_) + potential_[stop]; };
   const auto nearest = [&](StopSet among) {
     int best = std::countr_zero(among);
@@ -187,14 +187,15 @@ void PathRelaxation::add_end_legs(Tail& tail, StopSet left) const {
   for_each_stop(left, [&](int stop) { tail.tree -= 2 * potential_[stop]; });
 }
 
-PathRelaxation::Tail PathRelaxation::tail(StopSet left) const {
+OneTreeRelaxation::Tail OneTreeRelaxation::tail(StopSet left) const {
   Tail tail;
   tail.tree = tree(left).weight;
   add_end_legs(tail, left);
   return tail;
 }
 
-PathRelaxation::EndLegs PathRelaxation::end_legs(const Tail& tail, StopSet next, int from) const {
+OneTreeRelaxation::EndLegs OneTreeRelaxation::end_legs(const Tail& tail, StopSet next,
+                                                       int from) const {
   EndLegs best;
   for_each_stop(next, [&](int stop) {
     const bool taken = stop == tail.nearest_to_end;
@@ -205,18 +206,18 @@ PathRelaxation::EndLegs PathRelaxation::end_legs(const Tail& tail, StopSet next,
   return best;
 }
 
-Time PathRelaxation::bound(const Tail& tail, StopSet next, int from) const {
+Time OneTreeRelaxation::bound(const Tail& tail, StopSet next, int from) const {
   return to_cost(tail.tree + end_legs(tail, next, from).cost - shift_[from]);
 }
 
-Time PathRelaxation::bound_from(const Tail& tail, int first) const {
+Time OneTreeRelaxation::bound_from(const Tail& tail, int first) const {
   const int stop = first / ports_;
   return to_cost(tail.tree + potential_[stop] +
                  (stop == tail.nearest_to_end ? tail.second_leg : tail.last_leg) - shift_[first]);
 }
 
 // The cheapest ports of a leg between two rows of edges_.
-void PathRelaxation::count_ports(int from, int to, Excess& excess) const {
+void OneTreeRelaxation::count_ports(int from, int to, Excess& excess) const {
   if (ports_ == 1) return;
   const int first = from * ports_;
   const int last = std::min(first + ports_, row_count());
@@ -230,7 +231,7 @@ void PathRelaxation::count_ports(int from, int to, Excess& excess) const {
 }
 
 // The bound from the start over all stops, and what the relaxed way has too much of.
-std::int64_t PathRelaxation::bound_and_excess(Excess& excess) const {
+std::int64_t OneTreeRelaxation::bound_and_excess(Excess& excess) const {
   const StopSet all = stops_ == 64 ? ~StopSet{0} : bit(stops_) - 1;
   const Tree span = tree(all);
   Tail tail;
@@ -259,7 +260,7 @@ std::int64_t PathRelaxation::bound_and_excess(Excess& excess) const {
 
 // Subgradient ascent with a step that shrinks geometrically and some of the last direction kept
 // (Volgenant and Jonker 1982). Any potentials and shifts are sound; the best ones met are kept.
-void PathRelaxation::climb() {
+void OneTreeRelaxation::climb() {
   Excess excess;
   Excess last;
   weigh();
@@ -302,7 +303,7 @@ void PathRelaxation::climb() {
 }
 
 Time relaxation_bound(const CostMatrix& matrix) {
-  return PathRelaxation(matrix).root_bound();
+  return OneTreeRelaxation(matrix).root_bound();
 }
 
 }  // namespace grove::detail

@@ -11,7 +11,7 @@
 namespace grove::detail {
 
 // Immutable once built; holds its own copy of the costs.
-class PathRelaxation {
+class OneTreeRelaxation {
  public:
   // What a bound over one set of stops has in common for every stop it may be reached from.
   struct Tail {
@@ -23,7 +23,7 @@ class PathRelaxation {
   };
 
   // Works on potentials for some 400 spanning trees over all stops.
-  explicit PathRelaxation(const CostMatrix& matrix);
+  explicit OneTreeRelaxation(const CostMatrix& matrix);
 
   // A proven lower bound on every complete sequence; kNever when there is proven to be none.
   Time root_bound() const { return root_bound_; }
