@@ -53,7 +53,7 @@ PathOutcome VisitedSetSearch::run(Time cutoff, const Limits& limits, Path& path)
   while (queue_.pop(entry)) {
     const Label label = labels_[entry.slot];
     if (label.time != entry.time) continue;  // improved since
-    if (queue_.layer() > cutoff) return PathOutcome::kAbove;
+    if (queue_.layer() > cutoff) return PathOutcome::kAboveCutoff;
     if (is_finish(label)) {
       write_path(entry.slot, path);
       return PathOutcome::kFound;

@@ -91,7 +91,7 @@ PathOutcome VisitingOrderSearch::run(Time cutoff, const Limits& limits, Path& pa
   Entry entry;
   while (queue_.pop(entry)) {
     if (labels_[entry.slot].time != entry.time) continue;  // improved since
-    if (queue_.layer() > cutoff) return PathOutcome::kAbove;
+    if (queue_.layer() > cutoff) return PathOutcome::kAboveCutoff;
     if (is_finish(entry.slot)) {
       write_path(entry.slot, path);
       return PathOutcome::kFound;

@@ -15,8 +15,9 @@
 // of other ways does not matter. With a deadline or gate it is the same path that goes on.
 // So: a path found that costs at most beyond() is optimal, since a cheaper one would not have been
 // lost. If none is found, every path costs at least beyond(); then the graph is widened and the
-// search begun again, unless the cutoff is below beyond(): kAbove. And if no label was dropped for
-// its f or for its state, the search has seen all there is: kInfeasible, whatever the graph.
+// search begun again, unless the cutoff is below beyond(): kAboveCutoff. And if no label was
+// dropped for its f or for its state, the search has seen all there is: kInfeasible, whatever the
+// graph.
 //
 // Graphs by direct legs (sequence_dag.cpp) know paths instead of sequences: all stages of a path of
 // the class that costs less than beyond(), counted as early as possible, with completions that are
@@ -101,8 +102,8 @@ class FreeLowLevelSearch::Workspace {
   const ConflictAvoidanceTable* others_ = nullptr;
   const Limits* limits_ = nullptr;
   Path* path_ = nullptr;
-  Time latest_ = 0;                          // dearer paths are of no use,
-  PathOutcome above_ = PathOutcome::kAbove;  // and this is the answer if all are
+  Time latest_ = 0;                                // dearer paths are of no use,
+  PathOutcome above_ = PathOutcome::kAboveCutoff;  // and this is the answer if all are
   // The counts of labels at which to do so.
   std::int64_t give_up_at_ = 0;
   std::int64_t doubt_at_ = 0;
@@ -139,7 +140,7 @@ PathOutcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals, const PathQuer
   if (rest_by < kNever) rest_by += goals.stops().longest_finish(intervals.only_rest());
   latest_ = std::min(query.cutoff, rest_by);
   const bool must_rest = rest_by < kNever && rest_by <= query.cutoff;
-  above_ = must_rest ? PathOutcome::kInfeasible : PathOutcome::kAbove;
+  above_ = must_rest ? PathOutcome::kInfeasible : PathOutcome::kAboveCutoff;
   if (search_.goals().first_rest() > latest_) return above_;
   if (intervals.start_slot(goals.stops().start()) < 0) return PathOutcome::kInfeasible;
   decide_when(query);
@@ -160,7 +161,7 @@ PathOutcome FreeLowLevelSearch::Workspace::find_known() {
   const PathOutcome outcome = *find_within(latest_);
   if (outcome == PathOutcome::kFound) return outcome;
   if (goals().cost_to_go().beyond() < kNever) return PathOutcome::kStopped;
-  return outcome == PathOutcome::kAbove ? above_ : outcome;
+  return outcome == PathOutcome::kAboveCutoff ? above_ : outcome;
 }
 
 PathOutcome FreeLowLevelSearch::Workspace::find_any() {
@@ -169,7 +170,7 @@ PathOutcome FreeLowLevelSearch::Workspace::find_any() {
     const Time optimal = std::max(beyond, search_.goals().first_rest());
     const std::optional<PathOutcome> outcome = find_within(std::min(latest_, optimal));
     if (!outcome) continue;
-    if (*outcome != PathOutcome::kAbove) return *outcome;
+    if (*outcome != PathOutcome::kAboveCutoff) return *outcome;
     if (latest_ < beyond || beyond == kNever) return above_;
     if (goals().first_stage() != FreeGoals::kOutside) {
       if (const auto answer = doubt()) return *answer;
@@ -185,7 +186,7 @@ std::optional<PathOutcome> FreeLowLevelSearch::Workspace::find_within(Time cap) 
   const bool all_known = goals().cost_to_go().beyond() == kNever;
   const FreeGoals::StageId first = goals().first_stage();
   if (first == FreeGoals::kOutside)
-    return all_known ? PathOutcome::kInfeasible : PathOutcome::kAbove;
+    return all_known ? PathOutcome::kInfeasible : PathOutcome::kAboveCutoff;
   search_.goals().begin(cap);
   search_.begin(goals().stops().start(), first, 0, others_, *limits_);
   for (;;) {
@@ -194,7 +195,7 @@ std::optional<PathOutcome> FreeLowLevelSearch::Workspace::find_within(Time cap) 
         search_.write_path(*path_);
         return PathOutcome::kFound;
       case Search::End::kExhausted:
-        return search_.goals().is_complete() ? PathOutcome::kInfeasible : PathOutcome::kAbove;
+        return search_.goals().is_complete() ? PathOutcome::kInfeasible : PathOutcome::kAboveCutoff;
       case Search::End::kStopped:
         return PathOutcome::kStopped;
       case Search::End::kPaused:

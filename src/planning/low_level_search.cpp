@@ -30,7 +30,7 @@ PathOutcome LowLevelSearch::find(const GoalSequence& goals, const PathQuery& que
   search.begin(goals.start(), 0, goals.distance(goals.start(), 0), query.others, limits);
   switch (search.run(search.expanded_after(query.most_labels))) {
     case Workspace::End::kFound:
-      if (search.cost() > query.cutoff) return PathOutcome::kAbove;
+      if (search.cost() > query.cutoff) return PathOutcome::kAboveCutoff;
       search.write_path(path);
       return PathOutcome::kFound;
     case Workspace::End::kExhausted:

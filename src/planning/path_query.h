@@ -14,9 +14,9 @@ namespace grove::detail {
 
 enum class PathOutcome : std::uint8_t {
   kFound,
-  kAbove,       // proven: no path costs `cutoff` or less (whether there is one is not known)
-  kInfeasible,  // proven: there is no path
-  kStopped,     // a limit struck, or too much would have to be done: nothing is known
+  kAboveCutoff,  // proven: no path costs `cutoff` or less (whether there is one is not known)
+  kInfeasible,   // proven: there is no path
+  kStopped,      // a limit struck, or too much would have to be done: nothing is known
 };
 
 // What one agent's path must obey, and how much it is worth. What it refers to is the caller's, for

@@ -38,7 +38,7 @@ bool Router::meet(AgentIndex agent, const Limits& limits) {
       return true;
     case PathOutcome::kStopped:
       return !limits.stop_requested() && follow_good_sequence(agent, limits);
-    case PathOutcome::kAbove:
+    case PathOutcome::kAboveCutoff:
     case PathOutcome::kInfeasible:
       break;
   }

@@ -38,7 +38,7 @@ Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint&
       case PathOutcome::kFound:
         known = {static_cast<Time>(path_.size()) - 1, true};
         break;
-      case PathOutcome::kAbove:
+      case PathOutcome::kAboveCutoff:
         known = {cutoff + 1, false};
         break;
       case PathOutcome::kInfeasible:

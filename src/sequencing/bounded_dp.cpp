@@ -55,7 +55,7 @@ class BoundedDp : public RtspSolver {
       const Time value = best_cost(matrix_, root, cost_to_go());
       const Time bound = std::max(relaxed, dag_.beyond());
       if (value <= bound) return {value < kNever ? Kind::kExact : Kind::kInfeasible, value};
-      if (bound > cutoff) return {Kind::kAbove, bound};
+      if (bound > cutoff) return {Kind::kAboveCutoff, bound};
       if (!extend()) return {Kind::kStopped, bound};
     }
   }

@@ -268,7 +268,7 @@ class CbcRtsp : public RtspSolver {
     const Contracted rest = contract(matrix_, root);
     const Time bound = add_costs(root.cost, relaxation_bound(rest.matrix));
     if (bound >= kNever) return {Kind::kInfeasible, kNever};
-    if (bound > cutoff) return {Kind::kAbove, bound};
+    if (bound > cutoff) return {Kind::kAboveCutoff, bound};
 
     const SolverTurn turn(limits_);
     if (!turn.mine()) return {Kind::kStopped, bound};

@@ -27,9 +27,9 @@ struct SequenceClass {
 
 struct RtspAnswer {
   enum class Kind : std::uint8_t {
-    kExact,  // `cost` is the proven optimum of the class
-    kAbove,  // proven: the optimum exceeds the cutoff (or there is none); `cost` is a proven lower
-             // bound > cutoff
+    kExact,        // `cost` is the proven optimum of the class
+    kAboveCutoff,  // proven: the optimum exceeds the cutoff (or there is none); `cost` is a proven
+                   // lower bound > cutoff
     kInfeasible,  // proven: the class holds no sequence of finite cost
     kStopped,     // a limit struck; `cost` is a proven lower bound, perhaps 0
   };

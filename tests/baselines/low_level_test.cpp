@@ -149,7 +149,7 @@ TEST_P(Baselines, AgreeWithTheDefinition) {
         ++infeasible;
         break;
       }
-      ASSERT_EQ(find(*expected - 1), Outcome::kAbove);
+      ASSERT_EQ(find(*expected - 1), Outcome::kAboveCutoff);
       ASSERT_EQ(find(*expected), Outcome::kFound);
       EXPECT_EQ(static_cast<Time>(path_.size()) - 1, *expected);
       EXPECT_EQ(testing::path_error(problem, realized_sequence(goals, path_), path_), "");

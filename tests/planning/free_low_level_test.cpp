@@ -139,7 +139,7 @@ class Fuzzer {
     Path path;
     if (expected) {
       EXPECT_EQ(agent.find(*expected, path), Outcome::kFound);
-      EXPECT_EQ(agent.find(*expected - 1, path), Outcome::kAbove);
+      EXPECT_EQ(agent.find(*expected - 1, path), Outcome::kAboveCutoff);
     } else {
       EXPECT_NE(agent.find(problems_.below(30), path), Outcome::kFound);
     }
@@ -342,11 +342,11 @@ TEST(FreeLowLevel, TellsNoRestInTimeFromNoneBelowTheCutoff) {
   problem.constraints = {{1, kNoCell, 0, 4, ConstraintKind::kRestBy}};
   Agent agent(problem);
   Path path;
-  EXPECT_EQ(agent.find(3, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(3, path), Outcome::kAboveCutoff);
   EXPECT_EQ(agent.find(4, path), Outcome::kInfeasible);
   EXPECT_EQ(agent.find(kNever, path), Outcome::kInfeasible);
   agent.problem.constraints[0].end = 5;
-  EXPECT_EQ(agent.find(4, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(4, path), Outcome::kAboveCutoff);
   EXPECT_EQ(agent.find(5, path), Outcome::kFound);
   EXPECT_EQ(path.back(), 1);
 }
@@ -392,7 +392,7 @@ TEST(FreeLowLevel, ADoorThatShutsForLongIsProvenAboveWithoutTryingAllOrders) {
   problem.constraints = {{18, kNoCell, 13, 500}};
   Agent agent(problem);
   Path path;
-  EXPECT_EQ(agent.find(100, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(100, path), Outcome::kAboveCutoff);
   EXPECT_LT(agent.free.expanded(), 20'000);
   problem.constraints.push_back({20, kNoCell, 0, 100, ConstraintKind::kRestBy});
   Agent in_time(problem);
@@ -438,11 +438,11 @@ TEST(FreeLowLevel, SaysAboveOnlyForTheCutoff) {
   const Grid grid = grid_of({"......"});
   Agent agent(corridor(grid, {5, 1}, 0));
   Path path{7};
-  EXPECT_EQ(agent.find(9, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(9, path), Outcome::kAboveCutoff);
   EXPECT_EQ(path, Path{7});
   EXPECT_EQ(agent.find(10, path), Outcome::kFound);
   agent.problem.constraints = {{0, kNoCell, 50, 60}};
-  EXPECT_EQ(agent.find(60, path), Outcome::kAbove);
+  EXPECT_EQ(agent.find(60, path), Outcome::kAboveCutoff);
   EXPECT_EQ(agent.find(61, path), Outcome::kFound);
 }
 

@@ -111,7 +111,7 @@ class Fuzzer {
     ASSERT_EQ(static_cast<Time>(path.size()) - 1, *expected);
     Path again;
     query.cutoff = *expected - 1;
-    ASSERT_EQ(find(again), PathOutcome::kAbove);
+    ASSERT_EQ(find(again), PathOutcome::kAboveCutoff);
     ASSERT_TRUE(again.empty());
     query.cutoff = *expected;
     ASSERT_EQ(find(again), PathOutcome::kFound);

@@ -197,7 +197,7 @@ class Crowd {
     const Time cost = static_cast<Time>(expected.size()) - 1;
     for (const int greed : {0, 30, 200}) {
       PathQuery query{.cutoff = cost - 1, .reservations = &reservations, .greed_percent = greed};
-      EXPECT_EQ(search.find(goals, query, limits, path), Outcome::kAbove);
+      EXPECT_EQ(search.find(goals, query, limits, path), Outcome::kAboveCutoff);
       query.cutoff = cost + below(10);
       ASSERT_EQ(search.find(goals, query, limits, path), Outcome::kFound);
       EXPECT_LE(static_cast<Time>(path.size()) - 1, greed == 0 ? cost : query.cutoff);

@@ -72,7 +72,7 @@ class RtspBackendTest : public ::testing::TestWithParam<Solver> {
         ASSERT_EQ(sequence_cost(matrix, sequence), answer.cost);
         break;
       }
-      case RtspAnswer::Kind::kAbove:
+      case RtspAnswer::Kind::kAboveCutoff:
         ASSERT_GT(answer.cost, cutoff);
         if (!costs.empty()) {
           ASSERT_LE(answer.cost, costs.front());
@@ -85,7 +85,7 @@ class RtspBackendTest : public ::testing::TestWithParam<Solver> {
         FAIL() << "stopped without a limit";
     }
     if (cutoff == kNever) {
-      ASSERT_NE(answer.kind, RtspAnswer::Kind::kAbove);
+      ASSERT_NE(answer.kind, RtspAnswer::Kind::kAboveCutoff);
     }
   }
 

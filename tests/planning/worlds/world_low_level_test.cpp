@@ -206,7 +206,7 @@ class Fuzzer {
     ASSERT_NO_THROW(realized_sequence(goals, path)) << text();
     Path again;
     query.cutoff = *expected - 1;
-    ASSERT_EQ(free_.find(goals, query, Limits(), again), PathOutcome::kAbove) << text();
+    ASSERT_EQ(free_.find(goals, query, Limits(), again), PathOutcome::kAboveCutoff) << text();
     query.cutoff = *expected;
     ASSERT_EQ(free_.find(goals, query, Limits(), again), PathOutcome::kFound) << text();
   }
