@@ -19,7 +19,7 @@
 #include "io/map_file.h"
 #include "io/scenario_file.h"
 #include "planning/free_low_level_search.h"
-#include "planning/optimal_paths.h"
+#include "planning/mdd.h"
 #include "planning/pair_dependency.h"
 #include "tools/generate/instance_generator.h"
 
@@ -45,8 +45,8 @@ struct Agent {
   std::unique_ptr<FreeGoals> goals;
   std::vector<Constraint> constraints;
   Time cost = 0;
-  OptimalPathsBuilder::Outcome outcome{};
-  OptimalPaths paths;
+  MddBuilder::Outcome outcome{};
+  Mdd paths;
 };
 
 class Agents {
@@ -115,7 +115,7 @@ class Agents {
 
   Instance instance_;
   DistanceFields distances_;
-  OptimalPathsBuilder builder_;
+  MddBuilder builder_;
   PairDependency pair_;
   std::vector<Agent> agents_;
 };
@@ -131,7 +131,7 @@ void build_graphs(benchmark::State& state, const std::filesystem::path& folder,
   state.counters["nodes"] = median(nodes);
   state.counters["most_nodes"] = *std::ranges::max_element(nodes);
   state.counters["given_up"] = static_cast<double>(
-      std::ranges::count(agents.all(), OptimalPathsBuilder::Outcome::kTooLarge, &Agent::outcome));
+      std::ranges::count(agents.all(), MddBuilder::Outcome::kTooLarge, &Agent::outcome));
 }
 
 void test_pairs(benchmark::State& state, const std::filesystem::path& folder,

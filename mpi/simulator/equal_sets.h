@@ -24,7 +24,7 @@ class EqualSets {
  private:
   void forget_unused();
 
-  std::unordered_multimap<std::uint64_t, std::weak_ptr<const OptimalPaths>> sets_;  // by hash
+  std::unordered_multimap<std::uint64_t, std::weak_ptr<const Mdd>> sets_;  // by hash
   std::size_t many_ = 1000;
 };
 

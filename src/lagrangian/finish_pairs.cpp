@@ -51,8 +51,8 @@ FinishPair FinishPairs::extended(FinishPair pair, const Limits& limits) {
 // Those that finish exactly so much later than they could alone.
 FinishPairs::Known FinishPairs::compared(const FinishPair& pair, Time later_a, Time later_b,
                                          const Limits& limits) {
-  const OptimalPaths* const a = set(pair.a, later_a, limits);
-  const OptimalPaths* const b = a ? set(pair.b, later_b, limits) : nullptr;
+  const Mdd* const a = set(pair.a, later_a, limits);
+  const Mdd* const b = a ? set(pair.b, later_b, limits) : nullptr;
   if (b == nullptr) return Known::kNotExcluded;
   const bool is_excluded =
       a->empty() || b->empty() ||
@@ -60,17 +60,17 @@ FinishPairs::Known FinishPairs::compared(const FinishPair& pair, Time later_a, T
   return is_excluded ? Known::kExcluded : Known::kNotExcluded;
 }
 
-const OptimalPaths* FinishPairs::set(AgentIndex agent, Time later, const Limits& limits) {
+const Mdd* FinishPairs::set(AgentIndex agent, Time later, const Limits& limits) {
   OfAgent& of_agent = of(agent, limits);
   const auto at = static_cast<std::size_t>(later);
   for (auto& sets = of_agent.sets; sets.size() <= at;) {
-    auto paths = std::make_unique<OptimalPaths>();
+    auto paths = std::make_unique<Mdd>();
     const Time cost = of_agent.least + static_cast<Time>(sets.size());
-    const auto outcome = bytes_ > most_.bytes ? OptimalPathsBuilder::Outcome::kTooLarge
+    const auto outcome = bytes_ > most_.bytes ? MddBuilder::Outcome::kTooLarge
                                               : builder_.build(*of_agent.goals, {}, cost,
                                                                most_.set_nodes, limits, *paths);
-    const bool is_known = outcome == OptimalPathsBuilder::Outcome::kBuilt ||
-                          outcome == OptimalPathsBuilder::Outcome::kNone;
+    const bool is_known =
+        outcome == MddBuilder::Outcome::kBuilt || outcome == MddBuilder::Outcome::kNone;
     bytes_ += static_cast<std::size_t>(paths->node_count()) * kBytesOfNode;
     sets.push_back(is_known ? std::move(paths) : nullptr);
   }

@@ -11,7 +11,7 @@
 
 #include "model/limits.h"
 #include "planning/agent_stops_store.h"
-#include "planning/optimal_paths.h"
+#include "planning/mdd.h"
 #include "planning/pair_dependency.h"
 
 namespace grove::detail {
@@ -53,20 +53,20 @@ class FinishPairs {
     std::unique_ptr<FreeGoals> goals;
     Time least = 0;  // it cannot finish before
     // By how much later; null: too large. Empty: none finishes exactly then.
-    std::vector<std::unique_ptr<OptimalPaths>> sets;
+    std::vector<std::unique_ptr<Mdd>> sets;
   };
 
   static constexpr Time kGrid = 16;  // steps later than the least that are looked at
   using Grid = std::array<Known, kGrid * kGrid>;
 
   Known compared(const FinishPair& pair, Time later_a, Time later_b, const Limits& limits);
-  const OptimalPaths* set(AgentIndex agent, Time later, const Limits& limits);
+  const Mdd* set(AgentIndex agent, Time later, const Limits& limits);
   OfAgent& of(AgentIndex agent, const Limits& limits);
 
   const World& world_;
   AgentStopsStore& stops_;
   const Most most_;
-  OptimalPathsBuilder builder_;
+  MddBuilder builder_;
   PairDependency dependency_;
   std::vector<OfAgent> agents_;
   std::unordered_map<std::uint64_t, Grid> known_;  // by pair

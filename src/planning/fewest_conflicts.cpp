@@ -13,8 +13,7 @@
 
 namespace grove::detail {
 
-void FewestConflicts::find(const OptimalPaths& paths, const ConflictAvoidanceTable& others,
-                           Path& path) {
+void FewestConflicts::find(const Mdd& paths, const ConflictAvoidanceTable& others, Path& path) {
   GROVE_ASSERT(!paths.empty(), "there are paths to choose from");
   nodes_ += paths.node_count();
   const Time cost = paths.cost();
@@ -39,7 +38,7 @@ void FewestConflicts::find(const OptimalPaths& paths, const ConflictAvoidanceTab
   for (; node != kNoNode; node = best_[node].next) path.push_back(paths.state(node));
 }
 
-FewestConflicts::Best FewestConflicts::best_step(const OptimalPaths& paths, NodeId node,
+FewestConflicts::Best FewestConflicts::best_step(const Mdd& paths, NodeId node,
                                                  ConflictAvoidanceTable::Comers comers) const {
   Best best{std::numeric_limits<std::int32_t>::max(), kNoNode};
   for (const NodeId next : paths.successors(node)) {

@@ -7,7 +7,7 @@
 
 #include "model/plan.h"
 #include "planning/conflict_avoidance_table.h"
-#include "planning/optimal_paths.h"
+#include "planning/mdd.h"
 
 namespace grove::detail {
 
@@ -16,21 +16,20 @@ class FewestConflicts {
  public:
   // Writes the path of `paths` (not empty) that has the fewest conflicts with `others`, as
   // ConflictAvoidanceTable::conflicts_of counts them. O(edges of `paths`).
-  void find(const OptimalPaths& paths, const ConflictAvoidanceTable& others, Path& path);
+  void find(const Mdd& paths, const ConflictAvoidanceTable& others, Path& path);
 
   // Nodes of the paths looked at so far.
   std::int64_t nodes() const { return nodes_; }
 
  private:
-  using NodeId = OptimalPaths::NodeId;
+  using NodeId = Mdd::NodeId;
   static constexpr NodeId kNoNode = -1;
   struct Best {
     std::int32_t conflicts;
     NodeId next;
   };
 
-  Best best_step(const OptimalPaths& paths, NodeId node,
-                 ConflictAvoidanceTable::Comers comers) const;
+  Best best_step(const Mdd& paths, NodeId node, ConflictAvoidanceTable::Comers comers) const;
 
   std::vector<Best> best_;  // from each node to the end
   std::int64_t nodes_ = 0;

@@ -22,11 +22,11 @@ namespace {
 
 constexpr std::int64_t kPairsPerPoll = 1024;
 
-using NodeId = OptimalPaths::NodeId;
-using Range = OptimalPaths::Range;
+using NodeId = Mdd::NodeId;
+using Range = Mdd::Range;
 
 // The nodes at a time that may be after the end.
-Range nodes_at(const OptimalPaths& paths, Time time) {
+Range nodes_at(const Mdd& paths, Time time) {
   return paths.layer(std::min(time, paths.cost()));
 }
 
@@ -86,8 +86,7 @@ class PairDependency::Workspace {
     for (auto& seen : seen_) seen.assign(world.place_count(), 0);
   }
 
-  Dependence find(const OptimalPaths& a, const OptimalPaths& b, std::size_t most_pairs,
-                  const Limits& limits);
+  Dependence find(const Mdd& a, const Mdd& b, std::size_t most_pairs, const Limits& limits);
   std::int64_t pairs() const { return expanded_; }
 
  private:
@@ -103,8 +102,8 @@ class PairDependency::Workspace {
   Dependence search(Pair first, const Limits& limits);
   void expand(const Pair& pair);
 
-  const OptimalPaths* a_ = nullptr;
-  const OptimalPaths* b_ = nullptr;
+  const Mdd* a_ = nullptr;
+  const Mdd* b_ = nullptr;
   std::size_t most_pairs_ = 0;
   Time first_contact_ = kNever;
   Time last_contact_ = -1;
@@ -124,13 +123,13 @@ std::int64_t PairDependency::pairs() const {
   return workspace_->pairs();
 }
 
-Dependence PairDependency::find(const OptimalPaths& a, const OptimalPaths& b,
-                                std::size_t most_pairs, const Limits& limits) {
+Dependence PairDependency::find(const Mdd& a, const Mdd& b, std::size_t most_pairs,
+                                const Limits& limits) {
   return workspace_->find(a, b, most_pairs, limits);
 }
 
-Dependence PairDependency::Workspace::find(const OptimalPaths& a, const OptimalPaths& b,
-                                           std::size_t most_pairs, const Limits& limits) {
+Dependence PairDependency::Workspace::find(const Mdd& a, const Mdd& b, std::size_t most_pairs,
+                                           const Limits& limits) {
   a_ = &a;
   b_ = &b;
   most_pairs_ = most_pairs;
@@ -195,7 +194,7 @@ Dependence PairDependency::Workspace::search(Pair first, const Limits& limits) {
 }
 
 void PairDependency::Workspace::expand(const Pair& pair) {
-  const auto next = [&](const OptimalPaths& paths, const NodeId& node) {
+  const auto next = [&](const Mdd& paths, const NodeId& node) {
     return pair.time < paths.cost() ? paths.successors(node) : std::span(&node, 1);
   };
   const Place from_a = a_->place(pair.a);

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "model/limits.h"
-#include "planning/optimal_paths.h"
+#include "planning/mdd.h"
 
 namespace grove::detail {
 
@@ -30,8 +30,7 @@ class PairDependency {
 
   // Neither may be empty; they may differ in length: an agent rests on its last place for ever.
   // Looks at `most_pairs` pairs of nodes at most.
-  Dependence find(const OptimalPaths& a, const OptimalPaths& b, std::size_t most_pairs,
-                  const Limits& limits);
+  Dependence find(const Mdd& a, const Mdd& b, std::size_t most_pairs, const Limits& limits);
 
   // Pairs of nodes looked at so far.
   std::int64_t pairs() const;

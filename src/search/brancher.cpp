@@ -204,7 +204,7 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
     if (!found) return true;
     const auto constraints = task.view.constraints_with(agent, more);
     const Situations::Id id = memory_.id(agent, order, constraints);
-    const OptimalPaths* paths = memory_.paths(id, agent, order, constraints, cost, task.limits);
+    const Mdd* paths = memory_.paths(id, agent, order, constraints, cost, task.limits);
     if (!paths) return false;
     if (!paths->empty()) {
       fewest_conflicts_.find(*paths, others_, path_);

@@ -160,8 +160,8 @@ Dependencies::Outcome Dependencies::solve_conflicting(NodeView& view, Cost slack
 // Can both keep their costs? None: a limit struck.
 std::optional<Dependence> Dependencies::compare(NodeView& view, AgentIndex a, AgentIndex b,
                                                 const Limits& limits) {
-  const OptimalPaths* of_a = optimal_paths(view, a, limits);
-  const OptimalPaths* of_b = optimal_paths(view, b, limits);
+  const Mdd* of_a = optimal_paths(view, a, limits);
+  const Mdd* of_b = optimal_paths(view, b, limits);
   if (!of_a || !of_b) return std::nullopt;
   if (of_a->empty() || of_b->empty()) return Dependence::kUnknown;
   const Dependence dependence =
@@ -170,8 +170,7 @@ std::optional<Dependence> Dependencies::compare(NodeView& view, AgentIndex a, Ag
   return dependence;
 }
 
-const OptimalPaths* Dependencies::optimal_paths(NodeView& view, AgentIndex agent,
-                                                const Limits& limits) {
+const Mdd* Dependencies::optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits) {
   const Time cost = view.cost_of(agent);
   return memory_.paths(situation_[agent], agent, view.order(agent), view.constraints(agent), cost,
                        limits);

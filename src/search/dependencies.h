@@ -85,7 +85,7 @@ class Dependencies {
   Outcome solve_conflicting(NodeView& view, Cost slack, double share, const Limits& limits);
   std::optional<Dependence> compare(NodeView& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
-  const OptimalPaths* optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits);
+  const Mdd* optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits);
   Outcome solve_groups(NodeView& view, Cost slack, const Limits& limits);
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const NodeView& view) const;
   std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;

@@ -45,9 +45,8 @@ Situations::Known Memory::known(Id id) const {
   return found == found_.costs.end() ? common_->situations.known(id) : found->second;
 }
 
-const OptimalPaths* Memory::paths(Id id, AgentIndex agent, const AgentOrder& order,
-                                  std::span<const Constraint> constraints, Time cost,
-                                  const Limits& limits) {
+const Mdd* Memory::paths(Id id, AgentIndex agent, const AgentOrder& order,
+                         std::span<const Constraint> constraints, Time cost, const Limits& limits) {
   ++sets_asked_;
   const auto known = found_.sets.find(id);
   PathSets::Set set = known != found_.sets.end() ? known->second : common_->path_sets.find(id);

@@ -112,9 +112,8 @@ class Memory {
   void learn(Id id, Situations::Known known) { found_.costs[id] = known; }
 
   // As PathSets::find; valid until take_found().
-  const OptimalPaths* paths(Id id, AgentIndex agent, const AgentOrder& order,
-                            std::span<const Constraint> constraints, Time cost,
-                            const Limits& limits);
+  const Mdd* paths(Id id, AgentIndex agent, const AgentOrder& order,
+                   std::span<const Constraint> constraints, Time cost, const Limits& limits);
 
   // As those of Excesses. Partners and groups come in any order, perhaps more than once.
   Excesses::Known of_pair(Id first, Id second) const;

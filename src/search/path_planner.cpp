@@ -36,10 +36,10 @@ PathOutcome PathPlanner::find(AgentIndex agent, const AgentOrder& order, PathQue
   return free_->find(goals, query, limits, path);
 }
 
-OptimalPathsBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentOrder& order,
-                                                        std::span<const Constraint> constraints,
-                                                        Time cost, std::size_t most_nodes,
-                                                        const Limits& limits, OptimalPaths& paths) {
+MddBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentOrder& order,
+                                               std::span<const Constraint> constraints, Time cost,
+                                               std::size_t most_nodes, const Limits& limits,
+                                               Mdd& paths) {
   return optimal_.build(free_goals(agent, order, constraints), on_path(constraints), cost,
                         most_nodes, limits, paths);
 }

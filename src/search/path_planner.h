@@ -12,7 +12,7 @@
 #include "planning/agent_planner.h"
 #include "planning/agent_stops_store.h"
 #include "planning/low_level_search.h"
-#include "planning/optimal_paths.h"
+#include "planning/mdd.h"
 #include "search/node.h"
 #include "search/work.h"
 
@@ -32,11 +32,10 @@ class PathPlanner {
   PathOutcome find(AgentIndex agent, const AgentOrder& order, PathQuery query, const Limits& limits,
                    Path& path);
 
-  // As OptimalPathsBuilder::build.
-  OptimalPathsBuilder::Outcome optimal_paths(AgentIndex agent, const AgentOrder& order,
-                                             std::span<const Constraint> constraints, Time cost,
-                                             std::size_t most_nodes, const Limits& limits,
-                                             OptimalPaths& paths);
+  // As MddBuilder::build.
+  MddBuilder::Outcome optimal_paths(AgentIndex agent, const AgentOrder& order,
+                                    std::span<const Constraint> constraints, Time cost,
+                                    std::size_t most_nodes, const Limits& limits, Mdd& paths);
 
   // As TimedGraphs::make.
   TimedGraphs::Outcome timed_graph(AgentIndex agent, const AgentOrder& order,
@@ -73,7 +72,7 @@ class PathPlanner {
   std::int64_t calls_ = 0;
   LowLevelSearch fixed_;
   std::unique_ptr<AgentPlanner> free_;
-  OptimalPathsBuilder optimal_;
+  MddBuilder optimal_;
   TimedGraphs timed_;
   AgentStopsStore& stops_;
   bool repeatable_;

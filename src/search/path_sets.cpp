@@ -38,11 +38,11 @@ void PathSets::add(Situations::Id id, const Set& set) {
 PathSets::Set PathSets::make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,
                              std::span<const Constraint> constraints, Time cost,
                              std::size_t most_nodes, const Limits& limits) {
-  OptimalPaths paths;
+  Mdd paths;
   const auto outcome =
       planner.optimal_paths(agent, order, constraints, cost, most_nodes, limits, paths);
-  if (outcome == OptimalPathsBuilder::Outcome::kStopped) return nullptr;
-  return std::make_shared<const OptimalPaths>(std::move(paths));
+  if (outcome == MddBuilder::Outcome::kStopped) return nullptr;
+  return std::make_shared<const Mdd>(std::move(paths));
 }
 
 void PathSets::trim() {

@@ -19,7 +19,7 @@ namespace grove::detail {
 // called from any thread.
 class PathSets {
  public:
-  using Set = std::shared_ptr<const OptimalPaths>;
+  using Set = std::shared_ptr<const Mdd>;
 
   // More than this of young ones are too many. (Simulated, room-32-32-4 with 40 agents, scenario 4:
   // three times as many save 2 % of the work, and take 1.6 times the memory.)

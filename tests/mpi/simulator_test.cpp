@@ -234,7 +234,7 @@ TEST(EqualSets, HoldEachOnceAsLongAsItIsInUse) {
   EXPECT_EQ(sets.one_of(made(0, 1)), longer);
   EXPECT_NE(*first, *longer);
   EXPECT_EQ(sets.size(), 2u);
-  const std::weak_ptr<const OptimalPaths> watched = longer;
+  const std::weak_ptr<const Mdd> watched = longer;
   longer.reset();
   EXPECT_TRUE(watched.expired());
   for (Time later = 2; later < 3000; ++later) sets.one_of(made(1, later % 20));

@@ -14,12 +14,11 @@ namespace grove::detail {
 namespace fewest_conflicts_test {
 
 // The fewest conflicts of any way, by trying all.
-int fewest(const OptimalPaths& paths, const ConflictAvoidanceTable& others,
-           OptimalPaths::NodeId node, Path& path) {
+int fewest(const Mdd& paths, const ConflictAvoidanceTable& others, Mdd::NodeId node, Path& path) {
   path.push_back(paths.state(node));
   int best = std::numeric_limits<int>::max();
   if (static_cast<Time>(path.size()) - 1 == paths.cost()) best = others.conflicts_of(path);
-  for (const OptimalPaths::NodeId next : paths.successors(node))
+  for (const Mdd::NodeId next : paths.successors(node))
     best = std::min(best, fewest(paths, others, next, path));
   path.pop_back();
   return best;
@@ -30,15 +29,15 @@ void expect_fewest(const Instance& instance, std::initializer_list<Time> costs) 
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
   FreeGoals goals(stops, {});
-  OptimalPathsBuilder builder(grid);
+  MddBuilder builder(grid);
   FewestConflicts search;
   std::mt19937 random(11);
   int avoidable = 0;
   int waits = 0;
   for (const Time cost : costs) {
-    OptimalPaths paths;
+    Mdd paths;
     const auto outcome = builder.build(goals, {}, cost, 1'000'000, Limits(), paths);
-    if (outcome != OptimalPathsBuilder::Outcome::kBuilt) continue;
+    if (outcome != MddBuilder::Outcome::kBuilt) continue;
     for (int round = 0; round < 100; ++round) {
       ConflictAvoidanceTable others(grid);
       for (int i = 0; i < 2 + round / 10; ++i) others.add(testing::random_walk(grid, random, 9));

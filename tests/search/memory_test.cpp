@@ -234,7 +234,7 @@ TEST(Memory, MakesASetOfPathsOnce) {
   const auto ask = [&](Memory& memory) {
     return memory.paths(id, 0, s.view.order(0), s.view.constraints(0), 2, s.limits);
   };
-  const OptimalPaths* paths = ask(s.memory);
+  const Mdd* paths = ask(s.memory);
   ASSERT_TRUE(paths);
   EXPECT_FALSE(paths->empty());
   EXPECT_EQ(ask(s.memory), paths);

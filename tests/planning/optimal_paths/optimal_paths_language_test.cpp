@@ -16,7 +16,7 @@
 
 #include "planning/chains.h"
 #include "planning/free_low_level_search.h"
-#include "planning/optimal_paths.h"
+#include "planning/mdd.h"
 #include "sequencing/cost_matrix.h"
 #include "tests/planning/free_reference.h"
 #include "tests/support/clocks.h"
@@ -159,7 +159,7 @@ class TimeExpanded {
 class SideBySide {
  public:
   SideBySide(const TimeExpanded& reference, const std::vector<std::set<Memory>>& useful,
-             const OptimalPaths& graph)
+             const Mdd& graph)
       : reference_(reference), useful_(useful), graph_(graph) {}
 
   // Empty: the same; else what differs. Reads no more than kMostReadings.
@@ -195,7 +195,7 @@ class SideBySide {
   bool complete() const { return readings_ <= kMostReadings; }
 
  private:
-  using Reading = std::pair<std::set<Memory>, std::set<OptimalPaths::NodeId>>;
+  using Reading = std::pair<std::set<Memory>, std::set<Mdd::NodeId>>;
 
   static bool put(const std::map<Cell, Reading>& by_cell, std::set<Reading>& readings) {
     for (const auto& [cell, reading] : by_cell) {
@@ -207,12 +207,12 @@ class SideBySide {
 
   const TimeExpanded& reference_;
   const std::vector<std::set<Memory>>& useful_;
-  const OptimalPaths& graph_;
+  const Mdd& graph_;
   std::size_t readings_ = 0;
 };
 
 // Each node is on a way, and no step is written twice.
-bool is_tidy(const OptimalPaths& graph) {
+bool is_tidy(const Mdd& graph) {
   std::vector<bool> entered(static_cast<std::size_t>(graph.node_count()), false);
   for (auto node = graph.layer(0).first; node < graph.layer(0).end; ++node) entered[node] = true;
   for (Time time = 0; time <= graph.cost(); ++time)
@@ -236,7 +236,7 @@ class Fuzzer {
     const DistanceFields distances(instance);
     AgentStops stops(instance, distances, 0);
     FreeGoals goals(stops, problem_.work);
-    OptimalPathsBuilder builder(grid);
+    MddBuilder builder(grid);
     FreeLowLevelSearch search(grid);
     for (int round = 0; round < 6; ++round) {
       TimeExpanded reference(problem_);
@@ -270,10 +270,10 @@ class Fuzzer {
     return choices[static_cast<std::size_t>(below(static_cast<int>(choices.size())))];
   }
 
-  void check(TimeExpanded& reference, OptimalPathsBuilder& builder, FreeGoals& goals, Time cost) {
-    using Outcome = OptimalPathsBuilder::Outcome;
+  void check(TimeExpanded& reference, MddBuilder& builder, FreeGoals& goals, Time cost) {
+    using Outcome = MddBuilder::Outcome;
     const auto useful = cost < 0 ? std::vector<std::set<Memory>>(1) : reference.nodes_of(cost);
-    OptimalPaths graph;
+    Mdd graph;
     const Outcome outcome =
         builder.build(goals, problem_.constraints, cost, kPlenty, Limits(), graph);
     ASSERT_EQ(outcome, useful.front().empty() ? Outcome::kNone : Outcome::kBuilt) << cost;
@@ -287,7 +287,7 @@ class Fuzzer {
     SideBySide reading(reference, useful, graph);
     ASSERT_EQ(reading.difference(), "") << "cost " << cost;
     ++(reading.complete() ? compared : incomplete);
-    OptimalPaths small;
+    Mdd small;
     const auto nodes = static_cast<std::size_t>(graph.node_count());
     ASSERT_NE(builder.build(goals, problem_.constraints, cost, nodes - 1, Limits(), small),
               Outcome::kBuilt);
@@ -444,7 +444,7 @@ TEST(OptimalPathsLanguage, IsThatOfATimeExpandedGraph) {
 }
 
 // The cells of each layer, in order.
-std::vector<std::vector<Cell>> cells_of(const OptimalPaths& graph) {
+std::vector<std::vector<Cell>> cells_of(const Mdd& graph) {
   std::vector<std::vector<Cell>> layers;
   for (Time time = 0; !graph.empty() && time <= graph.cost(); ++time) {
     layers.emplace_back();
@@ -471,20 +471,20 @@ TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
     if (seed % 2 == 0) problem.destination = cells[20];
     const Instance instance = instance_of(problem);
     const DistanceFields distances(instance);
-    OptimalPathsBuilder builder(grid);
+    MddBuilder builder(grid);
     AgentStops narrow(instance, distances, 0);
     ASSERT_TRUE(narrow.cost_to_go().widen(0, Limits()));
     for (int more = 0; more < 3; ++more) {
       const Time cost = narrow.cost_to_go().beyond();
       AgentStops wide(instance, distances, 0);
       ASSERT_TRUE(wide.cost_to_go().widen(cost + 4, Limits()));
-      OptimalPaths graphs[2];
+      Mdd graphs[2];
       FreeGoals few(narrow, {});
       FreeGoals all(wide, {});
       const auto of_few = builder.build(few, {}, cost, kPlenty, Limits(), graphs[0]);
       ASSERT_EQ(of_few, builder.build(all, {}, cost, kPlenty, Limits(), graphs[1])) << cost;
       ASSERT_TRUE(cells_of(graphs[0]) == cells_of(graphs[1])) << cost;
-      at_the_bound += static_cast<int>(of_few == OptimalPathsBuilder::Outcome::kBuilt);
+      at_the_bound += static_cast<int>(of_few == MddBuilder::Outcome::kBuilt);
       ASSERT_TRUE(narrow.cost_to_go().widen(cost, Limits()));
     }
   }
@@ -500,9 +500,9 @@ TEST(OptimalPathsLanguage, WidensTheCompletionsThatItsStatesAreMadeOf) {
   AgentStops stops(instance, distances, 0);
   CostToGo others(stops.cost_to_go().matrix());
   FreeGoals goals(stops, {}, others);
-  OptimalPaths graph;
-  EXPECT_EQ(OptimalPathsBuilder(grid).build(goals, {}, 4, kPlenty, Limits(), graph),
-            OptimalPathsBuilder::Outcome::kBuilt);
+  Mdd graph;
+  EXPECT_EQ(MddBuilder(grid).build(goals, {}, 4, kPlenty, Limits(), graph),
+            MddBuilder::Outcome::kBuilt);
 }
 
 // A limit that strikes at any time is no proof that there is no path, nor is the graph in parts.
@@ -518,15 +518,14 @@ TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
   FreeLowLevelSearch search(grid);
   ASSERT_EQ(search.find(goals, {}, Limits(), path), PathOutcome::kFound);
   const auto cost = static_cast<Time>(path.size()) + 3;
-  OptimalPaths whole;
-  ASSERT_EQ(OptimalPathsBuilder(grid).build(goals, {}, cost, kPlenty, Limits(), whole),
-            OptimalPathsBuilder::Outcome::kBuilt);
+  Mdd whole;
+  ASSERT_EQ(MddBuilder(grid).build(goals, {}, cost, kPlenty, Limits(), whole),
+            MddBuilder::Outcome::kBuilt);
   const auto is_sound = [&](const Limits& limits) {
-    OptimalPaths graph;
-    const auto outcome = OptimalPathsBuilder(grid).build(goals, {}, cost, kPlenty, limits, graph);
-    if (outcome == OptimalPathsBuilder::Outcome::kStopped) return graph.empty();
-    return outcome == OptimalPathsBuilder::Outcome::kBuilt &&
-           graph.node_count() == whole.node_count();
+    Mdd graph;
+    const auto outcome = MddBuilder(grid).build(goals, {}, cost, kPlenty, limits, graph);
+    if (outcome == MddBuilder::Outcome::kStopped) return graph.empty();
+    return outcome == MddBuilder::Outcome::kBuilt && graph.node_count() == whole.node_count();
   };
   const testing::LimitOfLooks whole_run(testing::kNoEnd);
   EXPECT_TRUE(is_sound(whole_run));

@@ -14,7 +14,7 @@
 #include "planning/free_low_level_search.h"
 #include "planning/goal_sequence.h"
 #include "planning/low_level_search.h"
-#include "planning/optimal_paths.h"
+#include "planning/mdd.h"
 #include "planning/visit_check.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/cost_to_go.h"
@@ -225,8 +225,8 @@ class Fuzzer {
 
   // All of that cost, and none of less.
   void check_optimal_paths(AgentIndex agent, FreeGoals& goals, Time cost) {
-    using Outcome = OptimalPathsBuilder::Outcome;
-    OptimalPaths paths;
+    using Outcome = MddBuilder::Outcome;
+    Mdd paths;
     constexpr std::size_t kPlenty = 1 << 20;
     if (cost > 0) {
       ASSERT_EQ(builder_.build(goals, constraints_, cost - 1, kPlenty, Limits(), paths),
@@ -268,7 +268,7 @@ class Fuzzer {
   const Chains chains_;
   LowLevelSearch fixed_;
   FreeLowLevelSearch free_;
-  OptimalPathsBuilder builder_;
+  MddBuilder builder_;
   SafeIntervals intervals_;
   VisitCheck visit_check_;
   AgentIndex agent_ = 0;

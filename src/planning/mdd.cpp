@@ -25,7 +25,7 @@
 // Measured against layers made forward, time by time, and cleared of dead ends afterwards: those
 // met four nodes for each that they kept, and an instance of the paper's data set that takes Grove
 // seconds took half as long again.
-#include "planning/optimal_paths.h"
+#include "planning/mdd.h"
 
 #include <algorithm>
 
@@ -41,17 +41,17 @@ constexpr std::int64_t kExpansionsPerPoll = 512;  // of limits: some tenth of a 
 
 }  // namespace
 
-class OptimalPathsBuilder::Workspace {
+class MddBuilder::Workspace {
  public:
   explicit Workspace(const World& world) : world_(world), intervals_(world) {}
 
   Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
-                std::size_t most_nodes, const Limits& limits, OptimalPaths& paths);
+                std::size_t most_nodes, const Limits& limits, Mdd& paths);
   std::int64_t nodes() const { return met_; }
 
  private:
   using StageId = FreeGoals::StageId;
-  using NodeId = OptimalPaths::NodeId;
+  using NodeId = Mdd::NodeId;
   using LabelId = std::int32_t;
   static constexpr LabelId kNoLabel = -1;
   static constexpr NodeId kNoNode = -1;
@@ -79,7 +79,7 @@ class OptimalPathsBuilder::Workspace {
     std::uint32_t stamp;
   };
 
-  Outcome make_layers(std::size_t most_nodes, OptimalPaths& paths);
+  Outcome make_layers(std::size_t most_nodes, Mdd& paths);
   Outcome go_forward(std::size_t most_labels);
   void start();
   void expand(LabelId label);
@@ -110,7 +110,7 @@ class OptimalPathsBuilder::Workspace {
   std::vector<LabelId> useful_;         // by latest, which they have, the last first
   std::vector<LabelId> here_;           // the labels of the layer that is being written
   std::vector<NodeId> nodes_;           // by label: of the layer after it
-  OptimalPaths written_;                // so far; keeps its room
+  Mdd written_;                         // so far; keeps its room
   std::int64_t met_ = 0;                // labels and nodes, in all calls
 
   // Of the call under way.
@@ -119,13 +119,13 @@ class OptimalPathsBuilder::Workspace {
   Time cost_ = 0;
 };
 
-std::size_t OptimalPaths::bytes() const {
+std::size_t Mdd::bytes() const {
   const auto bytes_of = [](const auto& list) { return list.capacity() * sizeof(list.front()); };
-  return sizeof(OptimalPaths) + bytes_of(first_of_layer_) + bytes_of(places_) + bytes_of(states_) +
+  return sizeof(Mdd) + bytes_of(first_of_layer_) + bytes_of(places_) + bytes_of(states_) +
          bytes_of(first_successor_) + bytes_of(successors_);
 }
 
-std::uint64_t OptimalPaths::hash() const {
+std::uint64_t Mdd::hash() const {
   std::uint64_t hash = first_of_layer_.size();
   for (const auto* numbers : {&first_of_layer_, &first_successor_, &successors_})
     for (const std::int32_t number : *numbers)
@@ -135,7 +135,7 @@ std::uint64_t OptimalPaths::hash() const {
   return hash;
 }
 
-void OptimalPaths::clear() {
+void Mdd::clear() {
   first_of_layer_.clear();
   places_.clear();
   states_.clear();
@@ -143,25 +143,24 @@ void OptimalPaths::clear() {
   successors_.clear();
 }
 
-OptimalPathsBuilder::OptimalPathsBuilder(const World& world)
-    : workspace_(std::make_unique<Workspace>(world)) {}
-OptimalPathsBuilder::~OptimalPathsBuilder() = default;
+MddBuilder::MddBuilder(const World& world) : workspace_(std::make_unique<Workspace>(world)) {}
+MddBuilder::~MddBuilder() = default;
 
-std::int64_t OptimalPathsBuilder::nodes() const {
+std::int64_t MddBuilder::nodes() const {
   return workspace_->nodes();
 }
 
-OptimalPathsBuilder::Outcome OptimalPathsBuilder::build(FreeGoals& goals,
-                                                        std::span<const Constraint> constraints,
-                                                        Time cost, std::size_t most_nodes,
-                                                        const Limits& limits, OptimalPaths& paths) {
+MddBuilder::Outcome MddBuilder::build(FreeGoals& goals, std::span<const Constraint> constraints,
+                                      Time cost, std::size_t most_nodes, const Limits& limits,
+                                      Mdd& paths) {
   return workspace_->build(goals, constraints, cost, most_nodes, limits, paths);
 }
 
-OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::build(
-    FreeGoals& goals, std::span<const Constraint> constraints, Time cost, std::size_t most_nodes,
-    const Limits& limits, OptimalPaths& paths) {
-  paths = OptimalPaths();
+MddBuilder::Outcome MddBuilder::Workspace::build(FreeGoals& goals,
+                                                 std::span<const Constraint> constraints, Time cost,
+                                                 std::size_t most_nodes, const Limits& limits,
+                                                 Mdd& paths) {
+  paths = Mdd();
   intervals_.assign(constraints);
   // Where states are places whoever finishes later comes to rest later.
   const Time latest = world_.states_are_places() ? intervals_.latest_rest() : kNever;
@@ -177,8 +176,7 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::build(
   return outcome;
 }
 
-OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::make_layers(std::size_t most_nodes,
-                                                                         OptimalPaths& paths) {
+MddBuilder::Outcome MddBuilder::Workspace::make_layers(std::size_t most_nodes, Mdd& paths) {
   const Outcome outcome = go_forward(most_nodes);
   if (outcome != Outcome::kBuilt) return outcome;
   go_backward();
@@ -190,7 +188,7 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::make_layers(std::si
 }
 
 // All labels that some path may pass, and the moves between them.
-OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::go_forward(std::size_t most_labels) {
+MddBuilder::Outcome MddBuilder::Workspace::go_forward(std::size_t most_labels) {
   labels_.clear();
   moves_.clear();
   planes_.begin_search(intervals_.slot_count());
@@ -207,7 +205,7 @@ OptimalPathsBuilder::Outcome OptimalPathsBuilder::Workspace::go_forward(std::siz
   return planes_.exhausted() ? Outcome::kStopped : Outcome::kBuilt;
 }
 
-void OptimalPathsBuilder::Workspace::start() {
+void MddBuilder::Workspace::start() {
   const State state = goals_->stops().start();
   const StageId stage = goals_->first_stage();
   const int slot = intervals_.start_slot(state);
@@ -215,7 +213,7 @@ void OptimalPathsBuilder::Workspace::start() {
   goals_->on_arrival(stage, state, [&](StageId then) { reach(kNoLabel, slot, then, 0); });
 }
 
-void OptimalPathsBuilder::Workspace::expand(LabelId from) {
+void MddBuilder::Workspace::expand(LabelId from) {
   const Label label = labels_[from];  // labels_ will grow
   labels_[from].first_move = static_cast<std::int32_t>(moves_.size());
   intervals_.for_each_move(label.slot, label.earliest, [&](int slot, State state, Time first) {
@@ -225,8 +223,7 @@ void OptimalPathsBuilder::Workspace::expand(LabelId from) {
 }
 
 // By a move that arrives at `first` or later.
-void OptimalPathsBuilder::Workspace::reach(LabelId from, std::int32_t slot, StageId stage,
-                                           Time first) {
+void MddBuilder::Workspace::reach(LabelId from, std::int32_t slot, StageId stage, Time first) {
   Mark* const there = mark(slot, stage);
   if (there == nullptr) return;
   Time last = cost_ - there->distance;
@@ -244,8 +241,7 @@ void OptimalPathsBuilder::Workspace::reach(LabelId from, std::int32_t slot, Stag
 }
 
 // Null: no memory for it.
-OptimalPathsBuilder::Workspace::Mark* OptimalPathsBuilder::Workspace::mark(std::int32_t slot,
-                                                                           StageId stage) {
+MddBuilder::Workspace::Mark* MddBuilder::Workspace::mark(std::int32_t slot, StageId stage) {
   if (!planes_.open(stage, *limits_)) return nullptr;
   Mark& mark = planes_.label(slot, stage);
   if (!planes_.is_current(mark))
@@ -255,7 +251,7 @@ OptimalPathsBuilder::Workspace::Mark* OptimalPathsBuilder::Workspace::mark(std::
   return &mark;
 }
 
-void OptimalPathsBuilder::Workspace::go_backward() {
+void MddBuilder::Workspace::go_backward() {
   sort_moves();
   queue_.reset(0);
   find_ends();
@@ -269,7 +265,7 @@ void OptimalPathsBuilder::Workspace::go_backward() {
   }
 }
 
-void OptimalPathsBuilder::Workspace::sort_moves() {
+void MddBuilder::Workspace::sort_moves() {
   first_in_.assign(labels_.size() + 1, 0);
   for (const Move& move : moves_) ++first_in_[move.to];
   for (std::size_t label = 1; label < first_in_.size(); ++label)
@@ -279,7 +275,7 @@ void OptimalPathsBuilder::Workspace::sort_moves() {
     into_[--first_in_[moves_[move].to]] = static_cast<std::int32_t>(move);
 }
 
-void OptimalPathsBuilder::Workspace::find_ends() {
+void MddBuilder::Workspace::find_ends() {
   ends_.clear();
   for (LabelId label = 0; label < std::ssize(labels_); ++label) {
     if (!is_end(labels_[label])) continue;
@@ -295,7 +291,7 @@ void OptimalPathsBuilder::Workspace::find_ends() {
 }
 
 // The agent must arrive no later than this.
-void OptimalPathsBuilder::Workspace::leave_by(const Move& move, Time arrival) {
+void MddBuilder::Workspace::leave_by(const Move& move, Time arrival) {
   const Time last = last_arrival(move, arrival);
   Label& from = labels_[move.from];
   if (last < move.first || last - 1 <= from.latest) return;
@@ -304,23 +300,23 @@ void OptimalPathsBuilder::Workspace::leave_by(const Move& move, Time arrival) {
 }
 
 // Before move.first: none.
-Time OptimalPathsBuilder::Workspace::last_arrival(const Move& move, Time latest) const {
+Time MddBuilder::Workspace::last_arrival(const Move& move, Time latest) const {
   return intervals_.last_move(labels_[move.from].slot, place(move.to), std::min(latest, move.last));
 }
 
-bool OptimalPathsBuilder::Workspace::is_end(const Label& label) const {
+bool MddBuilder::Workspace::is_end(const Label& label) const {
   return goals_->is_rest(goals_->stage(label.stage), intervals_.state_of(label.slot)) &&
          intervals_.may_rest(label.slot);
 }
 
-std::size_t OptimalPathsBuilder::Workspace::count_nodes() const {
+std::size_t MddBuilder::Workspace::count_nodes() const {
   std::size_t count = ends_.size();
   for (const LabelId label : useful_)
     count += static_cast<std::size_t>(labels_[label].latest - labels_[label].earliest + 1);
   return count;
 }
 
-void OptimalPathsBuilder::Workspace::write_layers() {
+void MddBuilder::Workspace::write_layers() {
   written_.clear();
   nodes_.assign(labels_.size(), kNoNode);
   here_ = ends_;
@@ -337,7 +333,7 @@ void OptimalPathsBuilder::Workspace::write_layers() {
 }
 
 // A layer.
-void OptimalPathsBuilder::Workspace::write_nodes(Time time) {
+void MddBuilder::Workspace::write_nodes(Time time) {
   NodeId node = written_.node_count();
   written_.first_of_layer_.push_back(node);
   for (const LabelId label : here_) {
@@ -349,7 +345,7 @@ void OptimalPathsBuilder::Workspace::write_nodes(Time time) {
   for (const LabelId label : here_) nodes_[label] = node++;
 }
 
-void OptimalPathsBuilder::Workspace::write_successors(const Label& label, Time time) {
+void MddBuilder::Workspace::write_successors(const Label& label, Time time) {
   const Time then = time + 1;
   if (then <= label.latest) written_.successors_.push_back(nodes_[&label - labels_.data()]);
   for (std::int32_t i = label.first_move; i < label.end_move; ++i) {

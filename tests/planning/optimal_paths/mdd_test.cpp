@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All paths of one cost, and whether two agents get along on theirs, against trying all.
 // GROVE_FUZZ_ FACTOR multiplies the number of cases.
-#include "planning/optimal_paths.h"
+#include "planning/mdd.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@
 namespace grove::detail {
 namespace optimal_paths_test {
 
-using Outcome = OptimalPathsBuilder::Outcome;
+using Outcome = MddBuilder::Outcome;
 using Paths = std::set<Path>;
 using testing::free_reference_cost;
 using testing::FreeProblem;
@@ -89,14 +89,14 @@ class Walks {
 };
 
 // All ways through the graph.
-void add_ways(const OptimalPaths& graph, OptimalPaths::NodeId node, Path& way, Paths& all) {
+void add_ways(const Mdd& graph, Mdd::NodeId node, Path& way, Paths& all) {
   way.push_back(graph.state(node));
   if (static_cast<Time>(way.size()) > graph.cost()) all.insert(way);
   for (const auto next : graph.successors(node)) add_ways(graph, next, way, all);
   way.pop_back();
 }
 
-Paths ways_of(const OptimalPaths& graph) {
+Paths ways_of(const Mdd& graph) {
   Paths all;
   if (graph.empty()) return all;
   Path way;
@@ -130,8 +130,8 @@ struct Agent : testing::FreeAgent {
     return builder.build(goals, problem.constraints, cost, most_nodes, Limits(), graph);
   }
 
-  OptimalPathsBuilder builder;
-  OptimalPaths graph;
+  MddBuilder builder;
+  Mdd graph;
 };
 
 class Fuzzer {
@@ -233,7 +233,7 @@ TEST(OptimalPathsFuzz, AgreeWithTryingAll) {
 }
 
 // Two ways round a block: the orders differ, the cells in between do not.
-TEST(OptimalPaths, ForgetsWhatNoLongerMatters) {
+TEST(Mdd, ForgetsWhatNoLongerMatters) {
   const Grid grid = grid_of({"...", "...", "..."});
   FreeProblem problem{&grid, 0, {}, 8, {}, {}};
   Agent agent(problem);
@@ -245,7 +245,7 @@ TEST(OptimalPaths, ForgetsWhatNoLongerMatters) {
   ASSERT_EQ(Agent(problem).build(4), Outcome::kBuilt);
 }
 
-TEST(OptimalPaths, SaysWhichLimitStruck) {
+TEST(Mdd, SaysWhichLimitStruck) {
   const Grid grid = grid_of({"...", "...", "..."});
   Agent agent(FreeProblem{&grid, 0, {}, 8, {}, {}});
   EXPECT_EQ(agent.build(4, 5), Outcome::kTooLarge);

@@ -17,7 +17,7 @@ namespace grove::detail {
 // A layered graph: the states along its ways from layer 0 to layer cost() are exactly the paths it
 // stands for, each by one way or more. Every node is on such a way. (Multi-valued
 // decision diagrams in CBS: Boyarski et al. 2015.)
-class OptimalPaths {
+class Mdd {
  public:
   // A node of one layer, all layers numbered together.
   using NodeId = std::int32_t;
@@ -41,16 +41,16 @@ class OptimalPaths {
     return {successors_.data() + first_successor_[node],
             successors_.data() + first_successor_[node + 1]};
   }
-  // Memory held, in bytes; no more than it takes if OptimalPathsBuilder made it.
+  // Memory held, in bytes; no more than it takes if MddBuilder made it.
   std::size_t bytes() const;
 
   // The same graph, its nodes numbered in the same way.
-  friend bool operator==(const OptimalPaths&, const OptimalPaths&) = default;
+  friend bool operator==(const Mdd&, const Mdd&) = default;
   // The same for equal ones, on every machine.
   std::uint64_t hash() const;
 
  private:
-  friend class OptimalPathsBuilder;
+  friend class MddBuilder;
 
   void clear();  // keeps its room
 
@@ -63,7 +63,7 @@ class OptimalPaths {
 };
 
 // Holds the workspace of one thread: reuse it, do not share it.
-class OptimalPathsBuilder {
+class MddBuilder {
  public:
   enum class Outcome : std::uint8_t {
     kBuilt,
@@ -73,15 +73,15 @@ class OptimalPathsBuilder {
   };
 
   // `world` must outlive this.
-  explicit OptimalPathsBuilder(const World& world);
-  ~OptimalPathsBuilder();
+  explicit MddBuilder(const World& world);
+  ~MddBuilder();
 
   // All paths that realize a sequence of the class, obey `constraints` (also while resting) and
   // come to rest exactly at `cost`: with the least cost there is, all optimal paths. Widens the
   // completions of `goals` as needed. `paths` is empty after all outcomes but kBuilt. Throws
   // std::invalid_argument for a constraint that does not fit the grid.
   Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
-                std::size_t most_nodes, const Limits& limits, OptimalPaths& paths);
+                std::size_t most_nodes, const Limits& limits, Mdd& paths);
 
   // How much was done so far: nodes made, and (slot, stage) pairs looked at for them.
   std::int64_t nodes() const;
