@@ -3,7 +3,7 @@
 
 namespace grove::detail {
 
-PathSets::Set EqualSets::one_of(const PathSets::Set& set) {
+MddCache::Set EqualSets::one_of(const MddCache::Set& set) {
   const std::uint64_t hash = set->hash();
   const auto [first, end] = sets_.equal_range(hash);
   for (auto at = first; at != end; ++at)

@@ -17,7 +17,7 @@ namespace grove::detail {
 class EqualSets {
  public:
   // One that is equal, if it is still in use; this one otherwise.
-  PathSets::Set one_of(const PathSets::Set& set);
+  MddCache::Set one_of(const MddCache::Set& set);
 
   std::size_t size() const { return sets_.size(); }
 

@@ -49,10 +49,10 @@ const Mdd* Memory::paths(Id id, AgentIndex agent, const AgentOrder& order,
                          std::span<const Constraint> constraints, Time cost, const Limits& limits) {
   ++sets_asked_;
   const auto known = found_.sets.find(id);
-  PathSets::Set set = known != found_.sets.end() ? known->second : common_->path_sets.find(id);
+  MddCache::Set set = known != found_.sets.end() ? known->second : common_->path_sets.find(id);
   if (set) ++sets_known_;
   if (!set)
-    set = PathSets::make(planner_, agent, order, constraints, cost,
+    set = MddCache::make(planner_, agent, order, constraints, cost,
                          static_cast<std::size_t>(most_set_nodes_), limits);
   if (!set) return nullptr;
   return (found_.sets[id] = std::move(set)).get();

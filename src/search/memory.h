@@ -29,7 +29,7 @@ struct FoundOut {
     Excesses::Known known;
   };
   std::unordered_map<Id, Situations::Known> costs;
-  std::unordered_map<Id, PathSets::Set> sets;  // all that were asked for
+  std::unordered_map<Id, MddCache::Set> sets;  // all that were asked for
   // Few at a time.
   std::vector<Pair> pairs;
   std::vector<Excesses::Group> groups;
@@ -51,7 +51,7 @@ struct CommonMemory {
   explicit CommonMemory(Successor /*successor*/) : follows_another(true) {}
 
   Situations situations;
-  PathSets path_sets;
+  MddCache path_sets;
   Excesses excesses{situations};
   // What is found out may have to be forgotten again before it is of use.
   const bool follows_another = false;
@@ -111,7 +111,7 @@ class Memory {
   Situations::Known known(Id id) const;
   void learn(Id id, Situations::Known known) { found_.costs[id] = known; }
 
-  // As PathSets::find; valid until take_found().
+  // As MddCache::find; valid until take_found().
   const Mdd* paths(Id id, AgentIndex agent, const AgentOrder& order,
                    std::span<const Constraint> constraints, Time cost, const Limits& limits);
 

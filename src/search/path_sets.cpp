@@ -8,13 +8,13 @@ namespace {
 
 constexpr std::size_t kBytesPerEntry = 80;  // about: of the table, and of a set's owners
 
-std::size_t bytes_of(const PathSets::Set& set) {
+std::size_t bytes_of(const MddCache::Set& set) {
   return kBytesPerEntry + set->bytes();
 }
 
 }  // namespace
 
-PathSets::Set PathSets::find(Situations::Id id) const {
+MddCache::Set MddCache::find(Situations::Id id) const {
   return parts_.with(parts_.part_of(id), [&](const Part& part) {
     for (const Sets* sets : {&part.young, &part.old})
       if (const auto found = sets->find(id); found != sets->end()) return found->second;
@@ -22,7 +22,7 @@ PathSets::Set PathSets::find(Situations::Id id) const {
   });
 }
 
-void PathSets::add(Situations::Id id, const Set& set) {
+void MddCache::add(Situations::Id id, const Set& set) {
   parts_.with(parts_.part_of(id), [&](Part& part) {
     if (!part.young.try_emplace(id, set).second) return;
     const std::size_t bytes = bytes_of(set);
@@ -35,7 +35,7 @@ void PathSets::add(Situations::Id id, const Set& set) {
   });
 }
 
-PathSets::Set PathSets::make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,
+MddCache::Set MddCache::make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,
                              std::span<const Constraint> constraints, Time cost,
                              std::size_t most_nodes, const Limits& limits) {
   Mdd paths;
@@ -45,7 +45,7 @@ PathSets::Set PathSets::make(PathPlanner& planner, AgentIndex agent, const Agent
   return std::make_shared<const Mdd>(std::move(paths));
 }
 
-void PathSets::trim() {
+void MddCache::trim() {
   if (young_bytes_ < most_young_bytes_ || trimming_.exchange(true)) return;
   for (std::size_t number = 0; number < Sharded<Part>::kParts; ++number) {
     const Sets forgotten = parts_.with(number, [&](Part& part) {

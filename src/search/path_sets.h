@@ -17,14 +17,14 @@ namespace grove::detail {
 // All optimal paths by situation: those that were asked for lately. The *young* were since the last
 // time that there were too many, the *old* between then and the time before. All methods may be
 // called from any thread.
-class PathSets {
+class MddCache {
  public:
   using Set = std::shared_ptr<const Mdd>;
 
   // More than this of young ones are too many. (Simulated, room-32-32-4 with 40 agents, scenario 4:
   // three times as many save 2 % of the work, and take 1.6 times the memory.)
   static constexpr std::size_t kMostYoungBytes = std::size_t{16} << 20;
-  explicit PathSets(std::size_t most_young_bytes = kMostYoungBytes)
+  explicit MddCache(std::size_t most_young_bytes = kMostYoungBytes)
       : most_young_bytes_(most_young_bytes) {}
 
   // Null: not known.

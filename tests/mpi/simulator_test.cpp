@@ -224,12 +224,12 @@ TEST(EqualSets, HoldEachOnceAsLongAsItIsInUse) {
   const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 2, .tasks = 0}, 1);
   testing::NodeAtHand s(instance);
   const auto made = [&](AgentIndex agent, Time later) {
-    return PathSets::make(s.planner, agent, s.view.order(agent), {}, s.view.cost_of(agent) + later,
+    return MddCache::make(s.planner, agent, s.view.order(agent), {}, s.view.cost_of(agent) + later,
                           1000, s.limits);
   };
   EqualSets sets;
-  const PathSets::Set first = sets.one_of(made(0, 0));
-  PathSets::Set longer = sets.one_of(made(0, 1));
+  const MddCache::Set first = sets.one_of(made(0, 0));
+  MddCache::Set longer = sets.one_of(made(0, 1));
   EXPECT_EQ(sets.one_of(made(0, 0)), first);
   EXPECT_EQ(sets.one_of(made(0, 1)), longer);
   EXPECT_NE(*first, *longer);

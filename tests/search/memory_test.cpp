@@ -244,15 +244,15 @@ TEST(Memory, MakesASetOfPathsOnce) {
   EXPECT_EQ(s.planner.optimal_nodes(), nodes);
 }
 
-TEST(PathSets, ForgetWhatWasNotAskedForLately) {
+TEST(MddCache, ForgetWhatWasNotAskedForLately) {
   TwoWorkers s;
   const auto set =
-      PathSets::make(s.planner, 0, s.view.order(0), s.view.constraints(0), 2, 1000, s.limits);
+      MddCache::make(s.planner, 0, s.view.order(0), s.view.constraints(0), 2, 1000, s.limits);
   ASSERT_TRUE(set);
-  PathSets one;
+  MddCache one;
   one.add(0, set);
   constexpr int kYoung = 100;
-  PathSets sets(kYoung * one.bytes());
+  MddCache sets(kYoung * one.bytes());
   const auto add = [&](Situations::Id first, Situations::Id end) {
     for (Situations::Id id = first; id < end; ++id) sets.add(id, set);
     sets.trim();
