@@ -19,8 +19,8 @@
 #include "io/map_file.h"
 #include "io/scenario_file.h"
 #include "planning/free_low_level_search.h"
+#include "planning/joint_mdd_search.h"
 #include "planning/mdd.h"
-#include "planning/pair_dependency.h"
 #include "tools/generate/instance_generator.h"
 
 namespace grove::detail {
@@ -116,7 +116,7 @@ class Agents {
   Instance instance_;
   DistanceFields distances_;
   MddBuilder builder_;
-  PairDependency pair_;
+  JointMddSearch pair_;
   std::vector<Agent> agents_;
 };
 

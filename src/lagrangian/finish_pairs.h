@@ -11,8 +11,8 @@
 
 #include "model/limits.h"
 #include "planning/agent_stops_store.h"
+#include "planning/joint_mdd_search.h"
 #include "planning/mdd.h"
-#include "planning/pair_dependency.h"
 
 namespace grove::detail {
 
@@ -67,7 +67,7 @@ class FinishPairs {
   AgentStopsStore& stops_;
   const Most most_;
   MddBuilder builder_;
-  PairDependency dependency_;
+  JointMddSearch dependency_;
   std::vector<OfAgent> agents_;
   std::unordered_map<std::uint64_t, Grid> known_;  // by pair
   std::size_t bytes_ = 0;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "planning/pair_dependency.h"
+#include "planning/joint_mdd_search.h"
 #include "search/brancher.h"
 #include "search/covering.h"
 #include "search/joint_groups.h"
@@ -109,7 +109,7 @@ class Dependencies {
   Memory& memory_;
   NodeView pair_view_;  // of a pair or group
   Brancher pair_brancher_;
-  PairDependency pair_dependency_;
+  JointMddSearch pair_dependency_;
   JointGroups joint_groups_;
   std::vector<Situations::Id> situation_;  // by AgentIndex, at the node
   std::vector<Open> open_;                 // a heap: least cost first

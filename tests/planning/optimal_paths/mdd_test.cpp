@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "planning/pair_dependency.h"
+#include "planning/joint_mdd_search.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"
@@ -140,7 +140,7 @@ class Fuzzer {
 
   void run() {
     const Grid grid = testing::random_corridor_map(random_);
-    PairDependency pair(grid);
+    JointMddSearch pair(grid);
     const std::unique_ptr<Agent> a = random_agent(grid);
     const std::unique_ptr<Agent> b = random_agent(grid);
     for (int round = 0; round < 4; ++round) {
@@ -258,13 +258,13 @@ TEST(Mdd, SaysWhichLimitStruck) {
 }
 
 // One rests in the way of the other, who is longer on its way.
-TEST(PairDependency, CountsTheRestOfTheShorterOne) {
+TEST(JointMddSearch, CountsTheRestOfTheShorterOne) {
   const Grid grid = grid_of({"....."});
   Agent rests(FreeProblem{&grid, 3, {}, 2, {}, {}});
   Agent passes(FreeProblem{&grid, 0, {}, 4, {}, {}});
   ASSERT_EQ(rests.build(1), Outcome::kBuilt);
   ASSERT_EQ(passes.build(4), Outcome::kBuilt);
-  PairDependency pair(grid);
+  JointMddSearch pair(grid);
   EXPECT_EQ(pair.find(rests.graph, passes.graph, kPlenty, Limits()), Dependence::kDependent);
 }
 

@@ -22,11 +22,11 @@ enum class Dependence : std::uint8_t {
 
 // The joint search of two MDDs of CBS with WDG heuristics (Li et al., IJCAI 2019). The proof is at
 // the head of pair_dependency.cpp. Holds the workspace of one thread: reuse it, do not share it.
-class PairDependency {
+class JointMddSearch {
  public:
   // `world` must outlive this.
-  explicit PairDependency(const World& world);
-  ~PairDependency();
+  explicit JointMddSearch(const World& world);
+  ~JointMddSearch();
 
   // Neither may be empty; they may differ in length: an agent rests on its last place for ever.
   // Looks at `most_pairs` pairs of nodes at most.

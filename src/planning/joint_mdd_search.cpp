@@ -10,7 +10,7 @@
 // begins. From the last contact on nothing can collide any more: a pair that has come that far
 // proves that the agents are compatible, since every node leads to the end. And without such a pair
 // all are dead: dependent.
-#include "planning/pair_dependency.h"
+#include "planning/joint_mdd_search.h"
 
 #include <algorithm>
 #include <array>
@@ -80,7 +80,7 @@ class PairSet {
 
 }  // namespace
 
-class PairDependency::Workspace {
+class JointMddSearch::Workspace {
  public:
   explicit Workspace(const World& world) {
     for (auto& seen : seen_) seen.assign(world.place_count(), 0);
@@ -115,20 +115,20 @@ class PairDependency::Workspace {
   std::int64_t stamp_ = 1;
 };
 
-PairDependency::PairDependency(const World& world)
+JointMddSearch::JointMddSearch(const World& world)
     : workspace_(std::make_unique<Workspace>(world)) {}
-PairDependency::~PairDependency() = default;
+JointMddSearch::~JointMddSearch() = default;
 
-std::int64_t PairDependency::pairs() const {
+std::int64_t JointMddSearch::pairs() const {
   return workspace_->pairs();
 }
 
-Dependence PairDependency::find(const Mdd& a, const Mdd& b, std::size_t most_pairs,
+Dependence JointMddSearch::find(const Mdd& a, const Mdd& b, std::size_t most_pairs,
                                 const Limits& limits) {
   return workspace_->find(a, b, most_pairs, limits);
 }
 
-Dependence PairDependency::Workspace::find(const Mdd& a, const Mdd& b, std::size_t most_pairs,
+Dependence JointMddSearch::Workspace::find(const Mdd& a, const Mdd& b, std::size_t most_pairs,
                                            const Limits& limits) {
   a_ = &a;
   b_ = &b;
@@ -148,7 +148,7 @@ Dependence PairDependency::Workspace::find(const Mdd& a, const Mdd& b, std::size
   return Dependence::kDependent;
 }
 
-void PairDependency::Workspace::find_contacts() {
+void JointMddSearch::Workspace::find_contacts() {
   first_contact_ = kNever;
   last_contact_ = -1;
   const Time end = std::max(a_->cost(), b_->cost());
@@ -163,7 +163,7 @@ void PairDependency::Workspace::find_contacts() {
   stamp_ += end + 1;
 }
 
-bool PairDependency::Workspace::is_contact(Time time) const {
+bool JointMddSearch::Workspace::is_contact(Time time) const {
   bool entered = false;
   const Range now = nodes_at(*b_, time);
   for (NodeId node = now.first; node < now.end; ++node) {
@@ -178,7 +178,7 @@ bool PairDependency::Workspace::is_contact(Time time) const {
 }
 
 // Dependent: no pair that can be reached from `first` and was not known gets through.
-Dependence PairDependency::Workspace::search(Pair first, const Limits& limits) {
+Dependence JointMddSearch::Workspace::search(Pair first, const Limits& limits) {
   open_.clear();
   if (!known_.insert(first.a, first.b)) return Dependence::kDependent;
   open_.push_back(first);
@@ -193,7 +193,7 @@ Dependence PairDependency::Workspace::search(Pair first, const Limits& limits) {
   return Dependence::kDependent;
 }
 
-void PairDependency::Workspace::expand(const Pair& pair) {
+void JointMddSearch::Workspace::expand(const Pair& pair) {
   const auto next = [&](const Mdd& paths, const NodeId& node) {
     return pair.time < paths.cost() ? paths.successors(node) : std::span(&node, 1);
   };
