@@ -142,7 +142,7 @@ void test_pairs(benchmark::State& state, const std::filesystem::path& folder,
   std::vector<int> answers;
   for (auto _ : state) state.SetIterationTime(median(times = agents.test(answers)) * 1e-6);
   state.counters["worst_us"] = *std::ranges::max_element(times);
-  state.counters["compatible"] = answers[static_cast<std::size_t>(Dependence::kCompatible)];
+  state.counters["compatible"] = answers[static_cast<std::size_t>(Dependence::kIndependent)];
   state.counters["dependent"] = answers[static_cast<std::size_t>(Dependence::kDependent)];
   state.counters["unknown"] = answers[static_cast<std::size_t>(Dependence::kUnknown)];
 }

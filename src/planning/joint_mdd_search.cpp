@@ -134,7 +134,7 @@ Dependence JointMddSearch::Workspace::find(const Mdd& a, const Mdd& b, std::size
   b_ = &b;
   most_pairs_ = most_pairs;
   find_contacts();
-  if (first_contact_ == kNever) return Dependence::kCompatible;
+  if (first_contact_ == kNever) return Dependence::kIndependent;
   if (first_contact_ == 0) return Dependence::kDependent;  // they start on one cell
   known_.clear();
   const Time before = first_contact_ - 1;
@@ -185,7 +185,7 @@ Dependence JointMddSearch::Workspace::search(Pair first, const Limits& limits) {
   while (!open_.empty()) {
     const Pair pair = open_.back();
     open_.pop_back();
-    if (pair.time >= last_contact_) return Dependence::kCompatible;
+    if (pair.time >= last_contact_) return Dependence::kIndependent;
     if (known_.size() > most_pairs_) return Dependence::kUnknown;
     if (++expanded_ % kPairsPerPoll == 0 && limits.stop_requested()) return Dependence::kUnknown;
     expand(pair);

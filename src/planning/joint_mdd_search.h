@@ -15,9 +15,9 @@ namespace grove::detail {
 // kDependent proves that any two paths that obey the constraints and do not collide cost at least
 // one more than the two optima together.
 enum class Dependence : std::uint8_t {
-  kCompatible,  // some path of the one and some path of the other do not collide
-  kDependent,   // proven: all pairs collide
-  kUnknown,     // a limit struck
+  kIndependent,  // some path of the one and some path of the other do not collide
+  kDependent,    // proven: all pairs collide
+  kUnknown,      // a limit struck
 };
 
 // The joint search of two MDDs of CBS with WDG heuristics (Li et al., IJCAI 2019). The proof is at

@@ -144,7 +144,7 @@ Dependencies::Outcome Dependencies::solve_conflicting(NodeView& view, Cost slack
       const auto dependence = compare(view, a, b, limits);
       if (!dependence) return Outcome::kStopped;
       // (Of following the comparison knows nothing.)
-      known.exact = *dependence == Dependence::kCompatible && instance_.may_follow();
+      known.exact = *dependence == Dependence::kIndependent && instance_.may_follow();
       known.excess = *dependence == Dependence::kDependent ? 1 : 0;
       if (proof_ != nullptr && known.excess > 0)
         write_down_lemma(view, std::array{a, b}, 1, kNoProof, {});

@@ -148,7 +148,7 @@ class Fuzzer {
       const Paths of_b = check(*b);
       if (of_a.empty() || of_b.empty() || of_a.size() * of_b.size() > kPlenty) return;
       const bool fit = compatible(of_a, of_b);
-      const Dependence expected = fit ? Dependence::kCompatible : Dependence::kDependent;
+      const Dependence expected = fit ? Dependence::kIndependent : Dependence::kDependent;
       EXPECT_EQ(pair.find(a->graph, b->graph, kPlenty, Limits()), expected);
       EXPECT_EQ(pair.find(b->graph, a->graph, kPlenty, Limits()), expected);
       const Dependence little = pair.find(a->graph, b->graph, below(5), Limits());
