@@ -17,7 +17,7 @@
 namespace grove::detail {
 
 std::optional<Split> target_split(const Conflict& conflict, std::span<const Path> paths,
-                                  const World& world, const Chains& /*chains*/) {
+                                  const World& world, const Corridors& /*chains*/) {
   if (conflict.is_swap() || conflict.is_following()) return std::nullopt;
   const auto rests = [&](AgentIndex agent) {
     return last_arrival(world, paths[agent]) <= conflict.time;

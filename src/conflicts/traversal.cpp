@@ -40,15 +40,15 @@ struct Traversal {
   Place last;    // the inner place before
 };
 
-bool is_inner(const Chains& chains, int chain, Place place) {
-  return chains.chain_of(place) == chain;
+bool is_inner(const Corridors& corridors, int chain, Place place) {
+  return corridors.corridor_of(place) == chain;
 }
 
 // The traversal of `chain` during which the path is inside at `time`.
-std::optional<Traversal> traversal_at(const World& world, const Chains& chains, int chain,
+std::optional<Traversal> traversal_at(const World& world, const Corridors& corridors, int chain,
                                       const Path& path, Time time) {
   const auto place = [&](Time t) { return world.place(path[t]); };
-  const auto inside = [&](Time t) { return is_inner(chains, chain, place(t)); };
+  const auto inside = [&](Time t) { return is_inner(corridors, chain, place(t)); };
   const auto length = static_cast<Time>(path.size());
   if (time < 0 || time >= length || !inside(time)) return std::nullopt;
   Time entry = time;  // the first time inside
@@ -57,7 +57,7 @@ std::optional<Traversal> traversal_at(const World& world, const Chains& chains, 
   while (arrival < length && inside(arrival)) ++arrival;
   if (entry == 0 || arrival == length) return std::nullopt;
 
-  const auto places = chains.places(chain);
+  const auto places = corridors.places(chain);
   const auto at_front = [&](Place end, Place inner) {
     return end == places.front() && inner == places[1];
   };
@@ -68,20 +68,20 @@ std::optional<Traversal> traversal_at(const World& world, const Chains& chains, 
 }
 
 // The traversal that the path is in at `time`, or ends or begins then.
-std::optional<Traversal> traversal_near(const World& world, const Chains& chains, int chain,
+std::optional<Traversal> traversal_near(const World& world, const Corridors& corridors, int chain,
                                         const Path& path, Time time) {
   for (const Time t : {time, time - 1, time + 1})
-    if (const auto traversal = traversal_at(world, chains, chain, path, t)) return traversal;
+    if (const auto traversal = traversal_at(world, corridors, chain, path, t)) return traversal;
   return std::nullopt;
 }
 
 std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> paths,
-                              const World& world, const Chains& chains, int chain) {
-  const auto a = traversal_near(world, chains, chain, paths[conflict.first], conflict.time);
+                              const World& world, const Corridors& corridors, int chain) {
+  const auto a = traversal_near(world, corridors, chain, paths[conflict.first], conflict.time);
   if (!a) return std::nullopt;
-  const auto b = traversal_near(world, chains, chain, paths[conflict.second], conflict.time);
+  const auto b = traversal_near(world, corridors, chain, paths[conflict.second], conflict.time);
   if (!b || a->forward == b->forward) return std::nullopt;
-  const auto moves = static_cast<Time>(chains.places(chain).size()) - 1;
+  const auto moves = static_cast<Time>(corridors.places(chain).size()) - 1;
   const Time a_last = b->arrival + moves;
   const Time b_last = a->arrival + moves;
   if (a->arrival > a_last || b->arrival > b_last) return std::nullopt;
@@ -94,7 +94,7 @@ std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> pa
 }  // namespace
 
 std::optional<Split> traversal_split(const Conflict& conflict, std::span<const Path> paths,
-                                     const World& world, const Chains& chains) {
+                                     const World& world, const Corridors& corridors) {
   if (conflict.is_following()) return std::nullopt;
   // Where both are, or - when they meet on an end - where one of them comes from.
   const std::array<Place, 4> places{
@@ -102,9 +102,9 @@ std::optional<Split> traversal_split(const Conflict& conflict, std::span<const P
       place_at(world, paths[conflict.first], std::max(0, conflict.time - 1)),
       place_at(world, paths[conflict.second], std::max(0, conflict.time - 1))};
   for (Place place : places) {
-    const int chain = chains.chain_of(place);
-    if (chain == Chains::kNoChain) continue;
-    if (const auto split = split_on(conflict, paths, world, chains, chain)) return split;
+    const int chain = corridors.corridor_of(place);
+    if (chain == Corridors::kNoCorridor) continue;
+    if (const auto split = split_on(conflict, paths, world, corridors, chain)) return split;
   }
   return std::nullopt;
 }

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "model/assert.h"
-#include "planning/chains.h"
+#include "planning/corridors.h"
 
 namespace grove::detail {
 namespace {
@@ -40,20 +40,22 @@ bool rests_by(const World& world, const Path& path, const Constraint& c) {
 }
 
 // Is the move to path[arrival], out of a chain, the end of a traversal?
-bool ends_traversal(const World& world, const Path& path, Time arrival, const Chains& chains) {
+bool ends_traversal(const World& world, const Path& path, Time arrival,
+                    const Corridors& corridors) {
   const auto place = [&](Time t) { return world.place(path[t]); };
-  const int chain = chains.chain_of(place(arrival - 1));
+  const int chain = corridors.corridor_of(place(arrival - 1));
   Time before = arrival - 1;  // the last time before it was inside
-  while (before >= 0 && chains.chain_of(place(before)) == chain) --before;
+  while (before >= 0 && corridors.corridor_of(place(before)) == chain) --before;
   if (before < 0) return false;
   return place(before) != place(arrival) || place(before + 1) != place(arrival - 1);
 }
 
-bool traverses(const World& world, const Path& path, const Constraint& c, const Chains& chains) {
+bool traverses(const World& world, const Path& path, const Constraint& c,
+               const Corridors& corridors) {
   const Time last = std::min(c.end, static_cast<Time>(path.size()) - 1);
   for (Time t = std::max(c.begin, 1); t <= last; ++t)
     if (world.place(path[t]) == c.cell && world.place(path[t - 1]) == c.from &&
-        ends_traversal(world, path, t, chains))
+        ends_traversal(world, path, t, corridors))
       return true;
   return false;
 }
@@ -70,7 +72,7 @@ std::optional<ConstraintKind> constraint_kind(std::uint8_t number) {
   return known ? std::optional(kind) : std::nullopt;
 }
 
-bool obeys(const World& world, const Path& path, const Constraint& c, const Chains& chains) {
+bool obeys(const World& world, const Path& path, const Constraint& c, const Corridors& corridors) {
   GROVE_ASSERT(!path.empty(), "an agent is somewhere");
   switch (c.kind) {
     case ConstraintKind::kBar:
@@ -80,7 +82,7 @@ bool obeys(const World& world, const Path& path, const Constraint& c, const Chai
     case ConstraintKind::kRestBy:
       return rests_by(world, path, c);
     case ConstraintKind::kNoTraversal:
-      return !traverses(world, path, c, chains);
+      return !traverses(world, path, c, corridors);
     case ConstraintKind::kStopIs:
     case ConstraintKind::kStopIsNot:
       break;

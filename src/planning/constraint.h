@@ -13,7 +13,7 @@
 
 namespace grove::detail {
 
-class Chains;
+class Corridors;
 
 // The numbers are those of files and messages: a new kind takes the next one and a row in
 // constraint.cpp.
@@ -63,7 +63,7 @@ inline bool is_about_sequence(const Constraint& c) {
 
 // Does `path` (not empty), its rest for ever included, do what `c`, which is not about the
 // sequence, demands? O(length).
-bool obeys(const World& world, const Path& path, const Constraint& c, const Chains& chains);
+bool obeys(const World& world, const Path& path, const Constraint& c, const Corridors& corridors);
 
 // One agent and what it is forbidden.
 struct AgentConstraint {

@@ -84,14 +84,14 @@ void SafeIntervals::check(const Constraint& c) {
 }
 
 bool SafeIntervals::leaves_at_front(const Constraint& c) const {
-  const int chain = chains_->chain_of(c.from);
-  return chain != Chains::kNoChain && chains_->position(c.from) == 1 &&
+  const int chain = chains_->corridor_of(c.from);
+  return chain != Corridors::kNoCorridor && chains_->position(c.from) == 1 &&
          chains_->places(chain).front() == c.cell;
 }
 
 bool SafeIntervals::leaves_at_back(const Constraint& c) const {
-  const int chain = chains_->chain_of(c.from);
-  if (chain == Chains::kNoChain) return false;
+  const int chain = chains_->corridor_of(c.from);
+  if (chain == Corridors::kNoCorridor) return false;
   const auto places = chains_->places(chain);
   return places[places.size() - 2] == c.from && places.back() == c.cell;
 }
@@ -130,7 +130,7 @@ void SafeIntervals::keep_rest_by(const Constraint& c) {
 }
 
 void SafeIntervals::keep_traversal(const Constraint& c) {
-  ChainUsed& used = chain_used(chains_->chain_of(c.from));
+  ChainUsed& used = chain_used(chains_->corridor_of(c.from));
   const bool at_back = leaves_at_back(c);
   (at_back ? used.from_front = kFromFront : used.from_back = kFromBack);
   const std::uint8_t barred = at_back ? kFromFront : kFromBack;

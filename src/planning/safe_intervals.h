@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "planning/chains.h"
 #include "planning/constraint.h"
+#include "planning/corridors.h"
 #include "planning/reservations.h"
 
 namespace grove::detail {
@@ -290,8 +290,8 @@ class SafeIntervals {
   std::vector<std::int32_t> group_of_;  // by place
   std::vector<Group> groups_;
   std::vector<SafeInterval> intervals_;
-  std::vector<Bar> bars_;         // by place, kind, begin
-  std::optional<Chains> chains_;  // made for the first traversal to be barred
+  std::vector<Bar> bars_;            // by place, kind, begin
+  std::optional<Corridors> chains_;  // made for the first traversal to be barred
   std::vector<ChainUsed> chains_used_;
   Place only_rest_ = kNoPlace;
   Time latest_rest_ = kNever;

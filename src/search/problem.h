@@ -5,7 +5,7 @@
 #include "model/distance_field.h"
 #include "model/instance.h"
 #include "model/shared_arrays.h"
-#include "planning/chains.h"
+#include "planning/corridors.h"
 
 namespace grove::detail {
 
@@ -18,11 +18,11 @@ struct Problem {
           const DistanceFields* known = nullptr, const SharedArrays* arrays = nullptr)
       : instance(the_instance),
         distances(the_instance, limits, threads, known, arrays),
-        chains(the_instance.world()) {}
+        corridors(the_instance.world()) {}
 
   const Instance& instance;  // owned by the caller
   const DistanceFields distances;
-  const Chains chains;
+  const Corridors corridors;
 };
 
 // The arrays that processes which search the same instance can share: distances, and what agents

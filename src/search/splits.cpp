@@ -12,7 +12,7 @@ namespace {
 struct Rule {
   Technique technique;
   std::optional<Split> (*split)(const Conflict&, std::span<const Path>, const World&,
-                                const Chains&);
+                                const Corridors&);
 };
 
 constexpr std::array kRules = {
@@ -27,7 +27,8 @@ void splits_of(const Conflict& conflict, std::span<const Path> paths, const Prob
   splits.push_back(split(conflict));
   for (const Rule& rule : kRules)
     if (techniques.has(rule.technique))
-      if (const auto split = rule.split(conflict, paths, problem.instance.world(), problem.chains))
+      if (const auto split =
+              rule.split(conflict, paths, problem.instance.world(), problem.corridors))
         splits.push_back(*split);
 }
 

@@ -46,7 +46,7 @@ class SplitsTest : public ::testing::TestWithParam<std::vector<std::string>> {};
 TEST_P(SplitsTest, LoseNoCollisionFreePairAndChangeBothSides) {
   const Instance instance = testing::instance_of(GetParam(), {{{0, 0}, Position{0, 0}}});
   const Grid& grid = instance.grid();
-  const Chains chains(grid);
+  const Corridors corridors(grid);
   ConflictFinder finder(grid);
   std::mt19937 random(17);
   std::vector<std::array<Path, 2>> pairs(3000);
@@ -63,8 +63,8 @@ TEST_P(SplitsTest, LoseNoCollisionFreePairAndChangeBothSides) {
     finder.all(pair, kBoth, conflicts);
     if (conflicts.empty()) apart.push_back(pair);
     for (const Conflict& conflict : conflicts)
-      for (const auto& split : {target_split(conflict, pair, grid, chains),
-                                traversal_split(conflict, pair, grid, chains)})
+      for (const auto& split : {target_split(conflict, pair, grid, corridors),
+                                traversal_split(conflict, pair, grid, corridors)})
         if (split) {
           const bool target = (*split)[0].constraint.kind == ConstraintKind::kNoRestBy;
           ++(target ? by_target : by_traversal);

@@ -9,7 +9,7 @@
 
 #include "joint/joint_search.h"
 #include "model/omega.h"
-#include "planning/chains.h"
+#include "planning/corridors.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/group_oracle.h"
 #include "tests/support/fuzz_factor.h"
@@ -83,7 +83,7 @@ class Fuzzer {
   std::mt19937_64 random_;
   const Instance instance_;
   const DistanceFields distances_;
-  const Chains chains_;
+  const Corridors chains_;
   TimedGraphs graphs_;
 };
 

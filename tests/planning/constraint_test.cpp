@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "planning/chains.h"
+#include "planning/corridors.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/obeys.h"
@@ -28,14 +28,14 @@ TEST(Constraint, IsObeyedAsTheTestsSay) {
   std::map<std::pair<ConstraintKind, bool>, int> seen;
   for (int round = 0; round < 300; ++round) {
     const Grid grid = testing::random_corridor_map(random);
-    const Chains chains(grid);
+    const Corridors corridors(grid);
     for (int i = 0; i < 40; ++i) {
       const Path path = testing::random_walk(grid, random, 15);
       const std::vector<Cell> goals{path[0], path.back()};
       const Constraint c = random() % 3 == 0
                                ? testing::random_bar(grid, path, goals, random)
                                : testing::random_conditional_constraint(grid, path, goals, random);
-      const bool obeyed = obeys(grid, path, c, chains);
+      const bool obeyed = obeys(grid, path, c, corridors);
       ++seen[{c.kind, obeyed}];
       ASSERT_EQ(obeyed, testing::obeys(grid, path, c))
           << name_of(c.kind) << " " << c.cell << " " << c.from << " " << c.begin << " " << c.end;
@@ -53,7 +53,7 @@ TEST(Constraint, OnTheSequenceIsNotObeyedByAPathAlone) {
   const Grid grid = testing::grid_of({".."});
   const Constraint next{1, kNoCell, 0, 0, ConstraintKind::kStopIs};
   EXPECT_TRUE(is_about_sequence(next));
-  EXPECT_THROW(obeys(grid, {0, 1}, next, Chains(grid)), std::invalid_argument);
+  EXPECT_THROW(obeys(grid, {0, 1}, next, Corridors(grid)), std::invalid_argument);
 }
 
 // Files and other processes know kinds by these numbers.

@@ -14,7 +14,7 @@
 #include <set>
 #include <tuple>
 
-#include "planning/chains.h"
+#include "planning/corridors.h"
 #include "planning/free_low_level_search.h"
 #include "planning/mdd.h"
 #include "sequencing/cost_matrix.h"
@@ -393,9 +393,9 @@ class Fuzzer {
       case 8:
       case 9: {
         std::vector<std::pair<Cell, Cell>> mouths;
-        const Chains chains(grid);
-        for (int chain = 0; chain < chains.count(); ++chain) {
-          const auto row = chains.places(chain);
+        const Corridors corridors(grid);
+        for (int chain = 0; chain < corridors.count(); ++chain) {
+          const auto row = corridors.places(chain);
           mouths.emplace_back(row.front(), row[1]);
           mouths.emplace_back(row.back(), row[row.size() - 2]);
         }

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-#include "planning/chains.h"
+#include "planning/corridors.h"
 #include "planning/free_low_level_search.h"
 #include "planning/goal_sequence.h"
 #include "planning/low_level_search.h"
@@ -265,7 +265,7 @@ class Fuzzer {
   const Instance instance_;
   const World& world_;
   const DistanceFields distances_;
-  const Chains chains_;
+  const Corridors chains_;
   LowLevelSearch fixed_;
   FreeLowLevelSearch free_;
   MddBuilder builder_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "planning/chains.h"
+#include "planning/corridors.h"
 
 #include <gtest/gtest.h>
 
@@ -14,65 +14,65 @@ namespace chains_test {
 using testing::grid_of;
 using Cells = std::vector<Cell>;
 
-Cells cells_of(const Chains& chains, int chain) {
-  const auto cells = chains.places(chain);
+Cells cells_of(const Corridors& corridors, int chain) {
+  const auto cells = corridors.places(chain);
   return {cells.begin(), cells.end()};
 }
 
-TEST(Chains, ADoorIsOne) {
-  const Chains chains(grid_of({"..@..", ".....", "..@.."}));
-  const int door = chains.chain_of(7);
-  ASSERT_NE(door, Chains::kNoChain);
-  EXPECT_EQ(chains.position(7), 1);
-  Cells cells = cells_of(chains, door);
+TEST(Corridors, ADoorIsOne) {
+  const Corridors corridors(grid_of({"..@..", ".....", "..@.."}));
+  const int door = corridors.corridor_of(7);
+  ASSERT_NE(door, Corridors::kNoCorridor);
+  EXPECT_EQ(corridors.position(7), 1);
+  Cells cells = cells_of(corridors, door);
   std::ranges::sort(cells);
   EXPECT_EQ(cells, (Cells{6, 7, 8}));
-  EXPECT_EQ(chains.chain_of(6), Chains::kNoChain);
+  EXPECT_EQ(corridors.corridor_of(6), Corridors::kNoCorridor);
 }
 
-TEST(Chains, ACorridorEndsInDeadEnds) {
-  const Chains chains(grid_of({"......"}));
-  ASSERT_EQ(chains.count(), 1);
-  Cells cells = cells_of(chains, 0);
+TEST(Corridors, ACorridorEndsInDeadEnds) {
+  const Corridors corridors(grid_of({"......"}));
+  ASSERT_EQ(corridors.count(), 1);
+  Cells cells = cells_of(corridors, 0);
   if (cells.front() != 0) std::ranges::reverse(cells);
   EXPECT_EQ(cells, (Cells{0, 1, 2, 3, 4, 5}));
 }
 
-TEST(Chains, ARingIsNone) {
-  const Chains chains(grid_of({"...", ".@.", "..."}));
-  EXPECT_EQ(chains.count(), 0);
-  EXPECT_EQ(chains.chain_of(1), Chains::kNoChain);
+TEST(Corridors, ARingIsNone) {
+  const Corridors corridors(grid_of({"...", ".@.", "..."}));
+  EXPECT_EQ(corridors.count(), 0);
+  EXPECT_EQ(corridors.corridor_of(1), Corridors::kNoCorridor);
 }
 
-TEST(Chains, ALoopBeginsAndEndsAtOneCell) {
-  const Chains chains(grid_of({"...@", ".@.@", "....", "@@@."}));
-  ASSERT_EQ(chains.count(), 2);
-  const auto loop = chains.places(chains.chain_of(0));
+TEST(Corridors, ALoopBeginsAndEndsAtOneCell) {
+  const Corridors corridors(grid_of({"...@", ".@.@", "....", "@@@."}));
+  ASSERT_EQ(corridors.count(), 2);
+  const auto loop = corridors.places(corridors.corridor_of(0));
   EXPECT_EQ(loop.size(), 9u);
   EXPECT_EQ(loop.front(), 10);
   EXPECT_EQ(loop.back(), 10);
 }
 
 // By definition, on random maps.
-TEST(Chains, AreMaximalRowsOfCellsWithTwoNeighbors) {
+TEST(Corridors, AreMaximalRowsOfCellsWithTwoNeighbors) {
   std::mt19937 random(1);
   int chains_seen = 0;
   for (int round = 0; round < 300; ++round) {
     std::vector<bool> passable(48);
     for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = random() % 3 > 0;
     const Grid grid(8, 6, passable);
-    const Chains chains(grid);
+    const Corridors corridors(grid);
     Cells inner;
-    for (int chain = 0; chain < chains.count(); ++chain) {
-      const auto cells = chains.places(chain);
+    for (int chain = 0; chain < corridors.count(); ++chain) {
+      const auto cells = corridors.places(chain);
       ASSERT_GE(cells.size(), 3u);
       EXPECT_NE(grid.neighbors(cells.front()).size(), 2u);
       EXPECT_NE(grid.neighbors(cells.back()).size(), 2u);
       for (std::size_t i = 1; i < cells.size(); ++i)
         EXPECT_EQ(std::ranges::count(grid.neighbors(cells[i - 1]), cells[i]), 1);
       for (std::size_t i = 1; i + 1 < cells.size(); ++i) {
-        EXPECT_EQ(chains.chain_of(cells[i]), chain);
-        EXPECT_EQ(chains.position(cells[i]), static_cast<int>(i));
+        EXPECT_EQ(corridors.corridor_of(cells[i]), chain);
+        EXPECT_EQ(corridors.position(cells[i]), static_cast<int>(i));
         inner.push_back(cells[i]);
       }
       ++chains_seen;
@@ -82,11 +82,11 @@ TEST(Chains, AreMaximalRowsOfCellsWithTwoNeighbors) {
     // All others with two neighbors are on rings: no way leads from them to another cell.
     for (Cell cell = 0; cell < grid.cell_count(); ++cell) {
       if (std::ranges::binary_search(inner, cell)) continue;
-      EXPECT_EQ(chains.chain_of(cell), Chains::kNoChain);
+      EXPECT_EQ(corridors.corridor_of(cell), Corridors::kNoCorridor);
       if (grid.neighbors(cell).size() != 2) continue;
       for (Cell next : grid.neighbors(cell)) {
         EXPECT_EQ(grid.neighbors(next).size(), 2u);
-        EXPECT_EQ(chains.chain_of(next), Chains::kNoChain);
+        EXPECT_EQ(corridors.corridor_of(next), Corridors::kNoCorridor);
       }
     }
   }

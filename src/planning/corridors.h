@@ -14,16 +14,16 @@ namespace grove::detail {
 // with the two *ends* they join, which have fewer or more neighbors. A door between two rooms is a
 // chain of two moves. The two ends may be one place. A ring has no end and is no chain. Immutable
 // after construction, so any number of threads may read one.
-class Chains {
+class Corridors {
  public:
-  static constexpr int kNoChain = -1;
+  static constexpr int kNoCorridor = -1;
 
   // O(places).
-  explicit Chains(const World& world);
+  explicit Corridors(const World& world);
 
   int count() const { return static_cast<int>(first_.size()) - 1; }
-  // Whose inner place this is; kNoChain if of none.
-  int chain_of(Place place) const { return chain_of_[place]; }
+  // Whose inner place this is; kNoCorridor if of none.
+  int corridor_of(Place place) const { return corridor_of_[place]; }
   // An end, the inner places in order, the other end: the *front* and the *back*.
   std::span<const Place> places(int chain) const {
     return {places_.data() + first_[chain], places_.data() + first_[chain + 1]};
@@ -37,10 +37,10 @@ class Chains {
   void add_chain_through(const World& world, Place inner);
   void number_inner_places(int chain);
 
-  std::vector<std::int32_t> chain_of_;  // by place
-  std::vector<std::int32_t> position_;  // by place
-  std::vector<Place> places_;           // chain after chain
-  std::vector<std::int32_t> first_{0};  // by chain; one more for the end of the last
+  std::vector<std::int32_t> corridor_of_;  // by place
+  std::vector<std::int32_t> position_;     // by place
+  std::vector<Place> places_;              // chain after chain
+  std::vector<std::int32_t> first_{0};     // by chain; one more for the end of the last
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "planning/chains.h"
+#include "planning/corridors.h"
 
 #include <algorithm>
 
@@ -27,13 +27,13 @@ bool walk_to_end(const World& world, Place before, Place next, std::vector<Place
 
 }  // namespace
 
-Chains::Chains(const World& world)
-    : chain_of_(world.place_count(), kNoChain), position_(world.place_count(), 0) {
+Corridors::Corridors(const World& world)
+    : corridor_of_(world.place_count(), kNoCorridor), position_(world.place_count(), 0) {
   for (Place place = 0; place < world.place_count(); ++place)
     if (is_inner(world, place) && position_[place] == 0) add_chain_through(world, place);
 }
 
-void Chains::add_chain_through(const World& world, Place inner) {
+void Corridors::add_chain_through(const World& world, Place inner) {
   const auto begin = static_cast<std::ptrdiff_t>(places_.size());
   const auto ways = world.neighbors(inner);
   const bool ends = walk_to_end(world, inner, ways[0], places_);
@@ -51,10 +51,10 @@ void Chains::add_chain_through(const World& world, Place inner) {
   number_inner_places(count() - 1);
 }
 
-void Chains::number_inner_places(int chain) {
+void Corridors::number_inner_places(int chain) {
   const auto row = places(chain);
   for (std::size_t i = 1; i + 1 < row.size(); ++i) {
-    chain_of_[row[i]] = chain;
+    corridor_of_[row[i]] = chain;
     position_[row[i]] = static_cast<std::int32_t>(i);
   }
 }
