@@ -17,7 +17,7 @@ struct Named {
 };
 
 constexpr std::array<Named, kConstraintKinds> kNames = {{
-    {ConstraintKind::kBar, "bar"},
+    {ConstraintKind::kVertexOrEdge, "bar"},
     {ConstraintKind::kNoRestBy, "no-rest-by"},
     {ConstraintKind::kRestBy, "rest-by"},
     {ConstraintKind::kNoTraversal, "no-traversal"},
@@ -75,7 +75,7 @@ std::optional<ConstraintKind> constraint_kind(std::uint8_t number) {
 bool obeys(const World& world, const Path& path, const Constraint& c, const Corridors& corridors) {
   GROVE_ASSERT(!path.empty(), "an agent is somewhere");
   switch (c.kind) {
-    case ConstraintKind::kBar:
+    case ConstraintKind::kVertexOrEdge:
       return keeps_off(world, path, c);
     case ConstraintKind::kNoRestBy:
       return !rests_by(world, path, c);

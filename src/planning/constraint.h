@@ -20,7 +20,7 @@ class Corridors;
 enum class ConstraintKind : std::uint8_t {
   // Not on the place `cell` (resting on it after the finish counts as being there), or, with `from`
   // given, not moving from -> cell, at any time in [begin, end]; for a move the time of arrival.
-  kBar = 0,
+  kVertexOrEdge = 0,
   // Does not come to rest for ever on `cell` at `end` or earlier: if the agent ends there, it
   // arrives there for the last time, by a move, later than `end`. (Target reasoning: Li et al.
   // 2021.) `from` and `begin` are not used.
@@ -50,9 +50,9 @@ struct Constraint {
   Cell from = kNoCell;
   Time begin = 0;
   Time end = 0;  // kNever: for ever
-  ConstraintKind kind = ConstraintKind::kBar;
+  ConstraintKind kind = ConstraintKind::kVertexOrEdge;
 
-  bool is_move() const { return kind == ConstraintKind::kBar && from != kNoCell; }
+  bool is_move() const { return kind == ConstraintKind::kVertexOrEdge && from != kNoCell; }
   friend bool operator==(const Constraint&, const Constraint&) = default;
 };
 

@@ -99,7 +99,7 @@ bool SafeIntervals::leaves_at_back(const Constraint& c) const {
 void SafeIntervals::keep(const Constraint& c) {
   const bool is_ever = c.end >= std::max(c.begin, 0);
   switch (c.kind) {
-    case ConstraintKind::kBar:
+    case ConstraintKind::kVertexOrEdge:
       if (is_ever) keep_bar(c);
       break;
     case ConstraintKind::kNoRestBy:

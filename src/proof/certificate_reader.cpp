@@ -196,7 +196,7 @@ class Reader {
     demand.kind =
         static_cast<Kind>(one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
     switch (demand.kind) {
-      case Kind::kBar:
+      case Kind::kVertexOrEdge:
         demand.p = place();
         span(demand);
         break;

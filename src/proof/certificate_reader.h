@@ -16,11 +16,11 @@
 namespace grove::detail {
 
 struct CertificateDemand {
-  enum class Kind : std::uint8_t { kBar, kMove, kNoRest, kRest, kPass, kStop, kNoStop };
+  enum class Kind : std::uint8_t { kVertexOrEdge, kMove, kNoRest, kRest, kPass, kStop, kNoStop };
   static constexpr std::int32_t kForEver = -1;
 
   AgentIndex agent = 0;
-  Kind kind = Kind::kBar;
+  Kind kind = Kind::kVertexOrEdge;
   std::int32_t p = 0;  // in the order of the line: places, or number and task of a stop
   std::int32_t q = 0;
   std::int32_t begin = 0;

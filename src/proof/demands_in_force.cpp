@@ -21,7 +21,7 @@ CertificateDemand others(std::int32_t place, std::int32_t time) {
 }
 
 bool is_for_ever(const CertificateDemand& demand) {
-  return demand.kind == Kind::kBar && demand.end == CertificateDemand::kForEver;
+  return demand.kind == Kind::kVertexOrEdge && demand.end == CertificateDemand::kForEver;
 }
 
 }  // namespace

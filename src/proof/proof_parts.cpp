@@ -69,7 +69,7 @@ class Taking {
   AgentConstraint demand() {
     AgentConstraint demand;
     demand.agent = small();
-    demand.constraint = {small(), small(), small(), small(), ConstraintKind::kBar};
+    demand.constraint = {small(), small(), small(), small(), ConstraintKind::kVertexOrEdge};
     const auto kind = constraint_kind(static_cast<std::uint8_t>(number()));
     if (!kind) refuse();
     demand.constraint.kind = *kind;

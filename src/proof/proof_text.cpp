@@ -23,7 +23,7 @@ std::string proof_text(const AgentConstraint& demand, const Instance& instance) 
   };
   const auto task = [&] { return instance.agent(demand.agent).stops[c.from]; };
   switch (c.kind) {
-    case ConstraintKind::kBar:
+    case ConstraintKind::kVertexOrEdge:
       if (c.is_move()) return text("move", c.from, c.cell, std::max(c.begin, 0), until(c.end));
       return text("bar", c.cell, std::max(c.begin, 0), until(c.end));
     case ConstraintKind::kNoRestBy:

@@ -10,7 +10,7 @@ namespace serialise_test {
 
 NodeRecord a_node() {
   NodeRecord record;
-  record.constraints = {{3, {17, kNoCell, 4, kNever, ConstraintKind::kBar}},
+  record.constraints = {{3, {17, kNoCell, 4, kNever, ConstraintKind::kVertexOrEdge}},
                         {0, {17, 16, 4, 4, ConstraintKind::kNoTraversal}},
                         {1, {5, kNoCell, 2, 0, ConstraintKind::kStopIsNot}}};
   record.paths = {{1, 25, {0x0123456789ABCDEF, 7}}, {4, 0, {}}};

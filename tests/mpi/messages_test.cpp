@@ -73,8 +73,8 @@ TEST(Messages, PackFacts) {
   Fact fact;
   for (const AgentIndex agent : {7, 19}) {
     AgentSituation& situation = fact.agents.emplace_back(3, agent);
-    situation.constraints =
-        PackedConstraints(std::vector<Constraint>{{500, kNoCell, 9, 30, ConstraintKind::kBar}});
+    situation.constraints = PackedConstraints(
+        std::vector<Constraint>{{500, kNoCell, 9, 30, ConstraintKind::kVertexOrEdge}});
   }
   fact.excess = {2, true, 400};
   const std::string bytes = message::packed(fact);

@@ -20,7 +20,7 @@
 namespace grove::detail {
 namespace constraint_test {
 
-constexpr std::array kOnPaths{ConstraintKind::kBar, ConstraintKind::kNoRestBy,
+constexpr std::array kOnPaths{ConstraintKind::kVertexOrEdge, ConstraintKind::kNoRestBy,
                               ConstraintKind::kRestBy, ConstraintKind::kNoTraversal};
 
 TEST(Constraint, IsObeyedAsTheTestsSay) {

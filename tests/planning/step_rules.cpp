@@ -14,7 +14,8 @@ bool covers(const Constraint& c, Time time) {
 
 bool StepRules::barred(Cell cell, Time time) const {
   return std::ranges::any_of(constraints_, [&](const Constraint& c) {
-    return c.kind == ConstraintKind::kBar && !c.is_move() && c.cell == cell && covers(c, time);
+    return c.kind == ConstraintKind::kVertexOrEdge && !c.is_move() && c.cell == cell &&
+           covers(c, time);
   });
 }
 
@@ -40,8 +41,8 @@ bool StepRules::is_late(Cell cell, Time time) const {
 bool StepRules::may_rest(Cell cell, Time time) const {
   return std::ranges::none_of(constraints_, [&](const Constraint& c) {
     if (c.kind == ConstraintKind::kRestBy) return c.cell != cell || c.end < time;
-    return c.kind == ConstraintKind::kBar && !c.is_move() && c.cell == cell && c.begin <= c.end &&
-           c.end >= time;
+    return c.kind == ConstraintKind::kVertexOrEdge && !c.is_move() && c.cell == cell &&
+           c.begin <= c.end && c.end >= time;
   });
 }
 

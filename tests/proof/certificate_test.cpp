@@ -35,7 +35,7 @@ Instance two_agents() {
 }
 
 AgentConstraint bar(AgentIndex agent, Place place, Time begin, Time end) {
-  return {agent, {place, kNoPlace, begin, end, ConstraintKind::kBar}};
+  return {agent, {place, kNoPlace, begin, end, ConstraintKind::kVertexOrEdge}};
 }
 
 std::vector<std::string> lines_of(const fs::path& file) {

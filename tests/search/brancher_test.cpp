@@ -108,14 +108,14 @@ TEST(Brancher, GoesRoundForFreeInsteadOfSplitting) {
   EXPECT_EQ(with.view.cost_of(0) + with.view.cost_of(1), with.root->cost());
   EXPECT_TRUE(with.view.path(0) != before[0] || with.view.path(1) != before[1]);
   EXPECT_GE(with.brancher.bypasses(), 1);
-  EXPECT_EQ(with.splits(ConstraintKind::kBar), 0);
+  EXPECT_EQ(with.splits(ConstraintKind::kVertexOrEdge), 0);
 
   Branched without(kOpen, kCrossing, {kCardinal, 0, true});
   without.take(kCollide);
   EXPECT_EQ(without.branch(), Brancher::Outcome::kBranched);
   EXPECT_EQ(without.children.size(), 2u);
   EXPECT_EQ(without.brancher.bypasses(), 0);
-  EXPECT_EQ(without.splits(ConstraintKind::kBar), 1);
+  EXPECT_EQ(without.splits(ConstraintKind::kVertexOrEdge), 1);
 }
 
 // Below the node as it is routed now hang the children of a split, with all paths the view showed.

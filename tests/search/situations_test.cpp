@@ -18,7 +18,7 @@ std::vector<Constraint> random_constraints(std::mt19937& random) {
     c.cell = static_cast<Cell>(random() % 3);
     c.begin = static_cast<Time>(random() % 2);
     c.end = c.begin + static_cast<Time>(random() % 2);
-    c.kind = random() % 3 == 0 ? ConstraintKind::kNoRestBy : ConstraintKind::kBar;
+    c.kind = random() % 3 == 0 ? ConstraintKind::kNoRestBy : ConstraintKind::kVertexOrEdge;
   }
   canonical(constraints);
   return constraints;

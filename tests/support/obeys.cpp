@@ -60,7 +60,7 @@ bool obeys(const World& grid, const Path& walked, const Constraint& c) {
   for (const State state : walked) path.push_back(grid.place(state));
   const Time rest = last_arrival(path);
   switch (c.kind) {
-    case ConstraintKind::kBar:
+    case ConstraintKind::kVertexOrEdge:
       return keeps_off(path, c);
     case ConstraintKind::kNoRestBy:
       return path.back() != c.cell || rest > c.end;

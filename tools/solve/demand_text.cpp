@@ -41,7 +41,7 @@ std::string text_of(const AgentConstraint& demand, const Instance& instance) {
   const std::string& agent = instance.agent(demand.agent).id;
   const std::string place = name_of(instance, c.cell);
   switch (c.kind) {
-    case ConstraintKind::kBar:
+    case ConstraintKind::kVertexOrEdge:
       return c.is_move() ? fmt::format("{} not from {} to {}, arriving {}", agent,
                                        name_of(instance, c.from), place, times(c))
                          : fmt::format("{} not on {} {}", agent, place, times(c));

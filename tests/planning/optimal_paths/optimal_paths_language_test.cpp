@@ -125,14 +125,14 @@ class TimeExpanded {
   }
   bool barred(Cell cell, Time time) const {
     return std::ranges::any_of(problem_.constraints, [&](const Constraint& c) {
-      return c.kind == ConstraintKind::kBar && c.from == kNoCell && c.cell == cell &&
+      return c.kind == ConstraintKind::kVertexOrEdge && c.from == kNoCell && c.cell == cell &&
              c.begin <= time && time <= c.end;
     });
   }
   bool move_barred(const Memory& from, Cell to, Time time) const {
     return std::ranges::any_of(problem_.constraints, [&](const Constraint& c) {
       if (c.from != from.cell || c.cell != to || time < c.begin || c.end < time) return false;
-      if (c.kind == ConstraintKind::kBar) return true;
+      if (c.kind == ConstraintKind::kVertexOrEdge) return true;
       return c.kind == ConstraintKind::kNoTraversal && from.entered_from != kNoCell &&
              !(from.entered_from == to && from.entered_at == from.cell);
     });
@@ -146,7 +146,7 @@ class TimeExpanded {
       if (c.kind == ConstraintKind::kRestBy) return c.cell != rest || time > c.end;
       if (c.cell != rest) return false;
       if (c.kind == ConstraintKind::kNoRestBy) return time <= c.end;
-      return c.kind == ConstraintKind::kBar && c.from == kNoCell && c.begin <= c.end &&
+      return c.kind == ConstraintKind::kVertexOrEdge && c.from == kNoCell && c.begin <= c.end &&
              c.end >= time;
     });
   }

@@ -96,7 +96,7 @@ class Layers {
           return !here || s.arrival > c.end;
         case ConstraintKind::kRestBy:
           return here && s.arrival <= c.end;
-        case ConstraintKind::kBar:
+        case ConstraintKind::kVertexOrEdge:
           return c.is_move() || !here || c.begin > c.end || c.end < time;
         default:
           return true;
