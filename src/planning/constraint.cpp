@@ -90,10 +90,10 @@ bool obeys(const World& world, const Path& path, const Constraint& c, const Corr
   throw std::invalid_argument("a constraint on the sequence is not about the path");
 }
 
-std::optional<Constraint> demand_on(AgentIndex agent, const AgentConstraint& added) {
+std::optional<Constraint> constraint_on(AgentIndex agent, const AgentConstraint& added) {
   const Constraint& c = added.constraint;
   if (agent == added.agent) return c;
-  if (added.agent < 0 || !concerns_all(c)) return std::nullopt;
+  if (added.agent < 0 || !constrains_all_agents(c)) return std::nullopt;
   return Constraint{c.cell, kNoCell, c.end, kNever};
 }
 

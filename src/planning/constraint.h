@@ -74,20 +74,20 @@ struct AgentConstraint {
 
 // Does it demand something of every agent? A kRestBy of one bars all others from the cell from its
 // end on: that is where the one rests.
-inline bool concerns_all(const Constraint& c) {
+inline bool constrains_all_agents(const Constraint& c) {
   return c.kind == ConstraintKind::kRestBy;
 }
 
 // What `added`, a constraint of a constraint-tree node, demands of `agent`; none if nothing.
-std::optional<Constraint> demand_on(AgentIndex agent, const AgentConstraint& added);
+std::optional<Constraint> constraint_on(AgentIndex agent, const AgentConstraint& added);
 
 // Calls visit(agent, demand) for each of `agents`, which hold added.agent, of whom `added` demands
 // something.
 template <class Agents, class Visit>
-void for_each_demand(const AgentConstraint& added, const Agents& agents, Visit visit) {
+void for_each_implied_constraint(const AgentConstraint& added, const Agents& agents, Visit visit) {
   if (added.agent < 0) return;
-  if (!concerns_all(added.constraint)) return visit(added.agent, added.constraint);
-  for (const AgentIndex agent : agents) visit(agent, *demand_on(agent, added));
+  if (!constrains_all_agents(added.constraint)) return visit(added.agent, added.constraint);
+  for (const AgentIndex agent : agents) visit(agent, *constraint_on(agent, added));
 }
 
 }  // namespace grove::detail

@@ -181,7 +181,7 @@ bool Brancher::make_side(const Task& task, const AgentConstraint& demand, Side& 
 bool Brancher::replan(const Task& task, const AgentConstraint& demand, Side& side) {
   for (AgentIndex agent : side.agents) {
     const Time cutoff = cutoff_for(task.view, agent, task.slack - side.increase);
-    if (!replan_one(task, agent, *demand_on(agent, demand), cutoff, side.open)) return false;
+    if (!replan_one(task, agent, *constraint_on(agent, demand), cutoff, side.open)) return false;
     if (!side.open) return true;
     side.increase += static_cast<Cost>(path_.size()) - 1 - task.view.cost_of(agent);
     side.conflicts += others_.conflicts_of(path_);

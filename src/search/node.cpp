@@ -92,7 +92,8 @@ void Node::paths(const Problem& problem, std::span<const AgentIndex> agents,
 
 void Node::constraints(AgentIndex agent, std::vector<Constraint>& constraints) const {
   for (const Node* node = this; !node->is_root(); node = node->parent_.get())
-    if (const auto constraint = demand_on(agent, node->added_)) constraints.push_back(*constraint);
+    if (const auto constraint = constraint_on(agent, node->added_))
+      constraints.push_back(*constraint);
 }
 
 void Node::constraints(std::vector<std::vector<Constraint>>& constraints) const {
@@ -101,9 +102,9 @@ void Node::constraints(std::vector<std::vector<Constraint>>& constraints) const 
   std::vector<AgentIndex> agents(constraints.size());
   std::iota(agents.begin(), agents.end(), AgentIndex{0});
   for (const Node* node = this; !node->is_root(); node = node->parent_.get())
-    for_each_demand(node->added_, agents, [&](AgentIndex agent, const Constraint& demand) {
-      constraints[agent].push_back(demand);
-    });
+    for_each_implied_constraint(
+        node->added_, agents,
+        [&](AgentIndex agent, const Constraint& demand) { constraints[agent].push_back(demand); });
 }
 
 GoalSequence goals_in_order(const Problem& problem, AgentIndex agent, const Sequence& sequence) {

@@ -68,7 +68,7 @@ const Conflict* NodeView::conflict_between(AgentIndex a, AgentIndex b) const {
 
 void NodeView::disturbed(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const {
   agents.clear();
-  for_each_demand(demand, scope_, [&](AgentIndex agent, const Constraint& c) {
+  for_each_implied_constraint(demand, scope_, [&](AgentIndex agent, const Constraint& c) {
     if (is_about_sequence(c) ||
         !obeys(problem_.instance.world(), paths_[agent], c, problem_.corridors))
       agents.push_back(agent);

@@ -12,7 +12,7 @@ Prices::Outcome Prices::increase(NodeView& view, const AgentConstraint& demand, 
     const Time cutoff = cutoff_for(view, agent, slack - increase);
     Time least = 0;
     const Outcome outcome =
-        cost(view, agent, *demand_on(agent, demand), cutoff, most_labels_, limits, least);
+        cost(view, agent, *constraint_on(agent, demand), cutoff, most_labels_, limits, least);
     if (outcome != Outcome::kDone) return outcome;
     if (least > cutoff) {
       increase = kInfiniteCost;

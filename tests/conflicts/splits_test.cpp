@@ -36,7 +36,7 @@ Path random_walk(const Grid& grid, std::mt19937& random) {
 // Do both paths obey everything that one side of the split demands of them?
 bool meets(const Grid& grid, const AgentConstraint& side, const std::array<Path, 2>& paths) {
   for (AgentIndex agent : {0, 1})
-    if (const auto demand = demand_on(agent, side))
+    if (const auto demand = constraint_on(agent, side))
       if (!obeys(grid, paths[agent], *demand)) return false;
   return true;
 }

@@ -74,8 +74,9 @@ TEST(Constraint, ConcernsItsAgentAndOfRestsTheOthersToo) {
   const std::array<AgentIndex, 3> all{0, 1, 2};
   const auto asked = [&](const AgentConstraint& added) {
     std::array<std::optional<Constraint>, 3> demands;
-    for_each_demand(added, all, [&](AgentIndex agent, const Constraint& c) { demands[agent] = c; });
-    for (const AgentIndex agent : all) EXPECT_EQ(demands[agent], demand_on(agent, added));
+    for_each_implied_constraint(added, all,
+                                [&](AgentIndex agent, const Constraint& c) { demands[agent] = c; });
+    for (const AgentIndex agent : all) EXPECT_EQ(demands[agent], constraint_on(agent, added));
     return demands;
   };
   for (const ConstraintKind kind : kOnPaths) {
