@@ -72,7 +72,8 @@ std::optional<ConstraintKind> constraint_kind(std::uint8_t number) {
   return known ? std::optional(kind) : std::nullopt;
 }
 
-bool obeys(const World& world, const Path& path, const Constraint& c, const Corridors& corridors) {
+bool satisfies(const World& world, const Path& path, const Constraint& c,
+               const Corridors& corridors) {
   GROVE_ASSERT(!path.empty(), "an agent is somewhere");
   switch (c.kind) {
     case ConstraintKind::kVertexOrEdge:

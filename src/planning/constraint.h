@@ -63,7 +63,8 @@ inline bool is_about_sequence(const Constraint& c) {
 
 // Does `path` (not empty), its rest for ever included, do what `c`, which is not about the
 // sequence, demands? O(length).
-bool obeys(const World& world, const Path& path, const Constraint& c, const Corridors& corridors);
+bool satisfies(const World& world, const Path& path, const Constraint& c,
+               const Corridors& corridors);
 
 // One agent and what it is forbidden.
 struct AgentConstraint {

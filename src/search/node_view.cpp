@@ -70,7 +70,7 @@ void NodeView::disturbed(const AgentConstraint& demand, std::vector<AgentIndex>&
   agents.clear();
   for_each_implied_constraint(demand, scope_, [&](AgentIndex agent, const Constraint& c) {
     if (is_about_sequence(c) ||
-        !obeys(problem_.instance.world(), paths_[agent], c, problem_.corridors))
+        !satisfies(problem_.instance.world(), paths_[agent], c, problem_.corridors))
       agents.push_back(agent);
   });
 }

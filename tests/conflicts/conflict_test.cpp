@@ -9,12 +9,12 @@
 #include <set>
 #include <tuple>
 
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail {
 namespace conflict_test {
 
-using testing::obeys;
+using testing::satisfies;
 
 Grid open_grid(int width, int height) {
   return Grid(width, height, std::vector<bool>(static_cast<std::size_t>(width) * height, true));
@@ -149,14 +149,14 @@ TEST_P(RandomPaths, CollisionsAreFoundAndSplitLosesNone) {
       // Both colliding paths break their constraint: each child must replan.
       const Split branches = split(conflict);
       for (const AgentConstraint& branch : branches)
-        EXPECT_FALSE(obeys(grid, paths[branch.agent], branch.constraint));
+        EXPECT_FALSE(satisfies(grid, paths[branch.agent], branch.constraint));
       // Any two paths that do not collide there obey at least one of the two.
       for (const Path& a : paths)
         for (const Path& b : paths)
           EXPECT_TRUE(collide(a, b, conflict.time, GetParam()) ||
                       (conflict.is_following() && collide(a, b, conflict.time - 1)) ||
-                      obeys(grid, a, branches[0].constraint) ||
-                      obeys(grid, b, branches[1].constraint));
+                      satisfies(grid, a, branches[0].constraint) ||
+                      satisfies(grid, b, branches[1].constraint));
     }
   }
   EXPECT_GT(with_conflict, 500);

@@ -8,12 +8,12 @@
 
 #include "conflicts/reasoning.h"
 #include "tests/support/instances.h"
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail {
 namespace splits_test {
 
-using testing::obeys;
+using testing::satisfies;
 
 // Walks that like to go on as they went, so that they pass corridors.
 Path random_walk(const Grid& grid, std::mt19937& random) {
@@ -37,7 +37,7 @@ Path random_walk(const Grid& grid, std::mt19937& random) {
 bool meets(const Grid& grid, const AgentConstraint& side, const std::array<Path, 2>& paths) {
   for (AgentIndex agent : {0, 1})
     if (const auto demand = constraint_on(agent, side))
-      if (!obeys(grid, paths[agent], *demand)) return false;
+      if (!satisfies(grid, paths[agent], *demand)) return false;
   return true;
 }
 

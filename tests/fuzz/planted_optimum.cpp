@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail::fuzz {
 namespace {
@@ -37,7 +37,7 @@ class RealizedSequences {
       return !rests_on_task_ || instance_.is_visited(tasks_[so_far_.back()], path_.back());
     for (Stop stop = 0; stop < static_cast<Stop>(tasks_.size()); ++stop) {
       if (std::ranges::count(so_far_, stop) > 0 || !may_be_next(sequences_, so_far_, stop) ||
-          !obeys(stop))
+          !satisfies(stop))
         continue;
       const auto visit =
           std::find_if(path_.begin() + static_cast<std::ptrdiff_t>(time), path_.end(),
@@ -51,7 +51,7 @@ class RealizedSequences {
   }
 
  private:
-  bool obeys(Stop next) const {
+  bool satisfies(Stop next) const {
     return std::ranges::all_of(constraints_, [&](const Constraint& c) {
       if (!is_about_sequence(c) || c.begin != static_cast<Time>(so_far_.size())) return true;
       return (next == c.from) == (c.kind == ConstraintKind::kStopIs);
@@ -71,10 +71,10 @@ class RealizedSequences {
 
 bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
                std::span<const Constraint> constraints, const Path& path) {
-  const auto obeys = [&](const Constraint& c) {
-    return is_about_sequence(c) || testing::obeys(instance.world(), path, c);
+  const auto satisfies = [&](const Constraint& c) {
+    return is_about_sequence(c) || testing::satisfies(instance.world(), path, c);
   };
-  return std::ranges::all_of(constraints, obeys) &&
+  return std::ranges::all_of(constraints, satisfies) &&
          RealizedSequences(instance, agent, sequences, constraints, path).any();
 }
 

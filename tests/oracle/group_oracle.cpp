@@ -6,7 +6,7 @@
 
 #include "model/omega.h"
 #include "tests/oracle/agent_states.h"
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail::oracle {
 namespace {
@@ -40,16 +40,17 @@ class Lister {
     for (const AgentStates::Move& move : states_.moves(state)) {
       if (!states_.resting(move.to))
         go_on(move.to);
-      else if (obeys())
+      else if (satisfies())
         ways_.insert(way_);
     }
     way_.pop_back();
   }
-  bool obeys() const {
+  bool satisfies() const {
     Path path;
     for (const Place place : way_) path.push_back(some_state_on(place));
-    return std::ranges::all_of(
-        demands_, [&](const Constraint& demand) { return testing::obeys(world_, path, demand); });
+    return std::ranges::all_of(demands_, [&](const Constraint& demand) {
+      return testing::satisfies(world_, path, demand);
+    });
   }
   State some_state_on(Place place) const {
     State some = kNoState;

@@ -15,7 +15,7 @@
 #include "planning/corridors.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/single_agent.h"
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail {
 namespace constraint_test {
@@ -35,9 +35,9 @@ TEST(Constraint, IsObeyedAsTheTestsSay) {
       const Constraint c = random() % 3 == 0
                                ? testing::random_bar(grid, path, goals, random)
                                : testing::random_conditional_constraint(grid, path, goals, random);
-      const bool obeyed = obeys(grid, path, c, corridors);
+      const bool obeyed = satisfies(grid, path, c, corridors);
       ++seen[{c.kind, obeyed}];
-      ASSERT_EQ(obeyed, testing::obeys(grid, path, c))
+      ASSERT_EQ(obeyed, testing::satisfies(grid, path, c))
           << name_of(c.kind) << " " << c.cell << " " << c.from << " " << c.begin << " " << c.end;
     }
   }
@@ -53,7 +53,7 @@ TEST(Constraint, OnTheSequenceIsNotObeyedByAPathAlone) {
   const Grid grid = testing::grid_of({".."});
   const Constraint next{1, kNoCell, 0, 0, ConstraintKind::kStopIs};
   EXPECT_TRUE(is_about_sequence(next));
-  EXPECT_THROW(obeys(grid, {0, 1}, next, Corridors(grid)), std::invalid_argument);
+  EXPECT_THROW(satisfies(grid, {0, 1}, next, Corridors(grid)), std::invalid_argument);
 }
 
 // Files and other processes know kinds by these numbers.

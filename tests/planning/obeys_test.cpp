@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/obeys.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/planning/single_agent.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail::testing {
 namespace obeys_test {
@@ -11,13 +10,13 @@ namespace obeys_test {
 TEST(Obeys, CountsTheRestForEver) {
   const Grid grid = grid_of({"..."});
   const Path path{0, 1, 2};
-  EXPECT_TRUE(obeys(grid, path, {1, kNoCell, 2, kNever}));
-  EXPECT_FALSE(obeys(grid, path, {1, kNoCell, 1, 1}));
-  EXPECT_FALSE(obeys(grid, path, {2, kNoCell, 90, 90}));
-  EXPECT_FALSE(obeys(grid, path, {2, kNoCell, 0, kNever}));
-  EXPECT_FALSE(obeys(grid, path, {2, 1, 2, 2}));
-  EXPECT_TRUE(obeys(grid, path, {2, 1, 3, kNever}));
-  EXPECT_TRUE(obeys(grid, path, {1, 2, 0, kNever}));
+  EXPECT_TRUE(satisfies(grid, path, {1, kNoCell, 2, kNever}));
+  EXPECT_FALSE(satisfies(grid, path, {1, kNoCell, 1, 1}));
+  EXPECT_FALSE(satisfies(grid, path, {2, kNoCell, 90, 90}));
+  EXPECT_FALSE(satisfies(grid, path, {2, kNoCell, 0, kNever}));
+  EXPECT_FALSE(satisfies(grid, path, {2, 1, 2, 2}));
+  EXPECT_TRUE(satisfies(grid, path, {2, 1, 3, kNever}));
+  EXPECT_TRUE(satisfies(grid, path, {1, 2, 0, kNever}));
 }
 
 TEST(Obeys, GoesByTheLastArrival) {
@@ -29,15 +28,15 @@ TEST(Obeys, GoesByTheLastArrival) {
     return Constraint{cell, kNoCell, 0, by, ConstraintKind::kRestBy};
   };
   const Path path{1, 2, 1, 2, 2};  // the last step is a wait
-  EXPECT_FALSE(obeys(grid, path, no_rest(2, 3)));
-  EXPECT_TRUE(obeys(grid, path, no_rest(2, 2)));
-  EXPECT_TRUE(obeys(grid, path, no_rest(1, kNever)));
-  EXPECT_TRUE(obeys(grid, path, rest(2, 3)));
-  EXPECT_FALSE(obeys(grid, path, rest(2, 2)));
-  EXPECT_FALSE(obeys(grid, path, rest(1, kNever)));
-  EXPECT_FALSE(obeys(grid, {1}, no_rest(1, 0)));
-  EXPECT_TRUE(obeys(grid, {1}, no_rest(1, -1)));
-  EXPECT_TRUE(obeys(grid, {1}, rest(1, 0)));
+  EXPECT_FALSE(satisfies(grid, path, no_rest(2, 3)));
+  EXPECT_TRUE(satisfies(grid, path, no_rest(2, 2)));
+  EXPECT_TRUE(satisfies(grid, path, no_rest(1, kNever)));
+  EXPECT_TRUE(satisfies(grid, path, rest(2, 3)));
+  EXPECT_FALSE(satisfies(grid, path, rest(2, 2)));
+  EXPECT_FALSE(satisfies(grid, path, rest(1, kNever)));
+  EXPECT_FALSE(satisfies(grid, {1}, no_rest(1, 0)));
+  EXPECT_TRUE(satisfies(grid, {1}, no_rest(1, -1)));
+  EXPECT_TRUE(satisfies(grid, {1}, rest(1, 0)));
 }
 
 // 0 - 1 - 2 - 3, 1 and 2 inside.
@@ -47,22 +46,22 @@ TEST(Obeys, KnowsATraversalFromATurn) {
     return Constraint{end, inner, begin, until, ConstraintKind::kNoTraversal};
   };
   const Path through{0, 1, 1, 2, 3};
-  EXPECT_FALSE(obeys(grid, through, leaves(3, 2, 4, 4)));
-  EXPECT_TRUE(obeys(grid, through, leaves(3, 2, 0, 3)));
-  EXPECT_TRUE(obeys(grid, through, leaves(3, 2, 5, kNever)));
-  EXPECT_TRUE(obeys(grid, through, leaves(0, 1, 0, kNever)));
-  EXPECT_TRUE(obeys(grid, {3, 2, 1, 2, 3}, leaves(3, 2, 0, kNever)));
-  EXPECT_TRUE(obeys(grid, {1, 2, 3}, leaves(3, 2, 0, kNever)));
-  EXPECT_FALSE(obeys(grid, {1, 0, 1, 2, 3}, leaves(3, 2, 0, kNever)));
+  EXPECT_FALSE(satisfies(grid, through, leaves(3, 2, 4, 4)));
+  EXPECT_TRUE(satisfies(grid, through, leaves(3, 2, 0, 3)));
+  EXPECT_TRUE(satisfies(grid, through, leaves(3, 2, 5, kNever)));
+  EXPECT_TRUE(satisfies(grid, through, leaves(0, 1, 0, kNever)));
+  EXPECT_TRUE(satisfies(grid, {3, 2, 1, 2, 3}, leaves(3, 2, 0, kNever)));
+  EXPECT_TRUE(satisfies(grid, {1, 2, 3}, leaves(3, 2, 0, kNever)));
+  EXPECT_FALSE(satisfies(grid, {1, 0, 1, 2, 3}, leaves(3, 2, 0, kNever)));
 }
 
 // Round a loop: it comes out at the cell where it went in.
 TEST(Obeys, KnowsATraversalOfALoop) {
   const Grid grid = grid_of({"..@", "...", "@.@"});
   const Constraint left{4, 3, 0, kNever, ConstraintKind::kNoTraversal};
-  EXPECT_FALSE(obeys(grid, {7, 4, 1, 0, 3, 4}, left));
-  EXPECT_TRUE(obeys(grid, {7, 4, 3, 0, 3, 4}, left));
-  EXPECT_TRUE(obeys(grid, {7, 4, 3, 0, 1, 4}, left));
+  EXPECT_FALSE(satisfies(grid, {7, 4, 1, 0, 3, 4}, left));
+  EXPECT_TRUE(satisfies(grid, {7, 4, 3, 0, 3, 4}, left));
+  EXPECT_TRUE(satisfies(grid, {7, 4, 3, 0, 1, 4}, left));
 }
 
 }  // namespace obeys_test

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/planning/single_agent.h"
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail::testing {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "tests/planning/step_rules.h"
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail::testing {
 namespace {
@@ -138,7 +138,7 @@ std::string path_error(const Problem& problem, const Path& path) {
   }
   if (visited < problem.goals.size()) return fmt::format("misses goal {}", visited);
   for (std::size_t i = 0; i < problem.constraints.size(); ++i)
-    if (!obeys(*problem.grid, path, problem.constraints[i]))
+    if (!satisfies(*problem.grid, path, problem.constraints[i]))
       return fmt::format("breaks constraint {}", i);
   return "";
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planning/constraint.h"
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail::testing {
 

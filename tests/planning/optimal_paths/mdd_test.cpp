@@ -27,7 +27,7 @@ using testing::free_reference_cost;
 using testing::FreeProblem;
 using testing::grid_of;
 using testing::members_of;
-using testing::obeys;
+using testing::satisfies;
 using testing::StepRules;
 
 constexpr std::size_t kPlenty = 1'000'000;
@@ -66,7 +66,7 @@ class Walks {
   bool is_path() const {
     return std::ranges::all_of(
                problem_.constraints,
-               [&](const Constraint& c) { return obeys(*problem_.grid, walk_, c); }) &&
+               [&](const Constraint& c) { return satisfies(*problem_.grid, walk_, c); }) &&
            std::ranges::any_of(members_, [&](const Sequence& s) { return realizes(s); });
   }
   bool realizes(const Sequence& sequence) const {

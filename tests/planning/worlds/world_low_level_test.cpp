@@ -22,7 +22,7 @@
 #include "tests/fuzz/random_instance.h"
 #include "tests/planning/worlds/world_reference.h"
 #include "tests/support/fuzz_factor.h"
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 namespace grove::detail {
 namespace world_low_level_test {
@@ -252,7 +252,8 @@ class Fuzzer {
       ASSERT_TRUE(path[t] == path[t - 1] ||
                   std::ranges::count(world_.moves(path[t - 1]), path[t]) > 0)
           << text();
-    for (const Constraint& c : constraints_) ASSERT_TRUE(testing::obeys(world_, path, c)) << text();
+    for (const Constraint& c : constraints_)
+      ASSERT_TRUE(testing::satisfies(world_, path, c)) << text();
     for (const TaskIndex task : instance_.agent(agent).tasks)
       ASSERT_TRUE(std::ranges::any_of(path, [&](State state) {
         return instance_.is_visited(task, state);

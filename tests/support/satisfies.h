@@ -10,7 +10,7 @@
 namespace grove::detail::testing {
 
 // Does `path`, its rest for ever included, obey `constraint`?
-bool obeys(const World& grid, const Path& path, const Constraint& constraint);
+bool satisfies(const World& grid, const Path& path, const Constraint& constraint);
 
 // A way into a chain: from an end to the inner cell next to it.
 struct Mouth {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/obeys.h"
+#include "tests/support/satisfies.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -55,7 +55,7 @@ bool is_mouth(const World& grid, Cell end, Cell inner) {
          std::ranges::count(grid.neighbors(end), inner) > 0;
 }
 
-bool obeys(const World& grid, const Path& walked, const Constraint& c) {
+bool satisfies(const World& grid, const Path& walked, const Constraint& c) {
   Path path;  // of places: constraints speak of nothing else
   for (const State state : walked) path.push_back(grid.place(state));
   const Time rest = last_arrival(path);
