@@ -61,7 +61,7 @@ Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finis
 }
 
 bool PenalizedSearch::improve(FreeGoals& goals, std::span<const Amount> on_finish,
-                              const Reservations& others, Time latest, Price price,
+                              const ReservationTable& others, Time latest, Price price,
                               std::int64_t most_labels, const Limits& limits, Path& path) {
   others_ = &others;
   latest_ = latest;

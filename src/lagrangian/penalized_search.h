@@ -13,7 +13,7 @@
 #include "lagrangian/penalties.h"
 #include "model/limits.h"
 #include "planning/free_goals.h"
-#include "planning/reservations.h"
+#include "planning/reservation_table.h"
 
 namespace grove::detail {
 
@@ -40,7 +40,7 @@ class PenalizedSearch {
   // Puts in the place of `path`, whose price is `price`, the cheapest one that goes around others,
   // as it does, and finishes by `latest`. False: none is cheaper, or it would take more labels.
   bool improve(FreeGoals& goals, std::span<const Penalties::Amount> on_finish,
-               const Reservations& others, Time latest, Price price, std::int64_t most_labels,
+               const ReservationTable& others, Time latest, Price price, std::int64_t most_labels,
                const Limits& limits, Path& path);
 
   // Labels met so far.
@@ -98,7 +98,7 @@ class PenalizedSearch {
   Penalties::Layer layer_;  // then
   Price below_ = 0;
   std::optional<Label> best_;
-  const Reservations* others_ = nullptr;  // null: nobody else is there
+  const ReservationTable* others_ = nullptr;  // null: nobody else is there
   Time latest_ = kNever;
 };
 

@@ -8,7 +8,7 @@
 
 #include "planning/conflict_avoidance_table.h"
 #include "planning/constraint.h"
-#include "planning/reservations.h"
+#include "planning/reservation_table.h"
 
 namespace grove::detail {
 
@@ -31,7 +31,7 @@ struct PathQuery {
   std::int64_t most_labels = kUnlimited;  // give up after about so many: kStopped
 
   // Paths to go around, in place of constraints; null: none.
-  const Reservations* reservations = nullptr;
+  const ReservationTable* reservations = nullptr;
   // Labels come in order of time + (1 + greed) * cost to go. With any greed the path found may not
   // be of least cost; what is proven stays proven.
   int greed_percent = 0;

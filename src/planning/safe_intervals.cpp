@@ -27,7 +27,7 @@ void SafeIntervals::assign(std::span<const Constraint> constraints) {
   slot_limit_ = slot_count();
 }
 
-void SafeIntervals::assign(const Reservations& reservations) {
+void SafeIntervals::assign(const ReservationTable& reservations) {
   forget();
   reservations_ = &reservations;
   // k stays leave at most k + 1 intervals.
@@ -36,7 +36,7 @@ void SafeIntervals::assign(const Reservations& reservations) {
 }
 
 void SafeIntervals::look_up(Place place) {
-  const std::span<const Reservations::Stay> stays = reservations_->stays(place);
+  const std::span<const ReservationTable::Stay> stays = reservations_->stays(place);
   const Time margin = reservations_->margin();
   if (stays.empty()) return;
   Group g{.place = place};
@@ -44,7 +44,7 @@ void SafeIntervals::look_up(Place place) {
   world_.for_each_state(place, [&](State state) {
     Time safe_from = 0;
     Place left_for = kNoPlace;
-    for (const Reservations::Stay& stay : stays) {
+    for (const ReservationTable::Stay& stay : stays) {
       const Time until = stay.first - 1 - margin;
       if (safe_from <= until)
         intervals_.push_back({state, safe_from, until, until, kFree, false, left_for});

@@ -10,7 +10,7 @@
 
 #include "planning/constraint.h"
 #include "planning/corridors.h"
-#include "planning/reservations.h"
+#include "planning/reservation_table.h"
 
 namespace grove::detail {
 
@@ -61,7 +61,7 @@ class SafeIntervals {
   void assign(std::span<const Constraint> constraints);
   // Bars what would collide with a reserved path. `reservations` must stay as they are until the
   // next assign().
-  void assign(const Reservations& reservations);
+  void assign(const ReservationTable& reservations);
 
   void see(Place place) {
     if (reservations_ && group_of_[place] == kNoGroup) look_up(place);
@@ -286,7 +286,7 @@ class SafeIntervals {
   State states_;
   bool states_are_places_;
   int slot_limit_ = 0;
-  const Reservations* reservations_ = nullptr;
+  const ReservationTable* reservations_ = nullptr;
   std::vector<std::int32_t> group_of_;  // by place
   std::vector<Group> groups_;
   std::vector<SafeInterval> intervals_;

@@ -2,7 +2,7 @@
 // Who of those planned would be run into.
 #pragma once
 
-#include "planning/reservations.h"
+#include "planning/reservation_table.h"
 
 namespace grove::detail {
 
@@ -10,10 +10,10 @@ namespace grove::detail {
 // begun `late` steps late, resting at its end included; for some more than once. Ends when visit()
 // returns false.
 template <class Visit>
-void visit_those_in_the_way(const World& world, const Reservations& reservations, AgentIndex agent,
-                            const Path& path, Time late, Visit visit) {
+void visit_those_in_the_way(const World& world, const ReservationTable& reservations,
+                            AgentIndex agent, const Path& path, Time late, Visit visit) {
   const auto ends_at = [&](AgentIndex other) {
-    return other != Reservations::kNobody && other != agent && !visit(other);
+    return other != ReservationTable::kNobody && other != agent && !visit(other);
   };
   const Time margin = reservations.margin();
   for (Time t = 1; t < static_cast<Time>(path.size()); ++t) {
@@ -26,7 +26,7 @@ void visit_those_in_the_way(const World& world, const Reservations& reservations
     if (swaps && ends_at(before)) return;
   }
   const Time end = static_cast<Time>(path.size()) - 1 + late;
-  for (const Reservations::Stay& stay : reservations.stays(world.place(path.back())))
+  for (const ReservationTable::Stay& stay : reservations.stays(world.place(path.back())))
     if (stay.last >= end - margin && ends_at(stay.agent)) return;
 }
 

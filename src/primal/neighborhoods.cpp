@@ -62,7 +62,7 @@ void Neighborhoods::reward(Cost gain) {
 }
 
 void Neighborhoods::add(AgentIndex agent) {
-  if (agent == Reservations::kNobody || full()) return;
+  if (agent == ReservationTable::kNobody || full()) return;
   if (std::ranges::find(chosen_, agent) == chosen_.end()) chosen_.push_back(agent);
 }
 
@@ -72,7 +72,7 @@ void Neighborhoods::add_anyone() {
 
 void Neighborhoods::add_delayed() {
   const AgentIndex agent = some_delayed_agent();
-  if (agent == Reservations::kNobody) return;
+  if (agent == ReservationTable::kNobody) return;
   add(agent);
   add_those_in_the_way(agent, router_.own_path(agent), 0);
   const Time delay = paths_.cost(agent) - router_.own_cost(agent);
@@ -87,13 +87,13 @@ AgentIndex Neighborhoods::some_delayed_agent() {
   const int agents = problem_.instance.agent_count();
   for (AgentIndex agent = 0; agent < agents; ++agent)
     sum += paths_.cost(agent) - router_.own_cost(agent);
-  if (sum <= 0) return Reservations::kNobody;
+  if (sum <= 0) return ReservationTable::kNobody;
   Cost at = random_.below(sum);
   for (AgentIndex agent = 0; agent < agents; ++agent) {
     at -= paths_.cost(agent) - router_.own_cost(agent);
     if (at < 0) return agent;
   }
-  return Reservations::kNobody;
+  return ReservationTable::kNobody;
 }
 
 // Those that the agent would run into on a path, `late` steps late.
@@ -108,7 +108,7 @@ void Neighborhoods::add_those_in_the_way(AgentIndex agent, const Path& path, Tim
 void Neighborhoods::add_overpaying() {
   look_at_prices();
   const AgentIndex agent = some_overpaying_agent();
-  if (agent == Reservations::kNobody) return;
+  if (agent == ReservationTable::kNobody) return;
   add(agent);
   add_those_in_the_way(agent, wanted_path(agent), 0);
   for (int tries = 0; tries < tuning_.delayed_starts && !full(); ++tries) {
@@ -135,7 +135,7 @@ void Neighborhoods::look_at_prices() {
 
 AgentIndex Neighborhoods::some_overpaying_agent() {
   const Price sum = std::accumulate(overpaid_.begin(), overpaid_.end(), Price{0});
-  if (sum <= 0) return Reservations::kNobody;
+  if (sum <= 0) return ReservationTable::kNobody;
   Price at = random_.below(sum);
   AgentIndex agent = 0;
   while ((at -= overpaid_[agent]) >= 0) ++agent;
@@ -168,7 +168,7 @@ void Neighborhoods::add_around_spot() {
 }
 
 void Neighborhoods::add_visitors(Place place, Time time) {
-  for (const Reservations::Stay& stay : paths_.reservations().stays(place))
+  for (const ReservationTable::Stay& stay : paths_.reservations().stays(place))
     if (stay.first <= time + tuning_.spot_steps && stay.last >= time - tuning_.spot_steps)
       add(stay.agent);
 }

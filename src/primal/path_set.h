@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/assert.h"
-#include "planning/reservations.h"
+#include "planning/reservation_table.h"
 
 namespace grove::detail {
 
@@ -19,7 +19,7 @@ class PathSet {
         paths_(static_cast<std::size_t>(instance.agent_count())),
         editions_(paths_.size(), 0) {}
 
-  const Reservations& reservations() const { return reservations_; }
+  const ReservationTable& reservations() const { return reservations_; }
   const std::vector<Path>& paths() const { return paths_; }
   const Path& path(AgentIndex agent) const { return paths_[agent]; }
   Time cost(AgentIndex agent) const { return static_cast<Time>(paths_[agent].size()) - 1; }
@@ -55,7 +55,7 @@ class PathSet {
   std::int64_t steps_moved() const { return steps_moved_; }
 
  private:
-  Reservations reservations_;
+  ReservationTable reservations_;
   std::vector<Path> paths_;
   std::vector<std::int64_t> editions_;
   std::int64_t puts_ = 0;

@@ -69,7 +69,7 @@ void Router::use(std::shared_ptr<const PriceList> prices) {
   priced_.emplace(prices_->tariff.penalties());
 }
 
-void Router::improve(AgentIndex agent, const Reservations& others, Time latest,
+void Router::improve(AgentIndex agent, const ReservationTable& others, Time latest,
                      const Limits& limits, Path& path) {
   const Tariff& tariff = prices_->tariff;
   priced_->improve(goals(agent), tariff.on_finish(agent), others, latest, tariff.price(agent, path),

@@ -38,7 +38,7 @@ class Router {
   int price_changes() const { return price_changes_; }
   // Puts in the place of a path around others the one that is cheapest by the prices, if that
   // finishes by `latest`. There must be prices.
-  void improve(AgentIndex agent, const Reservations& others, Time latest, const Limits& limits,
+  void improve(AgentIndex agent, const ReservationTable& others, Time latest, const Limits& limits,
                Path& path);
 
   // Is the own path proven to be the best?

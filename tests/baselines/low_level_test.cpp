@@ -77,7 +77,7 @@ TEST_P(Baselines, RefuseWhatTheyDoNotKnow) {
   AgentStops stops(instance, distances, 0);
   FreeGoals all(stops, {});
   FreeGoals some(stops, {.prefix = {}, .forbidden_next = 1});
-  const Reservations none(instance.grid());
+  const ReservationTable none(instance.grid());
   const auto search = make_agent_planner(GetParam(), instance.grid());
   EXPECT_THROW(search->find(some, {}, Limits(), path_), std::invalid_argument);
   EXPECT_THROW(search->find(all, {.reservations = &none}, Limits(), path_), std::invalid_argument);

@@ -44,7 +44,7 @@ class Reference {
       : graph_(graph), penalties_(penalties), finish_(finish) {}
 
   // With these others there.
-  Price price(const Reservations& others, Time latest = kHorizon) const {
+  Price price(const ReservationTable& others, Time latest = kHorizon) const {
     constexpr Price kNo = PenalizedSearch::kMostPrice;
     std::vector<Price> paid(graph_.count(), kNo);
     std::vector<Price> moved(graph_.count(), kNo);  // of those who arrived by a move
@@ -118,7 +118,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
       goals.cost_to_go().widen(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
       const Price least =
-          Reference(*graph, penalties, on_finish).price(Reservations(known.instance.world()));
+          Reference(*graph, penalties, on_finish).price(ReservationTable(known.instance.world()));
       Path path;
       ASSERT_EQ(search.search(goals, on_finish, PenalizedSearch::kMostPrice, 1 << 20, {}, &path),
                 least);
@@ -144,7 +144,7 @@ TEST(PenalizedSearch, ImprovesAPathAroundOthers) {
     fuzz::Random random(seed);
     Penalties penalties(instance.world());
     PenalizedSearch search(penalties);
-    Reservations others(instance.world(), random.percent(20) ? 1 : 0);
+    ReservationTable others(instance.world(), random.percent(20) ? 1 : 0);
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
       const auto graph = AgentGraph::make(instance, agent);
       if (!graph || graph->count() == 0) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "planning/reservations.h"
+#include "planning/reservation_table.h"
 
 #include <algorithm>
 
@@ -17,16 +17,16 @@ void for_each_stay(const World& world, AgentIndex agent, const Path& path, See s
     Time after = first + 1;
     while (after < end && world.place(path[after]) == place) ++after;
     if (after < end)
-      see(place, Reservations::Stay{first, after - 1, world.place(path[after]), agent});
+      see(place, ReservationTable::Stay{first, after - 1, world.place(path[after]), agent});
     else
-      see(place, Reservations::Stay{first, kNever, kNoPlace, agent});
+      see(place, ReservationTable::Stay{first, kNever, kNoPlace, agent});
     first = after;
   }
 }
 
 }  // namespace
 
-void Reservations::add(AgentIndex agent, const Path& path) {
+void ReservationTable::add(AgentIndex agent, const Path& path) {
   for_each_stay(world_, agent, path, [this](Place place, const Stay& stay) {
     std::vector<Stay>& stays = stays_[place];
     const auto after = std::ranges::upper_bound(stays, stay.first, {}, &Stay::first);
@@ -38,7 +38,7 @@ void Reservations::add(AgentIndex agent, const Path& path) {
   });
 }
 
-void Reservations::remove(AgentIndex agent, const Path& path) {
+void ReservationTable::remove(AgentIndex agent, const Path& path) {
   for_each_stay(world_, agent, path, [this, agent](Place place, const Stay& stay) {
     std::vector<Stay>& stays = stays_[place];
     const auto at = std::ranges::lower_bound(stays, stay.first, {}, &Stay::first);
@@ -49,19 +49,19 @@ void Reservations::remove(AgentIndex agent, const Path& path) {
   });
 }
 
-void Reservations::clear() {
+void ReservationTable::clear() {
   for (std::vector<Stay>& stays : stays_) stays.clear();
   count_ = 0;
 }
 
-AgentIndex Reservations::agent_at(Place place, Time time) const {
+AgentIndex ReservationTable::agent_at(Place place, Time time) const {
   const std::vector<Stay>& stays = stays_[place];
   const auto after = std::ranges::upper_bound(stays, time, {}, &Stay::first);
   if (after == stays.begin() || std::prev(after)->last < time) return kNobody;
   return std::prev(after)->agent;
 }
 
-bool Reservations::lets_arrive(Place from, Place to, Time arrival) const {
+bool ReservationTable::lets_arrive(Place from, Place to, Time arrival) const {
   const std::vector<Stay>& stays = stays_[to];
   const auto after = std::ranges::upper_bound(stays, arrival + margin_, {}, &Stay::first);
   if (after == stays.begin()) return true;

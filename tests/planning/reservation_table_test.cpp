@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reservations, and the free low level around them against the same search under the constraints
 // that say the same. GROVE_FUZZ_FACTOR multiplies the number of cases.
-#include "planning/reservations.h"
+#include "planning/reservation_table.h"
 
 #include <gtest/gtest.h>
 
@@ -31,16 +31,16 @@ struct StayIs {
   friend bool operator==(const StayIs&, const StayIs&) = default;
 };
 
-std::vector<StayIs> stays_of(const Reservations& reservations, Cell cell) {
+std::vector<StayIs> stays_of(const ReservationTable& reservations, Cell cell) {
   std::vector<StayIs> result;
-  for (const Reservations::Stay& s : reservations.stays(cell))
+  for (const ReservationTable::Stay& s : reservations.stays(cell))
     result.push_back({s.first, s.last, s.next, s.agent});
   return result;
 }
 
-TEST(Reservations, HoldTheStaysOfPathsInOrderOfTime) {
+TEST(ReservationTable, HoldTheStaysOfPathsInOrderOfTime) {
   const Grid grid = testing::grid_of({"....", "...."});
-  Reservations reservations(grid);
+  ReservationTable reservations(grid);
   reservations.add(7, {4, 0, 0, 1, 0});
   reservations.add(3, {0, 1, 2, 3, 7});
   EXPECT_EQ(stays_of(reservations, 0),
@@ -48,9 +48,9 @@ TEST(Reservations, HoldTheStaysOfPathsInOrderOfTime) {
   EXPECT_EQ(reservations.count(), 9);
   EXPECT_EQ(reservations.agent_at(0, 0), 3);
   EXPECT_EQ(reservations.agent_at(0, 2), 7);
-  EXPECT_EQ(reservations.agent_at(0, 3), Reservations::kNobody);
+  EXPECT_EQ(reservations.agent_at(0, 3), ReservationTable::kNobody);
   EXPECT_EQ(reservations.agent_at(0, kNever), 7);
-  EXPECT_EQ(reservations.agent_at(6, 0), Reservations::kNobody);
+  EXPECT_EQ(reservations.agent_at(6, 0), ReservationTable::kNobody);
 
   reservations.remove(7, {4, 0, 0, 1, 0});
   EXPECT_EQ(stays_of(reservations, 0), (std::vector<StayIs>{{0, 0, 1, 3}}));
@@ -82,11 +82,11 @@ void bar(const Path& path, std::vector<Constraint>& constraints) {
 }
 
 // Step by step, against all paths.
-TEST(Reservations, LetOthersArriveAndRestWhereNobodyIs) {
+TEST(ReservationTable, LetOthersArriveAndRestWhereNobodyIs) {
   const Grid grid = testing::grid_of({"...", "..."});
   const Path paths[] = {{0, 1, 1, 4, 5}, {2, 2, 2, 1, 0, 3}};
   for (const Time margin : {0, 1}) {
-    Reservations reservations(grid, margin);
+    ReservationTable reservations(grid, margin);
     for (AgentIndex agent = 0; agent < 2; ++agent) reservations.add(agent, paths[agent]);
     const auto is_taken = [&](Cell cell, Time time) {
       for (Time t = std::max(0, time - margin); t <= time + margin; ++t)
@@ -121,7 +121,7 @@ class Crowd {
     AgentStops stops(instance_, distances, 0);
     FreeGoals goals(stops, {});
     FreeLowLevelSearch search(grid_);
-    Reservations reservations(grid_);
+    ReservationTable reservations(grid_);
     std::vector<Path> walks;
     for (int round = 0; round < 12 && !::testing::Test::HasFailure(); ++round) {
       if (!walks.empty() && below(3) == 0) {
@@ -175,7 +175,7 @@ class Crowd {
     return path;
   }
 
-  void compare(FreeGoals& goals, FreeLowLevelSearch& search, const Reservations& reservations,
+  void compare(FreeGoals& goals, FreeLowLevelSearch& search, const ReservationTable& reservations,
                const std::vector<Path>& walks) {
     ++compared;
     std::vector<Constraint> constraints;
@@ -224,7 +224,7 @@ class Crowd {
   AgentIndex next_name_ = 0;
 };
 
-TEST(Reservations, TheLowLevelFindsWhatItFindsUnderTheSameConstraints) {
+TEST(ReservationTable, TheLowLevelFindsWhatItFindsUnderTheSameConstraints) {
   const int seeds = testing::fuzz_rounds(1500);
   int compared = 0;
   int found = 0;
@@ -241,14 +241,14 @@ TEST(Reservations, TheLowLevelFindsWhatItFindsUnderTheSameConstraints) {
   EXPECT_LT(found, compared * 4 / 5);
 }
 
-TEST(Reservations, AnEffortIsLimited) {
+TEST(ReservationTable, AnEffortIsLimited) {
   const Instance instance =
       testing::instance_of({std::string(60, '.'), std::string(60, '.'), std::string(60, '.')},
                            {{{0, 0}, Position{59, 2}, {{30, 0}, {2, 2}, {50, 1}, {20, 1}}}});
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
   FreeGoals goals(stops, {});
-  Reservations reservations(instance.grid());
+  ReservationTable reservations(instance.grid());
   Path late(300, 30);  // on a task for long
   late.push_back(31);
   reservations.add(1, late);

@@ -14,7 +14,7 @@ namespace grove::detail {
 // The whole paths of some agents and their resting for ever, by place: prioritised planning takes
 // them for walls. Adding or removing a path costs what is on its places, and the low level looks up
 // only the places it comes to. For one thread.
-class Reservations {
+class ReservationTable {
  public:
   static constexpr AgentIndex kNobody = -1;
 
@@ -28,7 +28,7 @@ class Reservations {
 
   // `world` must outlive this. `margin`: a place is taken so many steps before and after anybody is
   // there.
-  explicit Reservations(const World& world, Time margin = 0)
+  explicit ReservationTable(const World& world, Time margin = 0)
       : world_(world), margin_(margin), stays_(world.place_count()) {}
 
   Time margin() const { return margin_; }
