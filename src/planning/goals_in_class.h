@@ -34,8 +34,8 @@
 #include <vector>
 
 #include "planning/free_goals.h"
-#include "planning/gates.h"
 #include "planning/safe_interval_search.h"
+#include "planning/stop_dominance.h"
 
 namespace grove::detail {
 
@@ -111,7 +111,7 @@ class GoalsInClass {
   std::vector<Deadline> deadlines_;
   Time first_rest_ = 0;
   int only_rest_ = AgentStops::kNoStop;  // without a destination: the only stop to rest on, perhaps
-  Gates gates_;
+  StopDominance gates_;
   Time cap_ = 0;
   bool over_ = false;     // a label was dropped for the cap
   bool outside_ = false;  // one was whose state the completions do not know

@@ -21,21 +21,22 @@
 // P comes by t, and then it leaves u again, as G can, or it comes at n = t + 1 or later. And "stand
 // there as well" must leave open what P does next: if u has copies, a G in one that is barred from
 // leaving the chain makes no gate. One in the free copy does: it can do what the others can.
-#include "planning/gates.h"
+#include "planning/stop_dominance.h"
 
 #include <algorithm>
 #include <cstddef>
 
 namespace grove::detail {
 
-void Gates::begin_search() {
+void StopDominance::begin_search() {
   for (const StageId stage : stages_) by_stage_[stage] = kNone;
   stages_.clear();
   gates_.clear();
 }
 
 // One gate is kept per way: the one that puts off furthest.
-void Gates::close(const FreeGoals& goals, StageId from, State state, Time time, Time until) {
+void StopDominance::close(const FreeGoals& goals, StageId from, State state, Time time,
+                          Time until) {
   const AgentStops& stops = goals.stops();
   const int stop = stops.stop_at(state);
   const auto ways = goals.onward(goals.stage(from));
@@ -58,7 +59,8 @@ void Gates::close(const FreeGoals& goals, StageId from, State state, Time time, 
   }
 }
 
-Time Gates::least_cost(const FreeGoals& goals, StageId stage, State state, Time time) const {
+Time StopDominance::least_cost(const FreeGoals& goals, StageId stage, State state,
+                               Time time) const {
   const Gate* gate = &gates_[static_cast<std::size_t>(by_stage_[stage])];
   Time least = kNever;
   for (const FreeGoals::Onward& way : goals.onward(goals.stage(stage))) {

@@ -13,7 +13,7 @@ namespace grove::detail {
 
 // The gates of one search, by state and onward way (FreeGoals::onward). What a gate is, and why it
 // loses no path: gates.cpp.
-class Gates {
+class StopDominance {
  public:
   using StageId = FreeGoals::StageId;
 
