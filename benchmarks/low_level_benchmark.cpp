@@ -19,8 +19,8 @@
 #include <string>
 
 #include "io/map_file.h"
+#include "planning/fixed_order_sipp.h"
 #include "planning/free_low_level_search.h"
-#include "planning/low_level_search.h"
 
 namespace grove::detail {
 namespace {
@@ -128,7 +128,7 @@ Constraint bar_on_path(const Path& path, Random& random) {
 
 // On the paths of the search that is measured: each is the other's worst case only.
 template <class Search>
-void pile_up_constraints(std::vector<Case>& cases, Search& search, LowLevelSearch& check, int count,
+void pile_up_constraints(std::vector<Case>& cases, Search& search, FixedOrderSipp& check, int count,
                          std::size_t i, Random& random) {
   Case& c = cases[i];
   Path path;
@@ -144,7 +144,7 @@ void pile_up_constraints(std::vector<Case>& cases, Search& search, LowLevelSearc
 
 template <class Search>
 std::vector<Case> make_cases(const Grid& grid, int goals, int constraints, Random& random) {
-  LowLevelSearch check(grid);
+  FixedOrderSipp check(grid);
   std::vector<Case> cases;
   std::vector<Path> paths;
   for (int i = 0; i < kCases; ++i) {
@@ -174,7 +174,7 @@ class Fixed {
   std::int64_t expanded() const { return search_.expanded(); }
 
  private:
-  LowLevelSearch search_;
+  FixedOrderSipp search_;
 };
 
 class Free {

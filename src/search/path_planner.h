@@ -11,7 +11,7 @@
 #include "joint/timed_graphs.h"
 #include "planning/agent_planner.h"
 #include "planning/agent_stops_store.h"
-#include "planning/low_level_search.h"
+#include "planning/fixed_order_sipp.h"
 #include "planning/mdd.h"
 #include "search/node.h"
 #include "search/work.h"
@@ -70,7 +70,7 @@ class PathPlanner {
   Constraints on_path(Constraints constraints);
 
   std::int64_t calls_ = 0;
-  LowLevelSearch fixed_;
+  FixedOrderSipp fixed_;
   std::unique_ptr<AgentPlanner> free_;
   MddBuilder optimal_;
   TimedGraphs timed_;

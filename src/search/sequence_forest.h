@@ -11,7 +11,7 @@
 
 #include "model/limits.h"
 #include "planning/conflict_avoidance_table.h"
-#include "planning/low_level_search.h"
+#include "planning/fixed_order_sipp.h"
 #include "search/forest.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/k_best_joint_sequences.h"
@@ -42,7 +42,7 @@ class SequenceForest : public Forest {
   KBestJointSequences sequences_;
   std::optional<JointSequence> pending_;  // taken from sequences_, not yet a tree
   std::vector<std::vector<std::shared_ptr<const AgentOrder>>> orders_;  // by agent, then rank
-  LowLevelSearch low_level_;
+  FixedOrderSipp low_level_;
   ConflictAvoidanceTable others_;
   Path path_;
   std::deque<Tree> trees_;

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "planning/low_level_search.h"
+#include "planning/fixed_order_sipp.h"
 #include "search/require.h"
 
 namespace grove::detail {
@@ -85,7 +85,7 @@ Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) 
 Time Trees::least_cost(const GoalSequence& goals, std::uint32_t known) {
   const Time distance = goals.distance(goals.start(), 0);
   if (distance == static_cast<Time>(known)) return distance;
-  LowLevelSearch search(problem_.instance.world());
+  FixedOrderSipp search(problem_.instance.world());
   Path path;
   const auto outcome = search.find(goals, {}, Limits(), path);
   return outcome == PathOutcome::kFound ? static_cast<Time>(path.size()) - 1 : kNever;

@@ -9,8 +9,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "planning/fixed_order_sipp.h"
 #include "planning/free_low_level_search.h"
-#include "planning/low_level_search.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/direct_legs.h"
 #include "sequencing/k_best_sequences.h"
@@ -98,7 +98,7 @@ struct Agent : FreeAgent {
   CostToGo direct;
   FreeGoals direct_goals;
   FreeLowLevelSearch free;
-  LowLevelSearch fixed;
+  FixedOrderSipp fixed;
   Path path;
 };
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include "planning/low_level_search.h"
+#include "planning/fixed_order_sipp.h"
 #include "tests/planning/free_reference.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/fuzz_factor.h"
@@ -39,7 +39,7 @@ class LateCosts {
   // kNever: no path.
   Time path_cost(const Sequence& sequence, const std::vector<Constraint>& constraints) {
     const std::vector<TaskIndex> tasks(sequence.begin(), sequence.end());
-    LowLevelSearch search(grid_);
+    FixedOrderSipp search(grid_);
     Path path;
     const auto outcome = search.find(GoalSequence(agent_.instance, agent_.distances, 0, tasks),
                                      {constraints}, Limits(), path);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "planning/low_level_search.h"
+#include "planning/fixed_order_sipp.h"
 #include "tests/planning/random_matter.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
@@ -32,7 +32,7 @@ class Fuzzer {
 
   void run() {
     const Grid grid = random_grid();
-    LowLevelSearch search(grid);
+    FixedOrderSipp search(grid);
     for (int i = 0; i < 4; ++i) run_agent(grid, search);
   }
 
@@ -47,7 +47,7 @@ class Fuzzer {
                                         : testing::random_small_map(random_);
   }
 
-  void run_agent(const Grid& grid, LowLevelSearch& search) {
+  void run_agent(const Grid& grid, FixedOrderSipp& search) {
     std::vector<Cell> tasks;
     for (int n = below(5); n > 0; --n)
       if (const Cell cell = random_cell(grid, random_); std::ranges::count(tasks, cell) == 0)
@@ -61,7 +61,7 @@ class Fuzzer {
     make_harder(problem, agent, search);
   }
 
-  void make_harder(Problem& problem, const SingleAgent& agent, LowLevelSearch& search) {
+  void make_harder(Problem& problem, const SingleAgent& agent, FixedOrderSipp& search) {
     NaiveConflicts others;
     ConflictAvoidanceTable table(*problem.grid);
     for (int n = below(4); n > 0; --n) {
@@ -87,7 +87,7 @@ class Fuzzer {
                : testing::random_bar(*problem.grid, path, problem.goals, random_);
   }
 
-  bool check(const Problem& problem, const SingleAgent& agent, LowLevelSearch& search,
+  bool check(const Problem& problem, const SingleAgent& agent, FixedOrderSipp& search,
              const ConflictAvoidanceTable& table, const NaiveConflicts& others, Path& path) {
     const std::optional<Time> expected = reference_cost(problem);
     check_once(problem, agent, search, nullptr, expected, path);
@@ -100,7 +100,7 @@ class Fuzzer {
     return true;
   }
 
-  void check_once(const Problem& problem, const SingleAgent& agent, LowLevelSearch& search,
+  void check_once(const Problem& problem, const SingleAgent& agent, FixedOrderSipp& search,
                   const ConflictAvoidanceTable* table, std::optional<Time> expected, Path& path) {
     PathQuery query{problem.constraints, table};
     const auto find = [&](Path& found) { return search.find(agent.goals, query, Limits(), found); };

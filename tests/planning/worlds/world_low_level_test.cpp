@@ -11,9 +11,9 @@
 #include <random>
 
 #include "planning/corridors.h"
+#include "planning/fixed_order_sipp.h"
 #include "planning/free_low_level_search.h"
 #include "planning/goal_sequence.h"
-#include "planning/low_level_search.h"
 #include "planning/mdd.h"
 #include "planning/visit_check.h"
 #include "sequencing/cost_matrix.h"
@@ -267,7 +267,7 @@ class Fuzzer {
   const World& world_;
   const DistanceFields distances_;
   const Corridors chains_;
-  LowLevelSearch fixed_;
+  FixedOrderSipp fixed_;
   FreeLowLevelSearch free_;
   MddBuilder builder_;
   SafeIntervals intervals_;

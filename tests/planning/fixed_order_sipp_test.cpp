@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Each case is a trap in which some low level has been caught.
-#include "planning/low_level_search.h"
+#include "planning/fixed_order_sipp.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ constexpr Time kInfeasible = -1;
 
 Path path_of(const Grid& grid, const SingleAgent& agent, const Constraints& constraints,
              const ConflictAvoidanceTable* others = nullptr) {
-  LowLevelSearch search(grid);
+  FixedOrderSipp search(grid);
   Path path;
   const Outcome outcome = search.find(agent.goals, {constraints, others}, Limits(), path);
   EXPECT_NE(outcome, Outcome::kStopped);
@@ -34,38 +34,38 @@ Time cost_of(const Grid& grid, const SingleAgent& agent, const Constraints& cons
   return static_cast<Time>(path_of(grid, agent, constraints).size()) - 1;
 }
 
-TEST(LowLevelSearch, WalksThroughItsGoals) {
+TEST(FixedOrderSipp, WalksThroughItsGoals) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 1, {3, 0}, 2);
   EXPECT_EQ(path_of(grid, agent, {}), (Path{1, 2, 3, 2, 1, 0, 1, 2}));
 }
 
-TEST(LowLevelSearch, ArrivingEarlyInADeadEndCanBeATrap) {
+TEST(FixedOrderSipp, ArrivingEarlyInADeadEndCanBeATrap) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 3, {0}, 3);
   // Whoever is on the task at time 3 cannot get out before time 21 and cannot stay at time 10.
   EXPECT_EQ(cost_of(grid, agent, {{1, kNoCell, 4, 20}, {0, kNoCell, 10, 10}}), 25);
 }
 
-TEST(LowLevelSearch, PassesItsDestinationAndComesBack) {
+TEST(FixedOrderSipp, PassesItsDestinationAndComesBack) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 0, {3}, 1);
   EXPECT_EQ(path_of(grid, agent, {}), (Path{0, 1, 2, 3, 2, 1}));
 }
 
-TEST(LowLevelSearch, ALateBanOnTheDestinationCountsWhileResting) {
+TEST(FixedOrderSipp, ALateBanOnTheDestinationCountsWhileResting) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 9, 9}}), 10);
 }
 
-TEST(LowLevelSearch, ACellBarredForEverIsNoPlaceToFinish) {
+TEST(FixedOrderSipp, ACellBarredForEverIsNoPlaceToFinish) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 50, kNever}}), kInfeasible);
 }
 
-TEST(LowLevelSearch, ATaskBarredForEverMustBeReachedInTime) {
+TEST(FixedOrderSipp, ATaskBarredForEverMustBeReachedInTime) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {2}, 0);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 3, kNever}}), 4);
@@ -73,7 +73,7 @@ TEST(LowLevelSearch, ATaskBarredForEverMustBeReachedInTime) {
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 0, kNever}}), kInfeasible);
 }
 
-TEST(LowLevelSearch, CannotStartOnABarredCell) {
+TEST(FixedOrderSipp, CannotStartOnABarredCell) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
   EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, 0, 0}}), kInfeasible);
@@ -81,32 +81,32 @@ TEST(LowLevelSearch, CannotStartOnABarredCell) {
   EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, 1, 9}}), 2);
 }
 
-TEST(LowLevelSearch, AnAgentAlreadyThereCostsNothing) {
+TEST(FixedOrderSipp, AnAgentAlreadyThereCostsNothing) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 1, {1}, 1);
   EXPECT_EQ(path_of(grid, agent, {}), Path{1});
 }
 
-TEST(LowLevelSearch, AnAgentAlreadyThereMayHaveToStepAside) {
+TEST(FixedOrderSipp, AnAgentAlreadyThereMayHaveToStepAside) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 1, {}, 1);
   EXPECT_EQ(cost_of(grid, agent, {{1, kNoCell, 5, 5}}), 6);
 }
 
-TEST(LowLevelSearch, ATaskOnTheStartIsVisitedAtTimeZero) {
+TEST(FixedOrderSipp, ATaskOnTheStartIsVisitedAtTimeZero) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {0}, 2);
   EXPECT_EQ(cost_of(grid, agent, {}), 2);
   EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, 1, kNever}}), 2);
 }
 
-TEST(LowLevelSearch, ATaskOnTheDestinationIsVisitedOnArrival) {
+TEST(FixedOrderSipp, ATaskOnTheDestinationIsVisitedOnArrival) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {1, 2}, 2);
   EXPECT_EQ(cost_of(grid, agent, {}), 2);
 }
 
-TEST(LowLevelSearch, AnAgentWithoutDestinationRestsOnItsLastTask) {
+TEST(FixedOrderSipp, AnAgentWithoutDestinationRestsOnItsLastTask) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 1, {0, 3}, std::nullopt);
   EXPECT_EQ(path_of(grid, agent, {}), (Path{1, 0, 1, 2, 3}));
@@ -114,7 +114,7 @@ TEST(LowLevelSearch, AnAgentWithoutDestinationRestsOnItsLastTask) {
   EXPECT_EQ(cost_of(grid, agent, {{3, kNoCell, 7, kNever}}), kInfeasible);
 }
 
-TEST(LowLevelSearch, BarredMovesBarOneDirectionAtTheTimeOfArrival) {
+TEST(FixedOrderSipp, BarredMovesBarOneDirectionAtTheTimeOfArrival) {
   const Grid grid = grid_of({"..."});
   const SingleAgent there(grid, 0, {}, 2);
   EXPECT_EQ(cost_of(grid, there, {{1, 0, 1, 4}}), 6);
@@ -123,7 +123,7 @@ TEST(LowLevelSearch, BarredMovesBarOneDirectionAtTheTimeOfArrival) {
   EXPECT_EQ(cost_of(grid, there, {{1, 0, 1, kNever}}), kInfeasible);
 }
 
-TEST(LowLevelSearch, WaitsNowhereOnceEveryWaitingPlaceIsBarred) {
+TEST(FixedOrderSipp, WaitsNowhereOnceEveryWaitingPlaceIsBarred) {
   const Grid grid = grid_of({"...", "@.@"});
   const SingleAgent agent(grid, 0, {}, 2);
   // The middle is barred at 3: wait at the start, unless that is barred too; then in the niche.
@@ -137,7 +137,7 @@ TEST(LowLevelSearch, WaitsNowhereOnceEveryWaitingPlaceIsBarred) {
 }
 
 // The gates of goals_in_turn.h: the first visit of the task is of no use, a later one is.
-TEST(LowLevelSearch, ALaterVisitOfATaskIsTriedWhenTheFirstLeadsNowhere) {
+TEST(FixedOrderSipp, ALaterVisitOfATaskIsTriedWhenTheFirstLeadsNowhere) {
   const Grid grid = grid_of({".....", "@@.@@"});
   const SingleAgent agent(grid, 0, {7}, 4);
   Constraints constraints{{7, kNoCell, 6, 6}, {2, kNoCell, 4, 11}};
@@ -150,7 +150,7 @@ TEST(LowLevelSearch, ALaterVisitOfATaskIsTriedWhenTheFirstLeadsNowhere) {
 
 // Labels postponed by a gate come late, here after a gate of an earlier goal that they could pass
 // sooner. That gate must let them through: its first condition, f(L) >= g + after_goal(k).
-TEST(LowLevelSearch, AGateLetsThroughWhoComesEarlierToItsGoal) {
+TEST(FixedOrderSipp, AGateLetsThroughWhoComesEarlierToItsGoal) {
   const Grid grid = grid_of({".......", "@.@@@@@"});
   const SingleAgent agent(grid, 0, {2, 5}, 6);
   const Constraints constraints{
@@ -166,19 +166,19 @@ TEST(LowLevelSearch, AGateLetsThroughWhoComesEarlierToItsGoal) {
   EXPECT_EQ(cost_of(grid, agent, constraints), 16);
 }
 
-TEST(LowLevelSearch, UnreachableGoalsAreInfeasible) {
+TEST(FixedOrderSipp, UnreachableGoalsAreInfeasible) {
   const Grid grid = grid_of({"..@.."});
   EXPECT_EQ(cost_of(grid, SingleAgent(grid, 0, {}, 4), {}), kInfeasible);
   EXPECT_EQ(cost_of(grid, SingleAgent(grid, 0, {3}, 1), {}), kInfeasible);
 }
 
-TEST(LowLevelSearch, WaitsAMillionStepsIfItMust) {
+TEST(FixedOrderSipp, WaitsAMillionStepsIfItMust) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 0, {2}, 3);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 1, 999'999}, {3, kNoCell, 5, 5}}), 1'000'001);
 }
 
-TEST(LowLevelSearch, PrefersTheWayWithFewerConflicts) {
+TEST(FixedOrderSipp, PrefersTheWayWithFewerConflicts) {
   const Grid grid = grid_of({"...", ".@.", "..."});
   const SingleAgent agent(grid, 0, {}, 8);
   ConflictAvoidanceTable others(grid);
@@ -189,7 +189,7 @@ TEST(LowLevelSearch, PrefersTheWayWithFewerConflicts) {
   EXPECT_EQ(path_of(grid, agent, {}, &others), (Path{0, 1, 2, 5, 8}));
 }
 
-TEST(LowLevelSearch, WaitsWhereItIsInNobodysWay) {
+TEST(FixedOrderSipp, WaitsWhereItIsInNobodysWay) {
   const Grid grid = grid_of({"...", ".@.", "..."});
   const SingleAgent agent(grid, 0, {}, 8);
   const Constraints constraints{{8, kNoCell, 1, 6}};  // wait on 5 or on 7
@@ -202,30 +202,30 @@ TEST(LowLevelSearch, WaitsWhereItIsInNobodysWay) {
   }
 }
 
-TEST(LowLevelSearch, OneVisitCountsForAllGoalsOnTheCell) {
+TEST(FixedOrderSipp, OneVisitCountsForAllGoalsOnTheCell) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {1}, 2);
   const GoalSequence twice(agent.instance, agent.distances, 0, {0, 0, 0});
-  LowLevelSearch search(grid);
+  FixedOrderSipp search(grid);
   Path path;
   const Constraints constraints{{1, kNoCell, 2, kNever}};
   ASSERT_EQ(search.find(twice, {constraints}, Limits(), path), Outcome::kFound);
   EXPECT_EQ(path, (Path{0, 1, 2}));
 }
 
-TEST(LowLevelSearch, RejectsConstraintsOutsideTheGrid) {
+TEST(FixedOrderSipp, RejectsConstraintsOutsideTheGrid) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
-  LowLevelSearch search(grid);
+  FixedOrderSipp search(grid);
   Path path;
   EXPECT_THROW(search.find(agent.goals, {Constraints{{9, kNoCell, 1, 1}}}, Limits(), path),
                std::invalid_argument);
 }
 
-TEST(LowLevelSearch, StopsWithoutAnAnswerWhenALimitStrikes) {
+TEST(FixedOrderSipp, StopsWithoutAnAnswerWhenALimitStrikes) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
-  LowLevelSearch search(grid);
+  FixedOrderSipp search(grid);
   Path path{7};
 
   Limits late;
@@ -245,13 +245,13 @@ TEST(LowLevelSearch, StopsWithoutAnAnswerWhenALimitStrikes) {
 }
 
 // A proof of infeasibility that takes long: every cell is walled in by bans of every other moment.
-TEST(LowLevelSearch, StopsInTheMiddleOfALongProof) {
+TEST(FixedOrderSipp, StopsInTheMiddleOfALongProof) {
   const Grid grid(100, 100, std::vector<bool>(10'000, true));
   const SingleAgent agent(grid, 0, {5'050}, 9'999);
   Constraints constraints;
   for (Time t = 400; t < 4'000; t += 2) constraints.push_back({5'050, kNoCell, t, t});
   for (Cell next : grid.neighbors(5'050)) constraints.push_back({5'050, next, 0, kNever});
-  LowLevelSearch search(grid);
+  FixedOrderSipp search(grid);
   Path path;
   EXPECT_EQ(search.find(agent.goals, {constraints}, Limits(), path), Outcome::kInfeasible);
   const std::int64_t whole = search.expanded();

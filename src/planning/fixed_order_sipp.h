@@ -16,11 +16,11 @@ namespace grove::detail {
 // Safe-interval path planning (Phillips and Likhachev 2011) with one label per (cell, safe
 // interval, progress). The proofs are at the heads of safe_interval_search.h and goals_in_turn.h.
 // Holds the workspace of one thread: reuse it, do not share it.
-class LowLevelSearch {
+class FixedOrderSipp {
  public:
   // `world` must outlive this.
-  explicit LowLevelSearch(const World& world);
-  ~LowLevelSearch();
+  explicit FixedOrderSipp(const World& world);
+  ~FixedOrderSipp();
 
   // Finds a path of least cost from goals.start() at time 0 that visits the goals in order and
   // obeys the constraints of `query`, if that cost is at most the cutoff. The path ends when the

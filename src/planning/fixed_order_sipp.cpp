@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "planning/low_level_search.h"
+#include "planning/fixed_order_sipp.h"
 
 #include <stdexcept>
 
@@ -8,15 +8,15 @@
 
 namespace grove::detail {
 
-class LowLevelSearch::Workspace : public SafeIntervalSearch<GoalsInTurn> {
+class FixedOrderSipp::Workspace : public SafeIntervalSearch<GoalsInTurn> {
   using SafeIntervalSearch::SafeIntervalSearch;
 };
 
-LowLevelSearch::LowLevelSearch(const World& world)
+FixedOrderSipp::FixedOrderSipp(const World& world)
     : workspace_(std::make_unique<Workspace>(world)) {}
-LowLevelSearch::~LowLevelSearch() = default;
+FixedOrderSipp::~FixedOrderSipp() = default;
 
-PathOutcome LowLevelSearch::find(const GoalSequence& goals, const PathQuery& query,
+PathOutcome FixedOrderSipp::find(const GoalSequence& goals, const PathQuery& query,
                                  const Limits& limits, Path& path) {
   if (goals.size() > GoalsInTurn::kMostGoals)
     throw std::invalid_argument("an agent may have 255 goals at most");
@@ -42,7 +42,7 @@ PathOutcome LowLevelSearch::find(const GoalSequence& goals, const PathQuery& que
   return PathOutcome::kStopped;
 }
 
-std::int64_t LowLevelSearch::expanded() const {
+std::int64_t FixedOrderSipp::expanded() const {
   return workspace_->expanded();
 }
 
