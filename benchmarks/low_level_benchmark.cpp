@@ -20,7 +20,7 @@
 
 #include "io/map_file.h"
 #include "planning/fixed_order_sipp.h"
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 
 namespace grove::detail {
 namespace {
@@ -191,7 +191,7 @@ class Free {
   std::int64_t expanded() const { return search_.expanded(); }
 
  private:
-  FreeLowLevelSearch search_;
+  FreeOrderSipp search_;
   std::vector<std::unique_ptr<AgentStops>> stops_;
   std::vector<std::unique_ptr<FreeGoals>> goals_;
 };

@@ -18,7 +18,7 @@
 
 #include "io/map_file.h"
 #include "io/scenario_file.h"
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 #include "planning/joint_mdd_search.h"
 #include "planning/mdd.h"
 #include "tools/generate/instance_generator.h"
@@ -56,7 +56,7 @@ class Agents {
         distances_(instance_),
         builder_(instance_.grid()),
         pair_(instance_.grid()) {
-    FreeLowLevelSearch search(instance_.grid());
+    FreeOrderSipp search(instance_.grid());
     std::mt19937 random(1);
     for (AgentIndex a = 0; a < instance_.agent_count(); ++a) {
       Agent& agent = agents_.emplace_back();
@@ -99,7 +99,7 @@ class Agents {
                              {scenario.string(), read_scenario(scenario)}, {20, 50, 1, false});
   }
 
-  static void constrain(Agent& agent, FreeLowLevelSearch& search, int count, std::mt19937& random) {
+  static void constrain(Agent& agent, FreeOrderSipp& search, int count, std::mt19937& random) {
     Path path;
     const auto find = [&] {
       return search.find(*agent.goals, {.constraints = agent.constraints}, Limits(), path);

@@ -7,14 +7,14 @@
 #include "baselines/time_interval_forest.h"
 #include "baselines/visited_set_search.h"
 #include "baselines/visiting_order_search.h"
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 
 namespace grove::detail {
 
 std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const World& world) {
   switch (low_level) {
     case LowLevel::kOwn:
-      return std::make_unique<FreeLowLevelSearch>(world);
+      return std::make_unique<FreeOrderSipp>(world);
     case LowLevel::kVisitedSets:
       return std::make_unique<VisitedSetSearch>(world);
     case LowLevel::kSingleLegs:

@@ -12,7 +12,7 @@ namespace grove::detail {
 
 // What plans a single agent that chooses the order of its tasks.
 enum class LowLevel : std::uint8_t {
-  kOwn,                 // Grove's: FreeLowLevelSearch
+  kOwn,                 // Grove's: FreeOrderSipp
   kVisitedSets,         // Optimal-CBS: A* over (cell, time, tasks visited); visited_set_search.cpp
   kSingleLegs,          // HCBS (Surynek 2021): A* over visiting orders, A* for each leg;
                         // space_time_legs.cpp

@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-// Grove's own is FreeLowLevelSearch; those of other methods are in the layer `baselines`. Exact,
+// Grove's own is FreeOrderSipp; those of other methods are in the layer `baselines`. Exact,
 // whichever it is. Workspace of one thread: reuse it, do not share it.
 class AgentPlanner {
  public:

@@ -10,7 +10,7 @@
 #include "lagrangian/price_list.h"
 #include "lagrangian/pricer.h"
 #include "planning/agent_stops_store.h"
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 #include "search/problem.h"
 #include "search/work.h"
 
@@ -27,7 +27,7 @@ class Router {
   // limit was reached.
   bool meet(AgentIndex agent, const Limits& limits);
 
-  // As FreeLowLevelSearch::find.
+  // As FreeOrderSipp::find.
   PathOutcome find(AgentIndex agent, const PathQuery& query, const Limits& limits, Path& path);
 
   // From now on it is known what is dear.
@@ -67,7 +67,7 @@ class Router {
 
   const Problem& problem_;
   AgentStopsStore& stops_;
-  FreeLowLevelSearch low_level_;
+  FreeOrderSipp low_level_;
   // By AgentIndex. Of an agent that follows a good sequence: its completions.
   std::vector<std::unique_ptr<CostToGo>> in_order_;
   std::vector<std::unique_ptr<FreeGoals>> goals_;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "conflicts/sequence_split.h"
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 #include "planning/sequence_constraints.h"
 
 namespace grove::detail {
@@ -19,8 +19,7 @@ constexpr std::size_t kMostClassesKept = 4;  // of an agent, with their states
 PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops,
                          std::unique_ptr<AgentPlanner> free, bool repeatable)
     : fixed_(problem.instance.world()),
-      free_(free ? std::move(free)
-                 : std::make_unique<FreeLowLevelSearch>(problem.instance.world())),
+      free_(free ? std::move(free) : std::make_unique<FreeOrderSipp>(problem.instance.world())),
       optimal_(problem.instance.world()),
       timed_(problem.instance.world()),
       stops_(stops),

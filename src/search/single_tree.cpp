@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 
 namespace grove::detail {
 
@@ -19,7 +19,7 @@ SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool&
       pool_(pool),
       limits_(limits),
       planner_(planner ? std::move(planner)
-                       : std::make_unique<FreeLowLevelSearch>(problem.instance.world())) {
+                       : std::make_unique<FreeOrderSipp>(problem.instance.world())) {
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     relaxed_bound_ += stops.of(agent).cost_to_go().relaxed_bound();
 }

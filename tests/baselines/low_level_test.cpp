@@ -10,7 +10,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 #include "tests/planning/free_problems.h"
 #include "tests/planning/free_reference.h"
 #include "tests/support/clocks.h"
@@ -177,7 +177,7 @@ TEST_P(Baselines, AgreeWithGrovesOwn) {
     const DistanceFields distances(instance);
     AgentStops stops(instance, distances, 0);
     FreeGoals goals(stops, {});
-    FreeLowLevelSearch own(instance.grid());
+    FreeOrderSipp own(instance.grid());
     const auto search = make_agent_planner(GetParam(), instance.grid());
     std::vector<Constraint> constraints;
     for (int n = 0; n < 30; ++n) {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "planning/fixed_order_sipp.h"
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/direct_legs.h"
 #include "sequencing/k_best_sequences.h"
@@ -97,7 +97,7 @@ struct Agent : FreeAgent {
 
   CostToGo direct;
   FreeGoals direct_goals;
-  FreeLowLevelSearch free;
+  FreeOrderSipp free;
   FixedOrderSipp fixed;
   Path path;
 };

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 #include "tests/planning/random_matter.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
@@ -120,7 +120,7 @@ class Crowd {
     const DistanceFields distances(instance_);
     AgentStops stops(instance_, distances, 0);
     FreeGoals goals(stops, {});
-    FreeLowLevelSearch search(grid_);
+    FreeOrderSipp search(grid_);
     ReservationTable reservations(grid_);
     std::vector<Path> walks;
     for (int round = 0; round < 12 && !::testing::Test::HasFailure(); ++round) {
@@ -175,7 +175,7 @@ class Crowd {
     return path;
   }
 
-  void compare(FreeGoals& goals, FreeLowLevelSearch& search, const ReservationTable& reservations,
+  void compare(FreeGoals& goals, FreeOrderSipp& search, const ReservationTable& reservations,
                const std::vector<Path>& walks) {
     ++compared;
     std::vector<Constraint> constraints;
@@ -252,7 +252,7 @@ TEST(ReservationTable, AnEffortIsLimited) {
   Path late(300, 30);  // on a task for long
   late.push_back(31);
   reservations.add(1, late);
-  FreeLowLevelSearch search(instance.grid());
+  FreeOrderSipp search(instance.grid());
   Path path;
   PathQuery query{.most_labels = 500, .reservations = &reservations};
   EXPECT_EQ(search.find(goals, query, Limits(), path), Outcome::kStopped);

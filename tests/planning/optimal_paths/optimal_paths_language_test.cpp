@@ -15,7 +15,7 @@
 #include <tuple>
 
 #include "planning/corridors.h"
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 #include "planning/mdd.h"
 #include "sequencing/cost_matrix.h"
 #include "tests/planning/free_reference.h"
@@ -237,7 +237,7 @@ class Fuzzer {
     AgentStops stops(instance, distances, 0);
     FreeGoals goals(stops, problem_.work);
     MddBuilder builder(grid);
-    FreeLowLevelSearch search(grid);
+    FreeOrderSipp search(grid);
     for (int round = 0; round < 6; ++round) {
       TimeExpanded reference(problem_);
       const std::optional<Time> least = reference.least_cost(kLongest);
@@ -515,7 +515,7 @@ TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
   AgentStops stops(instance, distances, 0);
   FreeGoals goals(stops, {});
   Path path;
-  FreeLowLevelSearch search(grid);
+  FreeOrderSipp search(grid);
   ASSERT_EQ(search.find(goals, {}, Limits(), path), PathOutcome::kFound);
   const auto cost = static_cast<Time>(path.size()) + 3;
   Mdd whole;

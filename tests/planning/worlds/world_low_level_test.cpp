@@ -12,7 +12,7 @@
 
 #include "planning/corridors.h"
 #include "planning/fixed_order_sipp.h"
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 #include "planning/goal_sequence.h"
 #include "planning/mdd.h"
 #include "planning/visit_check.h"
@@ -268,7 +268,7 @@ class Fuzzer {
   const DistanceFields distances_;
   const Corridors chains_;
   FixedOrderSipp fixed_;
-  FreeLowLevelSearch free_;
+  FreeOrderSipp free_;
   MddBuilder builder_;
   SafeIntervals intervals_;
   VisitCheck visit_check_;

@@ -12,11 +12,11 @@ namespace grove::detail {
 // Safe-interval path planning with one label per (cell, safe interval, state), a state being what
 // is left to visit. The essay with the proof is at the head of free_low_level_search.cpp. Heeds all
 // of a query.
-class FreeLowLevelSearch : public AgentPlanner {
+class FreeOrderSipp : public AgentPlanner {
  public:
   // `world` must outlive this.
-  explicit FreeLowLevelSearch(const World& world);
-  ~FreeLowLevelSearch() override;
+  explicit FreeOrderSipp(const World& world);
+  ~FreeOrderSipp() override;
 
   PathOutcome find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
                    Path& path) override;

@@ -50,7 +50,7 @@
 // Measured on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
 // call in microseconds; n = 5, 10, 20): 6, 14, 24 without constraints; 17, 35, 57 with 20 of them
 // on the paths found; 34, 64, 138 with 60. A fixed sequence takes 5, 8, 15; 12, 14, 22; 21, 24, 31.
-#include "planning/free_low_level_search.h"
+#include "planning/free_order_sipp.h"
 
 #include <algorithm>
 #include <optional>
@@ -73,7 +73,7 @@ constexpr std::int64_t kNotAgain = PathQuery::kUnlimited;
 
 }  // namespace
 
-class FreeLowLevelSearch::Workspace {
+class FreeOrderSipp::Workspace {
  public:
   explicit Workspace(const World& world)
       : search_(world),
@@ -110,21 +110,20 @@ class FreeLowLevelSearch::Workspace {
   std::int64_t price_at_ = 0;
 };
 
-FreeLowLevelSearch::FreeLowLevelSearch(const World& world)
-    : workspace_(std::make_unique<Workspace>(world)) {}
-FreeLowLevelSearch::~FreeLowLevelSearch() = default;
+FreeOrderSipp::FreeOrderSipp(const World& world) : workspace_(std::make_unique<Workspace>(world)) {}
+FreeOrderSipp::~FreeOrderSipp() = default;
 
-PathOutcome FreeLowLevelSearch::find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
-                                     Path& path) {
+PathOutcome FreeOrderSipp::find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
+                                Path& path) {
   return workspace_->find(goals, query, limits, path);
 }
 
-std::int64_t FreeLowLevelSearch::expanded() const {
+std::int64_t FreeOrderSipp::expanded() const {
   return workspace_->expanded();
 }
 
-PathOutcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals, const PathQuery& query,
-                                                const Limits& limits, Path& path) {
+PathOutcome FreeOrderSipp::Workspace::find(FreeGoals& goals, const PathQuery& query,
+                                           const Limits& limits, Path& path) {
   SafeIntervals& intervals = search_.intervals();
   if (query.reservations)
     intervals.assign(*query.reservations);
@@ -148,7 +147,7 @@ PathOutcome FreeLowLevelSearch::Workspace::find(FreeGoals& goals, const PathQuer
                                                                               : find_any();
 }
 
-void FreeLowLevelSearch::Workspace::decide_when(const PathQuery& query) {
+void FreeOrderSipp::Workspace::decide_when(const PathQuery& query) {
   // Whoever gives up early around reservations wants no proof.
   const bool doubts = !query.reservations || query.most_labels == PathQuery::kUnlimited;
   give_up_at_ = search_.expanded_after(query.most_labels);
@@ -156,7 +155,7 @@ void FreeLowLevelSearch::Workspace::decide_when(const PathQuery& query) {
   price_at_ = search_.expanded_after(kExpansionsBeforePricing);
 }
 
-PathOutcome FreeLowLevelSearch::Workspace::find_known() {
+PathOutcome FreeOrderSipp::Workspace::find_known() {
   price_at_ = kNotAgain;
   const PathOutcome outcome = *find_within(latest_);
   if (outcome == PathOutcome::kFound) return outcome;
@@ -164,7 +163,7 @@ PathOutcome FreeLowLevelSearch::Workspace::find_known() {
   return outcome == PathOutcome::kAboveCutoff ? above_ : outcome;
 }
 
-PathOutcome FreeLowLevelSearch::Workspace::find_any() {
+PathOutcome FreeOrderSipp::Workspace::find_any() {
   for (;;) {
     const Time beyond = goals().cost_to_go().beyond();
     const Time optimal = std::max(beyond, search_.goals().first_rest());
@@ -182,7 +181,7 @@ PathOutcome FreeLowLevelSearch::Workspace::find_any() {
 
 // A path of least cost, if the cost is at most `cap`; of least cost if that is at most beyond().
 // None: the goals changed meanwhile, begin again.
-std::optional<PathOutcome> FreeLowLevelSearch::Workspace::find_within(Time cap) {
+std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   const bool all_known = goals().cost_to_go().beyond() == kNever;
   const FreeGoals::StageId first = goals().first_stage();
   if (first == FreeGoals::kOutside)
@@ -209,7 +208,7 @@ std::optional<PathOutcome> FreeLowLevelSearch::Workspace::find_within(Time cap) 
 }
 
 // Is there surely no path, or none in time, or no time to find out? Asks once a call.
-std::optional<PathOutcome> FreeLowLevelSearch::Workspace::doubt() {
+std::optional<PathOutcome> FreeOrderSipp::Workspace::doubt() {
   if (doubt_at_ == kNotAgain) return std::nullopt;
   doubt_at_ = kNotAgain;
   const Time least_cost =
@@ -220,7 +219,7 @@ std::optional<PathOutcome> FreeLowLevelSearch::Workspace::doubt() {
 }
 
 // True if the search should begin again, with completions that know better. Once a call.
-bool FreeLowLevelSearch::Workspace::price_anew() {
+bool FreeOrderSipp::Workspace::price_anew() {
   if (price_at_ == kNotAgain) return false;
   price_at_ = kNotAgain;
   FreeGoals* const late = late_goals_.over(goals(), *limits_);
