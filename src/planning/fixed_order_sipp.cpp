@@ -3,12 +3,12 @@
 
 #include <stdexcept>
 
-#include "planning/goals_in_turn.h"
+#include "planning/fixed_order_goals.h"
 #include "planning/safe_interval_search.h"
 
 namespace grove::detail {
 
-class FixedOrderSipp::Workspace : public SafeIntervalSearch<GoalsInTurn> {
+class FixedOrderSipp::Workspace : public SafeIntervalSearch<FixedOrderGoals> {
   using SafeIntervalSearch::SafeIntervalSearch;
 };
 
@@ -18,7 +18,7 @@ FixedOrderSipp::~FixedOrderSipp() = default;
 
 PathOutcome FixedOrderSipp::find(const GoalSequence& goals, const PathQuery& query,
                                  const Limits& limits, Path& path) {
-  if (goals.size() > GoalsInTurn::kMostGoals)
+  if (goals.size() > FixedOrderGoals::kMostGoals)
     throw std::invalid_argument("an agent may have 255 goals at most");
   if (query.reservations)
     throw std::invalid_argument("goals in a fixed order are not planned around reservations");

@@ -55,7 +55,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "planning/goals_in_class.h"
+#include "planning/free_order_goals.h"
 #include "planning/late_goals.h"
 #include "planning/safe_interval_search.h"
 #include "planning/visit_check.h"
@@ -84,7 +84,7 @@ class FreeOrderSipp::Workspace {
   std::int64_t expanded() const { return search_.expanded(); }
 
  private:
-  using Search = SafeIntervalSearch<GoalsInClass>;
+  using Search = SafeIntervalSearch<FreeOrderGoals>;
 
   void decide_when(const PathQuery& query);
   PathOutcome find_any();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "planning/goals_in_turn.h"
+#include "planning/fixed_order_goals.h"
 
 #include <algorithm>
 #include <limits>
 
 namespace grove::detail {
 
-bool GoalsInTurn::assign(const World& world, const GoalSequence& goals,
-                         const SafeIntervals& intervals) {
+bool FixedOrderGoals::assign(const World& world, const GoalSequence& goals,
+                             const SafeIntervals& intervals) {
   world_ = &world;
   turn_about_ = goals.max_turn_time();
   last_progress_ = goals.size() - 1;
@@ -37,7 +37,7 @@ bool GoalsInTurn::assign(const World& world, const GoalSequence& goals,
 }
 
 // One gate is kept per progress: the one that postpones furthest.
-void GoalsInTurn::close_gate(State, Progress, Progress progress, Time time, Time until) {
+void FixedOrderGoals::close_gate(State, Progress, Progress progress, Time time, Time until) {
   const Time after_goal = stages_[progress - 1].after_goal;
   const Time from = time + turn_about_ + after_goal;
   if (until != kNever) until += after_goal;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "planning/goals_in_class.h"
+#include "planning/free_order_goals.h"
 
 namespace grove::detail {
 
-bool GoalsInClass::assign(FreeGoals& goals, SafeIntervals& intervals, int greed_percent) {
+bool FreeOrderGoals::assign(FreeGoals& goals, SafeIntervals& intervals, int greed_percent) {
   goals_ = &goals;
   greed_percent_ = greed_percent;
   const AgentStops& stops = goals.stops();
@@ -15,7 +15,7 @@ bool GoalsInClass::assign(FreeGoals& goals, SafeIntervals& intervals, int greed_
   return first_rest_ < kNever && first_rest_ <= intervals.latest_rest() && goals.plausible();
 }
 
-void GoalsInClass::find_deadlines(const SafeIntervals& intervals) {
+void FreeOrderGoals::find_deadlines(const SafeIntervals& intervals) {
   const AgentStops& stops = goals_->stops();
   deadlines_.clear();
   for (int stop = 0; stop < stops.count(); ++stop) {
@@ -26,7 +26,7 @@ void GoalsInClass::find_deadlines(const SafeIntervals& intervals) {
 
 // When the agent may first come to rest anywhere for ever, and if it must do so on one stop, where.
 // (With a destination the heuristic knows where.)
-void GoalsInClass::find_rests(const SafeIntervals& intervals) {
+void FreeOrderGoals::find_rests(const SafeIntervals& intervals) {
   const AgentStops& stops = goals_->stops();
   only_rest_ = AgentStops::kNoStop;
   first_rest_ = stops.destination() ? intervals.rest_begin(*stops.destination()) : kNever;
@@ -38,13 +38,13 @@ void GoalsInClass::find_rests(const SafeIntervals& intervals) {
   }
 }
 
-void GoalsInClass::begin(Time cap) {
+void FreeOrderGoals::begin(Time cap) {
   cap_ = cap;
   over_ = outside_ = false;
   gates_.begin_search();
 }
 
-bool GoalsInClass::misses_deadline(Progress stage, State state, Time time) const {
+bool FreeOrderGoals::misses_deadline(Progress stage, State state, Time time) const {
   const AgentStops& stops = goals_->stops();
   const StopSet left = goals_->stage(stage).left;
   return std::ranges::any_of(deadlines_, [&](const Deadline& d) {
@@ -52,7 +52,7 @@ bool GoalsInClass::misses_deadline(Progress stage, State state, Time time) const
   });
 }
 
-Time GoalsInClass::put_off_by_gates(Progress id, State state, Time time, Time layer) {
+Time FreeOrderGoals::put_off_by_gates(Progress id, State state, Time time, Time layer) {
   const Time until = gates_.least_cost(*goals_, id, state, time);
   Time put_off = kDropped;
   if (until > cap_) {

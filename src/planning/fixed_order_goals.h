@@ -42,7 +42,7 @@
 
 namespace grove::detail {
 
-class GoalsInTurn {
+class FixedOrderGoals {
  public:
   using Progress = std::uint8_t;
   static constexpr int kMostGoals = 255;

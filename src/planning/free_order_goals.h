@@ -39,7 +39,7 @@
 
 namespace grove::detail {
 
-class GoalsInClass {
+class FreeOrderGoals {
  public:
   using Progress = FreeGoals::StageId;
 
